@@ -1,0 +1,44 @@
+// What the host can ask of a board, as values. Knows no bytes, no board limits, no time: encode.ts turns these into
+// packets and refuses what the board at hand cannot take. Source: protocol document (boards.md section 1).
+
+/** One servo's target. `position` is in the board's unit: pulse width in µs, or steps of a bus servo. */
+export interface ServoTarget {
+  readonly servo: number;
+  readonly position: number;
+}
+
+/** One frame of an action group: targets reached together after `durationMs`. A frame without targets is a pause. */
+export interface Frame {
+  readonly durationMs: number;
+  readonly targets: readonly ServoTarget[];
+}
+
+export type Command =
+  | { readonly kind: 'move'; readonly durationMs: number; readonly targets: readonly ServoTarget[] }
+  /** Plays the group in `slot`; `times` 0 repeats until stopped. */
+  | { readonly kind: 'run'; readonly slot: number; readonly times: number }
+  /** Ends a running group after its frame in progress (S50): not an emergency stop. */
+  | { readonly kind: 'stop' }
+  /** Erases every slot, whatever its parameter byte says (S19). */
+  | { readonly kind: 'erase' }
+  | { readonly kind: 'readBattery' }
+  /** Stores frame `frameIndex` (0-based, S33) of `frameCount` in `slot`. */
+  | {
+      readonly kind: 'download';
+      readonly slot: number;
+      readonly frameCount: number;
+      readonly frameIndex: number;
+      readonly frame: Frame;
+    };
+
+export type CommandKind = Command['kind'];
+
+/** Command numbers on the wire. */
+export const COMMAND_NUMBER: Readonly<Record<CommandKind, number>> = {
+  move: 3,
+  run: 6,
+  stop: 7,
+  erase: 8,
+  readBattery: 15,
+  download: 25,
+};

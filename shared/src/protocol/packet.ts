@@ -1,0 +1,37 @@
+// One unit on the wire: `55 55 LEN CMD …`. LEN counts itself and CMD, so a packet is LEN + 2 bytes; there is no checksum
+// and no escape. Knows bytes only: no command's meaning, no board, no time.
+
+export interface Packet {
+  /** CMD, 0..255. */
+  readonly command: number;
+  /** The bytes after CMD, 0..251 of them. */
+  readonly params: Uint8Array;
+}
+
+export const HEADER = 0x55;
+/** Largest LEN a board's parser can take; 254 and 255 jam it for good (S3). */
+export const MAX_LENGTH = 253;
+export const MIN_LENGTH = 2;
+/** All links run at 9600 baud, 8N1: ten bits a byte. */
+export const BAUD = 9600;
+
+/** The packet's bytes. Throws RangeError where the parameters do not fit LEN ≤ 253 or the command is no byte. */
+export function packetBytes(command: number, params: Uint8Array | readonly number[]): Uint8Array {
+  const length = params.length + MIN_LENGTH;
+  if (length > MAX_LENGTH) throw new RangeError(`LEN ${length} is larger than ${MAX_LENGTH}`);
+  if (!Number.isInteger(command) || command < 0 || command > 0xff) {
+    throw new RangeError(`command ${command} is not a byte`);
+  }
+  const bytes = new Uint8Array(length + 2);
+  bytes[0] = HEADER;
+  bytes[1] = HEADER;
+  bytes[2] = length;
+  bytes[3] = command;
+  bytes.set(params, 4);
+  return bytes;
+}
+
+/** Milliseconds that `byteCount` bytes spend on the wire at `baud`. */
+export function wireMs(byteCount: number, baud = BAUD): number {
+  return (byteCount * 10_000) / baud;
+}

@@ -1,0 +1,20 @@
+// What a board says, as values. The same number means different things per family, so a report is chosen by command
+// number, LEN and family together (boards.md 2.4), never by "the next packet is my answer".
+
+export type Report =
+  /** The board took a run command. Proves reception only: it comes before the slot is looked up (S18). */
+  | { readonly kind: 'runAccepted' }
+  /** A group started, whoever asked for it (LSC family). */
+  | { readonly kind: 'runStarted'; readonly slot: number; readonly times: number }
+  /** A group ended by itself; `slot` where the board names it. */
+  | { readonly kind: 'runFinished'; readonly slot: number | null }
+  /** A running group was stopped. */
+  | { readonly kind: 'runStopped' }
+  | { readonly kind: 'erased' }
+  | { readonly kind: 'battery'; readonly batteryMv: number }
+  /** A download frame was handled; comes after the flash work, success or not (S20). */
+  | { readonly kind: 'frameStored' }
+  /** Well-formed on the wire, but not a report this family is known to send. */
+  | { readonly kind: 'unknown'; readonly command: number; readonly params: Uint8Array };
+
+export type ReportKind = Report['kind'];

@@ -1,0 +1,79 @@
+// What a session tells the outside: one immutable snapshot of the link and the robot, and a stream of traffic for the
+// log. Knows no transport and no user interface. Every figure says how true it is: requested, estimated or confirmed.
+
+import type { Command, ServoTarget } from '../protocol/commands.ts';
+import type { Report } from '../protocol/reports.ts';
+import type { LinkError } from './linkError.ts';
+
+export type LinkState =
+  | { readonly status: 'closed' }
+  | { readonly status: 'opening' }
+  | { readonly status: 'ready' }
+  /** `retryAtMs` on the session's clock; null when only the person can bring it back. */
+  | { readonly status: 'lost'; readonly error: LinkError; readonly retryAtMs: number | null };
+
+/** Motion is refused while this is not null; only `resume` clears it. */
+export interface Latch {
+  /** `pressed` here, `elsewhere` by another screen, or set because the link came back and nobody has looked yet. */
+  readonly reason: 'pressed' | 'elsewhere' | 'reconnected';
+  /** `sending`: the stop packets are on their way. `sent`: they left the wire. `confirmed`: the board said so. */
+  readonly stop: 'sending' | 'sent' | 'confirmed' | 'failed';
+}
+
+export type Activity =
+  | { readonly kind: 'idle' }
+  /** `truth` is `requested` until the board acknowledges; an acknowledgement proves reception only (S18). */
+  | {
+      readonly kind: 'running';
+      readonly slot: number;
+      readonly times: number;
+      readonly sinceMs: number;
+      readonly truth: 'requested' | 'acknowledged' | 'unknown';
+    }
+  | { readonly kind: 'playing'; readonly frameIndex: number; readonly frameCount: number }
+  | {
+      readonly kind: 'downloading';
+      readonly slot: number;
+      readonly framesStored: number;
+      readonly frameCount: number;
+      readonly bytesSent: number;
+      readonly bytesTotal: number;
+      readonly remainingMs: number;
+    }
+  | { readonly kind: 'erasing' };
+
+export type Battery =
+  | { readonly kind: 'unread' }
+  | { readonly kind: 'read'; readonly batteryMv: number; readonly atMs: number }
+  /** Three questions in a row stayed unanswered. */
+  | { readonly kind: 'silent'; readonly lastMv: number | null };
+
+export interface SessionState {
+  readonly link: LinkState;
+  readonly latch: Latch | null;
+  readonly activity: Activity;
+  readonly battery: Battery;
+  /** Slots whose download was begun here and not finished: broken on the board (S35). */
+  readonly brokenSlots: readonly number[];
+  /** What this session stored, by slot. */
+  readonly storedSlots: readonly number[];
+}
+
+/** Where a servo is asked to be and where it should be by now. Both null until it was commanded in this session. */
+export interface ServoMotion {
+  readonly target: number | null;
+  readonly estimated: number | null;
+}
+
+export type Traffic = { readonly atMs: number; readonly bytes: Uint8Array } & (
+  | { readonly direction: 'out'; readonly command: Command }
+  | { readonly direction: 'in'; readonly report: Report }
+  | { readonly direction: 'in'; readonly noise: 'garbage' | 'truncated' }
+);
+
+export interface SessionEvents {
+  state(state: SessionState): void;
+  traffic(entry: Traffic): void;
+  /** A servo's target changed, by whatever road (slider, player, group known to be running). */
+  targets(targets: readonly ServoTarget[]): void;
+}

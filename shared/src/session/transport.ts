@@ -1,0 +1,31 @@
+// The one interface between a session and a way to a board: this computer's serial port, the gateway, or the simulator in
+// the page. A transport carries whole packets out and raw bytes in; it knows no command, keeps no queue and retries nothing.
+
+import type { LinkError } from './linkError.ts';
+
+export interface TransportEvents {
+  /** Bytes from the board, in order, in whatever pieces they came. */
+  received(bytes: Uint8Array): void;
+  /** The link ended by itself. Comes at most once per `open`, never after `close`. */
+  lost(error: LinkError): void;
+  /** Only a shared link (gateway): somebody pressed STOP or Resume; `latched` refuses motion for everyone. */
+  latched?(latched: boolean): void;
+}
+
+export interface Transport {
+  readonly kind: 'webSerial' | 'gateway' | 'simulated';
+  /** Names the device for people, e.g. `/dev/ttyUSB0`. */
+  readonly label: string;
+  /** Rejects with a LinkError. May be called again after `lost` or `close`. */
+  open(events: TransportEvents): Promise<void>;
+  /** Resolves when the packet's last bit has left the wire. One packet at a time: the caller waits for it. */
+  send(packet: Uint8Array): Promise<void>;
+  /**
+   * A shared link's own stop lane: purge, stop three times, send `hold`, latch. Where it is absent the session does that
+   * itself with `send`.
+   */
+  halt?(hold: Uint8Array | null): Promise<void>;
+  resume?(): Promise<void>;
+  /** Never rejects; closing twice is harmless. */
+  close(): Promise<void>;
+}
