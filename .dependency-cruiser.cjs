@@ -1,0 +1,125 @@
+// The layer rule: protocol < motion < session < stores < panels < App, with actions and the simulator beside the session.
+// Types count as imports. Say a change of this file in docs/adr/.
+
+const test = '[.]test[.]tsx?$';
+const page = '^frontend/src/';
+
+/** Code in `from` knows nothing of `to`; tests may, so far as `except` allows. */
+function forbid(name, comment, from, to) {
+  return { name, comment, severity: 'error', from, to };
+}
+
+module.exports = {
+  forbidden: [
+    forbid('no-cycle', 'Two modules that need each other are one module, or lack a third.', {}, { circular: true }),
+    forbid('resolvable', 'An import that leads nowhere.', {}, { couldNotResolve: true }),
+
+    forbid(
+      'shared-is-pure',
+      'shared/ runs anywhere: no package, no Node, no browser, nothing outside itself. Its tests and the process entry may.',
+      { path: '^shared/src/', pathNot: [test, '^shared/src/simulator/process[.]ts$'] },
+      { pathNot: '^shared/' },
+    ),
+    forbid(
+      'shared-process-is-only-an-entry',
+      'The process entry is the one Node file of shared/; nothing builds on it.',
+      {},
+      { path: '^shared/src/simulator/process[.]ts$' },
+    ),
+    forbid(
+      'protocol-knows-bytes',
+      'The protocol knows no time, no motion, no session, no board.',
+      { path: '^shared/src/protocol/' },
+      { path: '^shared/src/', pathNot: '^shared/src/protocol/' },
+    ),
+    forbid(
+      'motion-knows-protocol',
+      'Motion is a model of what was sent.',
+      { path: '^shared/src/motion/' },
+      { path: '^shared/src/(session|actions|simulator)/' },
+    ),
+    forbid(
+      'session-knows-no-documents',
+      'A session sends; what a group or pose is belongs to actions, and no real board is a simulator.',
+      { path: '^shared/src/session/', pathNot: test },
+      { path: '^shared/src/(actions|simulator)/' },
+    ),
+    forbid(
+      'actions-know-no-session',
+      'A document never moves the robot by itself.',
+      { path: '^shared/src/actions/' },
+      { path: '^shared/src/(session|simulator)/' },
+    ),
+    forbid(
+      'simulator-knows-protocol',
+      'The simulator is the other side of the wire: it may share the protocol, never the code it puts to the test.',
+      { path: '^shared/src/simulator/', pathNot: test },
+      { path: '^shared/src/(session|motion|actions)/' },
+    ),
+
+    forbid(
+      'only-connect-picks-a-transport',
+      'Panels, stores and widgets do not know which way leads to the board.',
+      { path: page, pathNot: `${page}(transports|connect)/` },
+      { path: `${page}transports/` },
+    ),
+    forbid(
+      'transports-know-no-page',
+      'A transport carries bytes.',
+      { path: `${page}transports/` },
+      { path: page, pathNot: `${page}transports/` },
+    ),
+    forbid(
+      'stores-know-no-panel',
+      'Stores hold what is; panels show it.',
+      { path: `${page}stores/`, pathNot: test },
+      { path: page, pathNot: `${page}(stores|words)/` },
+    ),
+    forbid(
+      'ui-knows-no-robot',
+      'Shared widgets know neither stores nor panels.',
+      { path: `${page}ui/` },
+      { path: page, pathNot: `${page}(ui|words)/` },
+    ),
+    forbid(
+      'words-know-nothing',
+      'The catalogue is read by everyone and reads nobody of the page.',
+      { path: `${page}words/` },
+      { path: page, pathNot: `${page}words/` },
+    ),
+    forbid(
+      'panels-know-no-app',
+      'App puts panels together; a panel never looks back.',
+      { path: `${page}[^/]+/`, pathNot: `${page}gallery/` },
+      { path: `${page}(App|main|gallery)[.]tsx?$` },
+    ),
+    forbid('page-uses-page-and-shared', 'The page is built from itself and shared/.', { path: page }, {
+      path: '^(e2e|bench|scripts|backend)/',
+    }),
+    forbid(
+      'no-development-packages-in-the-page',
+      'What the page imports at run time stands under dependencies.',
+      { path: page, pathNot: [test, '[.]d[.]ts$'] },
+      { dependencyTypes: ['npm-dev', 'npm-no-pkg', 'npm-unknown'], dependencyTypesNot: ['type-only'] },
+    ),
+
+    forbid(
+      'end-to-end-stands-outside',
+      'End-to-end tests see the product as a person does; they may read packets with shared/.',
+      { path: '^e2e/' },
+      { path: '^(frontend|bench|backend)/' },
+    ),
+    forbid('nothing-imports-end-to-end', 'Tests are leaves.', { pathNot: '^e2e/' }, { path: '^e2e/' }),
+    forbid('nothing-imports-tests', 'Tests are leaves.', {}, { path: test }),
+  ],
+  options: {
+    doNotFollow: { path: 'node_modules' },
+    exclude: { path: '[.]css$|[.]svg$' },
+    tsPreCompilationDeps: true,
+    enhancedResolveOptions: {
+      extensions: ['.ts', '.tsx', '.mjs', '.js', '.json', '.d.ts'],
+      exportsFields: ['exports'],
+      conditionNames: ['import', 'types', 'default'],
+    },
+  },
+};

@@ -1,0 +1,133 @@
+"""Gives a program that speaks bytes on stdin and stdout a serial port: a pty, found through a link.
+
+Knows file descriptors only, no protocol. When the program ends the port hangs up, like a pulled cable.
+Usage: pty_board.py --link PATH -- COMMAND [ARGUMENT...]      (POSIX; prints `pty /dev/pts/N` on stderr)
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import select
+import signal
+import subprocess
+import sys
+import tty
+from pathlib import Path
+from types import FrameType
+from typing import NoReturn
+
+CHUNK_BYTES = 4096
+PARENT_POLL_SECONDS = 0.5
+END_SECONDS = 2.0
+
+
+class Relay:
+    """One direction. Reads on only when all it read has been passed on, so a slow reader slows its writer."""
+
+    def __init__(self, source: int, sink: int) -> None:
+        self.source = source
+        self.sink = sink
+        self.pending = b""
+
+    def fill(self) -> bool:
+        """Take what is there; False at the end of the source."""
+        try:
+            self.pending = os.read(self.source, CHUNK_BYTES)
+        except BlockingIOError:
+            return True
+        return self.pending != b""
+
+    def drain(self) -> None:
+        try:
+            self.pending = self.pending[os.write(self.sink, self.pending) :]
+        except BlockingIOError:
+            return
+
+
+def relay_until_end(to_program: Relay, from_program: Relay, parent: int) -> None:
+    """Pass bytes both ways until the program closes its side or whoever started us is gone."""
+    relays = (to_program, from_program)
+    while os.getppid() == parent:
+        readers = [relay.source for relay in relays if not relay.pending]
+        writers = [relay.sink for relay in relays if relay.pending]
+        readable, _, _ = select.select(readers, writers, [], PARENT_POLL_SECONDS)
+        for relay in relays:
+            if relay.source in readable and not relay.fill():
+                return
+            if relay.pending:
+                relay.drain()
+
+
+def point_link_at(link: Path, target: str) -> None:
+    """Make or move the link in one step, so that nobody ever finds it missing or half made."""
+    link.parent.mkdir(parents=True, exist_ok=True)
+    fresh = link.with_name(f".{link.name}.{os.getpid()}")
+    fresh.symlink_to(target)
+    fresh.replace(link)
+
+
+def remove_link(link: Path, target: str) -> None:
+    """Remove the link unless a newer board has taken it over."""
+    try:
+        if str(link.readlink()) == target:
+            link.unlink()
+    except OSError:
+        return
+
+
+def end_program(program: subprocess.Popen[bytes]) -> int:
+    """Ask, then insist; returns the exit code."""
+    if program.stdin:
+        program.stdin.close()
+    try:
+        return program.wait(END_SECONDS if program.poll() is None else 0)
+    except subprocess.TimeoutExpired:
+        program.kill()
+        return program.wait()
+
+
+def serve(link: Path, command: list[str]) -> int:
+    parent = os.getppid()
+    # Our own hold on the slave side keeps bytes and the port alive while nobody else has it open.
+    master, slave = os.openpty()
+    tty.setraw(slave)
+    name = os.ttyname(slave)
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0) as program:
+        assert program.stdin
+        assert program.stdout
+        for descriptor in (master, program.stdin.fileno(), program.stdout.fileno()):
+            os.set_blocking(descriptor, False)
+        point_link_at(link, name)
+        try:
+            print(f"pty {name}", file=sys.stderr, flush=True)
+            relay_until_end(
+                Relay(master, program.stdin.fileno()), Relay(program.stdout.fileno(), master), parent
+            )
+        except BrokenPipeError:
+            pass  # the program died between two turns of the loop
+        finally:
+            remove_link(link, name)
+            os.close(master)
+            os.close(slave)
+            code = end_program(program)
+    return code
+
+
+def leave(_signal: int, _frame: FrameType | None) -> NoReturn:
+    # One ending for all signals: unwinds through `serve`, which removes the link and ends the program.
+    raise SystemExit(0)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Put a program behind a serial port.")
+    parser.add_argument("--link", type=Path, required=True, help="path of the link to the port")
+    parser.add_argument("command", nargs="+", help="the program and its arguments, after --")
+    arguments = parser.parse_args()
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, leave)
+    return serve(arguments.link, arguments.command)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
