@@ -1,0 +1,133 @@
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import {
+  deleteFrame,
+  duplicateFrame,
+  insertFrame,
+  moveFrame,
+  rename,
+  setDuration,
+  setTargets,
+} from './edits.ts';
+import { changedServos, emptyGroup, poseAt, totalDurationMs, type ActionGroup } from './group.ts';
+
+const ids = (group: ActionGroup) => group.frames.map((frame) => frame.id);
+
+function groupOf(...positions: number[]): ActionGroup {
+  return positions.reduce(
+    (group, position) =>
+      insertFrame(group, group.frames.length, { durationMs: 500, targets: [{ servo: 1, position }] }),
+    emptyGroup('Wave', 'us'),
+  );
+}
+
+describe('edits of an action group', () => {
+  test('a new frame goes where it is put and carries its own id', () => {
+    const group = insertFrame(groupOf(1000, 2000), 1, { durationMs: 300, targets: [] });
+    expect(ids(group)).toEqual([1, 3, 2]);
+  });
+
+  test('the first frame of an empty group decides the unit, later ones do not', () => {
+    const pose = { durationMs: 100, targets: [{ servo: 1, position: 500 }] };
+    const first = insertFrame(emptyGroup('Wave', 'us'), 0, pose, 'steps');
+    expect(first.unit).toBe('steps');
+    expect(insertFrame(first, 1, pose, 'us').unit).toBe('steps');
+  });
+
+  test('targets are kept in servo order, each servo once', () => {
+    const targets = [
+      { servo: 6, position: 900 },
+      { servo: 1, position: 700 },
+      { servo: 6, position: 1200 },
+    ];
+    const group = insertFrame(emptyGroup('Wave', 'us'), 0, { durationMs: 100, targets });
+    expect(group.frames[0]!.targets).toEqual([
+      { servo: 1, position: 700 },
+      { servo: 6, position: 1200 },
+    ]);
+  });
+
+  test('a duplicate follows its original with a new id', () => {
+    const group = duplicateFrame(groupOf(1000, 2000), 1);
+    expect(ids(group)).toEqual([1, 3, 2]);
+    expect(group.frames[1]!.targets).toEqual(group.frames[0]!.targets);
+  });
+
+  test('an edit that changes nothing returns the same object', () => {
+    const group = groupOf(1000, 2000);
+    expect(moveFrame(group, 1, 0)).toBe(group);
+    expect(moveFrame(group, 9, 0)).toBe(group);
+    expect(setDuration(group, 1, 500)).toBe(group);
+    expect(setTargets(group, 1, [{ servo: 1, position: 1000 }])).toBe(group);
+    expect(deleteFrame(group, 9)).toBe(group);
+    expect(duplicateFrame(group, 9)).toBe(group);
+    expect(rename(group, 'Wave')).toBe(group);
+  });
+
+  test('an edit touches one frame and shares the others', () => {
+    const before = groupOf(1000, 2000, 1500);
+    const after = setDuration(before, 2, 900);
+    expect(after.frames[1]!.durationMs).toBe(900);
+    expect(after.frames[0]).toBe(before.frames[0]);
+    expect(after.frames[2]).toBe(before.frames[2]);
+    expect(before.frames[1]!.durationMs).toBe(500);
+  });
+
+  test('moving a frame keeps every frame and puts that one at its place', () => {
+    fc.assert(
+      fc.property(
+        fc.integer({ min: 1, max: 12 }),
+        fc.nat(11),
+        fc.integer({ min: -3, max: 15 }),
+        (count, from, to) => {
+          const group = groupOf(...Array.from({ length: count }, (_, index) => 500 + index));
+          const id = (from % count) + 1;
+          const moved = moveFrame(group, id, to);
+          expect([...ids(moved)].sort((one, other) => one - other)).toEqual(ids(group));
+          expect(ids(moved).indexOf(id)).toBe(Math.max(0, Math.min(to, count - 1)));
+          expect(ids(moved).filter((other) => other !== id)).toEqual(
+            ids(group).filter((other) => other !== id),
+          );
+        },
+      ),
+    );
+  });
+});
+
+describe('what a group says of itself', () => {
+  const frames = [
+    {
+      durationMs: 500,
+      targets: [
+        { servo: 1, position: 1000 },
+        { servo: 2, position: 1500 },
+      ],
+    },
+    { durationMs: 250, targets: [{ servo: 2, position: 1500 }] },
+    {
+      durationMs: 0,
+      targets: [
+        { servo: 2, position: 1600 },
+        { servo: 1, position: 900 },
+      ],
+    },
+  ];
+
+  test('its total time is the sum of its frames', () => {
+    expect(totalDurationMs(frames)).toBe(750);
+  });
+
+  test('a servo keeps its place until a later frame names it', () => {
+    expect([...poseAt(frames, 1)]).toEqual([
+      [1, 1000],
+      [2, 1500],
+    ]);
+    expect(poseAt(frames, -1).size).toBe(0);
+  });
+
+  test('only servos that leave their place count as changed', () => {
+    expect(changedServos(frames, 0)).toEqual([1, 2]);
+    expect(changedServos(frames, 1)).toEqual([]);
+    expect(changedServos(frames, 2)).toEqual([1, 2]);
+  });
+});
