@@ -1,0 +1,118 @@
+// Values to packets. A command leaves here only if the board at hand can take it; what that means is limits.ts and the
+// family's row. Knows no time and no link. Byte layouts: protocol document (boards.md chapter 1).
+
+import { COMMAND_NUMBER, type Command, type Frame } from './commands.ts';
+import type { Family } from './families.ts';
+import { checkCommand, checkRange } from './limits.ts';
+import { HEADER, MIN_LENGTH, packetBytes } from './packet.ts';
+import type { Report } from './reports.ts';
+
+/** What encoding throws, beside the functions that throw it. */
+export { RangeRefusal } from './limits.ts';
+
+const BYTE = { min: 0, max: 0xff };
+const WORD = { min: 0, max: 0xffff };
+/** Bytes before the parameters: two headers, LEN, CMD. */
+const PREFIX = 4;
+
+/** The whole packet. Throws RangeRefusal where a board of this family cannot take the command. */
+export function encodeCommand(command: Command, family: Family): Uint8Array {
+  checkCommand(command, family);
+  const params = paramCount(command);
+  checkRange('length', params + MIN_LENGTH, { min: MIN_LENGTH, max: family.maxLength });
+  const packet = emptyPacket(COMMAND_NUMBER[command.kind], params);
+  switch (command.kind) {
+    case 'move':
+      writeFrame(packet, PREFIX, command);
+      break;
+    case 'run':
+      packet[4] = command.slot;
+      writeWord(packet, 5, command.times);
+      break;
+    case 'download':
+      packet[4] = command.slot;
+      packet[5] = command.frameCount;
+      packet[6] = command.frameIndex;
+      writeFrame(packet, 7, command.frame);
+      break;
+    case 'stop':
+    case 'erase': // its one byte is reserved and stays 0
+    case 'readBattery':
+      break;
+  }
+  return packet;
+}
+
+function paramCount(command: Command): number {
+  switch (command.kind) {
+    case 'move':
+      return 3 + 3 * command.targets.length;
+    case 'run':
+      return 3;
+    case 'download':
+      return 6 + 3 * command.frame.targets.length;
+    case 'erase':
+      return 1;
+    case 'stop':
+    case 'readBattery':
+      return 0;
+  }
+}
+
+function emptyPacket(command: number, params: number): Uint8Array {
+  const packet = new Uint8Array(PREFIX + params);
+  packet[0] = HEADER;
+  packet[1] = HEADER;
+  packet[2] = params + MIN_LENGTH;
+  packet[3] = command;
+  return packet;
+}
+
+/** Count, time, then servo and position of each target: the tail that moves and stored frames share. */
+function writeFrame(packet: Uint8Array, at: number, { durationMs, targets }: Frame): void {
+  packet[at] = targets.length;
+  writeWord(packet, at + 1, durationMs);
+  let entry = at + 3;
+  for (const { servo, position } of targets) {
+    packet[entry] = servo;
+    writeWord(packet, entry + 1, position);
+    entry += 3;
+  }
+}
+
+function writeWord(packet: Uint8Array, at: number, value: number): void {
+  packet[at] = value & 0xff;
+  packet[at + 1] = value >> 8;
+}
+
+/**
+ * What a board would send, for boards in software. Throws RangeRefusal where a value does not fit its field. A finished
+ * run that names its slot says `once`: the report's value keeps no number of times.
+ */
+export function encodeReport(report: Report): Uint8Array {
+  switch (report.kind) {
+    case 'runAccepted':
+      return packetBytes(6, []);
+    case 'runStarted':
+      return runReport(6, report.slot, report.times);
+    case 'runFinished':
+      return report.slot === null ? packetBytes(7, []) : runReport(8, report.slot, 1);
+    case 'runStopped':
+      return packetBytes(7, []);
+    case 'erased':
+      return packetBytes(8, []);
+    case 'battery':
+      checkRange('batteryMv', report.batteryMv, WORD, 'mV');
+      return packetBytes(15, [report.batteryMv & 0xff, report.batteryMv >> 8]);
+    case 'frameStored':
+      return packetBytes(25, []);
+    case 'unknown':
+      return packetBytes(report.command, report.params);
+  }
+}
+
+function runReport(command: number, slot: number, times: number): Uint8Array {
+  checkRange('slot', slot, BYTE);
+  checkRange('times', times, WORD);
+  return packetBytes(command, [slot, times & 0xff, times >> 8]);
+}

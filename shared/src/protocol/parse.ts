@@ -1,0 +1,78 @@
+// Packets to values. Shape decides (command number and LEN), for reports the family too, never the order of arrival.
+// Judges no limits: whether a board can take a command is limits.ts.
+
+import { COMMAND_NUMBER, type Command, type Frame, type ServoTarget } from './commands.ts';
+import type { Family } from './families.ts';
+import type { Packet } from './packet.ts';
+import type { Report } from './reports.ts';
+
+/** The command, or null where the packet is not exactly one of the six in shape. */
+export function parseCommand({ command, params }: Packet): Command | null {
+  switch (command) {
+    case COMMAND_NUMBER.move: {
+      const frame = readFrame(params, 0);
+      return frame && { kind: 'move', ...frame };
+    }
+    case COMMAND_NUMBER.run:
+      return params.length === 3 ? { kind: 'run', slot: byteAt(params, 0), times: wordAt(params, 1) } : null;
+    case COMMAND_NUMBER.stop:
+      return params.length === 0 ? { kind: 'stop' } : null;
+    case COMMAND_NUMBER.erase:
+      return params.length === 1 ? { kind: 'erase' } : null;
+    case COMMAND_NUMBER.readBattery:
+      return params.length === 0 ? { kind: 'readBattery' } : null;
+    case COMMAND_NUMBER.download:
+      return readDownload(params);
+    default:
+      return null;
+  }
+}
+
+function readDownload(params: Uint8Array): Command | null {
+  const frame = readFrame(params, 3);
+  if (frame === null) return null;
+  const [slot, frameCount, frameIndex] = [byteAt(params, 0), byteAt(params, 1), byteAt(params, 2)];
+  return { kind: 'download', slot, frameCount, frameIndex, frame };
+}
+
+/** Count, time and entries from `at` to the end; null where the count and the bytes there disagree (S13). */
+function readFrame(params: Uint8Array, at: number): Frame | null {
+  if (params.length < at + 3 || params.length !== at + 3 + 3 * byteAt(params, at)) return null;
+  const targets: ServoTarget[] = [];
+  for (let entry = at + 3; entry < params.length; entry += 3) {
+    targets.push({ servo: byteAt(params, entry), position: wordAt(params, entry + 1) });
+  }
+  return { durationMs: wordAt(params, at + 1), targets };
+}
+
+/** What the packet says when a board of this family sends it; `unknown` where this family is not known to. */
+export function parseReport(packet: Packet, family: Family): Report {
+  return familyReport(packet, family) ?? { kind: 'unknown', command: packet.command, params: packet.params };
+}
+
+function familyReport({ command, params }: Packet, family: Family): Report | null {
+  if (params.length === 0) return emptyReport(command, family);
+  if (command === 15 && params.length === 2 && family.answers.includes('readBattery')) {
+    return { kind: 'battery', batteryMv: wordAt(params, 0) };
+  }
+  if (params.length !== 3 || !family.runReportsNameSlot) return null;
+  if (command === 6) return { kind: 'runStarted', slot: byteAt(params, 0), times: wordAt(params, 1) };
+  return command === 8 ? { kind: 'runFinished', slot: byteAt(params, 0) } : null;
+}
+
+function emptyReport(command: number, family: Family): Report | null {
+  const { answers, emptySeven } = family;
+  if (command === 6 && answers.includes('run')) return { kind: 'runAccepted' };
+  if (command === 7 && emptySeven === 'runFinished') return { kind: 'runFinished', slot: null };
+  if (command === 7 && emptySeven === 'runStopped') return { kind: 'runStopped' };
+  if (command === 8 && answers.includes('erase')) return { kind: 'erased' };
+  return command === 25 && answers.includes('download') ? { kind: 'frameStored' } : null;
+}
+
+function byteAt(bytes: Uint8Array, at: number): number {
+  return bytes[at] ?? 0;
+}
+
+function wordAt(bytes: Uint8Array, at: number): number {
+  return byteAt(bytes, at) | (byteAt(bytes, at + 1) << 8);
+}
