@@ -11,7 +11,12 @@ function forbid(name, comment, from, to) {
 
 module.exports = {
   forbidden: [
-    forbid('no-cycle', 'Two modules that need each other are one module, or lack a third.', {}, { circular: true }),
+    forbid(
+      'no-cycle',
+      'Two modules that need each other are one module, or lack a third.',
+      {},
+      { circular: true },
+    ),
     forbid('resolvable', 'An import that leads nowhere.', {}, { couldNotResolve: true }),
 
     forbid(
@@ -93,9 +98,14 @@ module.exports = {
       { path: `${page}[^/]+/`, pathNot: `${page}gallery/` },
       { path: `${page}(App|main|gallery)[.]tsx?$` },
     ),
-    forbid('page-uses-page-and-shared', 'The page is built from itself and shared/.', { path: page }, {
-      path: '^(e2e|bench|scripts|backend)/',
-    }),
+    forbid(
+      'page-uses-page-and-shared',
+      'The page is built from itself and shared/.',
+      { path: page },
+      {
+        path: '^(e2e|bench|scripts|backend)/',
+      },
+    ),
     forbid(
       'no-development-packages-in-the-page',
       'What the page imports at run time stands under dependencies.',

@@ -2,5 +2,5 @@
 
 import { configureGlobal } from 'fast-check';
 
-const runs = Number(process.env['PROPERTY_RUNS'] ?? 0);
+const runs = Number(process.env.PROPERTY_RUNS ?? 0);
 if (runs > 0) configureGlobal({ numRuns: runs });

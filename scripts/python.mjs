@@ -1,6 +1,6 @@
 // The gateway's Python: finds one that is new enough and gives the project its own environment from the lock file.
 
-import { existsSync, readdirSync, writeFileSync } from 'node:fs';
+import { readdirSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { SetupProblem, at, fingerprint, mustRun, once, onWindows, run } from './steps.mjs';
 
@@ -36,19 +36,25 @@ async function makeEnvironment() {
         'On Debian, Ubuntu or Raspberry Pi OS: sudo apt install python3-venv. Then run the same command again.',
     );
   }
-  await mustRun('make the Python environment .venv', found.command, [...found.args, '-m', 'venv', '--clear', '.venv']);
+  await mustRun('make the Python environment .venv', found.command, [
+    ...found.args,
+    '-m',
+    'venv',
+    '--clear',
+    '.venv',
+  ]);
 }
 
 /** uv is three times as fast; pip does where no uv is built for this machine. */
 async function installLocked() {
-  const pip = [python, '-m', 'pip', '--disable-pip-version-check'];
-  const uv = await run(python, [...pip.slice(1), 'install', '--quiet', `uv==${uvVersion}`]);
+  const pip = ['-m', 'pip', '--disable-pip-version-check'];
+  const uv = await run(python, [...pip, 'install', '--quiet', `uv==${uvVersion}`]);
   const locked = ['install', '--quiet', '--require-hashes', '-r', lock];
   if (uv.code === 0) {
     const quick = await run(python, ['-m', 'uv', 'pip', ...locked, '--python', python]);
     if (quick.code === 0) return;
   }
-  await mustRun('install the Python packages', python, [...pip.slice(1), ...locked]);
+  await mustRun('install the Python packages', python, [...pip, ...locked]);
 }
 
 function sitePackages() {
@@ -59,11 +65,11 @@ function sitePackages() {
 
 /** @returns {Promise<{command: string, args: string[], version: string}>} */
 async function findPython() {
-  const named = process.env['PYTHON'] ? [[process.env['PYTHON']]] : [];
+  const named = process.env.PYTHON ? [[process.env.PYTHON]] : [];
   const usual = [['python3'], ['python3.13'], ['python3.12'], ['python3.11'], ['python'], ['py', '-3']];
   const tooOld = [];
   for (const [command = '', ...args] of [...named, ...usual]) {
-    const { code, output } = await run(command, [...args, '-c', quoted(probe)]);
+    const { code, output } = await run(command, [...args, '-c', probe]);
     const version = output.trim();
     if (code !== 0 || !/^\d+\.\d+$/.test(version)) continue;
     if (isNewEnough(version)) return { command, args, version };
@@ -72,7 +78,7 @@ async function findPython() {
   const seen = tooOld.length > 0 ? `Found only older ones: ${tooOld.join(', ')}.` : 'Found none.';
   throw new SetupProblem(
     `Servodeck needs Python 3.11 or newer. ${seen}\n` +
-      'Install it (python.org, or your system\'s package manager), or name one: PYTHON=/path/to/python npm start',
+      "Install it (python.org, or your system's package manager), or name one: PYTHON=/path/to/python npm start",
   );
 }
 
@@ -80,13 +86,4 @@ async function findPython() {
 function isNewEnough(version) {
   const [major = 0, minor = 0] = version.split('.').map(Number);
   return major > 3 || (major === 3 && minor >= 11);
-}
-
-/** @param {string} code for the shell that starts programs on Windows */
-function quoted(code) {
-  return onWindows ? `"${code.replaceAll('"', '\\"')}"` : code;
-}
-
-export function hasPython() {
-  return existsSync(python);
 }

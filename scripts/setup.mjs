@@ -15,7 +15,9 @@ export async function setUp() {
 function checkNode() {
   const [major = 0, minor = 0] = process.versions.node.split('.').map(Number);
   if (major > 20 || (major === 20 && minor >= 19)) return;
-  throw new SetupProblem(`Servodeck needs Node 20.19 or newer; this is ${process.versions.node}. See nodejs.org.`);
+  throw new SetupProblem(
+    `Servodeck needs Node 20.19 or newer; this is ${process.versions.node}. See nodejs.org.`,
+  );
 }
 
 async function nodePackages() {
@@ -25,7 +27,7 @@ async function nodePackages() {
     output: 'node_modules/vite/package.json',
     says: 'Setting up packages for the page …',
     // --include=dev: NODE_ENV=production would leave out what builds the page.
-    work: async () => void (await runNpm('install the packages', ['ci', '--include=dev', '--no-audit', '--no-fund'])),
+    work: () => runNpm('install the packages', ['ci', '--include=dev', '--no-audit', '--no-fund']),
   });
 }
 
@@ -39,6 +41,6 @@ async function builtParts() {
     ),
     output: 'backend/servodeck/static/index.html',
     says: 'Building the page …',
-    work: async () => void (await mustRun('build the page', process.execPath, ['scripts/build.mjs'])),
+    work: () => mustRun('build the page', process.execPath, ['scripts/build.mjs']),
   });
 }

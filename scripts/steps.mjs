@@ -10,6 +10,10 @@ import { fileURLToPath } from 'node:url';
 export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '..');
 export const onWindows = process.platform === 'win32';
 
+/** @type {Set<import('node:child_process').ChildProcess>} */
+const running = new Set();
+process.on('exit', () => running.forEach((child) => child.kill()));
+
 /** Something only the person at the keyboard can mend; the message tells how. */
 export class SetupProblem extends Error {}
 
@@ -26,32 +30,34 @@ export function at(relative) {
 /**
  * Runs a program to its end and collects what it printed.
  * @param {string} command @param {readonly string[]} args
- * @param {{env?: NodeJS.ProcessEnv, timeoutMs?: number}} [options]
+ * @param {{env?: NodeJS.ProcessEnv, shell?: boolean}} [options]
  * @returns {Promise<{code: number, output: string}>} code 127 when the program could not be started
  */
-export function run(command, args, { env = {}, timeoutMs = 0 } = {}) {
+export function run(command, args, { env = {}, shell = false } = {}) {
   return new Promise((resolve) => {
     const child = spawn(command, args, {
       cwd: root,
       env: { ...process.env, ...env },
       stdio: ['ignore', 'pipe', 'pipe'],
-      timeout: timeoutMs,
-      // npm, npx and friends are .cmd files there, which only a shell can start.
-      shell: onWindows && !path.isAbsolute(command),
+      shell,
     });
+    running.add(child);
     let output = '';
     const collect = (/** @type {Buffer} */ bytes) => (output += bytes.toString());
     child.stdout.on('data', collect);
     child.stderr.on('data', collect);
     child.on('error', (error) => resolve({ code: 127, output: error.message }));
-    child.on('close', (code) => resolve({ code: code ?? 1, output }));
+    child.on('close', (code) => {
+      running.delete(child);
+      resolve({ code: code ?? 1, output });
+    });
   });
 }
 
 /**
  * Like `run`, for programs that must succeed.
  * @param {string} what names the deed for people, as in "could not <what>"
- * @param {string} command @param {readonly string[]} args @param {{env?: NodeJS.ProcessEnv}} [options]
+ * @param {string} command @param {readonly string[]} args @param {{env?: NodeJS.ProcessEnv, shell?: boolean}} [options]
  */
 export async function mustRun(what, command, args, options) {
   const { code, output } = await run(command, args, options);
@@ -65,8 +71,10 @@ export async function mustRun(what, command, args, options) {
  * @param {string} what @param {readonly string[]} args
  */
 export function runNpm(what, args) {
-  const npm = process.env['npm_execpath'];
-  return npm?.endsWith('.js') ? mustRun(what, process.execPath, [npm, ...args]) : mustRun(what, 'npm', args);
+  const npm = process.env.npm_execpath;
+  if (npm?.endsWith('.js')) return mustRun(what, process.execPath, [npm, ...args]);
+  // On Windows npm is a .cmd file, which only a shell can start.
+  return mustRun(what, 'npm', args, { shell: onWindows });
 }
 
 /**
@@ -94,7 +102,7 @@ function filesBelow(relative) {
 /**
  * Does a step unless its stamp says that it was done for the same inputs and its output is still there. The stamp is
  * written last, so a step that was broken off is done again.
- * @param {{stamp: string, inputs: string, output: string, says: string, work: () => Promise<void>}} step
+ * @param {{stamp: string, inputs: string, output: string, says: string, work: () => Promise<unknown>}} step
  */
 export async function once({ stamp, inputs, output, says, work }) {
   const file = at(stamp);
@@ -109,7 +117,7 @@ export async function once({ stamp, inputs, output, says, work }) {
 
 /**
  * The frame of every script: a problem is a sentence, not a stack.
- * @param {() => Promise<number>} work resolves to the exit code
+ * @param {() => Promise<number>} work resolves to the exit code once nothing is left to wait for
  */
 export async function main(work) {
   try {

@@ -1,0 +1,85 @@
+// What only the browser tests need: a Chromium and, for serial ports without hardware, umockdev. Says where they are,
+// fetches them where that is possible, and otherwise tells the way out. Knows no test.
+
+import { existsSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+import { SetupProblem, at, run, say } from './steps.mjs';
+
+const names = [
+  'chromium',
+  'chromium-browser',
+  'google-chrome',
+  'google-chrome-stable',
+  'chrome',
+  'microsoft-edge',
+];
+const fixedPlaces = [
+  '/Applications/Google Chrome.app/Contents/MacOS/Google Chrome',
+  '/Applications/Chromium.app/Contents/MacOS/Chromium',
+  '/Applications/Microsoft Edge.app/Contents/MacOS/Microsoft Edge',
+  String.raw`C:\Program Files\Google\Chrome\Application\chrome.exe`,
+  String.raw`C:\Program Files (x86)\Microsoft\Edge\Application\msedge.exe`,
+];
+const preloadFolders = ['/usr/lib/x86_64-linux-gnu', '/usr/lib/aarch64-linux-gnu', '/usr/lib', '/usr/lib64'];
+
+/** The browser that tests drive, or null: `$CHROMIUM_PATH`, Playwright's own, then whatever the system has. */
+export function findBrowser() {
+  const candidates = [process.env.CHROMIUM_PATH, playwrightsOwn(), ...onPath(names), ...fixedPlaces];
+  return candidates.find((candidate) => candidate && existsSync(candidate)) ?? null;
+}
+
+/** Why Chromium cannot be given a mock serial port here, or null where it can. */
+export function umockdevProblem() {
+  if (process.platform !== 'linux') return 'umockdev exists on Linux only';
+  const found = preloadFolders.some((folder) => existsSync(`${folder}/libumockdev-preload.so.0`));
+  return found ? null : 'umockdev is not installed (on Debian or Ubuntu: apt install umockdev)';
+}
+
+/** Fetches what is missing. Without umockdev some tests are skipped; without a browser nothing is proved. */
+export async function browserForTests() {
+  const missing = [];
+  if (!findBrowser()) missing.push('chromium', 'fonts-liberation');
+  if (umockdevProblem() && process.platform === 'linux') missing.push('umockdev');
+  if (missing.length > 0) await installSystemPackages(missing);
+  if (!findBrowser()) await installPlaywrightsBrowser();
+  if (findBrowser()) return;
+  throw new SetupProblem(
+    'The end-to-end tests need a Chromium, and none was found or could be fetched. Do one of these:\n' +
+      "  install Chromium or Chrome with your system's package manager (Debian: sudo apt install chromium)\n" +
+      '  npx playwright install chromium\n' +
+      '  CHROMIUM_PATH=/path/to/chrome npm test',
+  );
+}
+
+/** @param {readonly string[]} packages */
+async function installSystemPackages(packages) {
+  if (process.getuid?.() !== 0 || !existsSync('/usr/bin/apt-get')) return;
+  say(`Installing ${packages.join(', ')} for the browser tests …`);
+  const env = { DEBIAN_FRONTEND: 'noninteractive' };
+  const install = ['install', '-y', '--no-install-recommends', ...packages];
+  if ((await run('apt-get', install, { env })).code === 0) return;
+  await run('apt-get', ['update'], { env });
+  await run('apt-get', install, { env });
+}
+
+async function installPlaywrightsBrowser() {
+  say('Fetching Chromium for the browser tests …');
+  await run(process.execPath, [at('node_modules/@playwright/test/cli.js'), 'install', 'chromium']);
+}
+
+function playwrightsOwn() {
+  try {
+    /** @type {typeof import('@playwright/test')} */
+    const playwright = createRequire(import.meta.url)('@playwright/test');
+    return playwright.chromium.executablePath();
+  } catch {
+    return null; // before the packages are there
+  }
+}
+
+/** @param {readonly string[]} programs */
+function onPath(programs) {
+  const folders = (process.env.PATH ?? '').split(path.delimiter);
+  return programs.flatMap((program) => folders.map((folder) => path.join(folder, program)));
+}

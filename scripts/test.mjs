@@ -1,0 +1,38 @@
+// `npm test`: sets everything up, a browser included, then every check and test there is. `-- --long` gives property
+// tests many more inputs.
+
+import { browserForTests } from './browser.mjs';
+import * as all from './checks.mjs';
+import { onEnd } from './children.mjs';
+import { clearReports } from './reports.mjs';
+import { setUp } from './setup.mjs';
+import { main, say } from './steps.mjs';
+import { conclude, runTasks } from './tasks.mjs';
+
+await main(async () => {
+  onEnd(() => process.exit(130));
+  const long = process.argv.includes('--long');
+  await setUp();
+  clearReports();
+  say('');
+  const still = runTasks([
+    all.unit({ long }),
+    all.gateway,
+    all.lint,
+    all.types,
+    all.pageTypes,
+    all.pythonTypes,
+    all.sharedTypes,
+    all.layers,
+    all.unused,
+    all.messages,
+    all.format,
+    all.pythonLint,
+    all.pythonFormat,
+    all.locks,
+  ]);
+  // Fetching a browser waits for the network; the checks use that time.
+  const [results] = await Promise.all([still, browserForTests()]);
+  // End to end comes last and alone: it measures what a person would wait for.
+  return conclude([...results, ...(await runTasks([all.endToEnd()]))]);
+});
