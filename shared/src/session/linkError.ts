@@ -1,24 +1,32 @@
 // Everything that can go wrong between a person and a board, as one union of codes. The page has one sentence for each
 // code that tells what to do; no code path may invent another. Knows no transport and no words.
 
-export type LinkErrorCode =
-  | 'closed' // the link is not open
-  | 'lost' // the device or the gateway went away while open
-  | 'portMissing' // no such device
-  | 'portBusy' // another program or tab holds it
-  | 'portDenied' // the operating system refuses access
-  | 'notChosen' // the person closed the chooser
-  | 'unsupported' // this browser has no such device API
-  | 'insecureAddress' // the page's address is no secure context
-  | 'gatewayUnreachable' // no gateway answers at this address
-  | 'gatewayRefused' // the gateway said no; `detail` says why
-  | 'noAnswer' // the board did not answer in time
-  | 'notSupported' // this board has no such command
-  | 'latched' // stopped: motion waits for Resume
-  | 'busy' // something else must end first, e.g. a download
-  | 'cancelled' // the person called it off
-  | 'outOfRange' // the board cannot take this value
-  | 'internal'; // a defect of ours
+export const LINK_ERROR_CODES = [
+  'closed', // the link is not open
+  'lost', // the device or the gateway went away while open
+  'portMissing', // no such device
+  'portBusy', // another program or tab holds it
+  'portDenied', // the operating system refuses access
+  'notChosen', // the person closed the chooser
+  'unsupported', // this browser has no such device API
+  'insecureAddress', // the page's address is no secure context
+  'gatewayUnreachable', // no gateway answers at this address
+  'gatewayRefused', // the gateway said no; `detail` says why
+  'noAnswer', // the board did not answer in time
+  'notSupported', // this board has no such command
+  'latched', // stopped: motion waits for Resume
+  'busy', // something else must end first, e.g. a download
+  'slotBroken', // the slot holds half a group (S35)
+  'cancelled', // the person called it off
+  'outOfRange', // the board cannot take this value
+  'internal', // a defect of ours
+] as const;
+
+export type LinkErrorCode = (typeof LINK_ERROR_CODES)[number];
+
+export function isLinkErrorCode(text: string): text is LinkErrorCode {
+  return (LINK_ERROR_CODES as readonly string[]).includes(text);
+}
 
 export class LinkError extends Error {
   override readonly name = 'LinkError';

@@ -1,7 +1,7 @@
 // What a session tells the outside: one immutable snapshot of the link and the robot, and a stream of traffic for the
 // log. Knows no transport and no user interface. Every figure says how true it is: requested, estimated or confirmed.
 
-import type { Command, ServoTarget } from '../protocol/commands.ts';
+import type { Command } from '../protocol/commands.ts';
 import type { Report } from '../protocol/reports.ts';
 import type { LinkError } from './linkError.ts';
 
@@ -74,6 +74,6 @@ export type Traffic = { readonly atMs: number; readonly bytes: Uint8Array } & (
 export interface SessionEvents {
   state(state: SessionState): void;
   traffic(entry: Traffic): void;
-  /** A servo's target changed, by whatever road (slider, player, group known to be running). */
-  targets(targets: readonly ServoTarget[]): void;
+  /** Something asked for without waiting (a slider's move, a frame being played) could not be done. */
+  problem(error: LinkError): void;
 }

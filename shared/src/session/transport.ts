@@ -26,6 +26,8 @@ export interface Transport {
    */
   halt?(hold: Uint8Array | null): Promise<void>;
   resume?(): Promise<void>;
+  /** Calls `notify` when a lost device may be back, sooner than the next attempt. Returns a function that ends it. */
+  whenAvailable?(notify: () => void): () => void;
   /** Never rejects; closing twice is harmless. */
   close(): Promise<void>;
 }

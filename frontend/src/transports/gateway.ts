@@ -1,0 +1,164 @@
+// A board on the gateway's serial port, through its WebSocket. Knows the messages; what may be sent and when is the
+// gateway's to decide. The socket stays open while the gateway's port is away, to hear of its return.
+
+import { fromHex, toHex } from '#shared/protocol/hex.ts';
+import { isLinkErrorCode, LinkError } from '#shared/session/linkError.ts';
+import type { Transport, TransportEvents } from '#shared/session/transport.ts';
+import type { ClientMessage, GatewayMessage, PortState } from './messages.generated.ts';
+
+type Settle = { resolve: () => void; reject: (error: LinkError) => void };
+
+/** `url` is the gateway's WebSocket, e.g. `ws://127.0.0.1:8300/ws`. */
+export function createGatewayTransport(url: string): Transport {
+  let socket: WebSocket | null = null;
+  let port: PortState | null = null;
+  let events: TransportEvents | null = null;
+  let latched = false;
+  let nextId = 1;
+  const sending = new Map<number, Settle>();
+  const halting = new Set<Settle>();
+  const stateWaiters = new Set<Settle>();
+  let notifyAvailable = (): void => undefined;
+
+  function post(message: ClientMessage): void {
+    if (socket?.readyState !== WebSocket.OPEN) throw new LinkError('gatewayUnreachable', 'the gateway is gone');
+    socket.send(JSON.stringify(message));
+  }
+
+  function heard(message: GatewayMessage): void {
+    switch (message.type) {
+      case 'welcome':
+      case 'state':
+        portChanged(message.port);
+        latchChanged(message.latch);
+        break;
+      case 'received':
+        events?.received(fromHex(message.packet));
+        break;
+      case 'noise':
+        events?.received(fromHex(message.bytes));
+        break;
+      case 'sent':
+        take(message.id)?.resolve();
+        break;
+      case 'refused':
+        if (message.id !== null) take(message.id)?.reject(refusal(message.code, message.detail));
+        break;
+      case 'halted':
+        settleAll(halting, (waiter) => waiter.resolve());
+        break;
+    }
+  }
+
+  function take(id: number): Settle | undefined {
+    const waiter = sending.get(id);
+    sending.delete(id);
+    return waiter;
+  }
+
+  function portChanged(next: PortState): void {
+    const wasOpen = port?.status === 'open';
+    port = next;
+    settleAll(stateWaiters, (waiter) => waiter.resolve());
+    if (next.status === 'open') notifyAvailable();
+    else if (wasOpen) lose(portError(next));
+  }
+
+  function latchChanged(next: boolean): void {
+    if (next !== latched) events?.latched?.(next);
+    latched = next;
+  }
+
+  /** Tells the session once; what was under way has an unknown outcome. */
+  function lose(error: LinkError): void {
+    const told = events;
+    events = null;
+    for (const waiters of [sending.values(), halting]) for (const waiter of waiters) waiter.reject(error);
+    sending.clear();
+    halting.clear();
+    told?.lost(error);
+  }
+
+  async function connect(): Promise<void> {
+    if (socket !== null) return;
+    const opening = new WebSocket(url);
+    socket = opening;
+    latched = false;
+    opening.onmessage = ({ data }) => heard(JSON.parse(String(data)) as GatewayMessage);
+    opening.onclose = () => {
+      if (socket !== opening) return;
+      socket = null;
+      port = null;
+      const gone = new LinkError('gatewayUnreachable', 'the gateway does not answer');
+      settleAll(stateWaiters, (waiter) => waiter.reject(gone));
+      lose(gone);
+    };
+    await nextState();
+  }
+
+  const nextState = (): Promise<void> =>
+    new Promise((resolve, reject) => stateWaiters.add({ resolve: () => resolve(), reject }));
+
+  return {
+    kind: 'gateway',
+    get label() {
+      return port?.device ?? 'Gateway';
+    },
+    async open(next) {
+      await connect();
+      while (port?.status === 'opening') await nextState();
+      if (port?.status !== 'open') throw portError(port);
+      events = next;
+      if (latched) next.latched?.(true);
+    },
+    send(packet) {
+      return new Promise((resolve, reject) => {
+        const id = nextId++;
+        post({ type: 'send', id, packet: compactHex(packet) });
+        sending.set(id, { resolve, reject });
+      });
+    },
+    halt(hold) {
+      return new Promise((resolve, reject) => {
+        post({ type: 'stop', hold: hold && compactHex(hold) });
+        halting.add({ resolve, reject });
+      });
+    },
+    resume() {
+      post({ type: 'resume' });
+      return Promise.resolve();
+    },
+    whenAvailable(notify) {
+      notifyAvailable = notify;
+      return () => (notifyAvailable = () => undefined);
+    },
+    close() {
+      events = null;
+      const closing = socket;
+      socket = null;
+      port = null;
+      closing?.close();
+      return Promise.resolve();
+    },
+  };
+}
+
+function settleAll(waiters: Set<Settle>, settle: (waiter: Settle) => void): void {
+  const current = [...waiters];
+  waiters.clear();
+  current.forEach(settle);
+}
+
+function portError(port: PortState | null): LinkError {
+  if (port === null) return new LinkError('gatewayUnreachable', 'the gateway does not answer');
+  return refusal(port.code ?? 'closed', port.detail ?? 'the port of the gateway is closed');
+}
+
+function refusal(code: string, detail: string): LinkError {
+  return new LinkError(isLinkErrorCode(code) ? code : 'gatewayRefused', detail);
+}
+
+/** The gateway's spelling of bytes: lower case, no spaces. */
+function compactHex(bytes: Uint8Array): string {
+  return toHex(bytes).replaceAll(' ', '').toLowerCase();
+}

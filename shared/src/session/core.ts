@@ -1,0 +1,47 @@
+// What the operations of one session share: the parts they talk through, and the rules on what may begin now. Knows no
+// operation by itself.
+
+import type { Clock } from '../clock.ts';
+import type { Family } from '../protocol/families.ts';
+import type { Exchange } from './exchange.ts';
+import type { Lanes } from './lanes.ts';
+import { LinkError } from './linkError.ts';
+import type { RobotEstimate } from './robot.ts';
+import type { Activity } from './state.ts';
+import type { SessionStore } from './store.ts';
+
+export interface Core {
+  readonly family: Family;
+  readonly clock: Clock;
+  readonly store: SessionStore;
+  readonly robot: RobotEstimate;
+  readonly lanes: Lanes;
+  readonly exchange: Exchange;
+}
+
+export function setActivity({ store }: Core, activity: Activity): void {
+  store.update({ activity });
+}
+
+/** The link is there and the board is not deaf with flash work (S41). */
+export function requireReady({ store }: Core): void {
+  const { link, activity } = store.state;
+  if (link.status !== 'ready') throw new LinkError('closed', 'the link is not open');
+  if (activity.kind === 'downloading' || activity.kind === 'erasing') {
+    throw new LinkError('busy', `${activity.kind}: wait for its end or cancel it`);
+  }
+}
+
+/** Additionally nobody has pressed STOP since the last Resume. */
+export function requireReleased(core: Core): void {
+  requireReady(core);
+  if (core.store.state.latch !== null) throw new LinkError('latched', 'stopped: resume first');
+}
+
+/** Additionally the robot is at rest: flash work freezes the servos and then lets them jump (S29, S39). */
+export function requireRest(core: Core): void {
+  requireReleased(core);
+  if (core.store.state.activity.kind !== 'idle' || core.robot.moving()) {
+    throw new LinkError('busy', 'the robot is moving: wait or stop it first');
+  }
+}

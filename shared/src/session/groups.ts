@@ -1,0 +1,123 @@
+// Action groups in the board's own memory: run, stop, erase, download, and what the board reports of them. Class C
+// commands are never repeated by themselves (safety.md section 4). Knows slots; the moves of the page are live.ts.
+
+import type { Frame } from '../protocol/commands.ts';
+import type { Report } from '../protocol/reports.ts';
+import { requireReady, requireReleased, requireRest, setActivity, type Core } from './core.ts';
+import { download, type CancelSignal } from './download.ts';
+import { encodeOrRefuse } from './exchange.ts';
+import { repeatStop } from './halt.ts';
+import { LinkError } from './linkError.ts';
+import type { Activity } from './state.ts';
+import { ERASE_TIMEOUT_MS, RUN_END_GRACE_MS, RUN_TIMEOUT_MS } from './timings.ts';
+
+export interface Groups {
+  run(slot: number, times: number): Promise<void>;
+  stop(): Promise<void>;
+  erase(): Promise<void>;
+  download(slot: number, frames: readonly Frame[], signal: CancelSignal | undefined): Promise<void>;
+  heard(report: Report): void;
+  drop(): void;
+}
+
+type Truth = Extract<Activity, { kind: 'running' }>['truth'];
+
+export function createGroups(core: Core): Groups {
+  const { family, clock, store, robot, lanes, exchange } = core;
+  const broken = new Set<number>();
+  let cancelEndTimer = (): void => undefined;
+
+  const publishSlots = (): void =>
+    store.update({ brokenSlots: [...broken].sort((a, b) => a - b), storedSlots: robot.storedSlots() });
+
+  function began(slot: number, times: number, truth: Truth): void {
+    setActivity(core, { kind: 'running', slot, times, sinceMs: clock.now(), truth });
+    cancelEndTimer();
+    const passMs = robot.groupMs(slot);
+    if (times === 0 || passMs === null) return;
+    // The board's own word for the end may be lost on the way.
+    cancelEndTimer = clock.after(passMs * times + RUN_END_GRACE_MS, ended);
+  }
+
+  function ended(): void {
+    cancelEndTimer();
+    robot.groupEnded();
+    if (store.state.activity.kind === 'running') setActivity(core, { kind: 'idle' });
+  }
+
+  async function stop(): Promise<void> {
+    requireReady(core);
+    await repeatStop(clock, () => lanes.stop(encodeOrRefuse({ kind: 'stop' }, family)));
+    ended();
+  }
+
+  async function run(slot: number, times: number): Promise<void> {
+    requireReleased(core);
+    const command = { kind: 'run', slot, times } as const;
+    encodeOrRefuse(command, family);
+    if (broken.has(slot)) throw new LinkError('slotBroken', `slot ${slot} holds half a group: download it again`);
+    if (store.state.activity.kind === 'playing') throw new LinkError('busy', 'the page is playing: stop it first');
+    if (store.state.activity.kind === 'running') await stop();
+    began(slot, times, 'requested');
+    if (!family.answers.includes('run')) return exchange.tell(command);
+    try {
+      await exchange.ask(command, 'runAccepted', RUN_TIMEOUT_MS);
+      confirm('acknowledged');
+    } catch (error) {
+      confirm('unknown');
+      throw error;
+    }
+  }
+
+  function confirm(truth: Truth): void {
+    const { activity } = store.state;
+    if (activity.kind === 'running') setActivity(core, { ...activity, truth });
+  }
+
+  async function erase(): Promise<void> {
+    requireRest(core);
+    const command = { kind: 'erase' } as const;
+    encodeOrRefuse(command, family);
+    setActivity(core, { kind: 'erasing' });
+    robot.unstored();
+    try {
+      await exchange.ask(command, 'erased', ERASE_TIMEOUT_MS);
+      broken.clear();
+    } finally {
+      publishSlots();
+      setActivity(core, { kind: 'idle' });
+    }
+  }
+
+  async function storeGroup(slot: number, frames: readonly Frame[], signal: CancelSignal | undefined): Promise<void> {
+    requireRest(core);
+    try {
+      await download({
+        ...{ slot, frames, family, clock, exchange, signal },
+        begun() {
+          robot.unstored(slot);
+          broken.add(slot);
+          publishSlots();
+        },
+        progress: (progress) => setActivity(core, { kind: 'downloading', slot, ...progress }),
+      });
+      robot.stored(slot, frames);
+      broken.delete(slot);
+    } finally {
+      publishSlots();
+      if (store.state.activity.kind === 'downloading') setActivity(core, { kind: 'idle' });
+    }
+  }
+
+  return {
+    run,
+    stop,
+    erase,
+    download: storeGroup,
+    heard(report) {
+      if (report.kind === 'runStarted') began(report.slot, report.times, 'acknowledged');
+      if (report.kind === 'runFinished' || report.kind === 'runStopped') ended();
+    },
+    drop: () => cancelEndTimer(),
+  };
+}

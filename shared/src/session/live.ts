@@ -1,0 +1,60 @@
+// Motion that the page commands itself: sliders and frames played on deadlines. Knows the newest-wins buffer and the
+// player; the board's own groups are groups.ts.
+
+import type { Frame, ServoTarget } from '../protocol/commands.ts';
+import { requireReleased, setActivity, type Core } from './core.ts';
+import { encodeOrRefuse } from './exchange.ts';
+import { LinkError } from './linkError.ts';
+import type { MoveBuffer } from './moveBuffer.ts';
+import { play, type Playing } from './player.ts';
+import type { Activity } from './state.ts';
+
+export interface Live {
+  move(targets: readonly ServoTarget[], durationMs: number): void;
+  play(frames: readonly Frame[], times: number): Promise<void>;
+  stopPlaying(): void;
+  drop(): void;
+}
+
+export function createLive(core: Core, moves: MoveBuffer): Live {
+  let playing: Playing | null = null;
+
+  const activityIs = (kind: Activity['kind']): boolean => core.store.state.activity.kind === kind;
+
+  function move(targets: readonly ServoTarget[], durationMs: number): void {
+    requireReleased(core);
+    for (const target of targets) encodeOrRefuse({ kind: 'move', targets: [target], durationMs }, core.family);
+    moves.put(targets, durationMs);
+    core.lanes.wake();
+  }
+
+  async function playFrames(frames: readonly Frame[], times: number): Promise<void> {
+    requireReleased(core);
+    if (!activityIs('idle')) throw new LinkError('busy', 'something else is running');
+    const current = play({
+      clock: core.clock,
+      frames,
+      times,
+      move: (frame) => move(frame.targets, frame.durationMs),
+      frameBegan: (frameIndex) =>
+        setActivity(core, { kind: 'playing', frameIndex, frameCount: frames.length }),
+    });
+    playing = current;
+    try {
+      await current.done;
+    } finally {
+      if (playing === current) playing = null;
+      if (activityIs('playing')) setActivity(core, { kind: 'idle' });
+    }
+  }
+
+  return {
+    move,
+    play: playFrames,
+    stopPlaying: () => playing?.stop(),
+    drop() {
+      moves.clear();
+      playing?.stop();
+    },
+  };
+}

@@ -1,0 +1,41 @@
+// The session's snapshot and its listeners. Each change makes a new object, so that a page can compare references.
+
+import type { SessionEvents, SessionState } from './state.ts';
+
+export interface SessionStore {
+  readonly state: SessionState;
+  update(patch: Partial<SessionState>): void;
+  subscribe(listener: Partial<SessionEvents>): () => void;
+  emit<K extends 'traffic' | 'problem'>(event: K, value: Parameters<SessionEvents[K]>[0]): void;
+}
+
+const INITIAL: SessionState = {
+  link: { status: 'closed' },
+  latch: null,
+  activity: { kind: 'idle' },
+  battery: { kind: 'unread' },
+  brokenSlots: [],
+  storedSlots: [],
+};
+
+export function createSessionStore(): SessionStore {
+  const listeners = new Set<Partial<SessionEvents>>();
+  let state = INITIAL;
+
+  return {
+    get state() {
+      return state;
+    },
+    update(patch) {
+      state = { ...state, ...patch };
+      for (const listener of listeners) listener.state?.(state);
+    },
+    subscribe(listener) {
+      listeners.add(listener);
+      return () => listeners.delete(listener);
+    },
+    emit(event, value) {
+      for (const listener of listeners) (listener[event] as ((value: unknown) => void) | undefined)?.(value);
+    },
+  };
+}

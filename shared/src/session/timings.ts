@@ -1,0 +1,27 @@
+// Every waiting time of the session, each with its source. Milliseconds. Knows nothing else.
+
+/** A silent line this long ends an unfinished packet: USB adapters and hubs deliver in bursts up to 16 ms apart. */
+export const LINE_IDLE_MS = 60;
+
+/** Stop goes out three times: a lone one may fall into a full mailbox, and 70 ms outlast the key's 60 ms debounce (S54). */
+export const STOP_REPEATS_MS = [70, 140] as const;
+
+/** Flash erase before the first frame and count table after the last: worst case 1.6 s and 0.4 s (S33, S34). */
+export const EDGE_FRAME_TIMEOUT_MS = 2_500;
+export const MIDDLE_FRAME_TIMEOUT_MS = 300;
+/** Count table only: 46 ms typical, 403 ms worst (boards.md section 3, flash times). */
+export const ERASE_TIMEOUT_MS = 1_000;
+export const BATTERY_TIMEOUT_MS = 500;
+/** The acknowledgement comes before the slot is looked up (S18); the margin is for a board busy with its pad (S52). */
+export const RUN_TIMEOUT_MS = 500;
+/** After this many silent questions in a row the board is taken to have no battery answer. */
+export const BATTERY_SILENT_LIMIT = 3;
+
+/** A servo whose position nobody knows is moved at least this slowly (safety.md section 2). */
+export const FIRST_MOVE_MS = 1_500;
+
+/** A group whose end the board did not report is taken to have ended this long after its computed end. */
+export const RUN_END_GRACE_MS = 2_000;
+
+/** Waits between attempts to bring a lost link back; the last one repeats. */
+export const RECONNECT_DELAYS_MS = [250, 500, 1_000, 2_000, 5_000] as const;
