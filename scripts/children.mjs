@@ -3,7 +3,7 @@
 
 import { spawn } from 'node:child_process';
 import { readFileSync } from 'node:fs';
-import { root } from './steps.mjs';
+import { onWindows, root } from './steps.mjs';
 
 const endMs = 3_000;
 const ancestorPollMs = 500;
@@ -17,7 +17,8 @@ const living = new Set();
  * @param {string} command @param {readonly string[]} args @param {(line: string) => void} onLine @returns {Child}
  */
 export function startChild(command, args, onLine) {
-  const child = spawn(command, args, { cwd: root, stdio: ['pipe', 'pipe', 'pipe'] });
+  // A group of its own: Ctrl-C reaches us alone, and we end our children in order.
+  const child = spawn(command, args, { cwd: root, stdio: ['pipe', 'pipe', 'pipe'], detached: !onWindows });
   living.add(child);
   child.on('error', (error) => onLine(error.message));
   child.on('close', () => living.delete(child));

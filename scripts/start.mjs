@@ -26,7 +26,7 @@ function parseArguments(args) {
 }
 
 /** Nobody sees a window there, and a text browser would take over the terminal. */
-function cannotShowPages() {
+function showsNoPages() {
   const lacksDisplay = process.platform === 'linux' && !process.env.DISPLAY && !process.env.WAYLAND_DISPLAY;
   return lacksDisplay || Boolean(process.env.CI);
 }
@@ -52,12 +52,22 @@ async function toggle(cable) {
   }
 }
 
+/** Set once we are on our way out: what ends from then on is no news. */
+let leaving = false;
+
+/** @param {number} code */
+async function leave(code) {
+  leaving = true;
+  await endChildren();
+  process.exit(code); // an open stdin would keep us here
+}
+
 /** @param {string} device */
 function boardOn(device) {
   return simulatedBoard({
     link: device,
     onLine: say,
-    onLost: () => say('The simulated board has ended. Enter brings it back.'),
+    onLost: () => leaving || say('The simulated board has ended. Enter brings it back.'),
   });
 }
 
@@ -69,41 +79,49 @@ function listenForEnter(cable) {
   });
 }
 
+/**
+ * @param {import('./address.mjs').Address} address @param {string} device @param {readonly string[]} passedOn
+ * @returns {string[]}
+ */
+function gatewayCommand(address, device, passedOn) {
+  const open = showsNoPages() && !passedOn.includes('--no-open') ? ['--no-open'] : [];
+  const serve = ['-m', 'servodeck', 'serve', '--listen', textOf(address), '--serial', device];
+  return [...serve, '--exit-with-stdin', ...open, ...passedOn];
+}
+
+/** @param {string} url @param {import('./cable.mjs').Cable | null} cable */
+function greet(url, cable) {
+  say(`\nServodeck is ready: ${url}`);
+  if (cable === null) {
+    say('Ctrl-C ends it.\n');
+    return;
+  }
+  say(
+    'The board is simulated: Enter pulls its cable, Enter again plugs it back in. Ctrl-C ends everything.\n',
+  );
+  listenForEnter(cable);
+}
+
 /** @returns {Promise<number>} */
 async function start() {
-  onEnd(() => void endChildren().then(() => process.exit(0)));
+  onEnd(() => void leave(0));
   const { serial, listen, passedOn } = parseArguments(process.argv.slice(2));
   await setUp();
   const address = await chooseAddress(listen);
   const cable = serial === null ? await boardOn(`build/simulated-board-${address.port}`) : null;
   const plugged = cable?.plug();
 
-  let exitCode = /** @type {number | null} */ (null);
-  const gateway = startChild(
-    python,
-    [
-      ...['-m', 'servodeck', 'serve', '--listen', textOf(address), '--serial', cable?.device ?? serial ?? ''],
-      ...['--exit-with-stdin', ...(cannotShowPages() ? ['--no-open'] : []), ...passedOn],
-    ],
-    say,
+  const gateway = startChild(python, gatewayCommand(address, cable?.device ?? serial ?? '', passedOn), say);
+  const ended = new Promise((/** @type {(value?: void) => void} */ resolve) =>
+    gateway.once('close', () => resolve()),
   );
-  const ended = new Promise((resolve) => gateway.once('close', (code) => resolve((exitCode = code ?? 1))));
   await plugged;
-  if (await untilItAnswers(urlOf(address), () => exitCode !== null)) {
-    say(`\nServodeck is ready: ${urlOf(address)}`);
-    if (cable) {
-      say(
-        'The board is simulated: Enter pulls its cable, Enter again plugs it back in. Ctrl-C ends everything.\n',
-      );
-      listenForEnter(cable);
-    } else {
-      say('Ctrl-C ends it.\n');
-    }
-  }
+  if (await untilItAnswers(urlOf(address), () => gateway.exitCode !== null)) greet(urlOf(address), cable);
   await ended;
-  say(`The gateway has ended (code ${exitCode}).`);
-  await endChildren();
-  process.exit(exitCode === 0 ? 0 : 1); // an open stdin would keep us here
+  if (leaving) return 0;
+  say('The gateway has ended by itself; the lines above may say why.');
+  await leave(1);
+  return 1;
 }
 
 await main(start);

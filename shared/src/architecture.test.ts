@@ -1,0 +1,89 @@
+// The layer rule in words: which part may know which. dependency-cruiser holds the same rule file by file
+// (.dependency-cruiser.cjs); this is the short form for people. Tests may look further, so they are not read here.
+
+import { readFileSync, readdirSync } from 'node:fs';
+import { join, posix, resolve } from 'node:path';
+import { expect, test } from 'vitest';
+
+const root = resolve(import.meta.dirname, '../..');
+
+/** A part knows itself and what is listed. Folders not named here are panels. */
+const mayKnow: Record<string, readonly string[]> = {
+  'shared/clock': [],
+  'shared/protocol': [],
+  'shared/motion': ['shared/protocol', 'shared/clock'],
+  'shared/session': ['shared/motion', 'shared/protocol', 'shared/clock'],
+  'shared/actions': ['shared/motion', 'shared/protocol', 'shared/clock'],
+  'shared/simulator': ['shared/protocol', 'shared/clock'],
+  'frontend/words': ['shared'],
+  'frontend/ui': ['frontend/words'],
+  'frontend/transports': ['shared'],
+  'frontend/stores': ['frontend/words', 'shared'],
+};
+const importStatement =
+  /^(?:import|export)\s[^;'=]*?from\s+'([^']+)'|^import\s+'([^']+)'|\bimport\('([^']+)'\)/gm;
+const processEntry = 'shared/src/simulator/process.ts';
+
+/** `shared/src/protocol/packet.ts` belongs to `shared/protocol`, `shared/src/clock.ts` to `shared/clock`. */
+function partOf(file: string): string {
+  const [top = '', , folder = ''] = file.split('/');
+  return `${top}/${folder.replace(/\.tsx?$/, '')}`;
+}
+
+function sourcesOf(top: string): string[] {
+  return readdirSync(join(root, top, 'src'), { recursive: true, encoding: 'utf8' })
+    .map((file) => `${top}/src/${file.replaceAll('\\', '/')}`)
+    .filter(
+      (file) => /\.tsx?$/.test(file) && !/\.(test|generated|d)\.tsx?$/.test(file) && file !== processEntry,
+    );
+}
+
+/** What a file imports, as paths of the repository; packages stay as they are written. */
+function importsOf(file: string): string[] {
+  const text = readFileSync(join(root, file), 'utf8');
+  const written = [...text.matchAll(importStatement)].map(
+    ([, from, bare, lazy]) => from ?? bare ?? lazy ?? '',
+  );
+  return written.map((target) => {
+    if (target.startsWith('#shared/')) return target.replace('#shared/', 'shared/src/');
+    return target.startsWith('.') ? posix.join(posix.dirname(file), target) : target;
+  });
+}
+
+function knows(part: string, imported: string): boolean {
+  const other = partOf(imported);
+  return (
+    other === part || (mayKnow[part] ?? []).some((known) => other === known || other.startsWith(`${known}/`))
+  );
+}
+
+function strangersIn(part: string): string[] {
+  const [top = ''] = part.split('/');
+  const files = sourcesOf(top).filter((file) => partOf(file) === part);
+  const inside = (imported: string) => /^(shared|frontend)\/src\//.test(imported);
+  return files.flatMap((file) =>
+    importsOf(file)
+      .filter((imported) => inside(imported) && !knows(part, imported))
+      .map((imported) => `${file} imports ${imported}`),
+  );
+}
+
+test.each(Object.keys(mayKnow))('%s knows only what lies below it', (part) => {
+  expect(strangersIn(part)).toEqual([]);
+});
+
+test('shared code imports nothing from outside shared', () => {
+  const strangers = sourcesOf('shared').flatMap((file) =>
+    importsOf(file)
+      .filter((imported) => !imported.startsWith('shared/src/'))
+      .map((imported) => `${file} imports ${imported}`),
+  );
+  expect(strangers).toEqual([]);
+});
+
+test('only connect knows the transports', () => {
+  const users = sourcesOf('frontend').filter((file) =>
+    importsOf(file).some((imported) => partOf(imported) === 'frontend/transports'),
+  );
+  expect(users.map(partOf).filter((part) => !/^frontend\/(transports|connect)$/.test(part))).toEqual([]);
+});
