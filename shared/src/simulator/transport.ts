@@ -1,0 +1,58 @@
+// A board in the page, behind the same interface as a real one. Knows the simulator and how long a packet is on the wire.
+
+import { sleep, type Clock } from '../clock.ts';
+import { wireMs } from '../protocol/packet.ts';
+import { LinkError } from '../session/linkError.ts';
+import type { Transport, TransportEvents } from '../session/transport.ts';
+import { createBoard, type Board, type BoardOptions } from './board.ts';
+
+export interface SimulatedTransport extends Transport {
+  readonly board: Board;
+  /** Pulls the cable: the link is lost and opening it fails until `plugIn`. The board itself goes on. */
+  unplug(): void;
+  plugIn(): void;
+}
+
+export function createSimulatedTransport(
+  clock: Clock,
+  options: Omit<BoardOptions, 'clock' | 'send'> = {},
+): SimulatedTransport {
+  let events: TransportEvents | null = null;
+  let plugged = true;
+  let notifyAvailable = (): void => undefined;
+  const board = createBoard({ ...options, clock, send: (bytes) => events?.received(bytes) });
+
+  return {
+    kind: 'simulated',
+    label: 'Simulated board',
+    board,
+    open(next) {
+      if (!plugged) return Promise.reject(new LinkError('portMissing', 'the simulated cable is pulled'));
+      events = next;
+      return Promise.resolve();
+    },
+    async send(packet) {
+      if (events === null) throw new LinkError('lost', 'the simulated cable is pulled');
+      board.receive(packet);
+      await sleep(clock, wireMs(packet.length));
+    },
+    whenAvailable(notify) {
+      notifyAvailable = notify;
+      return () => (notifyAvailable = () => undefined);
+    },
+    close() {
+      events = null;
+      return Promise.resolve();
+    },
+    unplug() {
+      const cut = events;
+      plugged = false;
+      events = null;
+      cut?.lost(new LinkError('lost', 'the simulated cable was pulled'));
+    },
+    plugIn() {
+      plugged = true;
+      notifyAvailable();
+    },
+  };
+}
