@@ -1,0 +1,156 @@
+// The simulated board: the open firmware's engine (boards.md section 3) with the battery answer of the protocol document.
+// The only face to the outside: bytes in, bytes out, pulse widths, a log of the bus. Knows time and pacing, no command.
+
+import type { Clock } from '../clock.ts';
+import { BAUD, packetBytes, wireMs } from '../protocol/packet.ts';
+import { COMMAND_NUMBER, type Frame } from '../protocol/commands.ts';
+import { createAgenda, type Source } from './agenda.ts';
+import { createEngine } from './engine.ts';
+import { planFaults, type Fault } from './faults.ts';
+import { createFlashChip, type FlashChip } from './flashChip.ts';
+import { createLine, type BusLogEntry } from './line.ts';
+import type { Work } from './work.ts';
+
+export interface BoardOptions {
+  readonly clock: Clock;
+  /** Gets what the board sends, in whatever pieces. It may call the board. */
+  readonly send: (bytes: Uint8Array) => void;
+  /** Servos with a pin, numbered from 1 (1..32). The real board has 6. */
+  readonly servoCount?: number;
+  /** 0: bytes take no time, a reply comes before `receive` returns. */
+  readonly baud?: number;
+  readonly batteryMv?: number;
+  readonly seed?: number;
+  readonly faults?: readonly Fault[];
+  readonly onByte?: (entry: BusLogEntry) => void;
+  /** The cable came off: by the `unplug` fault or by `unplug()`. */
+  readonly onUnplug?: () => void;
+  /** Give the same chip to the next board and the stored groups survive. */
+  readonly flash?: FlashChip;
+  /**
+   * How long the board has been on already. With 0 it is switched on now: it serves nothing for 0.3 s (S61) and has no
+   * battery reading for 0.5 s (S59).
+   */
+  readonly onForMs?: number;
+}
+
+export interface Board {
+  /** Bytes from the host, in whatever pieces. */
+  receive(bytes: Uint8Array): void;
+  /** Pulse width in µs at the pin now. Throws RangeError for a servo the board has not. */
+  pulse(servo: number): number;
+  target(servo: number): number;
+  runningSlot(): number | null;
+  /** What the count table says; 255 for all after power was lost while it was written (S40). */
+  frameCount(slot: number): number;
+  /** What flash holds at that place, committed or not; null where it cannot be played. */
+  storedFrame(slot: number, frameIndex: number): Frame | null;
+  snapshot(): BoardSnapshot;
+  /** The cable comes off: bytes are lost in both directions, the board goes on. */
+  unplug(): void;
+  plugIn(): void;
+  /** Ends everything: no more ticks, no more replies. */
+  powerOff(): void;
+}
+
+export interface BoardSnapshot {
+  /** Servo 1 first. */
+  readonly pulses: readonly number[];
+  readonly targets: readonly number[];
+  readonly runningSlot: number | null;
+  /** By slot. */
+  readonly frameCounts: readonly number[];
+}
+
+/** Replies that say no more than "taken" (S18-S20). */
+const ACKS: readonly number[] = [COMMAND_NUMBER.run, COMMAND_NUMBER.erase, COMMAND_NUMBER.download];
+const SLOT_COUNT = 256;
+const LONG_ON_MS = 10_000;
+
+export function createBoard(options: BoardOptions): Board {
+  const { clock, send, servoCount = 6, baud = BAUD, onForMs = LONG_ON_MS } = options;
+  const plan = planFaults(options.faults ?? [], options.seed ?? 1);
+  const startedAtMs = clock.now();
+  let unplugDueMs = onForMs + plan.unplugAfterMs;
+  let unplugTold = false;
+
+  const agenda = createAgenda(clock, onForMs, () => sources, tellHost);
+  const { now, turn } = agenda;
+  const engine = createEngine({
+    now,
+    chip: options.flash ?? createFlashChip(),
+    sectorMs: plan.sectorMs,
+    servoCount,
+    batteryMv: plan.batteryMv ?? options.batteryMv ?? 7500,
+    reply,
+  });
+  const { servos } = engine;
+  const line = createLine({
+    now,
+    byteMs: baud === 0 ? 0 : wireMs(1, baud),
+    plan,
+    arrived: engine.takeByte,
+    log: (direction, byte) => options.onByte?.({ atMs: startedAtMs + now() - onForMs, direction, byte }),
+  });
+  const cable: Source = { dueMs: () => unplugDueMs, fire: unplug };
+  // At one instant the loop comes before the next byte: so it does not matter how the host cuts its bytes into pieces.
+  const sources: readonly Source[] = [cable, engine.loop, line];
+
+  /** Sent by busy-waiting: each byte blocks the loop for its time on the wire (S21). */
+  function* reply(command: number, params: readonly number[]): Work {
+    const lost = ACKS.includes(command) && plan.losesAck();
+    for (const byte of packetBytes(command, params)) {
+      yield line.byteMs;
+      line.transmit(byte, lost);
+    }
+  }
+
+  /** At the end of a turn, when the host may call the board again. */
+  function tellHost(): void {
+    const bytes = line.takeSent();
+    if (bytes.length > 0) send(bytes);
+    if (line.isPlugged() || unplugTold) return;
+    unplugTold = true;
+    options.onUnplug?.();
+  }
+
+  function unplug(): void {
+    unplugDueMs = Infinity;
+    line.plug(false);
+  }
+
+  function plugIn(): void {
+    unplugTold = false;
+    line.plug(true);
+  }
+
+  function powerOff(): void {
+    line.plug(false);
+    agenda.end();
+  }
+
+  function snapshot(): BoardSnapshot {
+    const servoNumbers = Array.from({ length: servoCount }, (_, index) => index + 1);
+    return {
+      pulses: servoNumbers.map(servos.pulse),
+      targets: servoNumbers.map(servos.target),
+      runningSlot: engine.runningSlot(),
+      frameCounts: Array.from({ length: SLOT_COUNT }, (_, slot) => engine.frameCount(slot)),
+    };
+  }
+
+  // Arms what is due without anybody's doing, for example the unplugging.
+  turn(() => undefined);
+  return {
+    receive: (bytes) => turn(() => line.receive(bytes)),
+    pulse: (servo) => turn(() => servos.pulse(servo)),
+    target: (servo) => turn(() => servos.target(servo)),
+    runningSlot: () => turn(engine.runningSlot),
+    frameCount: (slot) => turn(() => engine.frameCount(slot)),
+    storedFrame: (slot, frameIndex) => turn(() => engine.storedFrame(slot, frameIndex)),
+    snapshot: () => turn(snapshot),
+    unplug: () => turn(unplug),
+    plugIn: () => turn(plugIn),
+    powerOff,
+  };
+}

@@ -1,0 +1,110 @@
+// Plays stored groups on deadlines (S42-S50). Knows frames and the loop's time; does not know packets or servo motion.
+
+import type { Frame } from '../protocol/commands.ts';
+import type { Work } from './work.ts';
+
+export interface Runner {
+  /** A run command: what it does depends on what runs already (S44-S47). */
+  request(slot: number, times: number): void;
+  /** The frame in progress completes all the same (S50). */
+  stop(): void;
+  /** What one pass of the main loop does for the group. */
+  step(): Work;
+  dueMs(): number;
+  readonly runningSlot: () => number | null;
+}
+
+export interface RunnerParts {
+  readonly now: () => number;
+  readonly frameCount: (slot: number) => number;
+  /** Null where the frame cannot be played. */
+  readonly frame: (slot: number, frameIndex: number) => Frame | null;
+  readonly issue: (frame: Frame) => void;
+  /** Says that a group ended by itself (S48). */
+  readonly reportEnd: () => Work;
+}
+
+/** Group 0 pre-empts any other (S47). */
+const PREEMPTIVE_SLOT = 0;
+/** When this group ends by itself, the next one starts once (S49). */
+const CHAINED_SLOT = 100;
+/** Fetching a frame over SPI and taking its entries; keeps an endless group of zero-time frames from taking no time. */
+const FRAME_FETCH_MS = 0.1;
+
+export function createRunner({ now, frameCount, frame, issue, reportEnd }: RunnerParts): Runner {
+  let running = false;
+  let slot = 0;
+  let frameTotal = 0;
+  let frameIndex = 0;
+  let frameIssued = false;
+  let deadlineMs = 0;
+  let times = 0;
+  let loopsDone = 0;
+
+  function start(requestedSlot: number): void {
+    running = true;
+    slot = requestedSlot;
+    frameIndex = 0;
+    frameIssued = false;
+    loopsDone = 0;
+    deadlineMs = now();
+  }
+
+  function request(requestedSlot: number, requestedTimes: number): void {
+    const total = frameCount(requestedSlot);
+    if (total === 0) return;
+    // Before anything is decided: this is how another group cuts the running one short (S46).
+    frameTotal = total;
+    const preempts = requestedSlot === PREEMPTIVE_SLOT && slot !== PREEMPTIVE_SLOT;
+    if (!running || preempts) start(requestedSlot);
+    if (requestedSlot === slot) times = requestedTimes;
+  }
+
+  function* issueFrame(): Work {
+    const next = frame(slot, frameIndex);
+    if (!next) {
+      running = false;
+      return;
+    }
+    yield FRAME_FETCH_MS;
+    frameIssued = true;
+    issue(next);
+    // The raw time, not the one the servos were given (S43).
+    deadlineMs += next.durationMs;
+  }
+
+  function* endLoop(): Work {
+    frameIndex = 0;
+    if (times === 0) return;
+    loopsDone += 1;
+    if (loopsDone < times) return;
+    yield* reportEnd();
+    running = false;
+    if (slot === CHAINED_SLOT) request(CHAINED_SLOT + 1, 1);
+  }
+
+  function* step(): Work {
+    if (!running) return;
+    if (!frameIssued) {
+      yield* issueFrame();
+      return;
+    }
+    if (now() < deadlineMs) return;
+    frameIssued = false;
+    frameIndex += 1;
+    if (frameIndex >= frameTotal) yield* endLoop();
+  }
+
+  function dueMs(): number {
+    if (!running) return Infinity;
+    return frameIssued ? deadlineMs : 0;
+  }
+
+  return {
+    request,
+    stop: () => void (running = false),
+    step,
+    dueMs,
+    runningSlot: () => (running ? slot : null),
+  };
+}
