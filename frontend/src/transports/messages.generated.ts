@@ -1,0 +1,142 @@
+// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change backend/servodeck/messages.py instead.
+
+export type Message = ClientMessage | GatewayMessage;
+export type ClientMessage = SendMessage | StopMessage | ResumeMessage;
+export type GatewayMessage =
+  | WelcomeMessage
+  | SentMessage
+  | RefusedMessage
+  | ReceivedMessage
+  | NoiseMessage
+  | HaltedMessage
+  | StateMessage;
+
+/**
+ * Put one packet on the wire.
+ */
+export interface SendMessage {
+  type: 'send';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+  /**
+   * Bytes of one packet, two hex digits each, no spaces.
+   */
+  packet: string;
+}
+/**
+ * STOP: drop all that waits, send stop three times, then `hold` (one move to the present pose), and latch.
+ */
+export interface StopMessage {
+  type: 'stop';
+  hold: string | null;
+}
+/**
+ * Allow motion again. Moves nothing.
+ */
+export interface ResumeMessage {
+  type: 'resume';
+}
+/**
+ * The first message on each connection.
+ */
+export interface WelcomeMessage {
+  type: 'welcome';
+  version: string;
+  board: string;
+  port: PortState;
+  latch: boolean;
+  clients: number;
+}
+/**
+ * How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt follows.
+ */
+export interface PortState {
+  device: string | null;
+  status: 'closed' | 'opening' | 'open' | 'lost';
+  code:
+    | (
+        | 'closed'
+        | 'lost'
+        | 'portMissing'
+        | 'portBusy'
+        | 'portDenied'
+        | 'noAnswer'
+        | 'latched'
+        | 'busy'
+        | 'cancelled'
+        | 'outOfRange'
+        | 'malformed'
+        | 'forbidden'
+        | 'notFound'
+        | 'methodNotAllowed'
+        | 'internal'
+      )
+    | null;
+  detail: string | null;
+  retryInMs: number | null;
+}
+/**
+ * The packet's last bit has left the wire.
+ */
+export interface SentMessage {
+  type: 'sent';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+}
+/**
+ * `id` is null where the message itself could not be read, and for a stop.
+ */
+export interface RefusedMessage {
+  type: 'refused';
+  id: number | null;
+  code:
+    | 'closed'
+    | 'lost'
+    | 'portMissing'
+    | 'portBusy'
+    | 'portDenied'
+    | 'noAnswer'
+    | 'latched'
+    | 'busy'
+    | 'cancelled'
+    | 'outOfRange'
+    | 'malformed'
+    | 'forbidden'
+    | 'notFound'
+    | 'methodNotAllowed'
+    | 'internal';
+  detail: string;
+}
+/**
+ * One packet of the board.
+ */
+export interface ReceivedMessage {
+  type: 'received';
+  packet: string;
+}
+/**
+ * Bytes of the board that belong to no packet.
+ */
+export interface NoiseMessage {
+  type: 'noise';
+  bytes: string;
+}
+/**
+ * The stop sequence has left the wire.
+ */
+export interface HaltedMessage {
+  type: 'halted';
+}
+/**
+ * Something of this changed.
+ */
+export interface StateMessage {
+  type: 'state';
+  port: PortState;
+  latch: boolean;
+  clients: number;
+}
