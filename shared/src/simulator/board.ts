@@ -5,10 +5,11 @@ import type { Clock } from '../clock.ts';
 import { BAUD, packetBytes, wireMs } from '../protocol/packet.ts';
 import { COMMAND_NUMBER, type Frame } from '../protocol/commands.ts';
 import { createAgenda, type Source } from './agenda.ts';
+import type { BusLogEntry } from './busLog.ts';
 import { createEngine } from './engine.ts';
 import { planFaults, type Fault } from './faults.ts';
 import { createFlashChip, type FlashChip } from './flashChip.ts';
-import { createLine, type BusLogEntry } from './line.ts';
+import { createLine } from './line.ts';
 import type { Work } from './work.ts';
 
 export interface BoardOptions {
@@ -36,21 +37,21 @@ export interface BoardOptions {
 
 export interface Board {
   /** Bytes from the host, in whatever pieces. */
-  receive(bytes: Uint8Array): void;
+  readonly receive: (bytes: Uint8Array) => void;
   /** Pulse width in µs at the pin now. Throws RangeError for a servo the board has not. */
-  pulse(servo: number): number;
-  target(servo: number): number;
-  runningSlot(): number | null;
+  readonly pulse: (servo: number) => number;
+  readonly target: (servo: number) => number;
+  readonly runningSlot: () => number | null;
   /** What the count table says; 255 for all after power was lost while it was written (S40). */
-  frameCount(slot: number): number;
+  readonly frameCount: (slot: number) => number;
   /** What flash holds at that place, committed or not; null where it cannot be played. */
-  storedFrame(slot: number, frameIndex: number): Frame | null;
-  snapshot(): BoardSnapshot;
+  readonly storedFrame: (slot: number, frameIndex: number) => Frame | null;
+  readonly snapshot: () => BoardSnapshot;
   /** The cable comes off: bytes are lost in both directions, the board goes on. */
-  unplug(): void;
-  plugIn(): void;
+  readonly unplug: () => void;
+  readonly plugIn: () => void;
   /** Ends everything: no more ticks, no more replies. */
-  powerOff(): void;
+  readonly powerOff: () => void;
 }
 
 export interface BoardSnapshot {

@@ -2,7 +2,8 @@
 // public face only.
 
 import { createBoard, type Board, type BoardOptions } from './board.ts';
-import type { BusLogEntry } from './line.ts';
+
+import type { BusLogEntry } from './busLog.ts';
 import { createVirtualClock, type VirtualClock } from './virtualClock.ts';
 
 export interface BoardUnderTest {
@@ -10,12 +11,12 @@ export interface BoardUnderTest {
   readonly board: Board;
   readonly log: readonly BusLogEntry[];
   /** Starts to send; the bytes take their time. */
-  send(hex: string): void;
+  readonly send: (hex: string) => void;
   /** Sends and waits `ms`, 100 where not given: longer than any packet, shorter than an erase of a group. */
-  exchange(hex: string, ms?: number): Promise<void>;
+  readonly exchange: (hex: string, ms?: number) => Promise<void>;
   /** All the board sent so far, as hex text, and forgets it. */
-  takeReplies(): string;
-  pulses(...servos: readonly number[]): number[];
+  readonly takeReplies: () => string;
+  readonly pulses: (...servos: readonly number[]) => number[];
 }
 
 const USUAL_WAIT_MS = 100;

@@ -2,14 +2,8 @@
 // Knows bytes and a baud rate; does not know packets. What it logs is what the board's pins saw.
 
 import type { Source } from './agenda.ts';
+import type { BusLogEntry } from './busLog.ts';
 import type { FaultPlan } from './faults.ts';
-
-/** `in`: into the board. `atMs` is on the clock the board was given. */
-export interface BusLogEntry {
-  readonly atMs: number;
-  readonly direction: 'in' | 'out';
-  readonly byte: number;
-}
 
 export interface LineParts {
   readonly now: () => number;

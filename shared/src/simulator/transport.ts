@@ -15,12 +15,19 @@ export interface SimulatedTransport extends Transport {
 
 export function createSimulatedTransport(
   clock: Clock,
-  options: Omit<BoardOptions, 'clock' | 'send'> = {},
+  options: Omit<BoardOptions, 'clock' | 'send' | 'onUnplug'> = {},
 ): SimulatedTransport {
   let events: TransportEvents | null = null;
   let plugged = true;
   let notifyAvailable = (): void => undefined;
-  const board = createBoard({ ...options, clock, send: (bytes) => events?.received(bytes) });
+  const board = createBoard({ ...options, clock, send: (bytes) => events?.received(bytes), onUnplug: cut });
+
+  function cut(): void {
+    const told = events;
+    plugged = false;
+    events = null;
+    told?.lost(new LinkError('lost', 'the simulated cable was pulled'));
+  }
 
   return {
     kind: 'simulated',
@@ -44,14 +51,10 @@ export function createSimulatedTransport(
       events = null;
       return Promise.resolve();
     },
-    unplug() {
-      const cut = events;
-      plugged = false;
-      events = null;
-      cut?.lost(new LinkError('lost', 'the simulated cable was pulled'));
-    },
+    unplug: () => board.unplug(),
     plugIn() {
       plugged = true;
+      board.plugIn();
       notifyAvailable();
     },
   };

@@ -1,0 +1,161 @@
+// The simulated board as a program: raw bytes on stdio or TCP, real time, a bus log in a file. The only file of shared/
+// that knows Node; what the board does is board.ts.
+
+import { closeSync, openSync, writeSync } from 'node:fs';
+import { createServer, type Socket } from 'node:net';
+import { performance } from 'node:perf_hooks';
+import { parseArgs } from 'node:util';
+import type { Clock } from '../clock.ts';
+import { createBoard, type BoardOptions } from './board.ts';
+import type { BusLogEntry } from './busLog.ts';
+import { parseFault } from './faults.ts';
+
+
+const USAGE = `Usage: simulator (--stdio | --tcp HOST:PORT) [--seed N] [--fault NAME[=VALUE]]... [--battery-mv N]
+                 [--servos N] [--baud N] [--bus-log FILE]
+A simulated servo board. Port 0 takes a free port; baud 0 takes no time on the wire.
+Faults: droppedByte, doubledByte, flippedByte, insertedByte [=PROBABILITY], lostAck[=NTH|=PROBABILITY],
+        slowErase[=MS], lowBattery[=MV], unplug=MS|byteN`;
+
+const startedAtMs = performance.now();
+
+const clock: Clock = {
+  now: () => performance.now() - startedAtMs,
+  after(delayMs, run) {
+    const timer = setTimeout(run, delayMs);
+    return () => {
+      clearTimeout(timer);
+    };
+  },
+};
+
+function say(line: string): void {
+  process.stderr.write(`${line}\n`);
+}
+
+function readArguments() {
+  const { values } = parseArgs({
+    options: {
+      stdio: { type: 'boolean', default: false },
+      tcp: { type: 'string' },
+      seed: { type: 'string', default: '1' },
+      fault: { type: 'string', multiple: true, default: [] },
+      'battery-mv': { type: 'string', default: '7500' },
+      servos: { type: 'string', default: '6' },
+      baud: { type: 'string', default: '9600' },
+      'bus-log': { type: 'string' },
+      help: { type: 'boolean', default: false },
+    },
+  });
+  if (values.stdio === (values.tcp !== undefined) && !values.help)
+    throw new RangeError('say --stdio or --tcp');
+  return values;
+}
+
+function wholeNumber(name: string, text: string, min: number, max: number): number {
+  const value = text === '' ? NaN : Number(text);
+  if (Number.isInteger(value) && value >= min && value <= max) return value;
+  throw new RangeError(`--${name} is a whole number ${min}..${max}, not "${text}"`);
+}
+
+function address(text: string): { host: string; port: number } {
+  const match = /^(?:\[(.+)\]|([^:]+)):(\d+)$/.exec(text);
+  if (!match) throw new RangeError(`--tcp takes HOST:PORT, not "${text}"`);
+  return { host: match[1] ?? match[2] ?? '', port: wholeNumber('tcp port', match[3] ?? '', 0, 65_535) };
+}
+
+/** JSON lines; written in the turn in which the bytes passed, so that a reader beside us sees them at once. */
+function openBusLog(path: string): (entry: BusLogEntry) => void {
+  const file = openSync(path, 'w');
+  process.on('exit', () => {
+    closeSync(file);
+  });
+  writeSync(file, `${JSON.stringify({ startedAtEpochMs: Date.now() - clock.now() })}\n`);
+  let waiting = '';
+
+  function flush(): void {
+    writeSync(file, waiting);
+    waiting = '';
+  }
+
+  return (entry) => {
+    if (waiting === '') queueMicrotask(flush);
+    const atMs = Math.round(entry.atMs * 1000) / 1000;
+    waiting += `${JSON.stringify({ ...entry, atMs })}\n`;
+  };
+}
+
+type Wire = Pick<BoardOptions, 'send' | 'onUnplug'>;
+type Build = (wire: Wire) => (bytes: Uint8Array) => void;
+
+function end(): void {
+  process.exit(0);
+}
+
+function serveStdio(build: Build): void {
+  const receive = build({
+    send: (bytes) => process.stdout.write(bytes),
+    onUnplug: end,
+  });
+  process.stdin.on('data', receive);
+  process.stdin.on('end', end);
+  // The reader is gone: nothing of us is wanted any more.
+  process.stdout.on('error', end);
+}
+
+/** One host at a time, as on a cable; the board stays on between two of them. */
+function serveTcp(build: Build, { host, port }: { host: string; port: number }): void {
+  let client: Socket | null = null;
+  const receive = build({ send: (bytes) => client?.write(bytes), onUnplug: end });
+  const server = createServer({ noDelay: true }, (socket) => {
+    socket.on('error', () => socket.destroy());
+    if (client) {
+      socket.destroy();
+      return;
+    }
+    client = socket;
+    socket.on('data', receive);
+    socket.on('close', () => (client = null));
+  });
+  server.on('error', (error) => {
+    say(error.message);
+    process.exit(1);
+  });
+  server.listen(port, host, () => {
+    const bound = server.address();
+    if (bound !== null && typeof bound === 'object') {
+      say(`listening ${host.includes(':') ? `[${host}]` : host}:${bound.port}`);
+    }
+  });
+}
+
+function main(): void {
+  const values = readArguments();
+  if (values.help) {
+    say(USAGE);
+    return;
+  }
+  const settings = {
+    clock,
+    seed: wholeNumber('seed', values.seed, 0, 2 ** 32 - 1),
+    faults: values.fault.map(parseFault),
+    batteryMv: wholeNumber('battery-mv', values['battery-mv'], 0, 65_535),
+    servoCount: wholeNumber('servos', values.servos, 1, 32),
+    baud: wholeNumber('baud', values.baud, 0, 1_000_000),
+    ...(values['bus-log'] === undefined ? {} : { onByte: openBusLog(values['bus-log']) }),
+  };
+  const build: Build = (wire) => createBoard({ ...settings, ...wire }).receive;
+  process.on('SIGTERM', end);
+  process.on('SIGINT', end);
+  if (values.tcp === undefined) serveStdio(build);
+  else serveTcp(build, address(values.tcp));
+}
+
+try {
+  main();
+} catch (error) {
+  // parseArgs throws TypeErrors with a sentence for people; whatever is wrong here was said on the command line.
+  say(error instanceof Error ? error.message : String(error));
+  say(USAGE);
+  process.exit(2);
+}
