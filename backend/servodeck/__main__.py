@@ -1,0 +1,5 @@
+"""`python -m servodeck` is the command `servodeck`."""
+
+from servodeck.cli import main
+
+main()

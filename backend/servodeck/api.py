@@ -1,0 +1,162 @@
+"""The HTTP interface for scripts: state, ports, stop, resume, battery. One error shape: `{code, detail}`.
+
+Translates between HTTP and `control`; decides nothing.
+"""
+
+import asyncio
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, Depends, Request, WebSocket
+from pydantic import Field
+from starlette.requests import HTTPConnection
+
+from servodeck import __version__
+from servodeck.clients import serve_client
+from servodeck.control import Control
+from servodeck.errors import ErrorCode, OutOfRangeError
+from servodeck.gate import judge_script
+from servodeck.messages import Message, PortState
+from servodeck.packets import FAMILIES
+from servodeck.ports import list_devices
+
+
+class Problem(Message):
+    """Why a request failed. `code` is for programs, `detail` for people."""
+
+    code: ErrorCode
+    detail: str
+
+
+class Health(Message):
+    status: Literal["ok"] = "ok"
+    version: str
+
+
+class BatteryAge(Message):
+    battery_mv: int
+    age_ms: int
+
+
+class Status(Message):
+    version: str
+    board: str
+    port: PortState
+    latch: bool
+    clients: int
+    battery: BatteryAge | None
+
+
+class Device(Message):
+    """A serial port of this computer. `likely`: its USB chip is one that these boards and their cables bear."""
+
+    device: str
+    description: str
+    likely: bool
+
+
+class PortChoice(Message):
+    device: Annotated[str, Field(min_length=1, max_length=256, pattern=r"^[^\x00-\x1f]+$")]
+    board: str | None = None
+
+
+class Battery(Message):
+    battery_mv: int
+
+
+class Stopped(Message):
+    """`halted`: the stop sequence has left the wire."""
+
+    latch: bool
+    halted: bool
+
+
+def called_by_own_page(request: Request) -> None:
+    judge_script(request.scope["headers"])
+
+
+def control_of(connection: HTTPConnection) -> Control:
+    control = connection.app.state.control
+    assert isinstance(control, Control)
+    return control
+
+
+Controlled = Annotated[Control, Depends(control_of)]
+api = APIRouter(
+    prefix="/api",
+    dependencies=[Depends(called_by_own_page)],
+    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
+)
+socket = APIRouter()
+
+
+@socket.websocket("/ws")
+async def ws(websocket: WebSocket, control: Controlled) -> None:
+    await serve_client(websocket, control)
+
+
+@api.get("/health")
+async def health() -> Health:
+    """Answers as long as the gateway runs, whatever the port does."""
+    return Health(version=__version__)
+
+
+@api.get("/status")
+async def status(control: Controlled) -> Status:
+    """How everything stands now."""
+    reading = control.battery
+    return Status(
+        version=__version__,
+        board=control.board,
+        port=control.link.state,
+        latch=control.latch,
+        clients=len(control.hub),
+        battery=reading
+        and BatteryAge(battery_mv=reading.battery_mv, age_ms=round((control.now() - reading.at_s) * 1000)),
+    )
+
+
+@api.get("/ports")
+def ports(control: Controlled) -> list[Device]:
+    """The serial ports of this computer and the one in use, the likely ones first."""
+    found = list_devices(control.named_device, control.link.state.device)
+    return [Device(device=port.device, description=port.description, likely=port.likely) for port in found]
+
+
+@api.put("/port")
+async def use_port(choice: PortChoice, control: Controlled) -> PortState:
+    """Opens that port instead of the present one. After a failure it is tried again and again, as `status`
+    tells.
+    """
+    if choice.board is not None and choice.board not in FAMILIES:
+        raise OutOfRangeError(f"board is {choice.board}, allowed: {', '.join(FAMILIES)}")
+    await control.use_port(choice.device, choice.board)
+    return control.link.state
+
+
+@api.delete("/port")
+async def close_port(control: Controlled) -> PortState:
+    """Closes the port and leaves it closed."""
+    await control.close_port()
+    return control.link.state
+
+
+@api.post("/stop")
+async def stop(control: Controlled) -> Stopped:
+    """STOP: drops all that waits, sends stop three times, refuses motion until resume. Latches even without a
+    port.
+    """
+    await asyncio.shield(control.stop(None))
+    return Stopped(latch=control.latch, halted=True)
+
+
+@api.post("/resume")
+async def resume(control: Controlled) -> Status:
+    """Allows motion again. Moves nothing."""
+    control.resume()
+    return await status(control)
+
+
+@api.get("/battery")
+async def battery(control: Controlled) -> Battery:
+    """Asks the board now; 504 where it does not answer."""
+    return Battery(battery_mv=await control.read_battery())

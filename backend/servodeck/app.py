@@ -1,0 +1,87 @@
+"""Puts the gateway together: guard, routes, page, and one shape for every error. Holds no rule of its own."""
+
+import contextlib
+from collections.abc import AsyncIterator
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+from starlette.responses import HTMLResponse, JSONResponse, Response
+from starlette.types import ASGIApp
+
+from servodeck import __version__
+from servodeck.api import api, socket
+from servodeck.control import Control
+from servodeck.docs import STYLE, docs_page
+from servodeck.errors import ErrorCode, GatewayError, MalformedError
+from servodeck.gate import allowed_hosts
+from servodeck.guard import Guard
+from servodeck.page import page
+
+CODE_OF_STATUS: dict[int, ErrorCode] = {
+    403: "forbidden",
+    404: "notFound",
+    405: "methodNotAllowed",
+    500: "internal",
+}
+
+
+def create_app(control: Control, port: int) -> ASGIApp:
+    """The gateway as it answers on that TCP port of this computer."""
+    app = FastAPI(
+        title="Servodeck gateway",
+        description="Drives a servo controller on a serial port. Errors have one shape: a code and a sentence.",
+        version=__version__,
+        docs_url=None,
+        redoc_url=None,
+        lifespan=lifespan,
+    )
+    app.state.control = control
+    app.include_router(api)
+    app.include_router(socket)
+    add_docs(app)
+    add_errors(app)
+    app.mount("/", page())
+    return Guard(app, allowed_hosts(port))
+
+
+@contextlib.asynccontextmanager
+async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+    control: Control = app.state.control
+    yield
+    await control.shut_down()
+
+
+def add_docs(app: FastAPI) -> None:
+    @app.get("/docs", include_in_schema=False)
+    def docs() -> HTMLResponse:
+        return HTMLResponse(docs_page(app.openapi()))
+
+    @app.get("/docs.css", include_in_schema=False)
+    def style() -> Response:
+        return Response(STYLE, media_type="text/css")
+
+
+def add_errors(app: FastAPI) -> None:
+    @app.exception_handler(GatewayError)
+    def gateway_error(_request: Request, error: GatewayError) -> JSONResponse:
+        return problem(error.status, error.code, error.detail)
+
+    @app.exception_handler(RequestValidationError)
+    def validation_error(_request: Request, error: RequestValidationError) -> JSONResponse:
+        first = error.errors()[0]
+        where = ".".join(str(part) for part in first["loc"])
+        return problem(MalformedError.status, MalformedError.code, f"{where}: {first['msg']}")
+
+    @app.exception_handler(HTTPException)
+    def http_error(_request: Request, error: HTTPException) -> JSONResponse:
+        code = CODE_OF_STATUS.get(error.status_code, "malformed")
+        return problem(error.status_code, code, error.detail)
+
+    @app.exception_handler(Exception)
+    def defect(_request: Request, _error: Exception) -> JSONResponse:
+        return problem(500, "internal", "The gateway made a mistake; its log says more.")
+
+
+def problem(status: int, code: ErrorCode, detail: str) -> JSONResponse:
+    return JSONResponse({"code": code, "detail": detail}, status)

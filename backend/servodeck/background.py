@@ -1,0 +1,57 @@
+"""Opens and closes ports off the event loop, in threads that never keep the process from ending.
+
+Opening can take seconds (a network address that does not answer), closing too (a driver that waits for its
+last bytes). Knows no packet and keeps no state.
+"""
+
+import asyncio
+import contextlib
+import threading
+from collections.abc import Callable
+from typing import TypeVar
+
+from servodeck.errors import GatewayError
+from servodeck.ports import OpenPort, open_port
+
+CLOSE_WAIT_S = 1.0
+T = TypeVar("T")
+
+
+class BackgroundPorts:
+    """The ports of this computer, for a link."""
+
+    async def open(self, device: str) -> OpenPort:
+        """Raises a PortError. A port that opens after the caller was cancelled is closed again."""
+        return await in_thread(lambda: open_port(device), undo=lambda port: port.close())
+
+    async def close(self, port: OpenPort) -> None:
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(in_thread(port.close, undo=lambda _: None), CLOSE_WAIT_S)
+
+
+async def in_thread(action: Callable[[], T], undo: Callable[[T], None]) -> T:
+    """The result of `action`, which may block; `undo` gets it where nobody waits for it any more."""
+    loop = asyncio.get_running_loop()
+    outcome: asyncio.Future[T] = loop.create_future()
+
+    def hand_over(result: T) -> None:
+        if outcome.done():
+            threading.Thread(target=undo, args=(result,), daemon=True).start()
+        else:
+            outcome.set_result(result)
+
+    def refuse(error: GatewayError) -> None:
+        if not outcome.done():
+            outcome.set_exception(error)
+
+    def run() -> None:
+        with contextlib.suppress(RuntimeError):  # the loop is closed: the process is ending
+            try:
+                result = action()
+            except GatewayError as error:
+                loop.call_soon_threadsafe(refuse, error)
+            else:
+                loop.call_soon_threadsafe(hand_over, result)
+
+    threading.Thread(target=run, name="serial port", daemon=True).start()
+    return await outcome

@@ -1,0 +1,146 @@
+"""The command line: serve, ports, decode. Parses, prints and sets exit codes; the work is done elsewhere.
+
+Imports the gateway only where it is served, so that the small commands answer at once.
+"""
+
+import ipaddress
+import json
+import socket
+import sys
+import time
+import webbrowser
+from typing import Annotated, NoReturn
+
+import typer
+
+from servodeck.packets import FAMILIES, PacketError, describe
+from servodeck.ports import list_devices
+
+DEFAULT_LISTEN = "127.0.0.1:8300"
+USAGE, FAILURE = 2, 1
+
+app = typer.Typer(
+    help="Servodeck: drives LewanSoul, Lobot and Hiwonder servo controllers.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+
+def fail(message: str, code: int = FAILURE) -> NoReturn:
+    print(message, file=sys.stderr)
+    raise typer.Exit(code)
+
+
+@app.command()
+def serve(
+    listen: Annotated[
+        str, typer.Option(help="HOST:PORT of this computer; port 0 takes a free one.")
+    ] = DEFAULT_LISTEN,
+    serial: Annotated[str, typer.Option(help="Serial device, or socket://HOST:PORT.")] = "",
+    board: Annotated[str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}.")] = "doc",
+    open_page: Annotated[
+        bool | None,
+        typer.Option("--open/--no-open", help="Show the page; by default where a person looks on."),
+    ] = None,
+    exit_with_stdin: Annotated[
+        bool, typer.Option("--exit-with-stdin", help="End when stdin ends: with whoever started us.")
+    ] = False,
+) -> None:
+    """Serve the page and own the serial port."""
+    from servodeck.app import create_app
+    from servodeck.background import BackgroundPorts
+    from servodeck.control import Control
+    from servodeck.server import Server, leave_with_stdin
+
+    if board not in FAMILIES:
+        fail(f"There is no board family {board}. Choose one of: {', '.join(FAMILIES)}.", USAGE)
+    listener = bind(*parse_listen(listen))
+    url = url_of(listener)
+    control = Control(BackgroundPorts(), time.monotonic, board, serial or None)
+
+    def ready() -> None:
+        print(f"Servodeck is at {url}", flush=True)
+        if sys.stdout.isatty() if open_page is None else open_page:
+            webbrowser.open(url)
+
+    server = Server(create_app(control, listener.getsockname()[1]), control, serial or None, ready)
+    if exit_with_stdin:
+        leave_with_stdin(server.leave)
+    server.run([listener])
+
+
+@app.command()
+def ports(as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False) -> None:
+    """List the serial ports of this computer, the likely ones first."""
+    found = list_devices()
+    if as_json:
+        print(
+            json.dumps(
+                [{"device": p.device, "description": p.description, "likely": p.likely} for p in found]
+            )
+        )
+    elif not found:
+        print("No serial port found. Is the cable plugged in?")
+    for port in () if as_json else found:
+        print(f"{port.device}  {port.description}{'  (likely)' if port.likely else ''}")
+
+
+@app.command()
+def decode(
+    hex_bytes: Annotated[list[str], typer.Argument(metavar="HEX...", help="Bytes, e.g. 55 55 02 07")],
+    report: Annotated[bool, typer.Option("--report", help="From the board, not to it.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
+) -> None:
+    """Say in words what a packet means."""
+    try:
+        packet = bytes.fromhex(" ".join(hex_bytes))
+        words = describe(packet, "report" if report else "command")
+    except ValueError:
+        fail("That is not a sequence of hex digits, two for each byte.", USAGE)
+    except PacketError as error:
+        fail(str(error))
+    print(json.dumps({"packet": packet.hex(), "text": words}) if as_json else words)
+
+
+def parse_listen(text: str) -> tuple[str, int]:
+    """HOST:PORT of this computer; ends the program with an explanation for anything else."""
+    host, separator, port = text.rpartition(":")
+    host = host.removeprefix("[").removesuffix("]")
+    if not separator or not port.isascii() or not port.isdigit() or int(port) > 0xFFFF:
+        fail(f"--listen takes HOST:PORT, for example {DEFAULT_LISTEN}; got {text}.", USAGE)
+    if not is_loopback(host):
+        fail(
+            f"{host} can be reached from other computers, where anybody could move the robot. "
+            "Servodeck listens on 127.0.0.1, [::1] or localhost only.",
+            USAGE,
+        )
+    return host, int(port)
+
+
+def is_loopback(host: str) -> bool:
+    try:
+        # Exactly these: the page is answered under no other name or address.
+        return host == "localhost" or str(ipaddress.ip_address(host)) in ("127.0.0.1", "::1")
+    except ValueError:
+        return False
+
+
+def bind(host: str, port: int) -> socket.socket:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    try:
+        return socket.create_server((host, port), family=family, backlog=512)
+    except OSError as error:
+        fail(
+            f"Cannot listen on {host}:{port} ({error.strerror}). Another Servodeck? --listen {host}:0 takes a free port."
+        )
+
+
+def url_of(listener: socket.socket) -> str:
+    host, port = listener.getsockname()[:2]
+    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
+
+
+def main() -> None:
+    app()

@@ -1,0 +1,219 @@
+"""Joins the parts: clients, gate, link and board. Owns the latch and the memory of what the robot may be
+doing.
+
+Knows what is asked and what may be done now. Must not know HTTP, WebSockets or how a byte reaches the port.
+"""
+
+import asyncio
+import contextlib
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from servodeck import __version__
+from servodeck.errors import CancelledError, GatewayError, LatchedError, NoAnswerError, PortLostError
+from servodeck.gate import COMMAND_AT, RUN, STOP, judge_latch, judge_packet
+from servodeck.hub import Hub, Seat
+from servodeck.inbox import Inbox
+from servodeck.link import Link, Ports
+from servodeck.messages import (
+    HaltedMessage,
+    Message,
+    NoiseMessage,
+    ReceivedMessage,
+    StateMessage,
+    WelcomeMessage,
+    encode,
+)
+from servodeck.packets import FAMILIES, Battery, DecoderEvent, PacketEvent, parse_report
+from servodeck.ports import OpenPort
+from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire
+
+BATTERY_PACKET = "5555020f"
+BATTERY_WAIT_S = 0.5  # boards.md 6: an answer takes 300 ms at most
+DRAIN_S = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class BatteryReading:
+    battery_mv: int
+    at_s: float
+
+
+class Control:
+    def __init__(
+        self, ports: Ports, now: Callable[[], float], board: str, named_device: str | None = None
+    ) -> None:
+        """`named_device` is the port named at the start: always offered, even where the system does not list
+        it.
+        """
+        self.board = board
+        self.named_device = named_device
+        self.now = now
+        self.latch = False
+        self.battery: BatteryReading | None = None
+        self.hub = Hub()
+        self.link = Link(ports, self._make_wire, self, now)
+        self._group_may_run = False
+        self._halting: Left | None = None
+        self._battery_question: asyncio.Task[int] | None = None
+        self._battery_answer: asyncio.Future[int] | None = None
+
+    # What clients ask
+
+    def join(self, seat: Seat) -> None:
+        """The welcome is the seat's first message."""
+        self.hub.join(seat)
+        seat.put(encode(self._welcome()))
+        self._tell_state(but=seat)
+
+    def leave(self, seat: Seat) -> None:
+        with contextlib.suppress(GatewayError):
+            self.link.wire().purge(lambda job: job.owner is seat, CancelledError("The client has left."))
+        self.hub.leave(seat)
+        self._tell_state()
+        if len(self.hub) == 0:
+            self._everybody_left()
+
+    def send(self, owner: Owner, packet_hex: str) -> Left:
+        """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving."""
+        packet = judge_packet(packet_hex, self.board)
+        wire = self.link.wire()
+        judge_latch(packet, self.latch)
+        command = packet[COMMAND_AT]
+        if command == STOP:
+            # A stop overtakes all that waits; a run it overtook must not start the group again behind it.
+            wire.purge(is_run, CancelledError("A stop has overtaken this run."))
+        left = wire.send(packet, owner, urgent=command == STOP)
+        if command in (RUN, STOP):
+            self._group_may_run = command == RUN
+        return left
+
+    def stop(self, hold: bytes | None) -> Left:
+        """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
+        stop.
+        """
+        self._set_latch(True)
+        left = self._halt(hold, LatchedError("Stopped before it left."))
+        if left is not self._halting:
+            self._halting = left
+            left.add_done_callback(self._halted)
+        return left
+
+    def resume(self) -> None:
+        """Refused while the port is lost: whoever resumes shall see the robot's answer."""
+        if self.link.state.status == "lost":
+            raise PortLostError(self.link.state.detail or "The serial port is gone.")
+        self._set_latch(False)
+
+    async def read_battery(self) -> int:
+        """In mV. Whoever asks while a question is under way shares its answer."""
+        if self._battery_question is None:
+            self._battery_question = asyncio.create_task(self._ask_battery())
+            self._battery_question.add_done_callback(self._battery_asked)
+        return await asyncio.shield(self._battery_question)
+
+    async def use_port(self, device: str, board: str | None = None) -> None:
+        await self._quiet()
+        self.board = board or self.board
+        await self.link.use(device)
+
+    async def close_port(self) -> None:
+        await self._quiet()
+        await self.link.close()
+
+    async def shut_down(self) -> None:
+        """Stops the robot whatever it does, waits for the stops to leave, lets go of the port. Twice is
+        harmless.
+        """
+        with contextlib.suppress(GatewayError, TimeoutError):
+            left = self._halt(None, CancelledError("The gateway is ending."))
+            await asyncio.wait_for(asyncio.shield(left), DRAIN_S)
+        await self.link.close()
+
+    # What the link tells
+
+    def port_opened(self, wire: Wire) -> None:
+        wire.send(STOP_PACKET, self, urgent=True)
+
+    def port_lost(self) -> None:
+        self.latch = True  # the change of the port's state follows and tells both
+
+    def port_changed(self) -> None:
+        self._tell_state()
+
+    # Inside
+
+    def _welcome(self) -> Message:
+        return WelcomeMessage(
+            version=__version__,
+            board=self.board,
+            port=self.link.state,
+            latch=self.latch,
+            clients=len(self.hub),
+        )
+
+    def _tell_state(self, but: Seat | None = None) -> None:
+        state = StateMessage(port=self.link.state, latch=self.latch, clients=len(self.hub))
+        self.hub.tell_all(encode(state), but)
+
+    def _tell(self, message: Message) -> None:
+        self.hub.tell_all(encode(message))
+
+    def _set_latch(self, latch: bool) -> None:
+        if latch != self.latch:
+            self.latch = latch
+            self._tell_state()
+
+    def _halt(self, hold: bytes | None, reason: GatewayError) -> Left:
+        left = self.link.wire().halt(hold, reason)
+        self._group_may_run = False
+        return left
+
+    def _halted(self, left: Left) -> None:
+        if not left.cancelled() and left.exception() is None:
+            self._tell(HaltedMessage())
+
+    def _everybody_left(self) -> None:
+        if self._group_may_run:
+            with contextlib.suppress(GatewayError):
+                self._halt(None, CancelledError("Every client has left."))
+
+    async def _quiet(self) -> None:
+        """Before the port is given up: ends a group that only this gateway could still stop."""
+        if self._group_may_run:
+            with contextlib.suppress(GatewayError):
+                await self._halt(None, CancelledError("The port is being closed."))
+
+    def _make_wire(self, port: OpenPort) -> Wire:
+        inbox = Inbox(self._take)
+        gap_s = FAMILIES[self.board].service_gap_ms / 1000
+        return Wire(port, gap_s=gap_s, now=self.now, received=inbox.push)
+
+    def _take(self, event: DecoderEvent) -> None:
+        """One event of the board's decoder."""
+        if not isinstance(event, PacketEvent):
+            self._tell(NoiseMessage(bytes=event.bytes.hex()))
+            return
+        self._tell(ReceivedMessage(packet=event.bytes.hex()))
+        report = parse_report(event.packet, FAMILIES[self.board])
+        if isinstance(report, Battery):
+            self.battery = BatteryReading(report.battery_mv, self.now())
+            if self._battery_answer and not self._battery_answer.done():
+                self._battery_answer.set_result(report.battery_mv)
+
+    async def _ask_battery(self) -> int:
+        self._battery_answer = asyncio.get_running_loop().create_future()
+        await self.send(self, BATTERY_PACKET)
+        try:
+            return await asyncio.wait_for(self._battery_answer, BATTERY_WAIT_S)
+        except TimeoutError:
+            raise NoAnswerError("The board did not tell its battery voltage. Not every board can.") from None
+
+    def _battery_asked(self, question: asyncio.Task[int]) -> None:
+        self._battery_question = None
+        if not question.cancelled():
+            question.exception()  # whoever asked has it; nobody may be left to take it
+
+
+def is_run(job: Job) -> bool:
+    return job.packet[COMMAND_AT] == RUN

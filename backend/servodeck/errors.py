@@ -1,0 +1,108 @@
+"""Everything that can go wrong, as one tree: each class carries its code on the wire and its HTTP status.
+
+Knows no message and no sentence of its own; whoever raises says what happened and what to do about it.
+"""
+
+from typing import ClassVar, Literal
+
+ErrorCode = Literal[
+    "closed",
+    "lost",
+    "portMissing",
+    "portBusy",
+    "portDenied",
+    "noAnswer",
+    "latched",
+    "busy",
+    "cancelled",
+    "outOfRange",
+    "malformed",
+    "forbidden",
+    "notFound",
+    "methodNotAllowed",
+    "internal",
+]
+
+
+class GatewayError(Exception):
+    """The root; raised itself only for a defect of ours."""
+
+    code: ClassVar[ErrorCode] = "internal"
+    status: ClassVar[int] = 500
+
+    def __init__(self, detail: str) -> None:
+        super().__init__(detail)
+        self.detail = detail
+
+
+class PortError(GatewayError):
+    """The serial port cannot be used; the link tries again by itself."""
+
+    code: ClassVar[ErrorCode] = "lost"
+    status: ClassVar[int] = 503
+
+
+class PortLostError(PortError):
+    """It went away while open."""
+
+
+class PortMissingError(PortError):
+    code: ClassVar[ErrorCode] = "portMissing"
+
+
+class PortBusyError(PortError):
+    code: ClassVar[ErrorCode] = "portBusy"
+
+
+class PortDeniedError(PortError):
+    code: ClassVar[ErrorCode] = "portDenied"
+
+
+class ClosedError(GatewayError):
+    """No port is open and nobody asked for one, or it was closed on request."""
+
+    code: ClassVar[ErrorCode] = "closed"
+    status: ClassVar[int] = 409
+
+
+class LatchedError(GatewayError):
+    """Stopped: motion waits for Resume."""
+
+    code: ClassVar[ErrorCode] = "latched"
+    status: ClassVar[int] = 409
+
+
+class BusyError(GatewayError):
+    """Too much is waiting already."""
+
+    code: ClassVar[ErrorCode] = "busy"
+    status: ClassVar[int] = 429
+
+
+class CancelledError(GatewayError):
+    """Taken out of the queue before it left."""
+
+    code: ClassVar[ErrorCode] = "cancelled"
+    status: ClassVar[int] = 409
+
+
+class NoAnswerError(GatewayError):
+    code: ClassVar[ErrorCode] = "noAnswer"
+    status: ClassVar[int] = 504
+
+
+class OutOfRangeError(GatewayError):
+    code: ClassVar[ErrorCode] = "outOfRange"
+    status: ClassVar[int] = 422
+
+
+class MalformedError(GatewayError):
+    code: ClassVar[ErrorCode] = "malformed"
+    status: ClassVar[int] = 422
+
+
+class ForbiddenError(GatewayError):
+    """Asked from an address or a page that may not ask."""
+
+    code: ClassVar[ErrorCode] = "forbidden"
+    status: ClassVar[int] = 403

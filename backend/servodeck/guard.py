@@ -1,0 +1,74 @@
+"""Stands before everything the gateway serves: asks `gate` about each request and upgrade, adds the security
+headers.
+
+Pure ASGI, because ordinary middleware does not see WebSockets. Knows no route.
+"""
+
+from starlette.datastructures import MutableHeaders
+from starlette.exceptions import HTTPException
+from starlette.responses import JSONResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from servodeck.errors import ForbiddenError
+from servodeck.gate import judge_handshake
+
+BODY_BYTES = 16 * 1024
+STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
+
+CONTENT_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; font-src 'self'; "
+    "connect-src 'self' ws://{host}; worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'"
+)
+FIXED_HEADERS = {
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Permissions-Policy": "serial=(self), hid=(self), bluetooth=(self)",
+}
+
+
+class Guard:
+    def __init__(self, app: ASGIApp, hosts: frozenset[bytes]) -> None:
+        self._app = app
+        self._hosts = hosts
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "lifespan":
+            return await self._app(scope, receive, send)
+        try:
+            host = judge_handshake(scope["headers"], self._hosts)
+        except ForbiddenError as error:
+            # The Host is not to be trusted here, so it does not appear in the policy.
+            refusal = JSONResponse({"code": error.code, "detail": error.detail}, error.status)
+            return await refusal(scope, receive, with_headers(send, host="127.0.0.1"))
+        limited = limit_body(receive) if scope["type"] == "http" else receive
+        return await self._app(scope, limited, with_headers(send, host))
+
+
+def with_headers(send: Send, host: str) -> Send:
+    async def send_with_headers(message: Message) -> None:
+        if message["type"] in STARTS:
+            headers = MutableHeaders(scope=message)
+            headers["Content-Security-Policy"] = CONTENT_POLICY.format(host=host)
+            headers.update(FIXED_HEADERS)
+            headers.setdefault("Cache-Control", "no-store")
+        await send(message)
+
+    return send_with_headers
+
+
+def limit_body(receive: Receive) -> Receive:
+    """Nothing anybody may send here is larger than that."""
+    total = 0
+
+    async def receive_limited() -> Message:
+        nonlocal total
+        message = await receive()
+        total += len(message.get("body", b""))
+        if total > BODY_BYTES:
+            raise HTTPException(413, f"More than {BODY_BYTES} bytes.")
+        return message
+
+    return receive_limited

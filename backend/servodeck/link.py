@@ -1,0 +1,148 @@
+"""Keeps one serial port open: opens it, waits for its loss, tries again with growing pauses, says how it
+stands.
+
+Knows ports and time, no packet and no client. It never changes the device by itself: a board that comes back
+under another name must be chosen by a person.
+"""
+
+import asyncio
+import contextlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from servodeck.errors import CancelledError, ClosedError, PortError, PortLostError
+from servodeck.messages import PortState
+from servodeck.ports import OpenPort
+from servodeck.wire import Wire, fail, settle
+
+FIRST_RETRY_S = 0.25  # a replugged adapter is there again after about that long
+LAST_RETRY_S = 5.0
+STEADY_S = 5.0  # a port that stayed open that long was no false start: begin with short pauses again
+
+CLOSED = PortState(device=None, status="closed")
+
+
+class Ports(Protocol):
+    async def open(self, device: str) -> OpenPort: ...
+
+    async def close(self, port: OpenPort) -> None: ...
+
+
+class LinkEvents(Protocol):
+    def port_opened(self, wire: Wire) -> None:
+        """Before anything else is sent on that wire."""
+
+    def port_lost(self) -> None:
+        """It was open and is gone, unasked."""
+
+    def port_changed(self) -> None:
+        """`state` is another one now."""
+
+
+@dataclass(slots=True)
+class BackOff:
+    """The pauses between attempts: doubled each time."""
+
+    next_s: float = FIRST_RETRY_S
+
+    def take(self) -> float:
+        pause_s, self.next_s = self.next_s, min(self.next_s * 2, LAST_RETRY_S)
+        return pause_s
+
+
+class Link:
+    def __init__(
+        self,
+        ports: Ports,
+        make_wire: Callable[[OpenPort], Wire],
+        events: LinkEvents,
+        now: Callable[[], float],
+    ) -> None:
+        self._ports = ports
+        self._make_wire = make_wire
+        self._events = events
+        self._now = now
+        self._wire: Wire | None = None
+        self._task: asyncio.Task[None] | None = None
+        self._changing = asyncio.Lock()
+        self.state = CLOSED
+
+    def wire(self) -> Wire:
+        """The open wire. Raises what keeps it from being open."""
+        if self._wire:
+            return self._wire
+        if self.state.status == "lost":
+            raise PortLostError(self.state.detail or "The serial port is gone.")
+        raise ClosedError("No serial port is open.")
+
+    async def use(self, device: str) -> None:
+        """Changes to that device. Raises the PortError of the first attempt; later attempts go on all the
+        same.
+        """
+        first: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        async with self._changing:
+            await self._end()
+            self._show(PortState(device=device, status="opening"))
+            self._task = asyncio.create_task(self._keep_open(device, first))
+        await first
+
+    async def close(self) -> None:
+        """Closes the port and stays closed."""
+        async with self._changing:
+            await self._end()
+            self._show(CLOSED)
+
+    async def _end(self) -> None:
+        task, self._task = self._task, None
+        if task:
+            task.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await task
+
+    async def _keep_open(self, device: str, first: asyncio.Future[None]) -> None:
+        back_off = BackOff()
+        try:
+            while True:
+                try:
+                    await self._serve(device, first, back_off)
+                except PortError as error:
+                    self._show_lost(device, error, back_off)
+                    fail(first, error)
+                    await asyncio.sleep(back_off.take())
+        finally:
+            fail(first, CancelledError("The port was closed or changed meanwhile."))
+
+    async def _serve(self, device: str, first: asyncio.Future[None], back_off: BackOff) -> None:
+        """One life of the port; ends by the PortError that ended it, or cancelled."""
+        port = await self._ports.open(device)
+        opened_at = self._now()
+        try:
+            self._wire = self._make_wire(port)
+            self._events.port_opened(self._wire)
+            self._show(PortState(device=device, status="open"))
+            settle(first)
+            await self._wire.run()
+        except PortError as error:
+            self._wire = None
+            if self._now() - opened_at >= STEADY_S:
+                back_off.next_s = FIRST_RETRY_S
+            self._events.port_lost()
+            self._show_lost(device, error, back_off)  # before closing, which may take a while
+            raise
+        finally:
+            self._wire = None
+            await self._ports.close(port)
+
+    def _show_lost(self, device: str, error: PortError, back_off: BackOff) -> None:
+        retry_in_ms = round(back_off.next_s * 1000)
+        self._show(
+            PortState(
+                device=device, status="lost", code=error.code, detail=error.detail, retry_in_ms=retry_in_ms
+            )
+        )
+
+    def _show(self, state: PortState) -> None:
+        if state != self.state:
+            self.state = state
+            self._events.port_changed()

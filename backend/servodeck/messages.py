@@ -1,0 +1,181 @@
+"""What the gateway and its clients say to each other, as strict models: unknown fields are refused.
+
+The only description of these messages: `python -m servodeck.messages` prints the JSON schema from which the
+page's types are generated. Knows no socket and no rule about who may say what.
+"""
+
+import json
+import sys
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+from pydantic.alias_generators import to_camel
+from pydantic.json_schema import GenerateJsonSchema
+
+from servodeck.errors import ErrorCode
+
+# A packet is 255 bytes at most; one more is let in so that the gate can say what is wrong with it.
+Hex = Annotated[
+    str, Field(max_length=512, description="Bytes of one packet, two hex digits each, no spaces.")
+]
+MessageId = Annotated[
+    int, Field(ge=0, le=2**53 - 1, description="Chosen by the client; comes back in the answer.")
+]
+
+
+class Message(BaseModel):
+    model_config = ConfigDict(
+        strict=True,
+        extra="forbid",
+        frozen=True,
+        alias_generator=to_camel,
+        populate_by_name=True,
+        serialize_by_alias=True,
+        json_schema_serialization_defaults_required=True,
+    )
+
+
+PortStatus = Literal["closed", "opening", "open", "lost"]
+
+
+class PortState(Message):
+    """How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
+    follows.
+    """
+
+    device: str | None
+    status: PortStatus
+    code: ErrorCode | None = None
+    detail: str | None = None
+    retry_in_ms: int | None = None
+
+
+class SendMessage(Message):
+    """Put one packet on the wire."""
+
+    type: Literal["send"]
+    id: MessageId
+    packet: Hex
+
+
+class StopMessage(Message):
+    """STOP: drop all that waits, send stop three times, then `hold` (one move to the present pose), and
+    latch.
+    """
+
+    type: Literal["stop"]
+    hold: Hex | None
+
+
+class ResumeMessage(Message):
+    """Allow motion again. Moves nothing."""
+
+    type: Literal["resume"]
+
+
+ClientMessage = Annotated[SendMessage | StopMessage | ResumeMessage, Field(discriminator="type")]
+
+
+class WelcomeMessage(Message):
+    """The first message on each connection."""
+
+    type: Literal["welcome"] = "welcome"
+    version: str
+    board: str
+    port: PortState
+    latch: bool
+    clients: int
+
+
+class SentMessage(Message):
+    """The packet's last bit has left the wire."""
+
+    type: Literal["sent"] = "sent"
+    id: MessageId
+
+
+class RefusedMessage(Message):
+    """`id` is null where the message itself could not be read, and for a stop."""
+
+    type: Literal["refused"] = "refused"
+    id: MessageId | None
+    code: ErrorCode
+    detail: str
+
+
+class ReceivedMessage(Message):
+    """One packet of the board."""
+
+    type: Literal["received"] = "received"
+    packet: str
+
+
+class NoiseMessage(Message):
+    """Bytes of the board that belong to no packet."""
+
+    type: Literal["noise"] = "noise"
+    bytes: str
+
+
+class HaltedMessage(Message):
+    """The stop sequence has left the wire."""
+
+    type: Literal["halted"] = "halted"
+
+
+class StateMessage(Message):
+    """Something of this changed."""
+
+    type: Literal["state"] = "state"
+    port: PortState
+    latch: bool
+    clients: int
+
+
+GatewayMessage = Annotated[
+    WelcomeMessage
+    | SentMessage
+    | RefusedMessage
+    | ReceivedMessage
+    | NoiseMessage
+    | HaltedMessage
+    | StateMessage,
+    Field(discriminator="type"),
+]
+
+client_message: TypeAdapter[SendMessage | StopMessage | ResumeMessage] = TypeAdapter(ClientMessage)
+gateway_message: TypeAdapter[Any] = TypeAdapter(GatewayMessage)
+
+
+def encode(message: Message) -> str:
+    return message.model_dump_json()
+
+
+class PlainSchema(GenerateJsonSchema):
+    """Without a title for each field, which would become a type name of its own in TypeScript."""
+
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        return False
+
+
+def json_schema() -> dict[str, Any]:
+    """One schema whose $defs hold ClientMessage, GatewayMessage and all they consist of."""
+    names, definitions = TypeAdapter.json_schemas(
+        [
+            ("ClientMessage", "validation", client_message),
+            ("GatewayMessage", "serialization", gateway_message),
+        ],
+        ref_template="#/$defs/{model}",
+        schema_generator=PlainSchema,
+    )
+    unions = {name: {**schema, "title": name} for (name, _mode), schema in names.items()}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Messages",
+        "$defs": {**definitions["$defs"], **unions},
+    }
+
+
+if __name__ == "__main__":
+    json.dump(json_schema(), sys.stdout, indent=2)
+    sys.stdout.write("\n")

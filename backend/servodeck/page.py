@@ -1,0 +1,34 @@
+"""Serves the built page from the folder `static`. Knows files and caching, nothing of boards.
+
+A file whose name carries its hash may be kept for ever; all others are asked for again each time.
+"""
+
+from pathlib import Path
+
+from starlette.middleware.gzip import GZipMiddleware
+from starlette.responses import PlainTextResponse, Response
+from starlette.staticfiles import StaticFiles
+from starlette.types import ASGIApp, Scope
+
+STATIC = Path(__file__).parent / "static"
+HASHED_FOLDER = "assets"  # where Vite puts files named by their content
+FOR_EVER = "public, max-age=31536000, immutable"
+ASK_AGAIN = "no-cache"
+NOT_BUILT = "The gateway runs, but the page is not built yet: run `npm run build`, or `npm start`, which does it all.\n"
+# Little compression for little time on the event loop, on which STOP waits too.
+COMPRESS_LEVEL = 4
+
+
+class Page(StaticFiles):
+    async def get_response(self, path: str, scope: Scope) -> Response:
+        if path == "." and not (STATIC / "index.html").exists():
+            return PlainTextResponse(NOT_BUILT, 503)
+        response = await super().get_response(path, scope)
+        hashed = Path(path).parts[:1] == (HASHED_FOLDER,)
+        response.headers["Cache-Control"] = FOR_EVER if hashed else ASK_AGAIN
+        return response
+
+
+def page() -> ASGIApp:
+    files = Page(directory=STATIC, html=True, check_dir=False)
+    return GZipMiddleware(files, minimum_size=1024, compresslevel=COMPRESS_LEVEL)

@@ -1,0 +1,176 @@
+"""Serial ports: list them, open one, and say in a sentence why it cannot be had.
+
+The only module that imports pyserial, so that another library can take its place. Knows no packet and no
+event loop: every call here may block for a moment.
+"""
+
+import errno
+import os
+import socket
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol, TypeVar
+
+import serial
+from serial.tools import list_ports
+
+from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
+
+BAUD = 9600
+POSIX = os.name == "posix"
+READ_WAIT_S = 0.2
+# Nobody stalls us longer than this. Windows waits for the last bit by itself unless the time-out is 0, and
+# POSIX with 0 spins while the buffer is full.
+WRITE_WAIT_S = 0.2 if POSIX else 0.0
+READ_BYTES = 4096
+# USB serial chips found on these boards and on their cables: WCH CH340/CH341, Silicon Labs CP210x, FTDI.
+LIKELY_VENDORS = frozenset({0x1A86, 0x10C4, 0x0403})
+URL_SCHEME = "socket://"
+
+
+class OpenPort(Protocol):
+    """A port that is open. Every failure of it is a PortLostError."""
+
+    def fileno(self) -> int | None:
+        """The descriptor to watch for input; None where the platform has none."""
+
+    def read(self) -> bytes:
+        """Waits a moment for bytes and returns all there are, possibly none."""
+
+    def read_now(self) -> bytes:
+        """The bytes that are there. Only after `fileno` was reported readable."""
+
+    def write(self, data: bytes) -> None: ...
+
+    def close(self) -> None:
+        """Never raises. May take a while."""
+
+
+T = TypeVar("T")
+Opener = Callable[[str], OpenPort]
+
+
+@dataclass(frozen=True, slots=True)
+class PortInfo:
+    device: str
+    description: str
+    likely: bool
+
+
+class SerialPort:
+    """pyserial with its zoo of exceptions reduced to one."""
+
+    def __init__(self, device: str, port: serial.SerialBase) -> None:
+        self._device = device
+        self._port = port
+
+    def fileno(self) -> int | None:
+        return int(self._port.fileno()) if POSIX else None
+
+    def read(self) -> bytes:
+        return self._guarded(lambda: self._port.read(1) + self._port.read(self._port.in_waiting))
+
+    def read_now(self) -> bytes:
+        data = self._guarded(lambda: os.read(self._port.fileno(), READ_BYTES))
+        if not data:
+            raise self._lost()  # readable and empty is how a tty and a socket hang up
+        return data
+
+    def write(self, data: bytes) -> None:
+        self._guarded(lambda: self._port.write(data))
+
+    def close(self) -> None:
+        try:
+            self._port.close()
+        except (serial.SerialException, OSError):
+            return  # it is gone; that is what was asked for
+
+    def _guarded(self, action: Callable[[], T]) -> T:
+        try:
+            return action()
+        except (serial.SerialException, OSError, TypeError) as error:
+            # `in_waiting` of a hung-up pty raises OSError, and pyserial answers TypeError to a read that is
+            # under way while another thread closes the port.
+            raise self._lost() from error
+
+    def _lost(self) -> PortLostError:
+        return PortLostError(f"The connection to {self._device} broke off. Is the cable still plugged in?")
+
+
+def open_port(device: str) -> OpenPort:
+    """Opens a device path or `socket://HOST:PORT` for one program alone. Raises a PortError with a sentence."""
+    refuse_other_schemes(device)
+    try:
+        port = serial.serial_for_url(
+            device, BAUD, timeout=READ_WAIT_S, write_timeout=WRITE_WAIT_S, exclusive=True
+        )
+        send_at_once(port)
+        return SerialPort(device, port)
+    except (serial.SerialException, OSError, ValueError) as error:
+        raise explain(device, error) from error
+
+
+def refuse_other_schemes(device: str) -> None:
+    """pyserial's other schemes can write files and load modules; a device name from outside must not reach
+    them.
+    """
+    if "://" in device and not device.lower().startswith(URL_SCHEME):
+        raise PortMissingError(f"{device} is neither a device nor an address like socket://HOST:PORT.")
+
+
+def send_at_once(port: Any) -> None:
+    """A socket would hold a small packet back until the one before it is acknowledged."""
+    connection = getattr(port, "_socket", None)
+    if isinstance(connection, socket.socket):
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+
+
+MISSING = frozenset({errno.ENOENT, errno.ENODEV, errno.ENXIO, errno.EIO, errno.ENOTDIR})
+BUSY = frozenset({errno.EBUSY, errno.EAGAIN, errno.EWOULDBLOCK})
+DENIED = frozenset({errno.EACCES, errno.EPERM})
+
+
+def explain(device: str, error: Exception) -> PortError:
+    """The error's class and the sentence for the person."""
+    number = getattr(error, "errno", None)
+    if device.lower().startswith(URL_SCHEME):
+        return PortMissingError(f"Nothing answers at {device}.")
+    # Windows gives no number: the name of the cause stands in the text, and "denied" means that it is in use.
+    if number in BUSY or (number is None and "PermissionError" in str(error)):
+        return PortBusyError(
+            f"Another program uses {device}. Close it: another Servodeck, a serial monitor, a browser tab."
+        )
+    if number in DENIED:
+        return PortDeniedError(
+            f"This account may not open {device}. On Linux: sudo usermod -aG {group_of(device)} $USER, then log in again."
+        )
+    if number in MISSING or (number is None and "FileNotFoundError" in str(error)):
+        return PortMissingError(f"There is no {device}. Is the cable plugged in and the board switched on?")
+    return PortMissingError(f"{device} is not a serial port.")
+
+
+def group_of(device: str) -> str:
+    """The group that may use the device; most systems call it dialout."""
+    try:
+        return Path(device).group()
+    except (OSError, KeyError, NotImplementedError):
+        return "dialout"
+
+
+def list_devices(*also: str | None) -> list[PortInfo]:
+    """All ports of this computer, the likely ones first, and `also` those known by name alone."""
+    found = [describe(port) for port in list_ports.comports()]
+    known = {port.device for port in found}
+    extra = [
+        PortInfo(name, "Named at the start", likely=True)
+        for name in dict.fromkeys(also)
+        if name and name not in known
+    ]
+    return extra + sorted(found, key=lambda port: (not port.likely, port.device))
+
+
+def describe(port: Any) -> PortInfo:
+    """`port` is pyserial's ListPortInfo, whose fields its stubs leave half typed."""
+    text = port.description if port.description not in (None, "n/a") else port.name
+    return PortInfo(str(port.device), str(text), likely=port.vid in LIKELY_VENDORS)

@@ -1,0 +1,187 @@
+"""The only code that touches the open port: puts packets on the wire one at a time, stops first.
+
+Knows bytes, time and order. Must not know what a packet means, who may send it, or why: `gate` and `control`
+judge that. Never more than one packet is in the operating system's hands, so a stop has at most one packet to
+wait for.
+"""
+
+import asyncio
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from servodeck.errors import BusyError, ClosedError, GatewayError
+from servodeck.ports import BAUD, OpenPort
+from servodeck.reader import start_reading
+
+BITS_PER_BYTE = 10  # 8N1: start bit, eight data bits, stop bit
+STOP_PACKET = bytes.fromhex("55550207")
+STOP_COUNT = 3  # S54
+STOP_SPACING_S = 0.070  # S54: longer than the 60 ms a board may be deaf
+STOP_GAP_S = 0.010  # S54: a stop right behind another packet is lost in 2 % of cases
+QUEUE_PER_OWNER = 8
+CLOCK_GRAIN_S = 1e-6
+
+Owner = object
+Left = asyncio.Future[None]
+
+
+def wire_s(byte_count: int) -> float:
+    """Seconds that many bytes spend on the wire."""
+    return byte_count * BITS_PER_BYTE / BAUD
+
+
+@dataclass(eq=False, slots=True)
+class Job:
+    """A packet that waits for its turn; `left` resolves when its last bit has left the wire."""
+
+    packet: bytes
+    owner: Owner
+    left: Left
+
+
+@dataclass(eq=False, slots=True)
+class Halt:
+    """A stop sequence under way: what is still to be sent of it, and from when on the next stop may go."""
+
+    hold: bytes | None
+    left: Left
+    stops_to_go: int = STOP_COUNT
+    due: float = field(default=float("-inf"))
+
+
+class Wire:
+    """One open port from its first packet to its loss. `run` is its life."""
+
+    def __init__(
+        self, port: OpenPort, *, gap_s: float, now: Callable[[], float], received: Callable[[bytes], None]
+    ) -> None:
+        self._port = port
+        self._gap_s = max(gap_s, STOP_GAP_S)
+        self._now = now
+        self._received = received
+        # What the last owner of the port sent is unknown: it may be on the wire still.
+        self._free_at = now() + self._gap_s
+        self._halt: Halt | None = None
+        self._urgent: deque[Job] = deque()
+        self._queue: deque[Job] = deque()
+        self._under_way: Job | None = None
+        self._work = asyncio.Event()
+        self._ended: GatewayError | None = None
+
+    def send(self, packet: bytes, owner: Owner, *, urgent: bool = False) -> Left:
+        """Queues a packet, an urgent one before all others. Raises BusyError when this owner has too many
+        waiting.
+        """
+        if self._ended:
+            raise self._ended
+        if not urgent and sum(job.owner is owner for job in self._queue) >= QUEUE_PER_OWNER:
+            raise BusyError(f"{QUEUE_PER_OWNER} packets wait already; send the next one when one has left.")
+        job = Job(packet, owner, asyncio.get_running_loop().create_future())
+        (self._urgent if urgent else self._queue).append(job)
+        self._work.set()
+        return job.left
+
+    def halt(self, hold: bytes | None, reason: GatewayError) -> Left:
+        """Drops all that waits and sends the stop sequence, then `hold`. Pressed again, it joins the one
+        under way.
+        """
+        if self._ended:
+            raise self._ended
+        self.purge(lambda _job: True, reason)
+        if self._halt is None:
+            self._halt = Halt(hold, asyncio.get_running_loop().create_future())
+        else:
+            self._halt.hold = hold or self._halt.hold
+            if (
+                self._halt.stops_to_go == 0
+            ):  # each press is followed by a stop, but presses never put off the hold
+                self._halt.stops_to_go, self._halt.due = 1, self._now()
+        self._work.set()
+        return self._halt.left
+
+    def purge(self, unwanted: Callable[[Job], bool], reason: GatewayError) -> None:
+        """Takes packets that have not begun to leave out of the queue; each fails with `reason`."""
+        for job in [job for job in self._queue if unwanted(job)]:
+            self._queue.remove(job)
+            fail(job.left, reason)
+
+    async def run(self) -> None:
+        """Sends and reads until the port is lost (raises PortLostError) or this task is cancelled."""
+        lost: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        stop_reading = start_reading(self._port, self._received, lambda error: fail(lost, error))
+        sender = asyncio.create_task(self._send_all())
+        try:
+            await asyncio.wait({sender, lost}, return_when=asyncio.FIRST_COMPLETED)
+            (lost if lost.done() else sender).result()
+        except GatewayError as error:
+            self._end(error)
+            raise
+        finally:
+            stop_reading()
+            lost.cancel()
+            sender.cancel()
+            self._end(ClosedError("The port was closed."))
+
+    async def _send_all(self) -> None:
+        while True:
+            await self._work.wait()
+            await self._until(self._free_at)  # choose only then: a stop may have come meanwhile
+            if self._halt:
+                await self._send_of(self._halt)
+            elif self._urgent or self._queue:
+                await self._send_job((self._urgent or self._queue).popleft())
+            else:
+                self._work.clear()
+
+    async def _send_of(self, halt: Halt) -> None:
+        """Sends the next packet of a stop sequence; nothing else may leave between them."""
+        if halt.stops_to_go:
+            await self._until(halt.due)
+            halt.stops_to_go -= 1
+            halt.due = self._now() + STOP_SPACING_S
+            await self._put(STOP_PACKET)
+        elif halt.hold:
+            hold, halt.hold = halt.hold, None
+            await self._put(hold)
+        if halt.stops_to_go == 0 and halt.hold is None:
+            self._halt = None
+            settle(halt.left)
+
+    async def _send_job(self, job: Job) -> None:
+        self._under_way = job
+        await self._put(job.packet)
+        self._under_way = None
+        settle(job.left)
+
+    async def _put(self, packet: bytes) -> None:
+        self._port.write(packet)
+        left_at = self._now() + wire_s(len(packet))
+        self._free_at = left_at + self._gap_s
+        await self._until(left_at)
+
+    async def _until(self, when: float) -> None:
+        # In a loop: event loops round to milliseconds, uvloop down, and a gap must not shrink.
+        while (left_s := when - self._now()) > CLOCK_GRAIN_S:
+            await asyncio.sleep(left_s)
+
+    def _end(self, error: GatewayError) -> None:
+        if self._ended:
+            return
+        self._ended = error
+        jobs = [*([self._under_way] if self._under_way else []), *self._urgent, *self._queue]
+        waiting = [job.left for job in jobs] + ([self._halt.left] if self._halt else [])
+        for left in waiting:
+            fail(left, error)
+
+
+def settle(future: Left) -> None:
+    if not future.done():
+        future.set_result(None)
+
+
+def fail(future: Left, error: GatewayError) -> None:
+    """Fails it without the loop's complaint when nobody is interested any more."""
+    if not future.done():
+        future.set_exception(error)
+        future.exception()
