@@ -1,7 +1,9 @@
 // The layer rule: protocol < motion < session < stores < panels < App, with actions and the simulator beside the session.
 // Types count as imports. Say a change of this file in docs/adr/.
 
-const test = '[.]test[.]tsx?$';
+// A rig or a board under test exists for tests and measurements.
+const testSupport = '(/rig|UnderTest)[.]ts$';
+const test = `[.]test[.]tsx?$|${testSupport}`;
 const page = '^frontend/src/';
 
 /** Code in `from` knows nothing of `to`; tests may, so far as `except` allows. */
@@ -59,7 +61,16 @@ module.exports = {
       'simulator-knows-protocol',
       'The simulator is the other side of the wire: it may share the protocol, never the code it puts to the test.',
       { path: '^shared/src/simulator/', pathNot: test },
-      { path: '^shared/src/(session|motion|actions)/' },
+      {
+        path: '^shared/src/(session|motion|actions)/',
+        pathNot: '^shared/src/session/(transport|linkError)[.]ts$',
+      },
+    ),
+    forbid(
+      'simulated-transport-knows-the-interface',
+      'One file of the simulator fulfils what a session asks of a link; the board itself has never heard of it.',
+      { path: '^shared/src/simulator/', pathNot: [test, '^shared/src/simulator/transport[.]ts$'] },
+      { path: '^shared/src/session/' },
     ),
 
     forbid(
@@ -120,7 +131,13 @@ module.exports = {
       { path: '^(frontend|bench|backend)/' },
     ),
     forbid('nothing-imports-end-to-end', 'Tests are leaves.', { pathNot: '^e2e/' }, { path: '^e2e/' }),
-    forbid('nothing-imports-tests', 'Tests are leaves.', {}, { path: test }),
+    forbid('nothing-imports-tests', 'Tests are leaves.', {}, { path: '[.]test[.]tsx?$' }),
+    forbid(
+      'rigs-are-for-tests',
+      'No product code stands on a test rig.',
+      { pathNot: [test, '^(e2e|bench)/'] },
+      { path: testSupport },
+    ),
   ],
   options: {
     doNotFollow: { path: 'node_modules' },

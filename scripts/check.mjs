@@ -3,13 +3,13 @@
 import * as all from './checks.mjs';
 import { onEnd } from './children.mjs';
 import { clearReports } from './reports.mjs';
-import { setUp } from './setup.mjs';
+import { setUpPackages } from './setup.mjs';
 import { main, say } from './steps.mjs';
 import { conclude, runTasks } from './tasks.mjs';
 
 await main(async () => {
   onEnd(() => process.exit(130));
-  await setUp();
+  await setUpPackages();
   clearReports();
   say('');
   return conclude(

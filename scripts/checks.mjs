@@ -28,6 +28,8 @@ const tsc = 'typescript/bin/tsc';
 const cache = 'node_modules/.cache';
 
 /** @type {Task} */
+export const build = { name: 'build', command: [process.execPath, 'scripts/build.mjs'] };
+/** @type {Task} */
 export const types = { name: 'types, Node side', command: node(tsc, '-p', '.') };
 /** @type {Task} */
 export const pageTypes = { name: 'types, page', command: node(tsc, '-p', 'frontend') };

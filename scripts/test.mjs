@@ -5,16 +5,17 @@ import { browserForTests } from './browser.mjs';
 import * as all from './checks.mjs';
 import { onEnd } from './children.mjs';
 import { clearReports } from './reports.mjs';
-import { setUp } from './setup.mjs';
+import { setUpPackages } from './setup.mjs';
 import { main, say } from './steps.mjs';
 import { conclude, runTasks } from './tasks.mjs';
 
 await main(async () => {
   onEnd(() => process.exit(130));
   const long = process.argv.includes('--long');
-  await setUp();
+  await setUpPackages();
   clearReports();
   say('');
+  const built = await runTasks([all.build]); // the page is part of what is tested below
   const still = runTasks([
     all.unit({ long }),
     all.gateway,
@@ -34,5 +35,5 @@ await main(async () => {
   // Fetching a browser waits for the network; the checks use that time.
   const [results] = await Promise.all([still, browserForTests()]);
   // End to end comes last and alone: it measures what a person would wait for.
-  return conclude([...results, ...(await runTasks([all.endToEnd()]))]);
+  return conclude([...built, ...results, ...(await runTasks([all.endToEnd()]))]);
 });
