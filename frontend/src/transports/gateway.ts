@@ -21,7 +21,8 @@ export function createGatewayTransport(url: string): Transport {
   let notifyAvailable = (): void => undefined;
 
   function post(message: ClientMessage): void {
-    if (socket?.readyState !== WebSocket.OPEN) throw new LinkError('gatewayUnreachable', 'the gateway is gone');
+    if (socket?.readyState !== WebSocket.OPEN)
+      throw new LinkError('gatewayUnreachable', 'the gateway is gone');
     socket.send(JSON.stringify(message));
   }
 

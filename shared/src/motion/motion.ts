@@ -64,7 +64,12 @@ export function afterMove(
 }
 
 /** After the board began to play `frames`, `times` over (0: until stopped). Unknown frames make every servo unknown. */
-export function afterRun(motion: Motion, frames: readonly Frame[] | null, times: number, atMs: number): Motion {
+export function afterRun(
+  motion: Motion,
+  frames: readonly Frame[] | null,
+  times: number,
+  atMs: number,
+): Motion {
   if (frames === null) return UNKNOWN_MOTION;
   if (frames.length === 0) return motion;
   const loopsLeft = times === 0 ? null : times;
@@ -79,7 +84,8 @@ export function afterStop(motion: Motion): Motion {
 /** The same motion with every frame that was due by `nowMs` begun. Call before reading or changing it. */
 export function advance(motion: Motion, nowMs: number, family: Family): Motion {
   let current = motion;
-  while (current.run !== null && current.run.nextAtMs <= nowMs) current = beginFrame(current, current.run, family);
+  while (current.run !== null && current.run.nextAtMs <= nowMs)
+    current = beginFrame(current, current.run, family);
   return current;
 }
 
@@ -87,7 +93,10 @@ function beginFrame(motion: Motion, run: GroupRun, family: Family): Motion {
   const frame = run.frames[run.next];
   if (frame === undefined) return wrapAround(motion, run);
   const moved = afterMove(motion, frame.targets, frame.durationMs, run.nextAtMs, family);
-  return { ...moved, run: { ...run, next: run.next + 1, nextAtMs: run.nextAtMs + Math.max(1, frame.durationMs) } };
+  return {
+    ...moved,
+    run: { ...run, next: run.next + 1, nextAtMs: run.nextAtMs + Math.max(1, frame.durationMs) },
+  };
 }
 
 function wrapAround(motion: Motion, run: GroupRun): Motion {

@@ -29,7 +29,9 @@ export function createBatteryReader(core: Core): () => Promise<number> {
     const { battery } = core.store.state;
     silences += 1;
     if (silences < BATTERY_SILENT_LIMIT || battery.kind === 'silent') return;
-    core.store.update({ battery: { kind: 'silent', lastMv: battery.kind === 'read' ? battery.batteryMv : null } });
+    core.store.update({
+      battery: { kind: 'silent', lastMv: battery.kind === 'read' ? battery.batteryMv : null },
+    });
   }
 
   return () => (underWay ??= read().finally(() => (underWay = null)));

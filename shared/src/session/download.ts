@@ -37,12 +37,19 @@ export interface DownloadJob {
 /** Rejects with `outOfRange` before anything is sent, `cancelled` between frames, or `noAnswer`. */
 export async function download(job: DownloadJob): Promise<void> {
   const { slot, frames, family, clock, exchange } = job;
-  const commands = frames.map(
-    (frame, frameIndex): Command => ({ kind: 'download', slot, frameCount: frames.length, frameIndex, frame }),
-  );
+  const commands = frames.map((frame, frameIndex): Command => ({
+    kind: 'download',
+    slot,
+    frameCount: frames.length,
+    frameIndex,
+    frame,
+  }));
   if (commands.length === 0) throw new LinkError('outOfRange', 'an action group needs at least one frame');
   if (commands.length > family.framesPerGroup) {
-    throw new LinkError('outOfRange', `${commands.length} frames, ${family.name} takes ${family.framesPerGroup}`);
+    throw new LinkError(
+      'outOfRange',
+      `${commands.length} frames, ${family.name} takes ${family.framesPerGroup}`,
+    );
   }
   const sizes = commands.map((command) => encodeOrRefuse(command, family).length);
   const startedMs = clock.now();

@@ -55,8 +55,10 @@ export function createGroups(core: Core): Groups {
     requireReleased(core);
     const command = { kind: 'run', slot, times } as const;
     encodeOrRefuse(command, family);
-    if (broken.has(slot)) throw new LinkError('slotBroken', `slot ${slot} holds half a group: download it again`);
-    if (store.state.activity.kind === 'playing') throw new LinkError('busy', 'the page is playing: stop it first');
+    if (broken.has(slot))
+      throw new LinkError('slotBroken', `slot ${slot} holds half a group: download it again`);
+    if (store.state.activity.kind === 'playing')
+      throw new LinkError('busy', 'the page is playing: stop it first');
     if (store.state.activity.kind === 'running') await stop();
     began(slot, times, 'requested');
     if (!family.answers.includes('run')) return exchange.tell(command);
@@ -89,7 +91,11 @@ export function createGroups(core: Core): Groups {
     }
   }
 
-  async function storeGroup(slot: number, frames: readonly Frame[], signal: CancelSignal | undefined): Promise<void> {
+  async function storeGroup(
+    slot: number,
+    frames: readonly Frame[],
+    signal: CancelSignal | undefined,
+  ): Promise<void> {
     requireRest(core);
     try {
       await download({

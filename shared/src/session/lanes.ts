@@ -41,7 +41,13 @@ export function createLanes(options: LaneOptions): Lanes {
 
   function newestMove(): Waiting | null {
     const packet = options.takeMove();
-    return packet && { packet, resolve: () => undefined, reject: (error) => options.moveFailed(asLinkError(error)) };
+    return (
+      packet && {
+        packet,
+        resolve: () => undefined,
+        reject: (error) => options.moveFailed(asLinkError(error)),
+      }
+    );
   }
 
   async function leave({ packet, resolve, reject }: Waiting): Promise<void> {

@@ -70,7 +70,8 @@ export function createLink({ transport, clock, changed, returned, received, latc
         lost: (error) => mine === generation && fail(error),
       });
     } catch (error) {
-      const reason = error instanceof LinkError ? error : new LinkError('internal', String(error), { cause: error });
+      const reason =
+        error instanceof LinkError ? error : new LinkError('internal', String(error), { cause: error });
       if (mine === generation) fail(reason);
       throw reason;
     }

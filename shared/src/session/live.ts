@@ -23,7 +23,8 @@ export function createLive(core: Core, moves: MoveBuffer): Live {
 
   function move(targets: readonly ServoTarget[], durationMs: number): void {
     requireReleased(core);
-    for (const target of targets) encodeOrRefuse({ kind: 'move', targets: [target], durationMs }, core.family);
+    for (const target of targets)
+      encodeOrRefuse({ kind: 'move', targets: [target], durationMs }, core.family);
     moves.put(targets, durationMs);
     core.lanes.wake();
   }

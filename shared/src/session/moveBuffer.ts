@@ -25,9 +25,15 @@ export function createMoveBuffer(family: Family): MoveBuffer {
     },
     take() {
       if (wishes.size === 0) return null;
-      const targets = [...wishes].slice(0, family.servosPerMove).map(([servo, position]) => ({ servo, position }));
+      const targets = [...wishes]
+        .slice(0, family.servosPerMove)
+        .map(([servo, position]) => ({ servo, position }));
       for (const { servo } of targets) wishes.delete(servo);
-      const move: MoveCommand = { kind: 'move', targets, durationMs: Math.max(durationMs, intervalMs(targets, family)) };
+      const move: MoveCommand = {
+        kind: 'move',
+        targets,
+        durationMs: Math.max(durationMs, intervalMs(targets, family)),
+      };
       if (wishes.size === 0) durationMs = 0;
       return move;
     },

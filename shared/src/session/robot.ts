@@ -48,8 +48,10 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
   function apply(command: Command): void {
     const current = now();
     const atMs = clock.now();
-    if (command.kind === 'move') motion = afterMove(current, command.targets, command.durationMs, atMs, family);
-    if (command.kind === 'run') motion = afterRun(current, groups.get(command.slot) ?? null, command.times, atMs);
+    if (command.kind === 'move')
+      motion = afterMove(current, command.targets, command.durationMs, atMs, family);
+    if (command.kind === 'run')
+      motion = afterRun(current, groups.get(command.slot) ?? null, command.times, atMs);
     if (command.kind === 'stop') motion = afterStop(current);
   }
 
@@ -59,7 +61,9 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     applied: apply,
     motion: (servo) => ({ target: targetOf(now(), servo), estimated: positionAt(now(), servo, clock.now()) }),
     softened(move) {
-      const newcomer = move.targets.some((target) => isUnknown(target) && targetOf(now(), target.servo) === null);
+      const newcomer = move.targets.some(
+        (target) => isUnknown(target) && targetOf(now(), target.servo) === null,
+      );
       const underWay = [...now().tracks.keys()].some((servo) => isUnknown({ servo, position: 0 }));
       const needsMs = newcomer ? FIRST_MOVE_MS : underWay ? Math.ceil(remainingMs(now(), clock.now())) : 0;
       return move.durationMs >= needsMs ? move : { ...move, durationMs: needsMs };

@@ -1,0 +1,136 @@
+import { describe, expect, test } from 'vitest';
+import { wireMs } from '../protocol/packet.ts';
+import { createRig } from './rig.ts';
+
+const POSE = [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 1_500 }));
+
+describe('moving', () => {
+  test('connecting sends nothing at all', async () => {
+    const { clock, heard } = await createRig();
+    await clock.advance(5_000);
+    expect(heard).toEqual([]);
+  });
+
+  test('the first move of a servo nobody knows takes 1.5 s, the next one what was asked', async () => {
+    const { clock, session, ofKind } = await createRig();
+    session.move([{ servo: 1, position: 2_000 }], 100);
+    await clock.advance(2_000);
+    session.move([{ servo: 1, position: 1_000 }], 100);
+    await clock.advance(500);
+    expect(ofKind('move').map((move) => move.durationMs)).toEqual([1_500, 100]);
+  });
+
+  test('a drag during the first move does not make it faster', async () => {
+    const { clock, session, ofKind } = await createRig();
+    session.move([{ servo: 1, position: 1_600 }], 0);
+    await clock.advance(500);
+    session.move([{ servo: 1, position: 1_700 }], 0);
+    await clock.advance(100);
+    const [, second] = ofKind('move');
+    expect(second?.durationMs).toBeGreaterThan(950);
+  });
+
+  test('the newest value wins, and the last one of a gesture is always sent', async () => {
+    const { clock, session, transport, ofKind } = await createRig();
+    session.move(POSE, 20);
+    await clock.advance(2_000);
+    for (let position = 1_500; position <= 1_620; position += 1) {
+      session.move([{ servo: 1, position }], 0);
+      await clock.advance(4);
+    }
+    await clock.advance(200);
+    const drag = ofKind('move').slice(1);
+    expect(drag.length).toBeLessThan(30);
+    expect(drag.at(-1)?.targets).toEqual([{ servo: 1, position: 1_620 }]);
+    expect(transport.board.target(1)).toBe(1_620);
+  });
+
+  test('servos moved at once share one packet', async () => {
+    const { clock, session, ofKind } = await createRig();
+    session.move([{ servo: 1, position: 1_500 }], 0);
+    session.move([{ servo: 2, position: 1_600 }], 0);
+    session.move([{ servo: 3, position: 1_700 }], 0);
+    await clock.advance(200);
+    const moves = ofKind('move');
+    expect(moves.length).toBeLessThanOrEqual(2);
+    expect(moves.flatMap((move) => move.targets).length).toBe(3);
+  });
+
+  test('a position outside the range is refused by name, and nothing is sent', async () => {
+    const { clock, session, heard } = await createRig();
+    expect(() => session.move([{ servo: 3, position: 2_600 }], 0)).toThrow(/servo 3.*2600.*500.*2500/);
+    await clock.advance(200);
+    expect(heard).toEqual([]);
+  });
+
+  test('never more than one packet on the wire, and a service gap between two', async () => {
+    const { clock, session, heard } = await createRig();
+    for (let step = 0; step < 300; step += 1) {
+      session.move([{ servo: 1 + (step % 6), position: 1_000 + step }], 0);
+      await clock.advance(3);
+    }
+    const arrivals = heard.map((entry) => entry.atMs);
+    const gaps = arrivals.slice(1).map((atMs, index) => atMs - (arrivals[index] ?? 0));
+    expect(Math.min(...gaps)).toBeGreaterThanOrEqual(wireMs(10) + session.family.serviceGapMs - 0.001);
+  });
+
+  test('estimate and board agree within one tick on the way and exactly at the end', async () => {
+    const { clock, session, transport } = await createRig();
+    session.move([{ servo: 1, position: 1_000 }], 0);
+    await clock.advance(2_000);
+    session.move([{ servo: 1, position: 2_000 }], 1_000);
+    await clock.advance(500);
+    const perTick = 20;
+    expect(Math.abs((session.motion(1).estimated ?? 0) - transport.board.pulse(1))).toBeLessThanOrEqual(
+      perTick,
+    );
+    await clock.advance(1_000);
+    expect(session.motion(1)).toEqual({ target: 2_000, estimated: 2_000 });
+    expect(transport.board.pulse(1)).toBe(2_000);
+  });
+});
+
+describe('playing from the page', () => {
+  const frames = [
+    { durationMs: 200, targets: [{ servo: 1, position: 1_000 }] },
+    { durationMs: 300, targets: [{ servo: 1, position: 2_000 }] },
+    { durationMs: 250, targets: [{ servo: 1, position: 1_500 }] },
+  ];
+
+  test('goes gently to the first frame and then keeps each deadline', async () => {
+    const { clock, session, heard } = await createRig();
+    const done = session.play(frames);
+    await clock.advance(4_000);
+    await done;
+    const arrivals = heard.map(({ atMs }) => atMs - (heard[0]?.atMs ?? 0));
+    expect(arrivals).toEqual([0, 1_500, 1_800]);
+    expect(session.state.activity).toEqual({ kind: 'idle' });
+  });
+
+  test('says which frame is under way', async () => {
+    const { clock, session } = await createRig();
+    void session.play(frames);
+    await clock.advance(1_600);
+    expect(session.state.activity).toEqual({ kind: 'playing', frameIndex: 1, frameCount: 3 });
+  });
+
+  test('repeats without drift until it is stopped', async () => {
+    const { clock, session, ofKind } = await createRig();
+    const done = session.play(frames, { times: 0 });
+    await clock.advance(1_500 + 550 + 750 * 9 + 40);
+    session.stopPlaying();
+    await done;
+    expect(ofKind('move').length).toBe(1 + 2 + 27 + 1);
+  });
+
+  test('is ended by STOP', async () => {
+    const { clock, session, ofKind } = await createRig();
+    const done = session.play(frames, { times: 0 });
+    await clock.advance(1_600);
+    void session.halt();
+    await done;
+    await clock.advance(5_000);
+    expect(session.state.activity).toEqual({ kind: 'idle' });
+    expect(ofKind('move').filter((move) => move.durationMs > 20).length).toBe(2);
+  });
+});

@@ -1,0 +1,65 @@
+// A session on a simulated board in virtual time, for tests and measurements: what a person would do, and what the board
+// saw on its line.
+
+import type { Command } from '../protocol/commands.ts';
+import { createDecoder } from '../protocol/decoder.ts';
+import { family as familyOf, type Family } from '../protocol/families.ts';
+import { wireMs } from '../protocol/packet.ts';
+import { parseCommand } from '../protocol/parse.ts';
+import { COMMAND_SHAPES } from '../protocol/shapes.ts';
+import type { BoardOptions } from '../simulator/board.ts';
+import { createSimulatedTransport, type SimulatedTransport } from '../simulator/transport.ts';
+import { createVirtualClock, type VirtualClock } from '../simulator/virtualClock.ts';
+import { createSession, type Session } from './session.ts';
+
+export interface HeardCommand {
+  /** When its last byte had arrived at the board. */
+  readonly atMs: number;
+  readonly command: Command;
+}
+
+export interface Rig {
+  readonly clock: VirtualClock;
+  readonly session: Session;
+  readonly transport: SimulatedTransport;
+  readonly heard: readonly HeardCommand[];
+  /** Heard commands of one kind, oldest first. */
+  ofKind<K extends Command['kind']>(kind: K): readonly Extract<Command, { kind: K }>[];
+}
+
+/** Opened and ready; the board has been on for a while and knows its battery. */
+export async function createRig(
+  options: Omit<BoardOptions, 'clock' | 'send' | 'onUnplug'> & { readonly family?: Family } = {},
+): Promise<Rig> {
+  const { family = familyOf('doc'), ...board } = options;
+  const clock = createVirtualClock();
+  const heard: HeardCommand[] = [];
+  const ear = createEar(clock, heard);
+  const transport = createSimulatedTransport(clock, {
+    onForMs: 60_000,
+    ...board,
+    onByte: ({ direction, byte }) => direction === 'in' && ear(byte),
+  });
+  const session = createSession({ transport, family, clock });
+  await session.open();
+  return {
+    ...{ clock, session, transport, heard },
+    ofKind: (kind) => heard.flatMap(({ command }) => (command.kind === kind ? [command as never] : [])),
+  };
+}
+
+/** Takes the board's bytes one by one. Two byte times of silence end a packet: the gap between two is never that short. */
+function createEar(clock: VirtualClock, heard: HeardCommand[]): (byte: number) => void {
+  let lastByteMs = 0;
+  let cancelIdle = (): void => undefined;
+  const decoder = createDecoder((event) => {
+    const command = event.kind === 'packet' ? parseCommand(event.packet) : null;
+    if (command !== null) heard.push({ atMs: lastByteMs, command });
+  }, COMMAND_SHAPES);
+  return (byte) => {
+    cancelIdle();
+    lastByteMs = clock.now();
+    decoder.push(Uint8Array.of(byte));
+    cancelIdle = clock.after(wireMs(2), () => decoder.idle());
+  };
+}
