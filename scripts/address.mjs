@@ -24,12 +24,6 @@ export async function chooseAddress(asked) {
 }
 
 /** @param {Address} address */
-export function urlOf({ host, port }) {
-  const reachable = host === '0.0.0.0' ? '127.0.0.1' : host === '::' ? '::1' : host;
-  return `http://${bracketed(reachable)}:${port}`;
-}
-
-/** @param {Address} address */
 export function textOf({ host, port }) {
   return `${bracketed(host)}:${port}`;
 }

@@ -1,16 +1,16 @@
 // `npm start`: sets up, puts a simulated board on a serial port, starts the gateway on it and opens the page.
 // `-- --serial DEVICE` takes a real board instead. Whatever is not known here goes to the gateway.
 
-import { setTimeout as pause } from 'node:timers/promises';
+import { once } from 'node:events';
 import { createInterface } from 'node:readline';
-import { chooseAddress, textOf, urlOf } from './address.mjs';
+import { chooseAddress, textOf } from './address.mjs';
 import { simulatedBoard } from './cable.mjs';
 import { endChildren, onEnd, startChild } from './children.mjs';
 import { python } from './python.mjs';
 import { setUp } from './setup.mjs';
 import { main, say } from './steps.mjs';
 
-const pollMs = 25;
+const readyLine = /^Servodeck is at (\S+)/;
 
 /** @param {readonly string[]} args */
 function parseArguments(args) {
@@ -25,20 +25,10 @@ function parseArguments(args) {
   return { serial: named.serial ?? null, listen: named.listen ?? null, passedOn };
 }
 
-/** Nobody sees a window there, and a text browser would take over the terminal. */
-function showsNoPages() {
-  const lacksDisplay = process.platform === 'linux' && !process.env.DISPLAY && !process.env.WAYLAND_DISPLAY;
-  return lacksDisplay || Boolean(process.env.CI);
-}
-
-/** @param {string} url @param {() => boolean} isOver */
-async function untilItAnswers(url, isOver) {
-  while (!isOver()) {
-    const answer = await fetch(`${url}/api/health`).catch(() => null);
-    if (answer?.ok) return true;
-    await pause(pollMs);
-  }
-  return false;
+/** Elsewhere nobody sees a window, and a text browser would take over the terminal. */
+function showsPages() {
+  const { CI, DISPLAY, WAYLAND_DISPLAY } = process.env;
+  return !CI && (process.platform !== 'linux' || Boolean(DISPLAY) || Boolean(WAYLAND_DISPLAY));
 }
 
 /** @param {import('./cable.mjs').Cable} cable */
@@ -84,9 +74,9 @@ function listenForEnter(cable) {
  * @returns {string[]}
  */
 function gatewayCommand(address, device, passedOn) {
-  const open = showsNoPages() && !passedOn.includes('--no-open') ? ['--no-open'] : [];
   const serve = ['-m', 'servodeck', 'serve', '--listen', textOf(address), '--serial', device];
-  return [...serve, '--exit-with-stdin', ...open, ...passedOn];
+  // What the person says comes last and so has the last word.
+  return [...serve, '--exit-with-stdin', showsPages() ? '--open' : '--no-open', ...passedOn];
 }
 
 /** @param {string} url @param {import('./cable.mjs').Cable | null} cable */
@@ -111,13 +101,16 @@ async function start() {
   const cable = serial === null ? await boardOn(`build/simulated-board-${address.port}`) : null;
   const plugged = cable?.plug();
 
-  const gateway = startChild(python, gatewayCommand(address, cable?.device ?? serial ?? '', passedOn), say);
-  const ended = new Promise((/** @type {(value?: void) => void} */ resolve) =>
-    gateway.once('close', () => resolve()),
+  const gateway = startChild(
+    python,
+    gatewayCommand(address, cable?.device ?? serial ?? '', passedOn),
+    (line) => {
+      const [, url] = readyLine.exec(line) ?? [];
+      if (url === undefined) say(line);
+      else void Promise.resolve(plugged).then(() => greet(url, cable));
+    },
   );
-  await plugged;
-  if (await untilItAnswers(urlOf(address), () => gateway.exitCode !== null)) greet(urlOf(address), cable);
-  await ended;
+  await once(gateway, 'close');
   if (leaving) return 0;
   say('The gateway has ended by itself; the lines above may say why.');
   await leave(1);
