@@ -80,6 +80,9 @@ export const pythonFormat = {
 /** @type {Task} */
 export const pythonTypes = { name: 'types, Python', command: pythonModule('mypy') };
 
+/** @type {Task} */
+export const wheel = { name: 'wheel', command: [python, 'scripts/wheel_check.py'] };
+
 /** @param {{long: boolean}} options @returns {Task} */
 export function unit({ long }) {
   return {

@@ -30,6 +30,7 @@ await main(async () => {
     all.format,
     all.pythonLint,
     all.pythonFormat,
+    all.wheel,
     all.locks,
   ]);
   // Fetching a browser waits for the network; the checks use that time.
