@@ -10,7 +10,6 @@ import { createBoard, type BoardOptions } from './board.ts';
 import type { BusLogEntry } from './busLog.ts';
 import { parseFault } from './faults.ts';
 
-
 const USAGE = `Usage: simulator (--stdio | --tcp HOST:PORT) [--seed N] [--fault NAME[=VALUE]]... [--battery-mv N]
                  [--servos N] [--baud N] [--bus-log FILE]
 A simulated servo board. Port 0 takes a free port; baud 0 takes no time on the wire.
@@ -67,9 +66,6 @@ function address(text: string): { host: string; port: number } {
 /** JSON lines; written in the turn in which the bytes passed, so that a reader beside us sees them at once. */
 function openBusLog(path: string): (entry: BusLogEntry) => void {
   const file = openSync(path, 'w');
-  process.on('exit', () => {
-    closeSync(file);
-  });
   writeSync(file, `${JSON.stringify({ startedAtEpochMs: Date.now() - clock.now() })}\n`);
   let waiting = '';
 
@@ -78,6 +74,10 @@ function openBusLog(path: string): (entry: BusLogEntry) => void {
     waiting = '';
   }
 
+  process.on('exit', () => {
+    flush();
+    closeSync(file);
+  });
   return (entry) => {
     if (waiting === '') queueMicrotask(flush);
     const atMs = Math.round(entry.atMs * 1000) / 1000;
