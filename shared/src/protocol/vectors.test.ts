@@ -52,9 +52,8 @@ interface StreamVector {
   readonly events: readonly StreamEvent[];
 }
 
-function load<Vector>(name: string): readonly Vector[] {
-  const file = new URL(`../../vectors/${name}.json`, import.meta.url);
-  return JSON.parse(readFileSync(file, 'utf8')) as readonly Vector[];
+function load(name: string): unknown {
+  return JSON.parse(readFileSync(new URL(`../../vectors/${name}.json`, import.meta.url), 'utf8'));
 }
 
 function packetOf(hex: string): Packet {
@@ -95,7 +94,7 @@ function byteByByte(feed: readonly string[]): string[] {
 }
 
 describe('command vectors', () => {
-  test.each(load<CommandVector>('commands'))('$name', ({ family: id, hex, command }) => {
+  test.each(load('commands') as readonly CommandVector[])('$name', ({ family: id, hex, command }) => {
     expect(toHex(encodeCommand(command, family(id)))).toBe(hex);
     expect(parseCommand(packetOf(hex))).toEqual(command);
     expect(decode({ direction: 'command', feed: [hex, 'idle'] })).toEqual([{ kind: 'packet', bytes: hex }]);
@@ -103,7 +102,7 @@ describe('command vectors', () => {
 });
 
 describe('report vectors', () => {
-  test.each(load<ReportVector>('reports'))('$name', ({ family: id, hex, report }) => {
+  test.each(load('reports') as readonly ReportVector[])('$name', ({ family: id, hex, report }) => {
     const expected =
       report.kind === 'unknown' ? { ...report, params: fromHex(report.params) } : (report satisfies Report);
     expect(parseReport(packetOf(hex), family(id))).toEqual(expected);
@@ -112,7 +111,7 @@ describe('report vectors', () => {
 });
 
 describe('refusal vectors', () => {
-  test.each(load<RefusalVector>('refusals'))('$name', (vector) => {
+  test.each(load('refusals') as readonly RefusalVector[])('$name', (vector) => {
     const { family: id, command, field, value, min, max, allowed, servo, message } = vector;
     const encode = (): Uint8Array => encodeCommand(command, family(id));
     expect(encode).toThrow(RangeRefusal);
@@ -121,7 +120,7 @@ describe('refusal vectors', () => {
 });
 
 describe('stream vectors', () => {
-  const streams = load<StreamVector>('streams');
+  const streams = load('streams') as readonly StreamVector[];
 
   test.each(streams)('$name', ({ direction, feed, events }) => {
     expect(decode({ direction, feed })).toEqual(events);
