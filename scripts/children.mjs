@@ -45,7 +45,8 @@ export function endChild(child) {
       resolve();
     });
     child.stdin?.end();
-    child.kill('SIGTERM');
+    // Windows has no polite signal; there the end of stdin has to do.
+    if (!onWindows) child.kill('SIGTERM');
   });
 }
 
