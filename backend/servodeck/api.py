@@ -47,7 +47,7 @@ class Status(Message):
 
 
 class Device(Message):
-    """A serial port of this computer. `likely`: its USB chip is one that these boards and their cables bear."""
+    """A serial port of this computer. `likely`: its USB chip is one that these boards and cables bear."""
 
     device: str
     description: str
@@ -103,16 +103,21 @@ async def health() -> Health:
 @api.get("/status")
 async def status(control: Controlled) -> Status:
     """How everything stands now."""
-    reading = control.battery
     return Status(
         version=__version__,
         board=control.board,
         port=control.link.state,
         latch=control.latch,
         clients=len(control.hub),
-        battery=reading
-        and BatteryAge(battery_mv=reading.battery_mv, age_ms=round((control.now() - reading.at_s) * 1000)),
+        battery=age_of(control),
     )
+
+
+def age_of(control: Control) -> BatteryAge | None:
+    reading = control.battery
+    if reading is None:
+        return None
+    return BatteryAge(battery_mv=reading.battery_mv, age_ms=round((control.now() - reading.at_s) * 1000))
 
 
 @api.get("/ports")

@@ -18,6 +18,7 @@ from servodeck.gate import allowed_hosts
 from servodeck.guard import Guard
 from servodeck.page import page
 
+BODY_BYTES = 16 * 1024
 CODE_OF_STATUS: dict[int, ErrorCode] = {
     403: "forbidden",
     404: "notFound",
@@ -30,10 +31,11 @@ def create_app(control: Control, port: int) -> ASGIApp:
     """The gateway as it answers on that TCP port of this computer."""
     app = FastAPI(
         title="Servodeck gateway",
-        description="Drives a servo controller on a serial port. Errors have one shape: a code and a sentence.",
+        description="Drives a servo controller on a serial port. An error is a code and a sentence.",
         version=__version__,
         docs_url=None,
         redoc_url=None,
+        max_body_size=BODY_BYTES,
         lifespan=lifespan,
     )
     app.state.control = control

@@ -133,7 +133,8 @@ def bind(host: str, port: int) -> socket.socket:
         return socket.create_server((host, port), family=family, backlog=512)
     except OSError as error:
         fail(
-            f"Cannot listen on {host}:{port} ({error.strerror}). Another Servodeck? --listen {host}:0 takes a free port."
+            f"Cannot listen on {host}:{port} ({error.strerror}). Does another Servodeck run? "
+            f"--listen {host}:0 takes a free port."
         )
 
 

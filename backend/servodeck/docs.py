@@ -29,11 +29,12 @@ def docs_page(schema: dict[str, Any]) -> str:
         if method in methods
     ]
     info = schema["info"]
+    title = escape(f"{info['title']} {info['version']}")
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width">'
-        f'<title>{escape(info["title"])}</title><link rel="stylesheet" href="docs.css"></head><body>'
-        f"<h1>{escape(info['title'])} {escape(info['version'])}</h1><p>{escape(info.get('description', ''))}</p>"
+        f'<title>{title}</title><link rel="stylesheet" href="docs.css"></head><body>'
+        f"<h1>{title}</h1><p>{escape(info['description'])}</p>"
         '<p>For programs: <a href="openapi.json">openapi.json</a></p>'
         f"{''.join(sections)}</body></html>"
     )
@@ -43,13 +44,13 @@ def operation(method: str, path: str, description: dict[str, Any], schema: dict[
     body = description.get("requestBody", {}).get("content", {}).get("application/json", {}).get("schema")
     answers = {code: schema_of(answer) for code, answer in description["responses"].items()}
     rows = [("body", body)] if body else []
-    rows += [(code, answer) for code, answer in answers.items()]
+    rows += list(answers.items())
     table = "".join(
         f"<tr><th>{escape(label)}</th><td>{shape(part, schema)}</td></tr>" for label, part in rows
     )
     return (
         f"<section><h2><span>{method}</span>{escape(path)}</h2>"
-        f"<p>{escape(description.get('description', description['summary']))}</p><table>{table}</table></section>"
+        f"<p>{escape(description.get('description', ''))}</p><table>{table}</table></section>"
     )
 
 

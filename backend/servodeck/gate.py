@@ -35,8 +35,8 @@ def judge_handshake(headers: Headers, hosts: frozenset[bytes]) -> str:
     for name, _ in found:
         if name in FORWARDING or name.startswith(FORWARDING_PREFIX):
             raise ForbiddenError(
-                f"This gateway answers its own computer only; the header {name.decode('latin-1')} says that a proxy "
-                "passed the request on."
+                "This gateway answers its own computer only; "
+                f"the header {name.decode('latin-1')} says that a proxy passed the request on."
             )
     host = only(found, b"host")
     if host is None or host not in hosts:
@@ -73,7 +73,7 @@ def judge_script(headers: Headers) -> None:
 
 
 def only(headers: list[tuple[bytes, bytes]], name: bytes) -> bytes | None:
-    """The header's one value. Raises ForbiddenError for several: two programs could each believe another one."""
+    """The header's one value. Raises ForbiddenError for several: who knows which one counts."""
     values = [value for key, value in headers if key == name]
     if len(values) > 1:
         raise ForbiddenError(f"The header {name.decode('ascii')} came more than once.")

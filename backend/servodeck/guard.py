@@ -5,20 +5,18 @@ Pure ASGI, because ordinary middleware does not see WebSockets. Knows no route.
 """
 
 from starlette.datastructures import MutableHeaders
-from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from servodeck.errors import ForbiddenError
 from servodeck.gate import judge_handshake
 
-BODY_BYTES = 16 * 1024
 STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
 
 CONTENT_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; font-src 'self'; "
-    "connect-src 'self' ws://{host}; worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors 'none'"
+    "connect-src 'self' ws://{host}; worker-src 'self'; manifest-src 'self'; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
 FIXED_HEADERS = {
     "X-Content-Type-Options": "nosniff",
@@ -43,8 +41,7 @@ class Guard:
             # The Host is not to be trusted here, so it does not appear in the policy.
             refusal = JSONResponse({"code": error.code, "detail": error.detail}, error.status)
             return await refusal(scope, receive, with_headers(send, host="127.0.0.1"))
-        limited = limit_body(receive) if scope["type"] == "http" else receive
-        return await self._app(scope, limited, with_headers(send, host))
+        return await self._app(scope, receive, with_headers(send, host))
 
 
 def with_headers(send: Send, host: str) -> Send:
@@ -57,18 +54,3 @@ def with_headers(send: Send, host: str) -> Send:
         await send(message)
 
     return send_with_headers
-
-
-def limit_body(receive: Receive) -> Receive:
-    """Nothing anybody may send here is larger than that."""
-    total = 0
-
-    async def receive_limited() -> Message:
-        nonlocal total
-        message = await receive()
-        total += len(message.get("body", b""))
-        if total > BODY_BYTES:
-            raise HTTPException(413, f"More than {BODY_BYTES} bytes.")
-        return message
-
-    return receive_limited

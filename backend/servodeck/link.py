@@ -85,6 +85,8 @@ class Link:
             await self._end()
             self._show(PortState(device=device, status="opening"))
             self._task = asyncio.create_task(self._keep_open(device, first))
+            # Not in the task itself: one that is cancelled before its first step runs no line of its own.
+            self._task.add_done_callback(lambda _: fail(first, replaced()))
         await first
 
     async def close(self) -> None:
@@ -102,16 +104,13 @@ class Link:
 
     async def _keep_open(self, device: str, first: asyncio.Future[None]) -> None:
         back_off = BackOff()
-        try:
-            while True:
-                try:
-                    await self._serve(device, first, back_off)
-                except PortError as error:
-                    self._show_lost(device, error, back_off)
-                    fail(first, error)
-                    await asyncio.sleep(back_off.take())
-        finally:
-            fail(first, CancelledError("The port was closed or changed meanwhile."))
+        while True:
+            try:
+                await self._serve(device, first, back_off)
+            except PortError as error:
+                self._show_lost(device, error, back_off)
+                fail(first, error)
+                await asyncio.sleep(back_off.take())
 
     async def _serve(self, device: str, first: asyncio.Future[None], back_off: BackOff) -> None:
         """One life of the port; ends by the PortError that ended it, or cancelled."""
@@ -146,3 +145,7 @@ class Link:
         if state != self.state:
             self.state = state
             self._events.port_changed()
+
+
+def replaced() -> CancelledError:
+    return CancelledError("The port was closed or changed meanwhile.")

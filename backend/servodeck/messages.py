@@ -154,7 +154,7 @@ def encode(message: Message) -> str:
 class PlainSchema(GenerateJsonSchema):
     """Without a title for each field, which would become a type name of its own in TypeScript."""
 
-    def field_title_should_be_set(self, schema: Any) -> bool:
+    def field_title_should_be_set(self, _schema: Any) -> bool:
         return False
 
 

@@ -14,12 +14,17 @@ STATIC = Path(__file__).parent / "static"
 HASHED_FOLDER = "assets"  # where Vite puts files named by their content
 FOR_EVER = "public, max-age=31536000, immutable"
 ASK_AGAIN = "no-cache"
-NOT_BUILT = "The gateway runs, but the page is not built yet: run `npm run build`, or `npm start`, which does it all.\n"
+NOT_BUILT = (
+    "The gateway runs, but its page is not built: `npm run build` does it, `npm start` does everything.\n"
+)
 # Little compression for little time on the event loop, on which STOP waits too.
 COMPRESS_LEVEL = 4
 
 
 class Page(StaticFiles):
+    async def check_config(self) -> None:
+        """Nothing: the folder may come while we run, when the page is built."""
+
     async def get_response(self, path: str, scope: Scope) -> Response:
         if path == "." and not (STATIC / "index.html").exists():
             return PlainTextResponse(NOT_BUILT, 503)

@@ -10,7 +10,7 @@ import socket
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol, TypeVar, cast
 
 import serial
 from serial.tools import list_ports
@@ -61,7 +61,7 @@ class PortInfo:
 class SerialPort:
     """pyserial with its zoo of exceptions reduced to one."""
 
-    def __init__(self, device: str, port: serial.SerialBase) -> None:
+    def __init__(self, device: str, port: serial.Serial) -> None:
         self._device = device
         self._port = port
 
@@ -99,22 +99,20 @@ class SerialPort:
 
 
 def open_port(device: str) -> OpenPort:
-    """Opens a device path or `socket://HOST:PORT` for one program alone. Raises a PortError with a sentence."""
+    """Opens a device path or `socket://HOST:PORT`, for us alone. Raises a PortError with a sentence."""
     refuse_other_schemes(device)
     try:
         port = serial.serial_for_url(
             device, BAUD, timeout=READ_WAIT_S, write_timeout=WRITE_WAIT_S, exclusive=True
         )
         send_at_once(port)
-        return SerialPort(device, port)
+        return SerialPort(device, cast("serial.Serial", port))
     except (serial.SerialException, OSError, ValueError) as error:
         raise explain(device, error) from error
 
 
 def refuse_other_schemes(device: str) -> None:
-    """pyserial's other schemes can write files and load modules; a device name from outside must not reach
-    them.
-    """
+    """pyserial's other schemes can write files and load modules: not with a name that came from outside."""
     if "://" in device and not device.lower().startswith(URL_SCHEME):
         raise PortMissingError(f"{device} is neither a device nor an address like socket://HOST:PORT.")
 
@@ -143,7 +141,8 @@ def explain(device: str, error: Exception) -> PortError:
         )
     if number in DENIED:
         return PortDeniedError(
-            f"This account may not open {device}. On Linux: sudo usermod -aG {group_of(device)} $USER, then log in again."
+            f"This account may not open {device}. On Linux add it to the group: "
+            f"sudo usermod -aG {group_of(device)} $USER, then log in again."
         )
     if number in MISSING or (number is None and "FileNotFoundError" in str(error)):
         return PortMissingError(f"There is no {device}. Is the cable plugged in and the board switched on?")

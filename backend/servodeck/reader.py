@@ -5,8 +5,10 @@ thread) or a thread that waits in `read` (everywhere).
 """
 
 import asyncio
+import contextlib
 import threading
 from collections.abc import Callable
+from functools import partial
 
 from servodeck.errors import PortLostError
 from servodeck.ports import OpenPort
@@ -39,30 +41,31 @@ def watch(descriptor: int, port: OpenPort, received: Received, lost: Lost) -> St
             received(data)
 
     loop.add_reader(descriptor, on_readable)
-    return lambda: void(loop.remove_reader(descriptor))
+
+    def stop() -> None:
+        loop.remove_reader(descriptor)
+
+    return stop
 
 
 def read_in_thread(port: OpenPort, received: Received, lost: Lost) -> Stop:
     loop = asyncio.get_running_loop()
     stopped = threading.Event()
 
-    def on_loop(call: Callable[[], None]) -> None:
-        if not loop.is_closed():
-            loop.call_soon_threadsafe(lambda: None if stopped.is_set() else call())
+    def deliver(call: Callable[[], None]) -> None:
+        if not stopped.is_set():
+            call()
 
     def run() -> None:
-        while not stopped.is_set():
-            try:
-                data = port.read()
-            except PortLostError as error:
-                return on_loop(lambda error=error: lost(error))
-            if data:
-                on_loop(lambda data=data: received(data))
-        return None
+        with contextlib.suppress(RuntimeError):  # the loop is closed: the process is ending
+            while not stopped.is_set():
+                try:
+                    data = port.read()
+                except PortLostError as error:
+                    loop.call_soon_threadsafe(deliver, partial(lost, error))
+                    return
+                if data:
+                    loop.call_soon_threadsafe(deliver, partial(received, data))
 
     threading.Thread(target=run, name="serial reader", daemon=True).start()
     return stopped.set
-
-
-def void(_result: object) -> None:
-    """Drops a result where a callback must have none."""

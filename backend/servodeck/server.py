@@ -6,6 +6,7 @@ Knows uvicorn and signals, no message and no packet.
 
 import asyncio
 import contextlib
+import os
 import signal
 import socket
 import sys
@@ -102,7 +103,7 @@ def leave_with_stdin(leave: Callable[[], None]) -> None:
 
     def wait() -> None:
         with contextlib.suppress(OSError, ValueError):
-            while sys.stdin.buffer.read1(4096):
+            while os.read(sys.stdin.fileno(), 4096):
                 pass
         leave()
 

@@ -1,0 +1,69 @@
+"""A serial port whose other end is the test: notes what was written and when, speaks and goes away when told."""
+
+import asyncio
+import socket
+
+from servodeck.errors import PortError, PortLostError
+
+
+class FakePort:
+    """Bytes to us come through a real socket pair, so that the event loop sees them as it sees a port's."""
+
+    def __init__(self) -> None:
+        self._ours, self._boards = socket.socketpair()
+        self.written: list[tuple[float, bytes]] = []
+        self.refuses_writes = False
+        self.is_open = True
+
+    def fileno(self) -> int | None:
+        return self._ours.fileno()
+
+    def read(self) -> bytes:
+        return self.read_now()
+
+    def read_now(self) -> bytes:
+        data = self._ours.recv(4096)
+        if not data:
+            raise PortLostError("The board is gone.")
+        return data
+
+    def write(self, data: bytes) -> None:
+        if self.refuses_writes:
+            raise PortLostError("The board takes nothing.")
+        self.written.append((asyncio.get_running_loop().time(), data))
+
+    def close(self) -> None:
+        self.is_open = False
+        self._ours.close()
+        self._boards.close()
+
+    def say(self, data: bytes) -> None:
+        self._boards.sendall(data)
+
+    def unplug(self) -> None:
+        self._boards.shutdown(socket.SHUT_RDWR)
+
+    def packets(self) -> list[bytes]:
+        return [packet for _, packet in self.written]
+
+    def times_ms(self) -> list[float]:
+        """When each packet's first byte was written."""
+        return [round(at_s * 1000, 3) for at_s, _ in self.written]
+
+
+class FakePorts:
+    """Opens what it was told, one outcome after the other; the last one stays."""
+
+    def __init__(self, *outcomes: PortError | FakePort) -> None:
+        self._outcomes = list(outcomes)
+        self.attempts: list[tuple[float, str]] = []
+
+    async def open(self, device: str) -> FakePort:
+        self.attempts.append((round(asyncio.get_running_loop().time(), 3), device))
+        outcome = self._outcomes.pop(0) if len(self._outcomes) > 1 else self._outcomes[0]
+        if isinstance(outcome, PortError):
+            raise outcome
+        return outcome
+
+    async def close(self, port: FakePort) -> None:
+        port.close()

@@ -1,0 +1,251 @@
+"""What leaves the port, in which order and when, to the tenth of a millisecond."""
+
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+import pytest
+from fake_port import FakePort
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from samples import BATTERY, GAP_MS, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
+from virtual_time import at, in_virtual_time, now
+
+from servodeck.errors import BusyError, ClosedError, GatewayError, LatchedError, PortLostError
+from servodeck.wire import QUEUE_PER_OWNER, Wire
+
+ANNA, BERT = "anna", "bert"
+STOPPED = LatchedError("Stopped before it left.")
+STOP_MS = wire_ms(STOP)
+
+
+@asynccontextmanager
+async def open_wire(port: FakePort, gap_ms: float = GAP_MS) -> AsyncIterator[Wire]:
+    wire = Wire(port, gap_s=gap_ms / 1000, now=now, received=lambda _data: None)
+    life = asyncio.create_task(wire.run())
+    await asyncio.sleep(0)  # until it lives
+    try:
+        yield wire
+    finally:
+        life.cancel()
+        await asyncio.gather(life, return_exceptions=True)
+        port.close()
+
+
+def approx_ms(*times_ms: float) -> object:
+    return pytest.approx(list(times_ms), abs=0.1)
+
+
+@in_virtual_time
+async def test_each_packet_leaves_when_the_one_before_has_left_and_the_board_had_its_pause() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        for packet in (MOVE, BATTERY, RUN):
+            left = wire.send(packet, ANNA)
+        await left
+    second_ms = GAP_MS + wire_ms(MOVE) + GAP_MS
+    assert port.packets() == [MOVE, BATTERY, RUN]
+    assert port.times_ms() == approx_ms(GAP_MS, second_ms, second_ms + wire_ms(BATTERY) + GAP_MS)
+
+
+@in_virtual_time
+async def test_a_packet_counts_as_sent_when_its_last_bit_has_left() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        await wire.send(MOVE, ANNA)
+        assert now() * 1000 == pytest.approx(GAP_MS + wire_ms(MOVE), abs=0.1)
+
+
+@in_virtual_time
+async def test_a_stop_waits_for_the_packet_on_the_wire_and_for_nothing_else() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        waiting = [wire.send(packet, ANNA) for packet in (MOVE, RUN, MOVE_ELSEWHERE)]
+        at(0.015, lambda: wire.halt(MOVE_ELSEWHERE, STOPPED))  # the first move is on the wire since 10 ms
+        await waiting[0]
+        for left in waiting[1:]:
+            with pytest.raises(LatchedError):
+                await left
+        await asyncio.sleep(1)
+    first_ms = GAP_MS + wire_ms(MOVE) + GAP_MS
+    assert port.packets() == [MOVE, STOP, STOP, STOP, MOVE_ELSEWHERE]
+    assert port.times_ms() == approx_ms(
+        GAP_MS, first_ms, first_ms + 70, first_ms + 140, first_ms + 140 + STOP_MS + GAP_MS
+    )
+
+
+@in_virtual_time
+async def test_a_stop_on_an_idle_wire_leaves_at_once() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        await asyncio.sleep(1)
+        await wire.halt(None, STOPPED)
+        assert port.times_ms() == approx_ms(1000, 1070, 1140)
+        assert now() * 1000 == pytest.approx(1140 + STOP_MS, abs=0.1)
+
+
+@in_virtual_time
+async def test_a_stop_keeps_its_distance_even_from_a_board_that_needs_less() -> None:
+    port = FakePort()
+    async with open_wire(port, gap_ms=2) as wire:
+        await wire.send(MOVE, ANNA)
+        await wire.halt(None, STOPPED)
+    assert port.times_ms()[1] == pytest.approx(port.times_ms()[0] + wire_ms(MOVE) + GAP_MS, abs=0.1)
+
+
+@in_virtual_time
+async def test_nothing_slips_in_between_the_stops_and_the_pose() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        halted = wire.halt(MOVE_ELSEWHERE, STOPPED)
+        wire.send(BATTERY, ANNA)
+        wire.send(STOP, ANNA, urgent=True)
+        await halted
+        await asyncio.sleep(1)
+    assert port.packets() == [STOP, STOP, STOP, MOVE_ELSEWHERE, STOP, BATTERY]
+
+
+@in_virtual_time
+async def test_pressing_stop_again_joins_the_sequence_and_brings_the_newer_pose() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        first = wire.halt(MOVE, STOPPED)
+        at(0.03, lambda: wire.halt(MOVE_ELSEWHERE, STOPPED))
+        at(0.05, lambda: wire.halt(None, STOPPED))
+        await first
+    assert port.packets() == [STOP, STOP, STOP, MOVE_ELSEWHERE]
+
+
+@in_virtual_time
+async def test_hammering_stop_never_puts_off_the_pose_and_each_press_is_followed_by_a_stop() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        for press in range(100):
+            at(press * 0.05, lambda: wire.halt(MOVE, STOPPED))
+        await asyncio.sleep(6)
+    poses = [at_s for at_s, packet in port.written if packet == MOVE]
+    stops = [at_s for at_s, packet in port.written if packet == STOP]
+    assert poses[0] < 0.25
+    assert all(any(press * 0.05 <= at_s <= press * 0.05 + 0.1 for at_s in stops) for press in range(100))
+
+
+@in_virtual_time
+async def test_after_the_sequence_the_wire_serves_again() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        await wire.halt(None, STOPPED)
+        await wire.send(MOVE, ANNA)
+        await wire.halt(None, STOPPED)
+    assert port.packets() == [STOP, STOP, STOP, MOVE, STOP, STOP, STOP]
+
+
+@in_virtual_time
+async def test_one_client_cannot_fill_the_queue_for_the_others() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        for _ in range(QUEUE_PER_OWNER):
+            wire.send(MOVE, ANNA)
+        with pytest.raises(BusyError):
+            wire.send(MOVE, ANNA)
+        await wire.send(BATTERY, BERT)
+        wire.send(STOP, ANNA, urgent=True)
+
+
+@in_virtual_time
+async def test_what_a_client_left_behind_is_dropped_unless_it_is_on_the_wire() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        on_wire, dropped = wire.send(MOVE, ANNA), wire.send(MOVE, ANNA)
+        kept = wire.send(BATTERY, BERT)
+        at(0.012, lambda: wire.purge(lambda job: job.owner is ANNA, ClosedError("gone")))
+        await on_wire
+        with pytest.raises(ClosedError):
+            await dropped
+        await kept
+    assert port.packets() == [MOVE, BATTERY]
+
+
+@in_virtual_time
+async def test_a_lost_port_fails_all_that_waits_and_whatever_comes_later() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        pending = [wire.send(MOVE, ANNA), wire.send(MOVE, ANNA)]
+        at(0.012, port.unplug)
+        for left in pending:
+            with pytest.raises(PortLostError):
+                await left
+        with pytest.raises(PortLostError):
+            wire.send(MOVE, ANNA)
+        with pytest.raises(PortLostError):
+            wire.halt(None, STOPPED)
+
+
+@in_virtual_time
+async def test_a_port_that_takes_nothing_is_lost_too() -> None:
+    port = FakePort()
+    port.refuses_writes = True
+    async with open_wire(port) as wire:
+        with pytest.raises(PortLostError):
+            await wire.halt(None, STOPPED)
+
+
+@in_virtual_time
+async def test_closing_fails_all_that_waits_as_closed() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        left = wire.send(MOVE, ANNA)
+    with pytest.raises(ClosedError):
+        await left
+
+
+@in_virtual_time
+async def test_bytes_of_the_board_come_through() -> None:
+    port, received = FakePort(), bytearray()
+    wire = Wire(port, gap_s=0, now=now, received=received.extend)
+    life = asyncio.create_task(wire.run())
+    at(0.1, lambda: port.say(b"\x55\x55"))
+    await asyncio.sleep(1)
+    life.cancel()
+    await asyncio.gather(life, return_exceptions=True)
+    port.close()
+    assert received == b"\x55\x55"
+
+
+asks = st.lists(st.tuples(st.integers(0, 400), st.sampled_from(["move", "battery", "stop"])), max_size=30)
+
+
+@settings(max_examples=60, deadline=None)
+@given(asks)
+def test_whatever_is_asked_and_when_packets_keep_their_distance_and_stops_purge(
+    asked: list[tuple[int, str]],
+) -> None:
+    written = run_script(asked)
+    for (before_s, packet), (next_s, _) in zip(written, written[1:], strict=False):
+        assert (next_s - before_s) * 1000 >= wire_ms(packet) + GAP_MS - 0.01
+    for press_ms, kind in asked:
+        if kind == "stop":
+            first_s = min(at_s for at_s, packet in written if packet == STOP and at_s * 1000 >= press_ms)
+            assert first_s * 1000 <= press_ms + wire_ms(MOVE) + 2 * GAP_MS + STOP_MS + 70
+
+
+@in_virtual_time
+async def play(asked: list[tuple[int, str]], port: FakePort) -> None:
+    def ask(wire: Wire, kind: str) -> None:
+        try:
+            if kind == "stop":
+                wire.halt(None, STOPPED)
+            else:
+                wire.send(MOVE if kind == "move" else BATTERY, ANNA)
+        except GatewayError:
+            pass
+
+    async with open_wire(port) as wire:
+        for at_ms, kind in asked:
+            at(at_ms / 1000, lambda kind=kind: ask(wire, kind))
+        await asyncio.sleep(3)
+
+
+def run_script(asked: list[tuple[int, str]]) -> list[tuple[float, bytes]]:
+    port = FakePort()
+    play(asked, port)
+    return port.written

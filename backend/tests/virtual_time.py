@@ -1,0 +1,56 @@
+"""An event loop whose clock jumps to the next timer instead of waiting: exact times, no sleeps."""
+
+import asyncio
+import selectors
+from collections.abc import Callable, Coroutine
+from functools import wraps
+from typing import Any, ParamSpec
+
+P = ParamSpec("P")
+
+
+class JumpingSelector(selectors.SelectSelector):
+    """Where a real one would wait for a timer, it moves the clock there."""
+
+    now_s = 0.0
+
+    def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
+        ready = super().select(0)
+        if ready:
+            return ready
+        if timeout is None:
+            raise RuntimeError(
+                "Nothing will ever happen again: the test waits for an event that cannot come."
+            )
+        self.now_s += max(timeout, 0.0)
+        return []
+
+
+class VirtualTimeLoop(asyncio.SelectorEventLoop):
+    def __init__(self) -> None:
+        self.jumping = JumpingSelector()
+        super().__init__(self.jumping)
+
+    def time(self) -> float:
+        return self.jumping.now_s
+
+
+def in_virtual_time(test: Callable[P, Coroutine[Any, Any, None]]) -> Callable[P, None]:
+    """Runs an async test from time 0 on such a loop."""
+
+    @wraps(test)
+    def run(*args: P.args, **kwargs: P.kwargs) -> None:
+        with asyncio.Runner(loop_factory=VirtualTimeLoop) as runner:
+            runner.run(test(*args, **kwargs))
+
+    return run
+
+
+def now() -> float:
+    """Seconds since the test began."""
+    return asyncio.get_running_loop().time()
+
+
+def at(seconds: float, call: Callable[[], object]) -> None:
+    """Calls it at that time of the test."""
+    asyncio.get_running_loop().call_at(seconds, call)
