@@ -15,6 +15,10 @@ export default defineConfig({
   timeout: 30_000,
   expect: { timeout: 5_000 },
   reporter: [['list']],
+  projects: [
+    { name: 'commands', testMatch: 'commands/**' },
+    { name: 'page', testIgnore: 'commands/**' },
+  ],
   use: {
     locale: 'en-GB',
     trace: 'retain-on-failure',

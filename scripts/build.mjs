@@ -1,7 +1,8 @@
 // `npm run build`: the page into the Python package, the simulated board as one file for Node.
 
 import { build } from 'vite';
-import { at, main } from './steps.mjs';
+import { buildInputs, buildStamp } from './setup.mjs';
+import { at, main, writeStamp } from './steps.mjs';
 
 const logLevel = 'warn';
 
@@ -26,6 +27,8 @@ function buildSimulator() {
 }
 
 await main(async () => {
+  const inputs = buildInputs(); // before: what changes meanwhile is not in the build
   await Promise.all([buildPage(), buildSimulator()]);
+  writeStamp(buildStamp, inputs);
   return 0;
 });

@@ -39,14 +39,17 @@ async function nodePackages() {
 
 async function builtParts() {
   await once({
-    stamp: 'build/built-stamp',
-    inputs: fingerprint(
-      ['frontend', 'shared/src', 'package-lock.json', 'vite.config.ts', 'scripts/build.mjs'],
-      [process.version],
-      (file) => !isTest.test(file),
-    ),
+    stamp: buildStamp,
+    inputs: buildInputs(),
     output: 'backend/servodeck/static/index.html',
     says: 'Building the page …',
     work: () => mustRun('build the page', process.execPath, ['scripts/build.mjs']),
   });
+}
+
+export const buildStamp = 'build/built-stamp';
+
+export function buildInputs() {
+  const sources = ['frontend', 'shared/src', 'package-lock.json', 'vite.config.ts', 'scripts/build.mjs'];
+  return fingerprint(sources, [process.version], (file) => !isTest.test(file));
 }

@@ -111,8 +111,13 @@ export async function once({ stamp, inputs, output, says, work }) {
   rmSync(file, { force: true });
   say(says);
   await work();
-  mkdirSync(path.dirname(file), { recursive: true });
-  writeFileSync(file, inputs);
+  writeStamp(stamp, inputs);
+}
+
+/** @param {string} stamp @param {string} inputs */
+export function writeStamp(stamp, inputs) {
+  mkdirSync(path.dirname(at(stamp)), { recursive: true });
+  writeFileSync(at(stamp), inputs);
 }
 
 /**
