@@ -27,6 +27,10 @@ class Seat:
         except asyncio.QueueFull:
             self.overflowed.set()
 
+    @property
+    def waiting(self) -> int:
+        return self._outbox.qsize()
+
     async def next(self) -> str:
         return await self._outbox.get()
 

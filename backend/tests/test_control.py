@@ -1,0 +1,280 @@
+"""What the gateway does with what clients and the board do: latch, welcome, battery, the last one out."""
+
+import asyncio
+import json
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Any
+
+import pytest
+from fake_port import FakePort, FakePorts
+from samples import BATTERY, BATTERY_REPORT, DOWNLOAD, ERASE, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
+from virtual_time import at, in_virtual_time, now
+
+from servodeck.control import Control
+from servodeck.errors import (
+    CancelledError,
+    ClosedError,
+    LatchedError,
+    NoAnswerError,
+    PortLostError,
+    PortMissingError,
+)
+from servodeck.hub import OUTBOX_MESSAGES, Seat
+from servodeck.inbox import SILENCE_S
+
+
+@asynccontextmanager
+async def gateway_on(*ports: FakePort) -> AsyncIterator[Control]:
+    control = Control(FakePorts(*(ports or (FakePort(),))), now, "doc")
+    await control.use_port("/dev/board")
+    await asyncio.sleep(0.1)  # until the first stop has left
+    try:
+        yield control
+    finally:
+        await control.link.close()
+
+
+async def heard(seat: Seat) -> list[dict[str, Any]]:
+    """All messages that wait for that client."""
+    await asyncio.sleep(0)
+    messages = []
+    while seat.waiting:
+        messages.append(json.loads(await seat.next()))
+    return messages
+
+
+def seated(control: Control) -> Seat:
+    seat = Seat()
+    control.join(seat)
+    return seat
+
+
+@in_virtual_time
+async def test_opening_a_port_sends_one_stop_and_nothing_that_moves() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        assert port.packets() == [STOP]
+        assert control.latch is False
+
+
+@in_virtual_time
+async def test_each_client_is_welcomed_and_the_others_hear_how_many_there_are() -> None:
+    async with gateway_on() as control:
+        anna = seated(control)
+        [welcome] = await heard(anna)
+        assert welcome["type"] == "welcome"
+        assert (welcome["board"], welcome["latch"], welcome["clients"]) == ("doc", False, 1)
+        assert welcome["port"]["status"] == "open"
+        bert = seated(control)
+        assert [message["type"] for message in await heard(bert)] == ["welcome"]
+        assert [(message["type"], message["clients"]) for message in await heard(anna)] == [("state", 2)]
+        control.leave(bert)
+        assert [(message["type"], message["clients"]) for message in await heard(anna)] == [("state", 1)]
+
+
+@in_virtual_time
+async def test_stop_latches_for_everyone_until_resume() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna, bert = seated(control), seated(control)
+        await heard(anna), await heard(bert)
+        await control.stop(MOVE)
+        assert port.packets() == [STOP, STOP, STOP, STOP, MOVE]
+        for seat in (anna, bert):
+            told = await heard(seat)
+            assert [message["type"] for message in told] == ["state", "halted"]
+            assert told[0]["latch"] is True
+        for packet in (MOVE, RUN, DOWNLOAD, ERASE):
+            with pytest.raises(LatchedError):
+                control.send(anna, packet.hex())
+        await control.send(anna, BATTERY.hex())
+        control.resume()
+        assert [message["latch"] for message in await heard(bert)] == [False]
+        assert port.packets()[5:] == [BATTERY]
+        await control.send(anna, MOVE.hex())
+
+
+@in_virtual_time
+async def test_stop_and_stop_again_are_told_once() -> None:
+    async with gateway_on() as control:
+        anna = seated(control)
+        await heard(anna)
+        control.stop(None)
+        await control.stop(MOVE)
+        assert [message["type"] for message in await heard(anna)] == ["state", "halted"]
+
+
+@in_virtual_time
+async def test_without_a_port_stop_latches_and_says_so() -> None:
+    control = Control(FakePorts(PortMissingError("Unused.")), now, "doc")
+    with pytest.raises(ClosedError):
+        control.stop(None)
+    assert control.latch is True
+
+
+@in_virtual_time
+async def test_a_lost_port_latches_fails_what_waits_and_refuses_resume_until_it_is_back() -> None:
+    first, second = FakePort(), FakePort()
+    async with gateway_on(first, second) as control:
+        anna = seated(control)
+        await heard(anna)
+        left = control.send(anna, MOVE.hex())
+        at(now() + 0.005, first.unplug)
+        with pytest.raises(PortLostError):
+            await left
+        [state] = await heard(anna)
+        assert (state["latch"], state["port"]["status"], state["port"]["code"]) == (True, "lost", "lost")
+        with pytest.raises(PortLostError):
+            control.resume()
+        with pytest.raises(PortLostError):
+            control.send(anna, MOVE.hex())
+        await asyncio.sleep(1)
+        assert second.packets() == [STOP]
+        with pytest.raises(LatchedError):
+            control.send(anna, MOVE.hex())
+        control.resume()
+        await control.send(anna, MOVE.hex())
+
+
+@in_virtual_time
+async def test_a_port_that_never_opened_does_not_latch() -> None:
+    control = Control(FakePorts(PortMissingError("There is no such port.")), now, "doc")
+    with pytest.raises(PortMissingError):
+        await control.use_port("/dev/board")
+    assert control.latch is False
+    await control.link.close()
+
+
+@in_virtual_time
+async def test_a_plain_stop_overtakes_what_waits_and_takes_waiting_runs_with_it() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = seated(control)
+        on_wire = control.send(anna, MOVE.hex())
+        await asyncio.sleep(0.005)
+        run, move = control.send(anna, RUN.hex()), control.send(anna, MOVE_ELSEWHERE.hex())
+        await control.send(anna, STOP.hex())
+        with pytest.raises(CancelledError):
+            await run
+        await asyncio.gather(on_wire, move)
+        assert port.packets()[1:] == [MOVE, STOP, MOVE_ELSEWHERE]
+        assert control.latch is False
+
+
+@in_virtual_time
+async def test_when_the_last_client_leaves_a_group_that_may_run_is_stopped() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna, bert = seated(control), seated(control)
+        await control.send(anna, RUN.hex())
+        control.leave(anna)
+        await asyncio.sleep(1)
+        assert port.packets()[1:] == [RUN]
+        control.leave(bert)
+        await asyncio.sleep(1)
+        assert port.packets()[1:] == [RUN, STOP, STOP, STOP]
+        assert control.latch is False
+
+
+@in_virtual_time
+async def test_when_the_last_client_leaves_after_a_stop_nothing_is_sent() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = seated(control)
+        await control.send(anna, RUN.hex())
+        await control.send(anna, STOP.hex())
+        await control.send(anna, MOVE.hex())
+        control.leave(anna)
+        await asyncio.sleep(1)
+        assert port.packets()[1:] == [RUN, STOP, MOVE]
+
+
+@in_virtual_time
+async def test_what_a_leaving_client_had_waiting_is_never_sent() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = seated(control)
+        for _ in range(5):
+            control.send(anna, MOVE.hex())
+        await asyncio.sleep(0.005)
+        control.leave(anna)
+        await asyncio.sleep(1)
+        assert port.packets()[1:] == [MOVE]
+
+
+@in_virtual_time
+async def test_every_client_hears_every_packet_and_the_noise_between() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna, bert = seated(control), seated(control)
+        await heard(anna), await heard(bert)
+        port.say(b"\x00\x01" + BATTERY_REPORT + b"\x55\x55\x04\x0f")
+        await asyncio.sleep(1)
+        for seat in (anna, bert):
+            told = await heard(seat)
+            assert told == [
+                {"type": "noise", "bytes": "0001"},
+                {"type": "received", "packet": BATTERY_REPORT.hex()},
+                {"type": "noise", "bytes": "5555040f"},
+            ]
+
+
+@in_virtual_time
+async def test_the_battery_is_asked_once_for_all_who_want_to_know() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        at(now() + 0.1, lambda: port.say(BATTERY_REPORT))
+        assert await asyncio.gather(control.read_battery(), control.read_battery()) == [7500, 7500]
+        assert port.packets()[1:] == [BATTERY]
+        assert control.battery
+        assert control.battery.battery_mv == 7500
+
+
+@in_virtual_time
+async def test_a_board_that_does_not_tell_its_battery_gets_half_a_second() -> None:
+    async with gateway_on() as control:
+        begun_s = now()
+        with pytest.raises(NoAnswerError):
+            await control.read_battery()
+        assert (now() - begun_s) * 1000 == pytest.approx(wire_ms(BATTERY) + 500, abs=1)
+        with pytest.raises(NoAnswerError):
+            await control.read_battery()
+
+
+@in_virtual_time
+async def test_changing_the_port_first_ends_a_group_that_nobody_could_stop_afterwards() -> None:
+    first, second = FakePort(), FakePort()
+    async with gateway_on(first, second) as control:
+        await control.send("script", RUN.hex())
+        await control.use_port("/dev/other")
+        assert first.packets() == [STOP, RUN, STOP, STOP, STOP]
+
+
+@in_virtual_time
+async def test_shutting_down_stops_the_robot_within_half_a_second() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        for _ in range(8):
+            control.send("script", MOVE.hex())
+        await asyncio.sleep(0.001)
+        begun_s = now()
+        await control.shut_down()
+        assert now() - begun_s <= 0.5
+        assert port.packets()[1:] == [MOVE, STOP, STOP, STOP]
+        assert control.link.state.status == "closed"
+        await control.shut_down()
+
+
+@in_virtual_time
+async def test_a_client_that_does_not_read_is_given_up_and_the_others_lose_nothing() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        deaf, alert = seated(control), seated(control)
+        await heard(alert)
+        for _ in range(2 * OUTBOX_MESSAGES):
+            port.say(BATTERY_REPORT)
+            await asyncio.sleep(2 * SILENCE_S)
+            assert [message["type"] for message in await heard(alert)] == ["received"]
+        assert deaf.overflowed.is_set()
+        assert not alert.overflowed.is_set()

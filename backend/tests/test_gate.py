@@ -1,0 +1,173 @@
+"""Who may ask and what may pass, as tables."""
+
+from contextlib import AbstractContextManager, nullcontext
+
+import pytest
+from samples import BATTERY, DOWNLOAD, ERASE, MOVE, RUN, STOP
+
+from servodeck.errors import ForbiddenError, LatchedError, MalformedError, OutOfRangeError
+from servodeck.gate import (
+    allowed_hosts,
+    judge_handshake,
+    judge_hold,
+    judge_latch,
+    judge_packet,
+    judge_script,
+)
+
+PORT = 8300
+HOSTS: list[str | None] = [
+    "127.0.0.1:8300",
+    "localhost:8300",
+    "[::1]:8300",
+    "127.0.0.1",
+    "127.0.0.1:8301",
+    "127.0.0.2:8300",
+    "LOCALHOST:8300",
+    "localhost.:8300",
+    "evil.example",
+    "evil.example:8300",
+    "localhost:8300.evil.example",
+    None,
+]
+ORIGINS: list[str | None] = [
+    None,
+    "http://127.0.0.1:8300",
+    "http://localhost:8300",
+    "http://[::1]:8300",
+    "https://127.0.0.1:8300",
+    "http://127.0.0.1:8301",
+    "http://evil.example",
+    "http://127.0.0.1:8300.evil.example",
+    "null",
+    "",
+]
+# A page may ask only at the very address it came from; programs have no Origin.
+PASSING = {(host, origin) for host in HOSTS[:3] for origin in (None, f"http://{host}")}
+
+
+def allowed(passes: bool) -> AbstractContextManager[object]:
+    return nullcontext() if passes else pytest.raises(ForbiddenError)
+
+
+def headers_of(host: str | None, origin: str | None) -> list[tuple[bytes, bytes]]:
+    named = (("host", host), ("origin", origin))
+    return [(name.encode(), value.encode()) for name, value in named if value is not None]
+
+
+@pytest.mark.parametrize("host", HOSTS)
+@pytest.mark.parametrize("origin", ORIGINS)
+def test_only_the_own_address_and_its_own_page_pass(host: str | None, origin: str | None) -> None:
+    with allowed((host, origin) in PASSING):
+        assert judge_handshake(headers_of(host, origin), allowed_hosts(PORT)) == host
+
+
+def test_on_the_usual_port_a_browser_leaves_the_number_out() -> None:
+    assert judge_handshake(headers_of("localhost", "http://localhost"), allowed_hosts(80)) == "localhost"
+    with pytest.raises(ForbiddenError):
+        judge_handshake(headers_of("localhost", None), allowed_hosts(PORT))
+
+
+@pytest.mark.parametrize("name", ["host", "origin"])
+def test_a_header_that_comes_twice_is_refused(name: str) -> None:
+    headers = headers_of("localhost:8300", "http://localhost:8300")
+    twice = [*headers, *(header for header in headers if header[0] == name.encode())]
+    with pytest.raises(ForbiddenError, match="more than once"):
+        judge_handshake(twice, allowed_hosts(PORT))
+
+
+@pytest.mark.parametrize(
+    "name", ["forwarded", "via", "x-forwarded-for", "x-forwarded-host", "x-forwarded-anything", "x-real-ip"]
+)
+def test_what_a_proxy_passed_on_is_refused_with_an_explanation(name: str) -> None:
+    headers = [*headers_of("localhost:8300", None), (name.encode(), b"10.0.0.1")]
+    with pytest.raises(ForbiddenError, match="proxy"):
+        judge_handshake(headers, allowed_hosts(PORT))
+
+
+@pytest.mark.parametrize(
+    ("site", "mode", "may_look", "may_act"),
+    [
+        (None, None, True, True),
+        ("same-origin", "cors", True, True),
+        ("none", "navigate", True, True),
+        ("cross-site", "navigate", True, False),
+        ("same-site", "navigate", True, False),
+        ("cross-site", "no-cors", False, False),
+        ("same-site", "no-cors", False, False),
+        ("cross-site", "cors", False, False),
+        ("cross-site", "websocket", False, False),
+    ],
+)
+def test_another_site_may_link_to_the_page_and_nothing_else(
+    site: str | None, mode: str | None, may_look: bool, may_act: bool
+) -> None:
+    named = ((b"sec-fetch-site", site), (b"sec-fetch-mode", mode))
+    headers = headers_of("localhost:8300", None) + [(name, value.encode()) for name, value in named if value]
+    with allowed(may_look):
+        judge_handshake(headers, allowed_hosts(PORT))
+    with allowed(may_act):
+        judge_script(headers)
+
+
+@pytest.mark.parametrize("packet", [MOVE, RUN, STOP, ERASE, BATTERY, DOWNLOAD])
+def test_each_of_the_six_commands_passes(packet: bytes) -> None:
+    assert judge_packet(packet.hex(), "doc") == packet
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "zz",
+        "555",
+        "55550",
+        "55 55 02",
+        "55550307",
+        "5555020755550207",
+        "5555020f00",
+        "55550263",
+        "55550203",
+        "aa550207",
+        "5555ff" + "07" * 254,
+    ],
+)
+def test_what_is_not_exactly_one_command_is_malformed(text: str) -> None:
+    with pytest.raises(MalformedError):
+        judge_packet(text, "doc")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "5555080301e80301c509",  # 2501 µs
+        "5555080301e80301f301",  # 499 µs
+        "5555080301317501dc05",  # 30,001 ms
+        "5555080301e80300dc05",  # servo 0
+        "5555080301e80321dc05",  # servo 33
+    ],
+)
+def test_what_the_board_cannot_take_is_out_of_range(text: str) -> None:
+    with pytest.raises(OutOfRangeError):
+        judge_packet(text, "doc")
+
+
+def test_only_a_move_can_hold_a_pose() -> None:
+    assert judge_hold(None, "doc") is None
+    assert judge_hold(MOVE.hex(), "doc") == MOVE
+    for packet in (RUN, STOP, ERASE, BATTERY, DOWNLOAD):
+        with pytest.raises(MalformedError):
+            judge_hold(packet.hex(), "doc")
+
+
+@pytest.mark.parametrize(
+    ("packet", "passes"),
+    [(MOVE, False), (RUN, False), (ERASE, False), (DOWNLOAD, False), (STOP, True), (BATTERY, True)],
+)
+def test_the_latch_lets_only_stop_and_battery_through(packet: bytes, passes: bool) -> None:
+    judge_latch(packet, latch=False)
+    if passes:
+        judge_latch(packet, latch=True)
+    else:
+        with pytest.raises(LatchedError):
+            judge_latch(packet, latch=True)
