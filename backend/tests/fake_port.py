@@ -1,9 +1,10 @@
-"""A serial port whose other end is the test: notes what was written and when, speaks and goes away when told."""
+"""A serial port whose other end is the test: notes what was written and when, speaks and goes when told."""
 
 import asyncio
 import socket
 
 from servodeck.errors import PortError, PortLostError
+from servodeck.ports import OpenPort
 
 
 class FakePort:
@@ -65,5 +66,5 @@ class FakePorts:
             raise outcome
         return outcome
 
-    async def close(self, port: FakePort) -> None:
+    async def close(self, port: OpenPort) -> None:
         port.close()

@@ -7,9 +7,6 @@ from contextlib import asynccontextmanager
 from typing import Any
 
 import pytest
-from fake_port import FakePort, FakePorts
-from samples import BATTERY, BATTERY_REPORT, DOWNLOAD, ERASE, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
-from virtual_time import at, in_virtual_time, now
 
 from servodeck.control import Control
 from servodeck.errors import (
@@ -22,6 +19,9 @@ from servodeck.errors import (
 )
 from servodeck.hub import OUTBOX_MESSAGES, Seat
 from servodeck.inbox import SILENCE_S
+from tests.fake_port import FakePort, FakePorts
+from tests.samples import BATTERY, BATTERY_REPORT, DOWNLOAD, ERASE, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
+from tests.virtual_time import at, in_virtual_time, now
 
 
 @asynccontextmanager
@@ -225,7 +225,8 @@ async def test_the_battery_is_asked_once_for_all_who_want_to_know() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         at(now() + 0.1, lambda: port.say(BATTERY_REPORT))
-        assert await asyncio.gather(control.read_battery(), control.read_battery()) == [7500, 7500]
+        first, second = await asyncio.gather(control.read_battery(), control.read_battery())
+        assert first == second == 7500
         assert port.packets()[1:] == [BATTERY]
         assert control.battery
         assert control.battery.battery_mv == 7500

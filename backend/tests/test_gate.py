@@ -3,7 +3,6 @@
 from contextlib import AbstractContextManager, nullcontext
 
 import pytest
-from samples import BATTERY, DOWNLOAD, ERASE, MOVE, RUN, STOP
 
 from servodeck.errors import ForbiddenError, LatchedError, MalformedError, OutOfRangeError
 from servodeck.gate import (
@@ -14,6 +13,7 @@ from servodeck.gate import (
     judge_packet,
     judge_script,
 )
+from tests.samples import BATTERY, DOWNLOAD, ERASE, MOVE, RUN, STOP
 
 PORT = 8300
 HOSTS: list[str | None] = [

@@ -4,14 +4,14 @@ import asyncio
 from dataclasses import dataclass, field
 
 import pytest
-from fake_port import FakePort, FakePorts
-from virtual_time import at, in_virtual_time, now
 
 from servodeck.errors import CancelledError, ClosedError, PortBusyError, PortLostError, PortMissingError
 from servodeck.link import Link
 from servodeck.messages import PortState
 from servodeck.ports import OpenPort
 from servodeck.wire import Wire
+from tests.fake_port import FakePort, FakePorts
+from tests.virtual_time import at, in_virtual_time, now
 
 MISSING = PortMissingError("There is no such port.")
 

@@ -5,11 +5,11 @@ import os
 from collections.abc import AsyncIterator
 
 import pytest
-from test_ports import Pty
 
 from servodeck.errors import PortLostError
 from servodeck.ports import OpenPort, open_port
 from servodeck.reader import Stop, read_in_thread, start_reading
+from tests.test_ports import Pty
 
 
 class Listener:

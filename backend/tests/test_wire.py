@@ -3,16 +3,17 @@
 import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from itertools import pairwise
 
 import pytest
-from fake_port import FakePort
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from samples import BATTERY, GAP_MS, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
-from virtual_time import at, in_virtual_time, now
 
 from servodeck.errors import BusyError, ClosedError, GatewayError, LatchedError, PortLostError
 from servodeck.wire import QUEUE_PER_OWNER, Wire
+from tests.fake_port import FakePort
+from tests.samples import BATTERY, GAP_MS, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
+from tests.virtual_time import at, in_virtual_time, now
 
 ANNA, BERT = "anna", "bert"
 STOPPED = LatchedError("Stopped before it left.")
@@ -220,7 +221,7 @@ def test_whatever_is_asked_and_when_packets_keep_their_distance_and_stops_purge(
     asked: list[tuple[int, str]],
 ) -> None:
     written = run_script(asked)
-    for (before_s, packet), (next_s, _) in zip(written, written[1:], strict=False):
+    for (before_s, packet), (next_s, _) in pairwise(written):
         assert (next_s - before_s) * 1000 >= wire_ms(packet) + GAP_MS - 0.01
     for press_ms, kind in asked:
         if kind == "stop":

@@ -1,0 +1,1 @@
+"""Tests of the gateway; each file names what it proves."""
