@@ -1,0 +1,274 @@
+"""The gateway's codec against the shared vectors, and what holds for all commands."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from servodeck.decoder import Packet
+from servodeck.families import DOC, FAMILIES, Family, Range
+from servodeck.limits import PacketError
+from servodeck.packets import check_command, describe, encode, parse_command, parse_report
+from servodeck.values import (
+    Battery,
+    Command,
+    Download,
+    Erase,
+    Erased,
+    Frame,
+    FrameStored,
+    Move,
+    ReadBattery,
+    Report,
+    Run,
+    RunAccepted,
+    RunFinished,
+    RunStarted,
+    RunStopped,
+    ServoTarget,
+    Stop,
+    UnknownReport,
+)
+
+VECTORS = Path(__file__).parents[2] / "shared" / "vectors"
+
+
+def load(name: str) -> list[Any]:
+    vectors = json.loads((VECTORS / f"{name}.json").read_text("utf-8"))
+    return [pytest.param(vector, id=vector["name"]) for vector in vectors]
+
+
+def frame_of(value: Any) -> Frame:
+    targets = (ServoTarget(target["servo"], target["position"]) for target in value["targets"])
+    return Frame(value["durationMs"], tuple(targets))
+
+
+def command_of(value: Any) -> Command:
+    match value["kind"]:
+        case "move":
+            frame = frame_of(value)
+            return Move(frame.duration_ms, frame.targets)
+        case "run":
+            return Run(value["slot"], value["times"])
+        case "download":
+            return Download(value["slot"], value["frameCount"], value["frameIndex"], frame_of(value["frame"]))
+    plain: dict[str, Command] = {"stop": Stop(), "erase": Erase(), "readBattery": ReadBattery()}
+    return plain[value["kind"]]
+
+
+def report_of(value: Any) -> Report:
+    match value["kind"]:
+        case "runStarted":
+            return RunStarted(value["slot"], value["times"])
+        case "runFinished":
+            return RunFinished(value["slot"])
+        case "battery":
+            return Battery(value["batteryMv"])
+        case "unknown":
+            return UnknownReport(value["command"], bytes.fromhex(value["params"]))
+    plain: dict[str, Report] = {
+        "runAccepted": RunAccepted(),
+        "runStopped": RunStopped(),
+        "erased": Erased(),
+        "frameStored": FrameStored(),
+    }
+    return plain[value["kind"]]
+
+
+@pytest.mark.parametrize("vector", load("commands"))
+def test_commands_are_these_bytes_and_back(vector: Any) -> None:
+    packet, command = bytes.fromhex(vector["hex"]), command_of(vector["command"])
+    assert encode(command, FAMILIES[vector["family"]]) == packet
+    assert parse_command(packet) == command
+    assert check_command(packet, FAMILIES[vector["family"]]) == command
+
+
+@pytest.mark.parametrize("vector", load("reports"))
+def test_reports_mean_this_in_this_family(vector: Any) -> None:
+    packet = bytes.fromhex(vector["hex"])
+    report = parse_report(Packet(packet[3], packet[4:]), FAMILIES[vector["family"]])
+    assert report == report_of(vector["report"])
+
+
+@pytest.mark.parametrize("vector", load("refusals"))
+def test_what_a_board_cannot_take_is_refused_by_name_value_and_range(vector: Any) -> None:
+    with pytest.raises(PacketError) as caught:
+        encode(command_of(vector["command"]), FAMILIES[vector["family"]])
+    refusal = caught.value
+    assert (refusal.code, refusal.field, refusal.detail) == (
+        "outOfRange",
+        vector["field"],
+        vector["message"],
+    )
+
+
+def test_the_family_table_is_the_shared_one() -> None:
+    shared = json.loads((VECTORS / "families.json").read_text("utf-8"))
+    rows = {row["id"]: row for row in shared}
+    assert list(FAMILIES) == list(rows)
+    for family in FAMILIES.values():
+        row = rows[family.id]
+        mine = {camel(name): plain(getattr(family, name)) for name in Family.__dataclass_fields__}
+        assert mine == {name: row[name] for name in mine}
+
+
+def camel(name: str) -> str:
+    first, *rest = name.split("_")
+    return first + "".join(word.capitalize() for word in rest)
+
+
+def plain(value: object) -> object:
+    if isinstance(value, Range):
+        return {"min": value.min, "max": value.max}
+    return list(value) if isinstance(value, tuple) else value
+
+
+def whole(allowed: Range) -> st.SearchStrategy[int]:
+    return st.integers(allowed.min, allowed.max)
+
+
+@st.composite
+def frames(draw: st.DrawFn, family: Family, least: int, most: int) -> Frame:
+    servos = draw(st.lists(whole(family.servo), min_size=least, max_size=most, unique=True))
+    targets = tuple(ServoTarget(servo, draw(whole(family.position))) for servo in servos)
+    return Frame(draw(whole(family.duration_ms)), targets)
+
+
+@st.composite
+def downloads(draw: st.DrawFn, family: Family) -> Download:
+    count = draw(st.integers(1, family.frames_per_group))
+    index = draw(st.integers(0, count - 1))
+    return Download(draw(whole(family.slot)), count, index, draw(frames(family, 0, family.servos_per_frame)))
+
+
+def commands(family: Family) -> st.SearchStrategy[Command]:
+    by_kind: dict[str, st.SearchStrategy[Command]] = {
+        "move": frames(family, 1, family.servos_per_move).map(lambda f: Move(f.duration_ms, f.targets)),
+        "run": st.builds(Run, whole(family.slot), whole(family.run_times)),
+        "stop": st.just(Stop()),
+        "erase": st.just(Erase()),
+        "readBattery": st.just(ReadBattery()),
+        "download": downloads(family),
+    }
+    return st.one_of([by_kind[kind] for kind in family.commands])
+
+
+@pytest.mark.parametrize("family", FAMILIES.values(), ids=FAMILIES)
+@given(data=st.data())
+def test_every_command_of_a_family_comes_back_as_it_went_out(family: Family, data: st.DataObject) -> None:
+    command = data.draw(commands(family))
+    packet = encode(command, family)
+    assert packet[2] <= family.max_length
+    assert check_command(packet, family) == command
+
+
+# Right in header and LEN, so that many get past the shape.
+plausible = st.builds(
+    lambda command, params: bytes((0x55, 0x55, len(params) + 2, command)) + params,
+    st.sampled_from([3, 6, 7, 8, 15, 25]),
+    st.one_of(st.binary(max_size=251), st.binary(max_size=12)),
+)
+
+
+@given(st.one_of(st.binary(max_size=300), plausible))
+def test_any_bytes_are_either_refused_or_a_command_that_means_them(packet: bytes) -> None:
+    try:
+        command = check_command(packet, DOC)
+    except PacketError:
+        return
+    reserved = 1 if isinstance(command, Erase) else 0
+    assert encode(command, DOC)[: len(packet) - reserved] == packet[: len(packet) - reserved]
+
+
+@pytest.mark.parametrize(
+    "packet",
+    [
+        "",
+        "55",
+        "55 55 02",
+        "55 55 01 07",
+        "55 54 02 07",
+        "55 55 02 07 07",
+        "55 55 02 07 55 55 02 07",
+        "55 55 03 07 00",
+        "55 55 02 08",
+        "55 55 02 06",
+        "55 55 04 0F 4C 1D",
+        "55 55 02 63",
+        "55 55 02 03",
+        "55 55 08 03 02 E8 03 01 D0 07",
+        "55 55 0B 19 0A 01 00 02 E8 03 01 DC 05",
+        "55 55 06 19 05 02 00 00",
+    ],
+)
+def test_bytes_that_are_not_exactly_one_command_are_malformed(packet: str) -> None:
+    with pytest.raises(PacketError) as caught:
+        check_command(bytes.fromhex(packet), DOC)
+    assert caught.value.code == "malformed"
+
+
+def test_values_on_the_wire_are_judged_too() -> None:
+    with pytest.raises(PacketError, match=r"position of servo 1 is 3000, allowed 500\.\.2500 µs") as caught:
+        check_command(bytes.fromhex("5555080301e80301b80b"), DOC)
+    assert caught.value.code == "outOfRange"
+
+
+def test_a_packet_longer_than_a_board_can_take_is_refused() -> None:
+    two = Move(100, (ServoTarget(1, 1500), ServoTarget(2, 1500)))
+    with pytest.raises(PacketError, match=r"length is 11, allowed 2\.\.10"):
+        encode(two, replace(DOC, max_length=10))
+
+
+def test_an_empty_seven_stays_unknown_where_nobody_knows_what_it_means() -> None:
+    family = replace(DOC, empty_seven="unknown")
+    assert parse_report(Packet(7, b""), family) == UnknownReport(7, b"")
+
+
+@pytest.mark.parametrize(
+    ("packet", "words"),
+    [
+        ("55 55 0B 03 02 20 03 02 B0 04 09 FC 08", "move servo 2 to 1200, servo 9 to 2300 in 800 ms"),
+        ("55 55 05 06 08 01 00", "run group 8 once"),
+        ("55 55 05 06 02 00 00", "run group 2 until stopped"),
+        ("55 55 05 06 64 2C 01", "run group 100 300 times"),
+        ("55 55 02 07", "stop the running group after the frame in progress"),
+        ("55 55 03 08 00", "erase all groups"),
+        ("55 55 02 0F", "ask for the battery voltage"),
+        (
+            "55 55 0E 19 05 02 01 02 F4 01 01 F4 01 02 C4 09",
+            "store frame 1 (of 2, from 0) of group 5: servo 1 to 500, servo 2 to 2500 in 500 ms",
+        ),
+        ("55 55 08 19 07 03 01 00 F4 01", "store frame 1 (of 3, from 0) of group 7: nothing in 500 ms"),
+        ("55 55 04 63 01 02", "no known command: CMD 99, parameters 01 02"),
+    ],
+)
+def test_a_command_in_words(packet: str, words: str) -> None:
+    assert describe(bytes.fromhex(packet), "command") == words
+
+
+@pytest.mark.parametrize(
+    ("packet", "words"),
+    [
+        ("55 55 02 06", "run command taken"),
+        ("55 55 05 06 08 03 00", "group 8 started, 3 times"),
+        ("55 55 02 07", "the group ended by itself (OpenArm) or was stopped (LSC, bus servo boards)"),
+        ("55 55 02 08", "all groups erased"),
+        ("55 55 05 08 08 01 00", "group 8 ended by itself"),
+        ("55 55 04 0F 4C 1D", "battery 7500 mV"),
+        ("55 55 02 19", "download frame handled"),
+        ("55 55 02 0B", "no known report: CMD 11, no parameters"),
+    ],
+)
+def test_a_report_in_words(packet: str, words: str) -> None:
+    assert describe(bytes.fromhex(packet), "report") == words
+
+
+@pytest.mark.parametrize("direction", ["command", "report"])
+def test_words_need_exactly_one_packet(direction: Any) -> None:
+    with pytest.raises(PacketError) as caught:
+        describe(b"\x55\x55\x02\x07\x55", direction)
+    assert caught.value.code == "malformed"
