@@ -1,0 +1,134 @@
+// Puts the panels together for the window at hand: side by side on a desktop, stacked on a tablet, one at a time on a
+// phone. STOP stands outside of all of them.
+
+import { useEffect } from 'react';
+import { useStore } from 'zustand';
+import { Tab, TabList, TabPanel, Tabs } from 'react-aria-components/Tabs';
+import { ActionsPanel } from './actions/ActionsPanel.tsx';
+import { useUndoKeys } from './actions/useUndoKeys.ts';
+import { BatteryPanel } from './battery/BatteryPanel.tsx';
+import { BoardPanel } from './board/BoardPanel.tsx';
+import { ConnectDialog } from './connect/ConnectDialog.tsx';
+import type { Page } from './connect/page.ts';
+import { LogDrawer } from './console/LogDrawer.tsx';
+import { LogPanel } from './console/LogPanel.tsx';
+import { ServosPanel } from './servos/ServosPanel.tsx';
+import { StopButton } from './stop/StopButton.tsx';
+import { StoresContext, useStores, useView } from './stores/stores.ts';
+import type { Tab as TabName, Theme } from './stores/view.ts';
+import { TopBar } from './topBar/TopBar.tsx';
+import { Icon, type IconName } from './ui/Icon.tsx';
+import { Toasts } from './ui/Toasts.tsx';
+import { useEachFrame } from './ui/useEachFrame.ts';
+import { useLayout } from './ui/useLayout.ts';
+import { words } from './words/en.ts';
+import styles from './App.module.css';
+
+export function App({ page }: { readonly page: Page }) {
+  return (
+    <StoresContext value={page.stores}>
+      <Dashboard page={page} />
+    </StoresContext>
+  );
+}
+
+function Dashboard({ page }: { readonly page: Page }) {
+  const layout = useLayout();
+  const { device, document: group } = useStores();
+  useTheme();
+  useUndoKeys(group);
+  useEachFrame(() => device.refreshTargets());
+  return (
+    <div className={styles.app} data-layout={layout}>
+      <TopBar />
+      {layout === 'phone' ? <PhoneWork /> : <DeskWork />}
+      <StopButton />
+      <Messages />
+      <ConnectDialog connector={page.connector} />
+    </div>
+  );
+}
+
+function DeskWork() {
+  return (
+    <>
+      <main className={styles.desk}>
+        <div className={styles.live}>
+          <ServosPanel />
+        </div>
+        <div className={styles.authoring}>
+          <ActionsPanel />
+          <div className={styles.boardRow}>
+            <BoardPanel />
+            <BatteryPanel />
+          </div>
+        </div>
+      </main>
+      <LogDrawer />
+    </>
+  );
+}
+
+const TABS: readonly { readonly id: TabName; readonly icon: IconName }[] = [
+  { id: 'live', icon: 'live' },
+  { id: 'actions', icon: 'frames' },
+  { id: 'board', icon: 'board' },
+  { id: 'log', icon: 'log' },
+];
+
+function PhoneWork() {
+  const { view } = useStores();
+  const tab = useView((state) => state.tab);
+  return (
+    <Tabs
+      className={styles.tabs ?? ''}
+      selectedKey={tab}
+      onSelectionChange={(key) => view.setState({ tab: key as TabName })}
+    >
+      <main className={styles.phone}>
+        <TabPanel id="live" className={styles.tabPanel ?? ''}>
+          <ServosPanel />
+        </TabPanel>
+        <TabPanel id="actions" className={styles.tabPanel ?? ''}>
+          <ActionsPanel />
+        </TabPanel>
+        <TabPanel id="board" className={styles.tabPanel ?? ''}>
+          <BoardPanel />
+          <BatteryPanel />
+        </TabPanel>
+        <TabPanel id="log" className={styles.tabPanel ?? ''}>
+          <LogPanel />
+        </TabPanel>
+      </main>
+      <TabList className={styles.tabList ?? ''} aria-label={words.tabList}>
+        {TABS.map(({ id, icon }) => (
+          <Tab key={id} id={id} className={styles.tab ?? ''}>
+            <Icon name={icon} />
+            {words.tabs[id]}
+          </Tab>
+        ))}
+      </TabList>
+    </Tabs>
+  );
+}
+
+function Messages() {
+  const { notices } = useStores();
+  const list = useStore(notices.store);
+  return (
+    <Toasts
+      label={words.regions.notices}
+      dismissLabel={words.dismiss}
+      toasts={list.map(({ id, tone, text }) => ({ id, text, truth: tone === 'info' ? 'confirmed' : tone }))}
+      onDismiss={notices.dismiss}
+    />
+  );
+}
+
+function useTheme(): void {
+  const theme: Theme = useView((state) => state.theme);
+  useEffect(() => {
+    if (theme === 'system') delete document.documentElement.dataset.theme;
+    else document.documentElement.dataset.theme = theme;
+  }, [theme]);
+}

@@ -1,0 +1,64 @@
+// The action group being written: its name, its frames, and what can be done with them. Edits go to the document alone;
+// the robot moves only by Play and by loading a pose.
+
+import { totalDurationMs } from '#shared/actions/group.ts';
+import { redoLabel, undoLabel } from '#shared/actions/history.ts';
+import { useDevice, useDocument, useGroup, useStores } from '../stores/stores.ts';
+import { IconButton } from '../ui/Button.tsx';
+import { Panel } from '../ui/Panel.tsx';
+import { words } from '../words/en.ts';
+import { CaptureBar } from './CaptureBar.tsx';
+import { FrameStrip } from './FrameStrip.tsx';
+import { FrameTools } from './FrameTools.tsx';
+import { GroupName } from './GroupName.tsx';
+import styles from './ActionsPanel.module.css';
+
+export function ActionsPanel() {
+  const group = useGroup();
+  const otherUnit = useDevice((state) => state.family.unit !== group.unit) && group.frames.length > 0;
+  return (
+    <Panel title={words.actions.title} note={<GroupName />} tools={<UndoRedo />} className={styles.panel}>
+      {otherUnit && <p className={styles.warning}>{words.actions.otherUnit(group.unit)}</p>}
+      {group.frames.length === 0 ? <Empty /> : <FrameStrip />}
+      <FrameTools />
+      <CaptureBar totalMs={totalDurationMs(group.frames)} />
+    </Panel>
+  );
+}
+
+function Empty() {
+  return (
+    <div className={styles.empty}>
+      <svg className={styles.sketch} viewBox="0 0 180 64" aria-hidden="true">
+        {[0, 62, 124].map((x) => (
+          <rect key={x} className={styles.slot} x={x + 1} y={1} width={54} height={62} rx={5} />
+        ))}
+        <path className={styles.stroke} d="M16 52V34l10-14M78 52V34l14-8M152 52V34l-14-10" />
+      </svg>
+      <p className={styles.emptyTitle}>{words.actions.empty}</p>
+      <p>{words.actions.emptyHint}</p>
+    </div>
+  );
+}
+
+function UndoRedo() {
+  const { document } = useStores();
+  const back = useDocument(undoLabel);
+  const forth = useDocument(redoLabel);
+  return (
+    <>
+      <IconButton
+        icon="undo"
+        label={back === null ? words.actions.undo : words.actions.undoStep(back)}
+        isDisabled={back === null}
+        onPress={() => document.undo()}
+      />
+      <IconButton
+        icon="redo"
+        label={forth === null ? words.actions.redo : words.actions.redoStep(forth)}
+        isDisabled={forth === null}
+        onPress={() => document.redo()}
+      />
+    </>
+  );
+}

@@ -1,0 +1,94 @@
+// The foot of the action group: capture the pose as a frame, the group's length, play from the page.
+
+import { indexOfFrame, insertFrame } from '#shared/actions/edits.ts';
+import type { ActionGroup } from '#shared/actions/group.ts';
+import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { motionHindrance } from '../stores/readiness.ts';
+import { useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../words/en.ts';
+import { commandedPose } from './pose.ts';
+import styles from './CaptureBar.module.css';
+
+const USUAL_FRAME_MS = 1000;
+
+export function CaptureBar({ totalMs }: { readonly totalMs: number }) {
+  const count = useGroup().frames.length;
+  return (
+    <div className={styles.bar}>
+      <Capture />
+      <p className={styles.total}>{count === 0 ? '' : words.actions.total(count, totalMs)}</p>
+      <Play />
+    </div>
+  );
+}
+
+function Capture() {
+  const { device, document, view } = useStores();
+  const isKnown = useDevice((state) => Object.keys(state.targets).length > 0);
+  const capture = (): void => {
+    const { targets, family } = device.store.getState();
+    const { nextId } = document.store.getState().present;
+    const { selectedFrame } = view.getState();
+    document.edit(words.actions.steps.capture, (group) =>
+      captured(group, selectedFrame, commandedPose(targets), family.unit),
+    );
+    view.setState({ selectedFrame: nextId });
+  };
+  return (
+    <>
+      <Button tone="primary" icon="plus" isDisabled={!isKnown} onPress={capture}>
+        {words.actions.capture}
+      </Button>
+      {!isKnown && <p className={styles.hint}>{words.actions.nothingKnown}</p>}
+    </>
+  );
+}
+
+/** Behind the selected frame, or at the end; as long as the frame before it. */
+function captured(
+  group: ActionGroup,
+  selected: number | null,
+  targets: readonly ServoTarget[],
+  unit: ActionGroup['unit'],
+): ActionGroup {
+  const at = selected === null ? -1 : indexOfFrame(group, selected);
+  const index = at < 0 ? group.frames.length : at + 1;
+  const durationMs = group.frames[index - 1]?.durationMs ?? USUAL_FRAME_MS;
+  return insertFrame(group, index, { durationMs, targets }, unit);
+}
+
+function Play() {
+  const { device, view } = useStores();
+  const { frames, unit } = useGroup();
+  const sameUnit = useDevice((state) => state.family.unit === unit);
+  const playFrom = useView((state) => state.playFrom);
+  const playingIndex = useSnapshot(({ activity }) =>
+    activity.kind === 'playing' ? activity.frameIndex : null,
+  );
+  const mayPlay = useSnapshot(
+    (snapshot) => motionHindrance(snapshot) === null && snapshot.activity.kind === 'idle',
+  );
+  const from = playFrom < frames.length ? playFrom : 0;
+
+  if (playingIndex !== null) {
+    const pause = (): void => {
+      view.setState({ playFrom: from + playingIndex });
+      device.stopPlaying();
+    };
+    return (
+      <Button icon="pause" onPress={pause}>
+        {words.actions.pause}
+      </Button>
+    );
+  }
+  const play = (): void => {
+    view.setState({ playFrom: from });
+    device.play(frames.slice(from), () => view.setState({ playFrom: 0 }));
+  };
+  return (
+    <Button icon="play" isDisabled={!mayPlay || !sameUnit || frames.length === 0} onPress={play}>
+      {from === 0 ? words.actions.play : words.actions.playOn(from + 1)}
+    </Button>
+  );
+}

@@ -1,0 +1,86 @@
+// One frame as a card: its number, its pose, the servos it moves, its time. The face selects; the grip drags.
+
+import type { KeyboardEvent } from 'react';
+import { setDuration } from '#shared/actions/edits.ts';
+import { changedServos, poseAt, type GroupFrame } from '#shared/actions/group.ts';
+import { PoseThumb } from '../body/PoseThumb.tsx';
+import { useDevice, useGroup, useStores } from '../stores/stores.ts';
+import { cx } from '../ui/cx.ts';
+import { Icon } from '../ui/Icon.tsx';
+import { NumberField } from '../ui/NumberField.tsx';
+import { words } from '../words/en.ts';
+import { useFrameDrag } from './useFrameDrag.ts';
+import styles from './FrameCard.module.css';
+
+export interface FrameCardProps {
+  readonly frame: GroupFrame;
+  readonly index: number;
+  readonly isSelected: boolean;
+  readonly isTabStop: boolean;
+  readonly isPlaying: boolean;
+  onKey(event: KeyboardEvent, id: number): void;
+}
+
+export function FrameCard({ frame, index, isSelected, isTabStop, isPlaying, onKey }: FrameCardProps) {
+  const { view } = useStores();
+  const family = useDevice((state) => state.family);
+  const { frames } = useGroup();
+  const { isDragged, startDrag } = useFrameDrag(frame.id, index);
+  const changed = changedServos(frames, index);
+  const number = index + 1;
+  return (
+    <li
+      data-frame={frame.id}
+      className={cx(
+        styles.card,
+        isSelected && styles.selected,
+        isPlaying && styles.playing,
+        isDragged && styles.dragged,
+      )}
+    >
+      <button
+        type="button"
+        data-card-face=""
+        className={styles.face}
+        aria-label={words.actions.frameAbout(number, frame.durationMs, changed)}
+        aria-pressed={isSelected}
+        aria-current={isPlaying ? 'step' : undefined}
+        tabIndex={isTabStop ? 0 : -1}
+        onClick={() => view.setState({ selectedFrame: frame.id })}
+        onKeyDown={(event) => onKey(event, frame.id)}
+      >
+        <span className={styles.number}>{number}</span>
+        {isPlaying && <span className={styles.now}>{words.actions.playingFrame}</span>}
+        <PoseThumb pose={poseAt(frames, index)} changed={changed} family={family} />
+      </button>
+      <div className={styles.foot}>
+        <FrameTime frame={frame} number={number} isTabStop={isTabStop} />
+        <span className={styles.grip} aria-hidden="true" onPointerDown={startDrag}>
+          <Icon name="grip" />
+        </span>
+      </div>
+    </li>
+  );
+}
+
+function FrameTime({ frame, number, isTabStop }: { frame: GroupFrame; number: number; isTabStop: boolean }) {
+  const { document, notices } = useStores();
+  const { min, max } = useDevice((state) => state.family.durationMs);
+  const label = words.actions.time(number);
+  return (
+    <NumberField
+      label={label}
+      size="small"
+      value={frame.durationMs}
+      min={min}
+      max={max}
+      step={100}
+      unit={words.servos.ms}
+      excludeFromTabOrder={!isTabStop}
+      onChange={(durationMs) =>
+        document.edit(words.actions.steps.time(number), (group) => setDuration(group, frame.id, durationMs))
+      }
+      onRefused={(value) => notices.tell('warning', words.refused(label, value, min, max))}
+    />
+  );
+}

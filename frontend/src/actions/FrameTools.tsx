@@ -1,0 +1,69 @@
+// What can be done with the selected frame, in words. Always in its place, so that nothing jumps when a frame is selected.
+
+import { deleteFrame, duplicateFrame, indexOfFrame, moveFrame, setTargets } from '#shared/actions/edits.ts';
+import { motionHindrance } from '../stores/readiness.ts';
+import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { Button, IconButton } from '../ui/Button.tsx';
+import { words } from '../words/en.ts';
+import { commandedPose } from './pose.ts';
+import styles from './FrameTools.module.css';
+
+export function FrameTools() {
+  const { device, document, view } = useStores();
+  const group = useGroup();
+  const id = useView((state) => state.selectedFrame) ?? -1;
+  const index = indexOfFrame(group, id);
+  const frame = group.frames[index];
+  const knowsPose = useDevice((state) => Object.keys(state.targets).length > 0);
+  const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
+  const sameUnit = useDevice((state) => state.family.unit === group.unit);
+  const none = frame === undefined;
+  const { steps } = words.actions;
+
+  const load = (): void => {
+    if (frame !== undefined) device.move(frame.targets, Math.max(frame.durationMs, GENTLE_MOVE_MS));
+  };
+  const update = (): void =>
+    document.edit(steps.update(index + 1), (before) =>
+      setTargets(before, id, commandedPose(device.store.getState().targets)),
+    );
+  const move = (to: number) => (): void =>
+    document.edit(steps.move(index + 1), (before) => moveFrame(before, id, to));
+  const remove = (): void => {
+    view.setState({ selectedFrame: group.frames[index + 1]?.id ?? group.frames[index - 1]?.id ?? null });
+    document.edit(steps.delete(index + 1), (before) => deleteFrame(before, id));
+  };
+  const duplicate = (): void => {
+    view.setState({ selectedFrame: group.nextId });
+    document.edit(steps.duplicate(index + 1), (before) => duplicateFrame(before, id));
+  };
+
+  return (
+    <div className={styles.tools} role="group" aria-label={words.actions.tools}>
+      <span className={styles.which}>{none ? words.actions.select : words.actions.frame(index + 1)}</span>
+      <Button tone="quiet" icon="pose" isDisabled={none || !mayMove || !sameUnit} onPress={load}>
+        {words.actions.load}
+      </Button>
+      <Button tone="quiet" icon="update" isDisabled={none || !knowsPose || !sameUnit} onPress={update}>
+        {words.actions.update}
+      </Button>
+      <span className={styles.icons}>
+        <IconButton
+          icon="earlier"
+          label={words.actions.earlier}
+          isDisabled={none || index === 0}
+          onPress={move(index - 1)}
+        />
+        <IconButton
+          icon="later"
+          label={words.actions.later}
+          isDisabled={none || index === group.frames.length - 1}
+          onPress={move(index + 1)}
+        />
+        <IconButton icon="copy" label={words.actions.duplicate} isDisabled={none} onPress={duplicate} />
+        <IconButton icon="trash" label={words.actions.delete} isDisabled={none} onPress={remove} />
+      </span>
+    </div>
+  );
+}

@@ -1,0 +1,56 @@
+// What lives on the board: slots, downloading to one, running one, erasing all. Boards cannot be read, so a slot is known
+// only as far as this page filled it.
+
+import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { Chip } from '../ui/Chip.tsx';
+import { NumberField } from '../ui/NumberField.tsx';
+import { Panel } from '../ui/Panel.tsx';
+import { words } from '../words/en.ts';
+import { DownloadControl } from './DownloadControl.tsx';
+import { EraseControl } from './EraseControl.tsx';
+import { RunControl } from './RunControl.tsx';
+import styles from './BoardPanel.module.css';
+
+export function BoardPanel() {
+  return (
+    <Panel title={words.board.title} tools={<EraseControl />}>
+      <div className={styles.rows}>
+        <SlotControl />
+        <DownloadControl />
+        <RunControl />
+      </div>
+    </Panel>
+  );
+}
+
+function SlotControl() {
+  const { view, notices } = useStores();
+  const slot = useView((state) => state.slot);
+  const { min, max } = useDevice((state) => state.family.slot);
+  const fate = useSnapshot(({ brokenSlots, storedSlots }) =>
+    brokenSlots.includes(slot) ? 'broken' : storedSlots.includes(slot) ? 'stored' : 'unknown',
+  );
+  return (
+    <div className={styles.row}>
+      <div className={styles.field}>
+        <span className={styles.label} aria-hidden="true">
+          {words.board.slot}
+        </span>
+        <NumberField
+          label={words.board.slot}
+          value={slot}
+          min={min}
+          max={max}
+          onChange={(value) => view.setState({ slot: value })}
+          onRefused={(value) => notices.tell('warning', words.refused(words.board.slot, value, min, max))}
+        />
+      </div>
+      <div className={styles.about} role="status">
+        <Chip truth={FATE_TRUTH[fate]}>{words.board.slotBadge[fate]}</Chip>
+        <p>{words.board.slotAbout[fate]}</p>
+      </div>
+    </div>
+  );
+}
+
+const FATE_TRUTH = { broken: 'danger', stored: 'confirmed', unknown: 'unknown' } as const;

@@ -1,0 +1,99 @@
+// Runs the chosen slot a number of times, or, as a deliberate choice, until stopped; says how sure the page is that it runs.
+
+import { motionHindrance } from '../stores/readiness.ts';
+import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import type { Activity } from '#shared/session/state.ts';
+import { Button } from '../ui/Button.tsx';
+import { Chip } from '../ui/Chip.tsx';
+import { NumberField } from '../ui/NumberField.tsx';
+import { Toggle } from '../ui/Toggle.tsx';
+import { words } from '../words/en.ts';
+import styles from './BoardPanel.module.css';
+
+export function RunControl() {
+  const { device, view } = useStores();
+  const { slot, times, untilStopped } = useRunSettings();
+  const activity = useSnapshot((snapshot) => snapshot.activity);
+  const isReady = useSnapshot((snapshot) => snapshot.link.status === 'ready');
+  const mayRun = useSnapshot(
+    (snapshot) => motionHindrance(snapshot) === null && !snapshot.brokenSlots.includes(slot),
+  );
+  const isRunning = activity.kind === 'running';
+  return (
+    <>
+      <div className={styles.row}>
+        <TimesField />
+        <div className={styles.actions}>
+          <Toggle
+            label={words.board.untilStopped}
+            isOn={untilStopped}
+            onChange={(isOn) => view.setState({ untilStopped: isOn })}
+          />
+          <p className={styles.hint}>{untilStopped ? words.board.untilStoppedHint : ''}</p>
+        </div>
+      </div>
+      <div className={styles.row}>
+        <Button
+          wide
+          icon="play"
+          isDisabled={!mayRun || activity.kind === 'playing'}
+          onPress={() => device.run(slot, times)}
+        >
+          {words.board.run}
+        </Button>
+        <div className={styles.actions}>
+          {isRunning ? (
+            <Running activity={activity} />
+          ) : (
+            <p className={styles.hint}>{words.board.runHint(slot, times)}</p>
+          )}
+          <span className={styles.push} />
+          <Button icon="end" isDisabled={!isReady} onPress={() => device.stopGroup()}>
+            {words.board.stopGroup}
+          </Button>
+        </div>
+      </div>
+    </>
+  );
+}
+
+function useRunSettings(): { slot: number; times: number; untilStopped: boolean } {
+  const slot = useView((state) => state.slot);
+  const untilStopped = useView((state) => state.untilStopped);
+  const times = useView((state) => state.times);
+  return { slot, untilStopped, times: untilStopped ? 0 : times };
+}
+
+function TimesField() {
+  const { view, notices } = useStores();
+  const times = useView((state) => state.times);
+  const untilStopped = useView((state) => state.untilStopped);
+  const max = useDevice((state) => state.family.runTimes.max);
+  return (
+    <div className={styles.field}>
+      <span className={styles.label} aria-hidden="true">
+        {words.board.times}
+      </span>
+      <NumberField
+        label={words.board.times}
+        value={times}
+        min={1}
+        max={max}
+        isDisabled={untilStopped}
+        onChange={(value) => view.setState({ times: value })}
+        onRefused={(value) => notices.tell('warning', words.refused(words.board.times, value, 1, max))}
+      />
+    </div>
+  );
+}
+
+const TRUTH = { requested: 'commanded', acknowledged: 'confirmed', unknown: 'unknown' } as const;
+
+function Running({ activity }: { readonly activity: Extract<Activity, { kind: 'running' }> }) {
+  return (
+    <div className={styles.about}>
+      <Chip truth={TRUTH[activity.truth]}>{words.activity.running(activity.slot, activity.times)}</Chip>
+      <p>{words.activity.runTruth[activity.truth]}</p>
+    </div>
+  );
+}

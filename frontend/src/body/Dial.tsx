@@ -1,0 +1,75 @@
+// A servo's horn on a scale: the needle is the estimate, the hollow triangle on the rim the target. Unknown is a hatched
+// face with a question mark. The live one is drawn once a frame from the session's motion, past React.
+
+import { useRef } from 'react';
+import type { ServoMotion } from '#shared/session/state.ts';
+import type { Family } from '#shared/protocol/families.ts';
+import { useStores } from '../stores/stores.ts';
+import { useEachFrame } from '../ui/useEachFrame.ts';
+import { words } from '../words/en.ts';
+import { dialDegrees } from './pose.ts';
+import styles from './Dial.module.css';
+
+export function Dial({ servo, family }: { readonly servo: number; readonly family: Family }) {
+  const { device } = useStores();
+  const dial = useRef<SVGSVGElement>(null);
+  useEachFrame(() => {
+    if (dial.current !== null) drawDial(dial.current, device.motion(servo), family);
+  });
+  return (
+    <DialFace
+      ref={dial}
+      label={words.body.gaugeFigure(servo)}
+      motion={device.motion(servo)}
+      family={family}
+    />
+  );
+}
+
+interface DialFaceProps {
+  readonly label: string;
+  readonly motion: ServoMotion;
+  readonly family: Family;
+  readonly ref?: React.Ref<SVGSVGElement>;
+}
+
+function DialFace({ label, motion, family, ref }: DialFaceProps) {
+  const { target, estimated } = motion;
+  return (
+    <svg ref={ref} className={styles.dial} viewBox="-24 -24 48 48" role="img" aria-label={label}>
+      <path className={styles.rim} d={RIM} />
+      <g data-unknown="" visibility={visible(estimated === null)}>
+        <path className={styles.hatch} d="M-9 5L5 -9M-6 9L9 -6M-11 0L0 -11M0 11L11 0" />
+        <text className={styles.question} y={5}>
+          {words.servos.unknown}
+        </text>
+      </g>
+      <g data-target="" visibility={visible(target !== null)} transform={turn(target, family)}>
+        <path className={styles.target} d="M-4 -22.5h8L0 -15.5z" />
+      </g>
+      <g data-estimated="" visibility={visible(estimated !== null)} transform={turn(estimated, family)}>
+        <path className={styles.needle} d="M-2.5 4L-1 -14h2L2.5 4z" />
+        <circle className={styles.hub} r={4} />
+      </g>
+    </svg>
+  );
+}
+
+function drawDial(dial: SVGSVGElement, { target, estimated }: ServoMotion, family: Family): void {
+  const set = (part: string, shown: boolean, position: number | null): void => {
+    const group = dial.querySelector(part);
+    group?.setAttribute('visibility', visible(shown));
+    group?.setAttribute('transform', turn(position, family));
+  };
+  set('[data-unknown]', estimated === null, null);
+  set('[data-target]', target !== null, target);
+  set('[data-estimated]', estimated !== null, estimated);
+}
+
+/** 240 degrees of a circle of radius 19, open below. */
+const RIM = 'M-16.45 9.5A19 19 0 1 1 16.45 9.5';
+
+const visible = (shown: boolean): 'visible' | 'hidden' => (shown ? 'visible' : 'hidden');
+
+const turn = (position: number | null, family: Family): string =>
+  position === null ? 'rotate(0)' : `rotate(${dialDegrees(position, family).toFixed(2)})`;

@@ -1,0 +1,45 @@
+// A pose as a small picture: the arm where there is one, otherwise a bar per servo. Servos that move are marked below it.
+
+import type { Family } from '#shared/protocol/families.ts';
+import { ArmFigure } from './ArmFigure.tsx';
+import { armPicture, fraction } from './pose.ts';
+import styles from './PoseThumb.module.css';
+
+export interface PoseThumbProps {
+  readonly pose: ReadonlyMap<number, number>;
+  readonly changed: readonly number[];
+  readonly family: Family;
+}
+
+export function PoseThumb({ pose, changed, family }: PoseThumbProps) {
+  const servos = Array.from({ length: family.usualServoCount }, (_, index) => index + 1);
+  return (
+    <span className={styles.thumb} aria-hidden="true">
+      {family.usualServoCount === 6 && (
+        <svg className={styles.arm} viewBox="-250 -262 500 300">
+          <path className={styles.ground} d="M-250 26H250M-26 26v-26a26 26 0 0 1 52 0v26z" />
+          <ArmFigure picture={armPicture((servo) => pose.get(servo) ?? null, family)} look="small" />
+        </svg>
+      )}
+      <Bars servos={servos} pose={pose} changed={changed} family={family} />
+    </span>
+  );
+}
+
+function Bars({ servos, pose, changed, family }: PoseThumbProps & { readonly servos: readonly number[] }) {
+  const width = 100 / servos.length;
+  return (
+    <svg className={styles.bars} viewBox="0 0 100 22" preserveAspectRatio="none">
+      {servos.map((servo, index) => {
+        const position = pose.get(servo);
+        const x = index * width + width * 0.15;
+        if (position === undefined) {
+          return <rect key={servo} className={styles.unknown} x={x} y={10} width={width * 0.7} height={2} />;
+        }
+        const top = 20 - fraction(position, family) * 18;
+        const className = changed.includes(servo) ? styles.changed : styles.kept;
+        return <rect key={servo} className={className} x={x} y={top} width={width * 0.7} height={22 - top} />;
+      })}
+    </svg>
+  );
+}

@@ -1,0 +1,89 @@
+// The two small views beside the arm: the base from above and the hand from the front. Draw what they are given.
+
+import { cx } from '../ui/cx.ts';
+import { words } from '../words/en.ts';
+import type { ArmPicture } from './pose.ts';
+import styles from './insets.module.css';
+
+interface InsetProps {
+  readonly estimated: ArmPicture;
+  readonly commanded: ArmPicture;
+}
+
+export function BaseView({ estimated, commanded }: InsetProps) {
+  return (
+    <figure className={styles.inset}>
+      <svg viewBox="-50 -50 100 100" role="img" aria-label={words.body.base}>
+        <circle className={styles.ring} r={44} />
+        <path className={styles.scale} d="M0 -44V-38M-44 0h6M44 0h-6M-31 -31l4 4M31 -31l-4 4" />
+        <g data-base="commanded" transform={turn(commanded.base.degrees)}>
+          <path className={cx(styles.ghost, !commanded.base.known && styles.hidden)} d={POINTER} />
+        </g>
+        <g data-base="estimated" transform={turn(estimated.base.degrees)}>
+          <path className={cx(styles.solid, !estimated.base.known && styles.unknown)} d={POINTER} />
+        </g>
+        <circle className={styles.pin} r={4} />
+      </svg>
+      <figcaption className={styles.caption}>{words.body.base}</figcaption>
+    </figure>
+  );
+}
+
+export function HandView({ estimated, commanded }: InsetProps) {
+  return (
+    <figure className={styles.inset}>
+      <svg viewBox="-50 -50 100 100" role="img" aria-label={words.body.hand}>
+        <circle className={styles.ring} r={44} />
+        <path className={styles.scale} d="M0 -44V-38M-44 0h6M44 0h-6M-31 -31l4 4M31 -31l-4 4" />
+        <Hand name="commanded" picture={commanded} look={styles.ghost} missing={styles.hidden} />
+        <Hand name="estimated" picture={estimated} look={styles.solid} missing={styles.unknown} />
+      </svg>
+      <figcaption className={styles.caption}>{words.body.hand}</figcaption>
+    </figure>
+  );
+}
+
+interface HandProps {
+  readonly name: 'commanded' | 'estimated';
+  readonly picture: ArmPicture;
+  readonly look: string | undefined;
+  readonly missing: string | undefined;
+}
+
+function Hand({ name, picture, look, missing }: HandProps) {
+  const className = cx(look, !picture.jawFront.known && missing);
+  return (
+    <g data-hand={name} transform={turn(picture.roll.degrees)}>
+      <path className={className} d="M-7 -7h14v14h-14z" />
+      <path data-finger="1" className={className} transform={spread(1, picture)} d={FINGER} />
+      <path data-finger="-1" className={className} transform={spread(-1, picture)} d={FINGER} />
+    </g>
+  );
+}
+
+export function drawBase(frame: HTMLElement, name: 'commanded' | 'estimated', { base }: ArmPicture): void {
+  const group = frame.querySelector(`[data-base='${name}']`);
+  group?.setAttribute('transform', turn(base.degrees));
+  group?.firstElementChild?.classList.toggle(missingClass(name), !base.known);
+}
+
+export function drawHand(frame: HTMLElement, name: 'commanded' | 'estimated', picture: ArmPicture): void {
+  const group = frame.querySelector(`[data-hand='${name}']`);
+  if (group === null) return;
+  group.setAttribute('transform', turn(picture.roll.degrees));
+  for (const part of group.children) part.classList.toggle(missingClass(name), !picture.jawFront.known);
+  group.querySelector("[data-finger='1']")?.setAttribute('transform', spread(1, picture));
+  group.querySelector("[data-finger='-1']")?.setAttribute('transform', spread(-1, picture));
+}
+
+const POINTER = 'M-7 6a7 7 0 0 0 14 0V-26l-4 -4v-6h-6v6l-4 4z';
+const FINGER = 'M0 -8h9v16h-9z';
+
+const missingClass = (name: 'commanded' | 'estimated'): string =>
+  (name === 'commanded' ? styles.hidden : styles.unknown) ?? '';
+
+const turn = (degrees: number): string => `rotate(${degrees.toFixed(2)})`;
+
+/** From the front the jaws slide apart. */
+const spread = (side: 1 | -1, { jawFront }: ArmPicture): string =>
+  `scale(${side} 1) translate(${(8 + jawFront.degrees * 0.5).toFixed(2)} 0)`;

@@ -1,0 +1,79 @@
+// From positions to the picture: angles of an arm's joints and of a dial's needle. Pure geometry; what a position is in
+// the real world (trim, direction) no board can tell, so the middle of the range is drawn as straight.
+
+import type { Family } from '#shared/protocol/families.ts';
+
+/** Position of a servo, null where it is not known. */
+export type Pose = (servo: number) => number | null;
+
+/** Joints of the usual six-servo arm (boards.md section 9). */
+export const JOINT = { gripper: 1, roll: 2, wrist: 3, elbow: 4, shoulder: 5, base: 6 } as const;
+
+/** Turn of the output shaft over the whole range, in degrees: PWM servos half a turn, bus servos two thirds. */
+const TURN_DEGREES = { us: 180, steps: 240 } as const;
+/** A dial leaves its lower quarter open, like the gauge of an instrument. */
+const DIAL_DEGREES = 240;
+const JAW_OPEN_DEGREES = 42;
+const JAW_SHUT_DEGREES = 3;
+
+type Scale = Pick<Family, 'unit' | 'position' | 'centre'>;
+
+export interface ArmPicture {
+  readonly shoulder: Link;
+  readonly elbow: Link;
+  readonly wrist: Link;
+  readonly base: Link;
+  readonly roll: Link;
+  /** Half the angle between the jaws as seen from the side, where the roll foreshortens it. */
+  readonly jaw: Link;
+  /** The same seen from the front. */
+  readonly jawFront: Link;
+}
+
+interface Link {
+  readonly degrees: number;
+  /** false: this joint, or one that carries it, is somewhere unknown. */
+  readonly known: boolean;
+}
+
+export function armPicture(pose: Pose, scale: Scale): ArmPicture {
+  const joint = (servo: number, carriedBy: boolean): Link => {
+    const position = pose(servo);
+    return { degrees: shaftDegrees(position ?? scale.centre, scale), known: carriedBy && position !== null };
+  };
+  const shoulder = joint(JOINT.shoulder, true);
+  const elbow = joint(JOINT.elbow, shoulder.known);
+  const wrist = joint(JOINT.wrist, elbow.known);
+  const roll = joint(JOINT.roll, true);
+  const grip = pose(JOINT.gripper);
+  const jawDegrees =
+    JAW_OPEN_DEGREES - fraction(grip ?? scale.centre, scale) * (JAW_OPEN_DEGREES - JAW_SHUT_DEGREES);
+  const seen = Math.abs(Math.cos((roll.degrees * Math.PI) / 180));
+  return {
+    shoulder,
+    elbow,
+    wrist,
+    base: joint(JOINT.base, true),
+    roll,
+    jaw: {
+      degrees: Math.max(JAW_SHUT_DEGREES, jawDegrees * seen),
+      known: wrist.known && roll.known && grip !== null,
+    },
+    jawFront: { degrees: jawDegrees, known: roll.known && grip !== null },
+  };
+}
+
+/** Turn of the shaft away from the centre. */
+export function shaftDegrees(position: number, { unit, position: range, centre }: Scale): number {
+  return ((position - centre) / (range.max - range.min)) * TURN_DEGREES[unit];
+}
+
+/** Turn of a dial's needle away from straight up. */
+export function dialDegrees(position: number, scale: Scale): number {
+  return (fraction(position, scale) - 0.5) * DIAL_DEGREES;
+}
+
+/** 0 at the low end of the range, 1 at the high end. */
+export function fraction(position: number, { position: range }: Pick<Family, 'position'>): number {
+  return (position - range.min) / (range.max - range.min);
+}

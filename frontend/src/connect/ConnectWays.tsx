@@ -1,0 +1,178 @@
+// What the connect dialog shows: the board, and three ways, each with its buttons or with the sentence why it is not
+// possible here. Plain values in, choices out; so every case can be shown without a link.
+
+import type { ReactNode } from 'react';
+import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import type { Way } from '../stores/device.ts';
+import { Button } from '../ui/Button.tsx';
+import { Chip } from '../ui/Chip.tsx';
+import { words } from '../words/en.ts';
+import { errorSentence } from '../words/errors.ts';
+import type { ConnectState } from './connector.ts';
+import styles from './ConnectWays.module.css';
+
+export interface ConnectWaysProps {
+  readonly state: ConnectState;
+  readonly current: Way | null;
+  onBoard(board: FamilyId): void;
+  onLook(): void;
+  onSimulate(): void;
+  onGateway(): void;
+  onGatewayPort(device: string): void;
+  onSerialPort(port: SerialPort): void;
+  onChooseSerial(): void;
+  onDisconnect(): void;
+}
+
+export function ConnectWays(props: ConnectWaysProps) {
+  const { state, current } = props;
+  return (
+    <div className={styles.ways}>
+      <BoardChoice board={state.board} onBoard={props.onBoard} />
+      <WayCard
+        title={words.connect.webSerial.title}
+        about={words.connect.webSerial.about}
+        isCurrent={current?.kind === 'webSerial'}
+      >
+        <SerialWay {...props} />
+      </WayCard>
+      <WayCard
+        title={words.connect.gateway.title}
+        about={words.connect.gateway.about}
+        isCurrent={current?.kind === 'gateway'}
+      >
+        <GatewayWay {...props} />
+      </WayCard>
+      <WayCard
+        title={words.connect.simulated.title}
+        about={words.connect.simulated.about}
+        isCurrent={current?.kind === 'simulated'}
+      >
+        <Button onPress={props.onSimulate}>{words.connect.simulated.open}</Button>
+      </WayCard>
+      <footer className={styles.foot}>
+        <p className={styles.dim}>{words.connect.intro}</p>
+        <Button tone="quiet" isDisabled={current === null} onPress={props.onDisconnect}>
+          {words.link.disconnect}
+        </Button>
+      </footer>
+    </div>
+  );
+}
+
+interface WayCardProps {
+  readonly title: string;
+  readonly about: string;
+  readonly isCurrent: boolean;
+  readonly children: ReactNode;
+}
+
+function WayCard({ title, about, isCurrent, children }: WayCardProps) {
+  return (
+    <section className={styles.card} aria-label={title}>
+      <div className={styles.cardText}>
+        <h3>
+          {title}{' '}
+          {isCurrent && (
+            <span className={styles.here}>
+              <Chip truth="confirmed">{words.connect.here}</Chip>
+            </span>
+          )}
+        </h3>
+        <p className={styles.dim}>{about}</p>
+      </div>
+      <div className={styles.choices}>{children}</div>
+    </section>
+  );
+}
+
+function BoardChoice({ board, onBoard }: Pick<ConnectWaysProps, 'onBoard'> & { readonly board: FamilyId }) {
+  return (
+    <label className={styles.board}>
+      <span>
+        {words.connect.board}
+        <span className={styles.boardHint}>{words.connect.boardHint}</span>
+      </span>
+      <select
+        className={styles.select}
+        value={board}
+        onChange={(event) => onBoard(event.target.value as FamilyId)}
+      >
+        {Object.values(FAMILIES).map((family) => (
+          <option key={family.id} value={family.id}>
+            {family.name}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+function SerialWay({ state, onSerialPort, onChooseSerial }: ConnectWaysProps) {
+  if (state.serialObstacle !== null) {
+    return (
+      <>
+        <p className={styles.why}>{errorSentence(state.serialObstacle)}</p>
+        {state.serialObstacle === 'insecureAddress' && (
+          <a className={styles.link} href={localAddress()}>
+            {words.connect.webSerial.secureLink}
+          </a>
+        )}
+      </>
+    );
+  }
+  return (
+    <>
+      {state.granted.map(({ port, label }, index) => (
+        <Button key={index} onPress={() => onSerialPort(port)}>
+          {words.connect.webSerial.open(label)}
+        </Button>
+      ))}
+      <Button tone={state.granted.length === 0 ? 'plain' : 'quiet'} onPress={onChooseSerial}>
+        {words.connect.webSerial.choose}
+      </Button>
+    </>
+  );
+}
+
+function GatewayWay({ state, onGateway, onGatewayPort, onLook }: ConnectWaysProps) {
+  const { gateway, gatewayPorts } = state;
+  const look = (
+    <Button tone="quiet" icon="refresh" onPress={onLook}>
+      {words.connect.gateway.refresh}
+    </Button>
+  );
+  if (gateway === 'looking') return <p className={styles.why}>{words.connect.gateway.looking}</p>;
+  if (gateway === 'absent') {
+    return (
+      <>
+        <p className={styles.why}>{errorSentence('gatewayUnreachable')}</p>
+        {look}
+      </>
+    );
+  }
+  const others = gatewayPorts.filter((port) => port.device !== gateway.device);
+  return (
+    <>
+      {gateway.device !== null && (
+        <Button onPress={onGateway}>{words.connect.gateway.open(gateway.device)}</Button>
+      )}
+      {others.map((port) => (
+        <Button key={port.device} tone="quiet" onPress={() => onGatewayPort(port.device)}>
+          {words.connect.gateway.open(port.device)}
+        </Button>
+      ))}
+      {gatewayPorts.length === 0 && gateway.device === null && (
+        <p className={styles.why}>{words.connect.gateway.none}</p>
+      )}
+      {look}
+    </>
+  );
+}
+
+/** The same page by the loopback address: right whenever the server runs on this very computer. */
+function localAddress(): string {
+  const url = new URL(location.href);
+  url.hostname = '127.0.0.1';
+  return url.href;
+}

@@ -1,0 +1,81 @@
+// The gateway's HTTP interface as far as connecting needs it: is there one at the page's own address, which board and ports
+// does it have, open that port. Trusts no answer's shape; every failure is a LinkError.
+
+import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { isLinkErrorCode, LinkError } from '#shared/session/linkError.ts';
+
+export interface GatewayStatus {
+  readonly board: FamilyId;
+  /** The port in use, null when none is. */
+  readonly device: string | null;
+}
+
+export interface GatewayPort {
+  readonly device: string;
+  readonly description: string;
+}
+
+const ANSWER_WITHIN_MS = 2000;
+
+/** null where no gateway answers: the page came from elsewhere, or the gateway is gone. */
+export async function readGateway(): Promise<GatewayStatus | null> {
+  try {
+    const status: unknown = await ask('api/status');
+    if (!isRecord(status) || typeof status.board !== 'string' || !isRecord(status.port)) return null;
+    const { device } = status.port;
+    return { board: boardOf(status.board), device: typeof device === 'string' ? device : null };
+  } catch {
+    return null;
+  }
+}
+
+/** Ports of the gateway's machine, the likely ones first. */
+export async function readPorts(): Promise<readonly GatewayPort[]> {
+  const list: unknown = await ask('api/ports');
+  if (!Array.isArray(list)) throw new LinkError('internal', 'the gateway’s list of ports is no list');
+  return list.filter(isPort).map(({ device, description }) => ({ device, description }));
+}
+
+export async function openGatewayPort(device: string, board: FamilyId): Promise<void> {
+  await ask('api/port', {
+    method: 'PUT',
+    headers: { 'content-type': 'application/json' },
+    body: JSON.stringify({ device, board }),
+  });
+}
+
+/** The gateway's WebSocket beside the page. */
+export function gatewayUrl(): string {
+  const url = new URL('ws', document.baseURI);
+  url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
+  return url.href;
+}
+
+async function ask(path: string, request: RequestInit = {}): Promise<unknown> {
+  const response = await fetch(path, { ...request, signal: AbortSignal.timeout(ANSWER_WITHIN_MS) }).catch(
+    (error: unknown) => {
+      throw new LinkError('gatewayUnreachable', 'the gateway does not answer', { cause: error });
+    },
+  );
+  const body: unknown = await response.json().catch(() => null);
+  if (response.ok) return body;
+  throw problem(body);
+}
+
+function problem(body: unknown): LinkError {
+  if (!isRecord(body) || typeof body.code !== 'string') {
+    return new LinkError('gatewayUnreachable', 'no gateway is at this address');
+  }
+  const detail = typeof body.detail === 'string' ? body.detail : '';
+  return new LinkError(isLinkErrorCode(body.code) ? body.code : 'gatewayRefused', detail);
+}
+
+const boardOf = (name: string): FamilyId => (name in FAMILIES ? (name as FamilyId) : 'doc');
+
+function isPort(value: unknown): value is GatewayPort {
+  return isRecord(value) && typeof value.device === 'string' && typeof value.description === 'string';
+}
+
+function isRecord(value: unknown): value is Record<string, unknown> {
+  return typeof value === 'object' && value !== null && !Array.isArray(value);
+}

@@ -1,0 +1,31 @@
+// Remembers which way to the robot was chosen last, and for which board. Storage that is forbidden means: nothing remembered.
+
+import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import type { Transport } from '#shared/session/transport.ts';
+import type { TextStorage } from '../stores/document.ts';
+
+export interface LastWay {
+  readonly kind: Transport['kind'];
+  readonly board: FamilyId;
+}
+
+const KEY = 'servodeck.way';
+const KINDS: readonly string[] = ['webSerial', 'gateway', 'simulated'] satisfies Transport['kind'][];
+
+export function rememberWay(storage: TextStorage, { kind, board }: LastWay): void {
+  try {
+    storage.setItem(KEY, `${kind} ${board}`);
+  } catch {
+    // The way is chosen again next time.
+  }
+}
+
+export function recallWay(storage: TextStorage): LastWay | null {
+  try {
+    const [kind = '', board = ''] = storage.getItem(KEY)?.split(' ') ?? [];
+    if (!KINDS.includes(kind) || !(board in FAMILIES)) return null;
+    return { kind: kind as LastWay['kind'], board: board as FamilyId };
+  } catch {
+    return null;
+  }
+}

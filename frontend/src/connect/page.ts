@@ -1,0 +1,35 @@
+// Builds the page's stores with the browser's own clock and storage, and starts the first link.
+
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { pollBattery } from '../stores/batteryPoll.ts';
+import { createDevice } from '../stores/device.ts';
+import { createDocument, type TextStorage } from '../stores/document.ts';
+import { createNotices } from '../stores/notices.ts';
+import type { Stores } from '../stores/stores.ts';
+import { createView } from '../stores/view.ts';
+import { browserClock } from '../transports/browserClock.ts';
+import { createConnector, type Connector } from './connector.ts';
+
+export interface Page {
+  readonly stores: Stores;
+  readonly connector: Connector;
+}
+
+export function openPage(): Page {
+  const storage = browserStorage();
+  const notices = createNotices(browserClock);
+  const device = createDevice(FAMILIES.doc, browserClock, notices);
+  const stores = { device, notices, document: createDocument(storage, notices), view: createView(storage) };
+  const connector = createConnector(device, notices, storage);
+  connector.start().catch(notices.tellError);
+  pollBattery(device, () => document.visibilityState === 'visible');
+  return { stores, connector };
+}
+
+/** Asking for localStorage alone may throw; each access then throws instead, where it is expected. */
+function browserStorage(): TextStorage {
+  return {
+    getItem: (key) => window.localStorage.getItem(key),
+    setItem: (key, text) => window.localStorage.setItem(key, text),
+  };
+}

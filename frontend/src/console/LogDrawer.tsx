@@ -1,0 +1,49 @@
+// The log at the foot of the page: folded it is one line with the latest packet, unfolded the whole log.
+
+import { useStore } from 'zustand';
+import { useStores, useView } from '../stores/stores.ts';
+import { Button as AriaButton } from 'react-aria-components/Button';
+import { Icon } from '../ui/Icon.tsx';
+import { words } from '../words/en.ts';
+import { bytesText, meaning } from './describe.ts';
+import { LogPanel } from './LogPanel.tsx';
+import styles from './LogDrawer.module.css';
+
+export function LogDrawer() {
+  const { view } = useStores();
+  const isOpen = useView((state) => state.logOpen);
+  if (isOpen) {
+    return (
+      <div className={styles.open}>
+        <LogPanel onFold={() => view.setState({ logOpen: false })} />
+      </div>
+    );
+  }
+  return (
+    <section className={styles.folded} aria-label={words.log.title}>
+      <AriaButton
+        className={styles.button ?? ''}
+        aria-label={words.log.open}
+        onPress={() => view.setState({ logOpen: true })}
+      >
+        <Icon name="up" />
+        <span className={styles.title}>{words.log.title}</span>
+        <Latest />
+      </AriaButton>
+    </section>
+  );
+}
+
+function Latest() {
+  const { device } = useStores();
+  const entry = useStore(device.traffic.store, (entries) => entries.at(-1));
+  if (entry === undefined) return <span className={styles.latest}>{words.log.empty}</span>;
+  return (
+    <>
+      <span className={styles.latest}>
+        {entry.traffic.direction === 'out' ? '→' : '←'} {meaning(entry.traffic)}
+      </span>
+      <code className={styles.bytes}>{bytesText(entry.traffic)}</code>
+    </>
+  );
+}

@@ -1,0 +1,16 @@
+// The dashboard's entry.
+
+import { StrictMode } from 'react';
+import { createRoot } from 'react-dom/client';
+import { App } from './App.tsx';
+import { openPage } from './connect/page.ts';
+import './ui/tokens.css';
+import './ui/base.css';
+
+const root = document.getElementById('page');
+if (root === null) throw new Error('index.html has no #page');
+createRoot(root).render(
+  <StrictMode>
+    <App page={openPage()} />
+  </StrictMode>,
+);

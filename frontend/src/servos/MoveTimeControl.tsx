@@ -1,0 +1,51 @@
+// How long a move from the sliders takes: following the hand, or a set time.
+
+import { useState } from 'react';
+import { useDevice, useStores, useView } from '../stores/stores.ts';
+import { NumberField } from '../ui/NumberField.tsx';
+import { Choice } from '../ui/Toggle.tsx';
+import { words } from '../words/en.ts';
+import styles from './MoveTimeControl.module.css';
+
+const USUAL_MS = 1000;
+
+export function MoveTimeControl() {
+  const { view, notices } = useStores();
+  const moveTime = useView((state) => state.moveTime);
+  const { min, max } = useDevice((state) => state.family.durationMs);
+  const [lastMs, setLastMs] = useState(USUAL_MS);
+  const isTimed = moveTime !== 'hand';
+  const setMs = (durationMs: number): void => {
+    setLastMs(durationMs);
+    view.setState({ moveTime: durationMs });
+  };
+  return (
+    <div className={styles.control}>
+      <span className={styles.label} aria-hidden="true">
+        {words.servos.moveTime}
+      </span>
+      <Choice
+        label={words.servos.moveTime}
+        value={isTimed ? 'timed' : 'hand'}
+        options={OPTIONS}
+        onChange={(choice) => view.setState({ moveTime: choice === 'hand' ? 'hand' : lastMs })}
+      />
+      <NumberField
+        label={words.servos.moveTimeField}
+        value={isTimed ? moveTime : lastMs}
+        min={min}
+        max={max}
+        step={100}
+        unit={words.servos.ms}
+        isDisabled={!isTimed}
+        onChange={setMs}
+        onRefused={(value) => notices.tell('warning', words.refused(words.servos.moveTime, value, min, max))}
+      />
+    </div>
+  );
+}
+
+const OPTIONS = [
+  { value: 'hand', label: words.servos.hand },
+  { value: 'timed', label: words.servos.timed },
+] as const;

@@ -1,0 +1,56 @@
+// One servo: dial, name, slider, value. The target comes from the row's own number in the device store; the estimate is
+// drawn once a frame past React, so that a moving servo costs nothing elsewhere.
+
+import { memo } from 'react';
+import { Dial } from '../body/Dial.tsx';
+import { motionHindrance } from '../stores/readiness.ts';
+import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { cx } from '../ui/cx.ts';
+import { NumberField } from '../ui/NumberField.tsx';
+import { words } from '../words/en.ts';
+import { Estimate } from './Estimate.tsx';
+import { PositionSlider } from './PositionSlider.tsx';
+import { positionStep } from './positionStep.ts';
+import styles from './ServoRow.module.css';
+
+export const ServoRow = memo(function ServoRow({ servo }: { readonly servo: number }) {
+  const { device, view, notices } = useStores();
+  const family = useDevice((state) => state.family);
+  const target = useDevice((state) => state.targets[servo] ?? null);
+  const moveTime = useView((state) => state.moveTime);
+  const isSelected = useView((state) => state.selectedServo === servo);
+  const blocked = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
+  const name = words.servos.name(servo);
+  const { min, max } = family.position;
+  const move = (position: number): void => device.move([{ servo, position }], moveTime);
+
+  return (
+    <li
+      className={cx(styles.row, isSelected && styles.selected)}
+      onFocus={() => view.setState({ selectedServo: servo })}
+    >
+      <Dial servo={servo} family={family} />
+      <span className={styles.name}>
+        {name}
+        <span className={styles.joint}>
+          {family.usualServoCount === 6 ? words.servos.joints[servo - 1] : ''}
+        </span>
+      </span>
+      <PositionSlider servo={servo} family={family} target={target} blocked={blocked} onMove={move} />
+      <NumberField
+        label={words.servos.target(servo)}
+        size="large"
+        value={target}
+        min={min}
+        max={max}
+        step={positionStep(family)}
+        unit={words.servos.unit(family.unit)}
+        placeholder={words.servos.unknown}
+        isDisabled={blocked}
+        onChange={move}
+        onRefused={(value) => notices.tell('warning', words.refused(name, value, min, max))}
+      />
+      <Estimate servo={servo} />
+    </li>
+  );
+});

@@ -1,0 +1,52 @@
+// Live control: the picture of the robot and a row per servo. Where moving is not possible now it says why, and keeps every
+// control in its place.
+
+import { Body } from '../body/Body.tsx';
+import { motionHindrance } from '../stores/readiness.ts';
+import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { Panel } from '../ui/Panel.tsx';
+import { words } from '../words/en.ts';
+import { Legend } from './Legend.tsx';
+import { MoveTimeControl } from './MoveTimeControl.tsx';
+import { ServoRow } from './ServoRow.tsx';
+import styles from './ServosPanel.module.css';
+
+export function ServosPanel() {
+  const family = useDevice((state) => state.family);
+  const hindrance = useSnapshot(motionHindrance);
+  const servos = Array.from({ length: family.usualServoCount }, (_, index) => index + 1);
+  return (
+    <Panel
+      title={words.servos.title}
+      note={hindrance === null ? '' : words.servos.blocked[hindrance]}
+      className={styles.panel}
+      tools={<CentreAll servos={servos} />}
+    >
+      <Body />
+      <Legend />
+      <ol className={styles.rows}>
+        {servos.map((servo) => (
+          <ServoRow key={servo} servo={servo} />
+        ))}
+      </ol>
+      <MoveTimeControl />
+    </Panel>
+  );
+}
+
+function CentreAll({ servos }: { readonly servos: readonly number[] }) {
+  const { device } = useStores();
+  const family = useDevice((state) => state.family);
+  const isDisabled = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
+  const centre = (): void => {
+    const targets = servos.map((servo) => ({ servo, position: family.centre }));
+    device.move(targets, GENTLE_MOVE_MS);
+  };
+  return (
+    <Button icon="centre" isDisabled={isDisabled} onPress={centre}>
+      {words.servos.centre}
+    </Button>
+  );
+}

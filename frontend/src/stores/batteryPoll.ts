@@ -1,0 +1,28 @@
+// Asks for the battery every five seconds while nothing else goes on: on some boards any packet disturbs what runs, and
+// under load the voltage sags anyway. A board that stayed silent is asked again only by a person.
+
+import type { Device, DeviceState } from './device.ts';
+
+const INTERVAL_MS = 5000;
+
+/** Returns a function that ends it. `visible` is asked before each question: a hidden page asks nothing. */
+export function pollBattery(device: Device, visible: () => boolean): () => void {
+  let cancel = (): void => undefined;
+  const tick = (): void => {
+    if (visible() && mayAsk(device.store.getState())) device.readBattery();
+    cancel = device.clock.after(INTERVAL_MS, tick);
+  };
+  tick();
+  return () => cancel();
+}
+
+export function canReadBattery({ family }: Pick<DeviceState, 'family'>): boolean {
+  return family.answers.includes('readBattery');
+}
+
+function mayAsk(state: DeviceState): boolean {
+  const { link, activity, battery } = state.snapshot;
+  return (
+    canReadBattery(state) && link.status === 'ready' && activity.kind === 'idle' && battery.kind !== 'silent'
+  );
+}

@@ -1,0 +1,169 @@
+// The robot as the page sees it: wraps one session at a time, keeps its latest snapshot and each servo's target, and turns
+// intents of the panels into calls whose failures become notices. Live, never undoable; knows no transport and no panel.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { Clock } from '#shared/clock.ts';
+import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
+import type { Family } from '#shared/protocol/families.ts';
+import type { Session } from '#shared/session/session.ts';
+import type { ServoMotion, SessionState } from '#shared/session/state.ts';
+import type { Transport } from '#shared/session/transport.ts';
+import { words } from '../words/en.ts';
+import { moveDurationMs, type MoveTime } from './moveTime.ts';
+import type { Notices } from './notices.ts';
+import { createTargetBook } from './targetBook.ts';
+import { createTrafficLog, type TrafficLog } from './traffic.ts';
+
+/** Which way leads to the robot, and the name of the port or machine for people. */
+export interface Way {
+  readonly kind: Transport['kind'];
+  readonly label: string;
+}
+
+export interface DeviceState {
+  readonly family: Family;
+  readonly way: Way | null;
+  readonly snapshot: SessionState;
+  /** What each servo was last asked for; a servo without an entry is where nobody knows. */
+  readonly targets: Readonly<Record<number, number>>;
+}
+
+export interface Device {
+  readonly store: StoreApi<DeviceState>;
+  readonly traffic: TrafficLog;
+  readonly clock: Clock;
+  /** Takes the session over and closes the one before it. */
+  attach(session: Session, way: Way): void;
+  detach(): Promise<void>;
+  motion(servo: number): ServoMotion;
+  /** Takes the session's targets over; to be called while the page is drawn, once a frame. */
+  refreshTargets(): void;
+  move(targets: readonly ServoTarget[], time: MoveTime): void;
+  halt(): void;
+  resume(): void;
+  retryNow(): void;
+  run(slot: number, times: number): void;
+  stopGroup(): void;
+  erase(): void;
+  readBattery(): void;
+  download(slot: number, frames: readonly Frame[]): void;
+  cancelDownload(): void;
+  /** `finished` is called after the last frame, not after a pause, a stop or a failure. */
+  play(frames: readonly Frame[], finished: () => void): void;
+  stopPlaying(): void;
+}
+
+export const UNCONNECTED: SessionState = {
+  link: { status: 'closed' },
+  latch: null,
+  activity: { kind: 'idle' },
+  battery: { kind: 'unread' },
+  brokenSlots: [],
+  storedSlots: [],
+};
+
+const NO_MOTION: ServoMotion = { target: null, estimated: null };
+
+export function createDevice(family: Family, clock: Clock, notices: Notices): Device {
+  const store = createStore<DeviceState>(() => ({ family, way: null, snapshot: UNCONNECTED, targets: {} }));
+  const traffic = createTrafficLog();
+  const book = createTargetBook(clock);
+  let session: Session | null = null;
+  let unsubscribe = (): void => undefined;
+  let downloading = new AbortController();
+  let paused = false;
+
+  const motion = (servo: number): ServoMotion => session?.motion(servo) ?? NO_MOTION;
+
+  function refreshTargets(): void {
+    const { family: current, targets } = store.getState();
+    const next = book.read(current.usualServoCount, motion, targets);
+    if (next !== targets) store.setState({ targets: next });
+  }
+
+  /** What a latch or a failure swallowed will not come. */
+  function forgetWishes(): void {
+    book.clear();
+    refreshTargets();
+  }
+
+  function noteState(snapshot: SessionState): void {
+    store.setState({ snapshot });
+    if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
+  }
+
+  function noteProblem(error: unknown): void {
+    forgetWishes();
+    notices.tellError(error);
+  }
+
+  function attempt(work: (session: Session) => Promise<unknown>): void {
+    if (session !== null) work(session).catch(notices.tellError);
+  }
+
+  async function detach(): Promise<void> {
+    const former = session;
+    session = null;
+    unsubscribe();
+    book.clear();
+    store.setState({ way: null, snapshot: UNCONNECTED, targets: {} });
+    await former?.close();
+  }
+
+  async function downloadTo(current: Session, slot: number, frames: readonly Frame[]): Promise<void> {
+    downloading = new AbortController();
+    const { signal } = downloading;
+    try {
+      await current.download(slot, frames, signal);
+      notices.tell('info', words.board.downloaded(slot));
+    } catch (error) {
+      if (!signal.aborted) throw error;
+      notices.tell('warning', words.board.downloadCancelled(slot));
+    }
+  }
+
+  return {
+    store,
+    traffic,
+    clock,
+    attach(next, way) {
+      void detach();
+      session = next;
+      store.setState({ family: next.family, way, snapshot: next.state });
+      unsubscribe = next.subscribe({ state: noteState, traffic: traffic.add, problem: noteProblem });
+    },
+    detach,
+    motion,
+    refreshTargets,
+    move(targets, time) {
+      if (session === null) return;
+      try {
+        session.move(targets, moveDurationMs(time, targets, session.family, motion));
+        book.wish(targets);
+        refreshTargets();
+      } catch (error) {
+        notices.tellError(error);
+      }
+    },
+    halt: () => attempt((current) => current.halt()),
+    resume: () => attempt((current) => current.resume()),
+    retryNow: () => session?.retryNow(),
+    run: (slot, times) => attempt((current) => current.run(slot, times)),
+    stopGroup: () => attempt((current) => current.stopGroup()),
+    erase: () => attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased))),
+    readBattery: () => attempt((current) => current.readBattery()),
+    download: (slot, frames) => attempt((current) => downloadTo(current, slot, frames)),
+    cancelDownload: () => downloading.abort(),
+    play(frames, finished) {
+      paused = false;
+      attempt(async (current) => {
+        await current.play(frames);
+        if (!paused) finished();
+      });
+    },
+    stopPlaying() {
+      paused = true;
+      session?.stopPlaying();
+    },
+  };
+}

@@ -1,0 +1,58 @@
+// Short messages to the person: what failed and what to do, or that something ended well. Good news leaves by itself, bad
+// news stays until it is dismissed or the same thing happens again. Knows no link and no panel.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { Clock } from '#shared/clock.ts';
+import { LinkError } from '#shared/session/linkError.ts';
+import { errorSentence } from '../words/errors.ts';
+
+export type NoticeTone = 'info' | 'warning' | 'danger';
+
+export interface Notice {
+  readonly id: number;
+  readonly tone: NoticeTone;
+  readonly text: string;
+}
+
+export interface Notices {
+  readonly store: StoreApi<readonly Notice[]>;
+  tell(tone: NoticeTone, text: string): void;
+  /** The sentence of a failure. What the person called off is no failure. */
+  tellError(error: unknown): void;
+  dismiss(id: number): void;
+}
+
+const INFO_STAYS_MS = 6000;
+const MAX_SHOWN = 3;
+
+export function createNotices(clock: Clock): Notices {
+  const store = createStore<readonly Notice[]>(() => []);
+  let nextId = 1;
+
+  function tell(tone: NoticeTone, text: string): void {
+    const id = nextId++;
+    const others = store.getState().filter((notice) => notice.text !== text);
+    store.setState([...others, { id, tone, text }].slice(-MAX_SHOWN), true);
+    if (tone === 'info') clock.after(INFO_STAYS_MS, () => dismiss(id));
+  }
+
+  function dismiss(id: number): void {
+    store.setState((notices) => notices.filter((notice) => notice.id !== id), true);
+  }
+
+  return {
+    store,
+    tell,
+    tellError(error) {
+      const { code, message } = asLinkError(error);
+      if (code !== 'cancelled')
+        tell(code === 'internal' ? 'danger' : 'warning', errorSentence(code, message));
+    },
+    dismiss,
+  };
+}
+
+function asLinkError(error: unknown): Pick<LinkError, 'code' | 'message'> {
+  if (error instanceof LinkError) return error;
+  return { code: 'internal', message: error instanceof Error ? error.message : String(error) };
+}

@@ -1,0 +1,45 @@
+// The page's stores as one bundle, handed down by React context, and the hooks that read them. A panel subscribes to
+// exactly what it shows.
+
+import { createContext, use } from 'react';
+import { useStore } from 'zustand';
+import type { ActionGroup } from '#shared/actions/group.ts';
+import type { Device, DeviceState } from './device.ts';
+import type { Document, DocumentState } from './document.ts';
+import type { Notices } from './notices.ts';
+import type { View, ViewState } from './view.ts';
+
+export interface Stores {
+  readonly device: Device;
+  readonly document: Document;
+  readonly view: View;
+  readonly notices: Notices;
+}
+
+export const StoresContext = createContext<Stores | null>(null);
+
+export function useStores(): Stores {
+  const stores = use(StoresContext);
+  if (stores === null) throw new Error('a panel stands outside StoresContext');
+  return stores;
+}
+
+export function useDevice<T>(select: (state: DeviceState) => T): T {
+  return useStore(useStores().device.store, select);
+}
+
+export function useSnapshot<T>(select: (snapshot: DeviceState['snapshot']) => T): T {
+  return useStore(useStores().device.store, (state) => select(state.snapshot));
+}
+
+export function useDocument<T>(select: (state: DocumentState) => T): T {
+  return useStore(useStores().document.store, select);
+}
+
+export function useGroup(): ActionGroup {
+  return useDocument((state) => state.present);
+}
+
+export function useView<T>(select: (state: ViewState) => T): T {
+  return useStore(useStores().view, select);
+}

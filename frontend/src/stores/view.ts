@@ -1,0 +1,71 @@
+// What is selected, open and set on this screen: neither the robot's state nor the document's. The theme is
+// remembered. Knows no link.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { TextStorage } from './document.ts';
+import type { MoveTime } from './moveTime.ts';
+
+export type Tab = 'live' | 'actions' | 'board' | 'log';
+export type Theme = 'system' | 'light' | 'dark';
+export type LogKind = 'move' | 'group' | 'battery' | 'noise';
+
+export interface ViewState {
+  readonly tab: Tab;
+  readonly theme: Theme;
+  readonly connectOpen: boolean;
+  readonly logOpen: boolean;
+  readonly logKinds: readonly LogKind[];
+  readonly selectedFrame: number | null;
+  readonly selectedServo: number | null;
+  /** The frame to play from, as an index: where the last playing was paused. */
+  readonly playFrom: number;
+  readonly moveTime: MoveTime;
+  readonly slot: number;
+  readonly times: number;
+  readonly untilStopped: boolean;
+}
+
+export type View = StoreApi<ViewState>;
+
+const KEY = 'servodeck.view';
+const THEMES: readonly string[] = ['system', 'light', 'dark'] satisfies Theme[];
+
+export const INITIAL_VIEW: ViewState = {
+  tab: 'live',
+  theme: 'system',
+  connectOpen: false,
+  logOpen: false,
+  logKinds: ['move', 'group', 'battery', 'noise'],
+  selectedFrame: null,
+  selectedServo: null,
+  playFrom: 0,
+  moveTime: 'hand',
+  slot: 0,
+  times: 1,
+  untilStopped: false,
+};
+
+export function createView(storage: TextStorage): View {
+  const view = createStore<ViewState>(() => ({ ...INITIAL_VIEW, theme: loadTheme(storage) }));
+  view.subscribe(({ theme }, before) => {
+    if (theme !== before.theme) saveTheme(storage, theme);
+  });
+  return view;
+}
+
+function loadTheme(storage: TextStorage): Theme {
+  try {
+    const theme = storage.getItem(KEY);
+    return theme !== null && THEMES.includes(theme) ? (theme as Theme) : 'system';
+  } catch {
+    return 'system';
+  }
+}
+
+function saveTheme(storage: TextStorage, theme: Theme): void {
+  try {
+    storage.setItem(KEY, theme);
+  } catch {
+    // Storage is forbidden here: the choice lasts as long as the page, and that is all it is worth.
+  }
+}

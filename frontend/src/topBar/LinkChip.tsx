@@ -1,0 +1,47 @@
+// The link in one word with one shape, and the one obvious Connect. Pressing it opens the ways to connect.
+
+import { Button as AriaButton } from 'react-aria-components/Button';
+import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
+import { Mark, type Truth } from '../ui/Chip.tsx';
+import { Button } from '../ui/Button.tsx';
+import type { LinkState } from '#shared/session/state.ts';
+import { words } from '../words/en.ts';
+import styles from './LinkChip.module.css';
+
+const TRUTH: Readonly<Record<LinkState['status'], Truth>> = {
+  closed: 'neutral',
+  opening: 'unknown',
+  ready: 'confirmed',
+  lost: 'danger',
+};
+
+export function LinkChip() {
+  const { view } = useStores();
+  const status = useSnapshot((snapshot) => snapshot.link.status);
+  const way = useDevice((state) => state.way);
+  const isSimulated = way?.kind === 'simulated';
+  const open = (): void => view.setState({ connectOpen: true });
+  const label = way === null || isSimulated ? '' : way.label;
+  return (
+    <div className={styles.link}>
+      <AriaButton
+        className={styles.chip ?? ''}
+        aria-label={`${words.link.change}: ${words.link.chip(isSimulated ? words.link.simulated : words.link.status[status], label)}`}
+        onPress={open}
+      >
+        <Mark truth={TRUTH[status]} />
+        <span className={styles.word}>{words.link.status[status]}</span>
+        {isSimulated ? (
+          <span className={styles.badge}>{words.link.simulated}</span>
+        ) : (
+          <span className={styles.label}>{label}</span>
+        )}
+      </AriaButton>
+      {(way === null || isSimulated) && (
+        <Button tone="primary" icon="plug" onPress={open}>
+          {words.link.connect}
+        </Button>
+      )}
+    </div>
+  );
+}

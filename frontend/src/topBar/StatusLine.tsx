@@ -1,0 +1,98 @@
+// What goes on, in one place that never moves: the latch with its Resume first, then a lost link with its countdown, then
+// what the board does. Changes are read out.
+
+import { useSnapshot, useStores } from '../stores/stores.ts';
+import type { Activity, Latch, LinkState } from '#shared/session/state.ts';
+import { Button } from '../ui/Button.tsx';
+import { Mark, type Truth } from '../ui/Chip.tsx';
+import { useNow } from '../ui/useNow.ts';
+import { words } from '../words/en.ts';
+import { errorSentence } from '../words/errors.ts';
+import styles from './StatusLine.module.css';
+
+export function StatusLine() {
+  const link = useSnapshot((snapshot) => snapshot.link);
+  const latch = useSnapshot((snapshot) => snapshot.latch);
+  const activity = useSnapshot((snapshot) => snapshot.activity);
+  return (
+    <div className={styles.line}>
+      {link.status === 'lost' ? (
+        <Lost link={link} />
+      ) : latch !== null ? (
+        <Latched latch={latch} />
+      ) : (
+        <Said truth={activityTruth(activity)} text={link.status === 'ready' ? activityWords(activity) : ''} />
+      )}
+    </div>
+  );
+}
+
+function Said({ truth, text, more = '' }: { truth: Truth; text: string; more?: string }) {
+  return (
+    <div className={styles.said} role="status">
+      {text !== '' && <Mark truth={truth} />}
+      <div className={styles.words}>
+        <p className={styles.text}>{text}</p>
+        <p className={styles.more}>{more}</p>
+      </div>
+    </div>
+  );
+}
+
+function Latched({ latch }: { readonly latch: Latch }) {
+  const { device } = useStores();
+  return (
+    <>
+      <Said
+        truth={latch.stop === 'confirmed' ? 'confirmed' : latch.stop === 'failed' ? 'danger' : 'warning'}
+        text={words.stop.outcome[latch.stop]}
+        more={words.stop.reason[latch.reason]}
+      />
+      <Button onPress={() => device.resume()} icon="play">
+        {words.stop.resume}
+      </Button>
+    </>
+  );
+}
+
+function Lost({ link }: { readonly link: Extract<LinkState, { status: 'lost' }> }) {
+  const { device } = useStores();
+  return (
+    <>
+      <Said truth="danger" text={errorSentence(link.error.code, link.error.message)} />
+      <span className={styles.countdown}>
+        {link.retryAtMs === null ? words.link.needsYou : <Countdown untilMs={link.retryAtMs} />}
+      </span>
+      <Button onPress={() => device.retryNow()} icon="refresh">
+        {words.link.retryNow}
+      </Button>
+    </>
+  );
+}
+
+function Countdown({ untilMs }: { readonly untilMs: number }) {
+  const { device } = useStores();
+  const nowMs = useNow(device.clock.now, 250);
+  return words.link.retryIn(untilMs - nowMs);
+}
+
+function activityTruth(activity: Activity): Truth {
+  if (activity.kind === 'idle') return 'neutral';
+  if (activity.kind !== 'running') return 'commanded';
+  return ({ requested: 'commanded', acknowledged: 'confirmed', unknown: 'unknown' } as const)[activity.truth];
+}
+
+function activityWords(activity: Activity): string {
+  switch (activity.kind) {
+    case 'idle':
+      return words.activity.idle;
+    case 'running':
+      return `${words.activity.running(activity.slot, activity.times)}: ${words.activity.runTruth[activity.truth]}`;
+    case 'playing':
+      return words.activity.playing(activity.frameIndex + 1, activity.frameCount);
+    case 'downloading':
+      return words.activity.downloading(activity.slot);
+    case 'erasing':
+      return words.activity.erasing;
+  }
+}

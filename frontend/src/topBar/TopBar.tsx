@@ -1,0 +1,67 @@
+// The slim bar: which robot, how it is linked, what goes on, the battery. The right end is kept free for STOP.
+
+import { useDevice, useStores, useView } from '../stores/stores.ts';
+import type { Theme } from '../stores/view.ts';
+import { BatteryReadout } from '../battery/BatteryReadout.tsx';
+import { IconButton } from '../ui/Button.tsx';
+import type { IconName } from '../ui/Icon.tsx';
+import { words } from '../words/en.ts';
+import { LinkChip } from './LinkChip.tsx';
+import { StatusLine } from './StatusLine.tsx';
+import styles from './TopBar.module.css';
+
+export function TopBar() {
+  return (
+    <header className={styles.bar} aria-label={words.regions.top}>
+      <h1 className={styles.product}>
+        <Sign />
+        <span className={styles.productName}>{words.product}</span>
+      </h1>
+      <Robot />
+      <StatusLine />
+      <BatteryReadout />
+      <ThemeButton />
+    </header>
+  );
+}
+
+/** The product's sign: a servo horn on its scale. */
+function Sign() {
+  return (
+    <svg className={styles.sign} viewBox="0 0 32 32" aria-hidden="true" focusable="false">
+      <path className={styles.signScale} d="M6.5 23.5A12 12 0 1 1 25.5 23.5" />
+      <path
+        className={styles.signHorn}
+        d="M13.2 17.6L21.6 6.6a1.6 1.6 0 0 1 2.8 1.6l-5.6 12.6a3.4 3.4 0 1 1-5.6-3.2z"
+      />
+    </svg>
+  );
+}
+
+function Robot() {
+  const name = useDevice((state) => (state.way === null ? words.link.noBoard : state.family.name));
+  const isSimulated = useDevice((state) => state.way?.kind === 'simulated');
+  return (
+    <div className={styles.robot}>
+      <span className={styles.robotName}>{isSimulated ? words.link.ways.simulated : name}</span>
+      <LinkChip />
+    </div>
+  );
+}
+
+const THEME_ICONS: Readonly<Record<Theme, IconName>> = { system: 'half', light: 'sun', dark: 'moon' };
+const NEXT_THEME: Readonly<Record<Theme, Theme>> = { system: 'light', light: 'dark', dark: 'system' };
+
+function ThemeButton() {
+  const { view } = useStores();
+  const theme = useView((state) => state.theme);
+  return (
+    <div className={styles.theme}>
+      <IconButton
+        icon={THEME_ICONS[theme]}
+        label={`${words.theme.label}: ${words.theme[theme]}`}
+        onPress={() => view.setState({ theme: NEXT_THEME[theme] })}
+      />
+    </div>
+  );
+}

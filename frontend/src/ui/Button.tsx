@@ -1,0 +1,36 @@
+// A button with a verb, and an icon-only one with a name. Neutral by nature: colour is kept for what is true.
+
+import type { ReactNode } from 'react';
+import { Button as AriaButton, type ButtonProps as AriaButtonProps } from 'react-aria-components/Button';
+import { cx } from './cx.ts';
+import { Icon, type IconName } from './Icon.tsx';
+import styles from './Button.module.css';
+
+export interface ButtonProps extends Omit<AriaButtonProps, 'className' | 'children' | 'style'> {
+  readonly tone?: 'plain' | 'primary' | 'quiet' | 'danger';
+  readonly icon?: IconName;
+  readonly wide?: boolean;
+  readonly children: ReactNode;
+}
+
+export function Button({ tone = 'plain', icon, wide = false, children, ...rest }: ButtonProps) {
+  return (
+    <AriaButton {...rest} className={cx(styles.button, styles[tone], wide && styles.wide)}>
+      {icon !== undefined && <Icon name={icon} />}
+      <span className={styles.label}>{children}</span>
+    </AriaButton>
+  );
+}
+
+export interface IconButtonProps extends Omit<AriaButtonProps, 'className' | 'children' | 'style'> {
+  readonly icon: IconName;
+  readonly label: string;
+}
+
+export function IconButton({ icon, label, ...rest }: IconButtonProps) {
+  return (
+    <AriaButton {...rest} aria-label={label} className={cx(styles.button, styles.quiet, styles.square)}>
+      <Icon name={icon} />
+    </AriaButton>
+  );
+}

@@ -1,0 +1,52 @@
+// A dialog over the page. STOP lies above it and stays within reach: it is in the library's top layer (StopButton). Esc
+// closes the dialog and is STOP at the same time, as everywhere.
+
+import type { ReactNode } from 'react';
+import { Dialog as AriaDialog, Heading } from 'react-aria-components/Dialog';
+import { Modal, ModalOverlay } from 'react-aria-components/Modal';
+import { IconButton } from './Button.tsx';
+import { cx } from './cx.ts';
+import styles from './Dialog.module.css';
+
+export interface DialogProps {
+  readonly title: string;
+  readonly closeLabel: string;
+  readonly isOpen: boolean;
+  readonly role?: 'dialog' | 'alertdialog';
+  readonly wide?: boolean;
+  readonly children: ReactNode;
+  onClose(): void;
+}
+
+export function Dialog({
+  title,
+  closeLabel,
+  isOpen,
+  role = 'dialog',
+  wide = false,
+  children,
+  onClose,
+}: DialogProps) {
+  return (
+    <ModalOverlay
+      className={styles.veil ?? ''}
+      isOpen={isOpen}
+      isDismissable={role === 'dialog'}
+      onOpenChange={(open) => {
+        if (!open) onClose();
+      }}
+    >
+      <Modal className={cx(styles.modal, wide && styles.wide)}>
+        <AriaDialog className={styles.dialog ?? ''} role={role}>
+          <div className={styles.header}>
+            <Heading slot="title" level={2} className={styles.title ?? ''}>
+              {title}
+            </Heading>
+            <IconButton icon="close" label={closeLabel} onPress={onClose} />
+          </div>
+          {children}
+        </AriaDialog>
+      </Modal>
+    </ModalOverlay>
+  );
+}

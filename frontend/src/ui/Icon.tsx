@@ -1,0 +1,44 @@
+// The one icon set: 16 px strokes, always beside a word or inside something named. Decoration for the eye only.
+
+import styles from './Icon.module.css';
+
+const PATHS = {
+  plus: 'M8 3v10M3 8h10',
+  close: 'M4 4l8 8M12 4l-8 8',
+  play: 'M5 3.5v9l7.5-4.5z',
+  pause: 'M5.5 3.5v9M10.5 3.5v9',
+  undo: 'M6 3L3 6l3 3M3 6h6.5a3.5 3.5 0 0 1 0 7H6',
+  redo: 'M10 3l3 3-3 3M13 6H6.5a3.5 3.5 0 0 0 0 7H10',
+  trash: 'M3 4.5h10M6 4.5V3h4v1.5M4.5 4.5l.6 8.5h5.8l.6-8.5',
+  copy: 'M6 6h7v7H6zM10 6V3H3v7h3',
+  earlier: 'M10 3L5 8l5 5',
+  later: 'M6 3l5 5-5 5',
+  up: 'M3 10l5-5 5 5',
+  down: 'M3 6l5 5 5-5',
+  download: 'M8 2.5v7.5M4.5 7L8 10.5 11.5 7M3 13.5h10',
+  refresh: 'M13 3v3.5H9.5M12.7 6.2A5 5 0 1 0 13 9',
+  pose: 'M3 13h10M8 13V9L4.5 6.5 8 3.5l4 1.5',
+  update: 'M3 3h10v10H3zM5.5 8l2 2 3.5-4',
+  centre: 'M8 2v12M2 8h3.5M10.5 8H14',
+  live: 'M2 8h3l2-4 2.5 8L11.5 8H14',
+  frames: 'M2.5 4h4v8h-4zM9.5 4h4v8h-4z',
+  board: 'M3.5 3.5h9v9h-9zM6 1.5v2M10 1.5v2M6 12.5v2M10 12.5v2M1.5 6h2M1.5 10h2M12.5 6h2M12.5 10h2',
+  log: 'M3 4h10M3 8h7M3 12h9',
+  plug: 'M6 2v4M10 2v4M4 6h8v2a4 4 0 0 1-8 0zM8 12v2.5',
+  grip: 'M6 3.5v.01M10 3.5v.01M6 8v.01M10 8v.01M6 12.5v.01M10 12.5v.01',
+  half: 'M8 2.5a5.5 5.5 0 1 0 0 11zM8 2.5a5.5 5.5 0 0 1 0 11',
+  sun: 'M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 0 0 0 0-5.6zM8 1.5v1.7M8 12.8v1.7M1.5 8h1.7M12.8 8h1.7M3.4 3.4l1.2 1.2M11.4 11.4l1.2 1.2M12.6 3.4l-1.2 1.2M4.6 11.4l-1.2 1.2',
+  moon: 'M12.8 9.6A5.4 5.4 0 0 1 6.4 3.2a5.4 5.4 0 1 0 6.4 6.4z',
+  end: 'M4.5 4.5h7v7h-7z',
+  erase: 'M2.5 13.5h11M5 11l-2-2 6-6 4 4-4 4z',
+} as const;
+
+export type IconName = keyof typeof PATHS;
+
+export function Icon({ name }: { readonly name: IconName }) {
+  return (
+    <svg className={styles.icon} viewBox="0 0 16 16" aria-hidden="true" focusable="false">
+      <path d={PATHS[name]} />
+    </svg>
+  );
+}

@@ -1,0 +1,280 @@
+// Every other sentence of the page in English, as one typed catalogue. Another language is another object of this type.
+// Words are short and concrete; verbs stand on buttons; whatever destroys something names what is lost.
+
+import type { LinkState } from '#shared/session/state.ts';
+import {
+  formatAge,
+  formatCount,
+  formatList,
+  formatMs,
+  formatPosition,
+  formatSeconds,
+  formatVolts,
+  formatWhole,
+  unitSymbol,
+  type PositionUnit,
+} from './numbers.ts';
+import { timesWords } from './packets.ts';
+
+export const words = {
+  product: 'Servodeck',
+  regions: { top: 'Robot and link', live: 'Live', authoring: 'Authoring', notices: 'Notices' },
+  tabs: { live: 'Live', actions: 'Actions', board: 'Board', log: 'Log' },
+  tabList: 'Parts of the dashboard',
+  close: 'Close',
+  cancel: 'Cancel',
+
+  truth: {
+    commanded: 'Commanded',
+    estimated: 'Estimated',
+    confirmed: 'Confirmed',
+    unknown: 'Unknown',
+    legend: 'What the marks mean',
+  },
+
+  link: {
+    status: {
+      closed: 'Not connected',
+      opening: 'Connecting',
+      ready: 'Ready',
+      lost: 'Lost',
+    } satisfies Record<LinkState['status'], string>,
+    simulated: 'Simulated',
+    ways: { webSerial: 'This computer’s port', gateway: 'Gateway', simulated: 'Simulated robot' },
+    noBoard: 'No robot',
+    chip: (status: string, label: string): string => (label === '' ? status : `${status}, ${label}`),
+    connect: 'Connect',
+    change: 'Connection',
+    disconnect: 'Disconnect',
+    retryNow: 'Try now',
+    retryIn: (ms: number): string => `Next try in ${formatWhole(Math.max(0, Math.ceil(ms / 1000)))} s`,
+    needsYou: 'Waiting for you',
+  },
+
+  stop: {
+    button: 'Stop',
+    hint: 'Esc',
+    resume: 'Resume',
+    resumeHint: 'Allows motion again. Moves nothing.',
+    reason: {
+      pressed: 'Stop was pressed',
+      elsewhere: 'Stopped on another screen',
+      reconnected: 'The link came back; look at the robot first',
+    },
+    outcome: {
+      sending: 'Stopping',
+      sent: 'Stop sent; this board does not confirm',
+      confirmed: 'Stopped',
+      failed: 'Stop could not be sent. Switch the robot off if it moves',
+    },
+  },
+
+  activity: {
+    idle: 'Idle',
+    running: (slot: number, times: number): string =>
+      `Running slot ${formatWhole(slot)}, ${timesWords(times)}`,
+    runTruth: {
+      requested: 'asked, not yet received',
+      acknowledged: 'received by the board',
+      unknown: 'no word from the board',
+    },
+    playing: (frame: number, count: number): string =>
+      `Playing frame ${formatWhole(frame)} of ${formatWhole(count)}`,
+    downloading: (slot: number): string => `Downloading to slot ${formatWhole(slot)}`,
+    erasing: 'Erasing every slot',
+  },
+
+  theme: { label: 'Appearance', system: 'As the system', light: 'Light', dark: 'Dark' },
+
+  connect: {
+    title: 'Connect a robot',
+    intro: 'Connecting moves nothing.',
+    board: 'Board',
+    boardHint: 'Decides limits and commands. If unsure, keep the first.',
+    here: 'You are here',
+    webSerial: {
+      title: 'This computer’s port',
+      about: 'A robot on a USB cable of this computer, opened by the browser.',
+      choose: 'Choose a port',
+      open: (label: string): string => `Open ${label}`,
+      secureLink: 'Open on 127.0.0.1',
+    },
+    gateway: {
+      title: 'Gateway',
+      about: 'A robot on a port of the machine that serves this page.',
+      looking: 'Looking for a gateway at this address.',
+      none: 'The gateway sees no serial port. Plug the robot in, then look again.',
+      refresh: 'Look again',
+      open: (device: string): string => `Open ${device}`,
+    },
+    simulated: {
+      title: 'Simulated robot',
+      about: 'A board in this page, with six servos and a battery. Nothing real moves.',
+      open: 'Use the simulated robot',
+    },
+  },
+
+  body: {
+    title: 'Robot',
+    side: 'From the side',
+    base: 'Base, from above',
+    hand: 'Hand, from the front',
+    figure: 'Arm from the side; solid is estimated, outline is commanded, dashed is unknown',
+    allUnknown: 'Positions are unknown until each servo is moved once. The first move is slow.',
+    gaugeFigure: (servo: number): string => `Dial of servo ${formatWhole(servo)}`,
+  },
+
+  servos: {
+    title: 'Servos',
+    name: (servo: number): string => `Servo ${formatWhole(servo)}`,
+    joints: ['Gripper', 'Wrist roll', 'Wrist', 'Elbow', 'Shoulder', 'Base'] as readonly string[],
+    position: (servo: number): string => `Servo ${formatWhole(servo)} position`,
+    target: (servo: number): string => `Servo ${formatWhole(servo)} target`,
+    valueText: (position: number, unit: PositionUnit): string => formatPosition(position, unit),
+    unknownValue: 'Unknown; the first move is slow',
+    unknown: '?',
+    estimated: (position: number): string => `≈ ${formatWhole(position)}`,
+    unit: (unit: PositionUnit): string => unitSymbol(unit),
+    moveTime: 'Move time',
+    hand: 'As fast as my hand',
+    timed: 'In a set time',
+    moveTimeField: 'Move time in milliseconds',
+    ms: 'ms',
+    centre: 'Centre all',
+    centreHint: 'Moves every servo slowly to the middle',
+    blocked: {
+      closed: 'Connect a robot to move it.',
+      latched: 'Stopped. Resume to move.',
+      busy: 'The board is busy; moving waits.',
+    },
+  },
+
+  actions: {
+    title: 'Action group',
+    name: 'Name of the group',
+    defaultName: 'New group',
+    frames: 'Frames',
+    empty: 'No frames yet',
+    emptyHint: 'Pose the robot with the sliders, then capture the pose. Two or three poses make a motion.',
+    capture: 'Capture frame',
+    captureHint: 'Adds the commanded pose after the selected frame',
+    nothingKnown: 'Move a servo first: nothing is known of the pose yet.',
+    frame: (number: number): string => `Frame ${formatWhole(number)}`,
+    frameAbout: (number: number, durationMs: number, changed: readonly number[]): string => {
+      const moved = changed.length === 0 ? 'moves nothing' : `moves servo ${formatList(changed)}`;
+      return `Frame ${formatWhole(number)}, ${formatMs(durationMs)}, ${moved}`;
+    },
+    playingFrame: 'Playing',
+    time: (number: number): string => `Time of frame ${formatWhole(number)} in milliseconds`,
+    tools: 'Change the selected frame',
+    select: 'Select a frame to change it.',
+    load: 'Move robot to this pose',
+    update: 'Update from pose',
+    duplicate: 'Duplicate',
+    delete: 'Delete',
+    earlier: 'Move earlier',
+    later: 'Move later',
+    drag: (number: number): string => `Drag frame ${formatWhole(number)}`,
+    undo: 'Undo',
+    redo: 'Redo',
+    undoStep: (label: string): string => `Undo: ${label}`,
+    redoStep: (label: string): string => `Redo: ${label}`,
+    total: (count: number, ms: number): string =>
+      `${formatCount(count)} ${count === 1 ? 'frame' : 'frames'}, ${formatSeconds(ms)}`,
+    play: 'Play',
+    playOn: (number: number): string => `Play from frame ${formatWhole(number)}`,
+    pause: 'Pause',
+    steps: {
+      capture: 'capture frame',
+      update: (number: number): string => `update frame ${formatWhole(number)}`,
+      duplicate: (number: number): string => `duplicate frame ${formatWhole(number)}`,
+      delete: (number: number): string => `delete frame ${formatWhole(number)}`,
+      move: (number: number): string => `move frame ${formatWhole(number)}`,
+      time: (number: number): string => `time of frame ${formatWhole(number)}`,
+      rename: 'rename group',
+    },
+    moved: (from: number, to: number): string => `Frame ${formatWhole(from)} is now frame ${formatWhole(to)}`,
+    otherUnit: (unit: PositionUnit): string =>
+      `This group is in ${unitSymbol(unit)}; the connected board counts otherwise.`,
+    broken: 'The saved group could not be read. It was set aside unharmed, and a new group begun.',
+    notSaved: 'The browser does not store the group; it is kept until the page is closed.',
+  },
+
+  board: {
+    title: 'Board',
+    slot: 'Slot',
+    slotAbout: {
+      broken: 'Broken: its download did not finish. Download again before running it.',
+      stored: 'Holds what was downloaded here.',
+      unknown: 'What it holds is unknown; boards cannot be read.',
+    },
+    slotBadge: { broken: 'Broken', stored: 'Stored', unknown: 'Unknown' },
+    download: 'Download',
+    downloadHint: (count: number, slot: number): string =>
+      `${formatCount(count)} ${count === 1 ? 'frame' : 'frames'} to slot ${formatWhole(slot)}`,
+    nothingToDownload: 'Capture a frame first.',
+    cancelDownload: 'Cancel download',
+    progress: 'Download progress',
+    progressText: (stored: number, count: number): string =>
+      `${formatCount(stored)} of ${formatCount(count)} frames`,
+    bytes: (sent: number, total: number): string => `${formatCount(sent)} of ${formatCount(total)} bytes`,
+    left: (ms: number): string => `${formatSeconds(ms)} left`,
+    noDownload: 'Nothing is downloading',
+    times: 'Times',
+    untilStopped: 'Until stopped',
+    untilStoppedHint: 'Repeats without end until you stop it.',
+    run: 'Run',
+    runHint: (slot: number, times: number): string => `Slot ${formatWhole(slot)}, ${timesWords(times)}`,
+    stopGroup: 'End group',
+    stopGroupHint: 'Ends the group after its frame in progress. Not an emergency stop.',
+    erase: 'Erase everything',
+    eraseTitle: 'Erase every slot of the board?',
+    eraseText: (slots: number): string =>
+      `All ${formatCount(slots)} slots are emptied, with the groups the maker put there. The board cannot be read, so nothing can bring them back. Your frames on this page stay.`,
+    eraseConfirm: 'Erase every slot',
+    eraseKeep: 'Keep them',
+    erased: 'Every slot is empty.',
+    erasing: 'Erasing; this takes up to a few seconds.',
+    downloaded: (slot: number): string => `Slot ${formatWhole(slot)} is downloaded.`,
+    downloadCancelled: (slot: number): string =>
+      `Download cancelled. Slot ${formatWhole(slot)} is broken until a whole group is downloaded.`,
+    without: 'This board has no such command.',
+  },
+
+  battery: {
+    title: 'Battery',
+    gauge: 'Battery voltage',
+    noVolts: '– V',
+    unread: 'Not read yet',
+    silent: 'This board cannot tell',
+    silentHint: 'Three questions stayed unanswered. Refresh asks again.',
+    refresh: 'Refresh',
+    age: (ms: number): string => formatAge(ms),
+    level: { good: 'Good', warning: 'Low', danger: 'Charge now' },
+    volts: (millivolts: number): string => formatVolts(millivolts),
+    scale: (lowMv: number, highMv: number): string => `${formatVolts(lowMv)} to ${formatVolts(highMv)}`,
+  },
+
+  log: {
+    title: 'Log',
+    open: 'Show the log',
+    fold: 'Hide the log',
+    entries: 'Packets',
+    empty: 'No packets yet',
+    pause: 'Pause',
+    goOn: 'Continue',
+    paused: (count: number): string => `Paused; ${formatCount(count)} new`,
+    clear: 'Clear',
+    filter: 'Show',
+    kinds: { move: 'Moves', group: 'Groups', battery: 'Battery', noise: 'Noise' },
+    sent: 'Sent',
+    received: 'Received',
+    columns: { time: 'Time', direction: 'Direction', meaning: 'Meaning', bytes: 'Bytes' },
+  },
+
+  refused: (name: string, value: number, min: number, max: number): string =>
+    `${name}: ${formatWhole(value)} is out of range; it takes ${formatWhole(min)} to ${formatWhole(max)}.`,
+  dismiss: 'Dismiss',
+};
+
+export type Words = typeof words;

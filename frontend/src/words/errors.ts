@@ -1,0 +1,39 @@
+// One sentence per code of a link's failure: what it is and what to do. Everything that can go wrong with a link is read
+// here; no panel writes its own.
+
+import type { LinkErrorCode } from '#shared/session/linkError.ts';
+
+type Sentence = (detail: string) => string;
+
+const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
+  closed: () => 'No robot is connected. Choose Connect first.',
+  lost: () => 'The link ended. Check the cable and the power of the robot; Servodeck keeps trying.',
+  portMissing: () => 'The port is not there. Plug the robot in and switch it on; Servodeck keeps trying.',
+  portBusy: () => 'Another program or tab holds this port. Close it there; Servodeck keeps trying.',
+  portDenied: () =>
+    'The system does not allow access to this port. On Linux add yourself to the group “dialout”, then log in again.',
+  notChosen: () =>
+    'No port was chosen. If the robot is not in the list, try another cable: some carry power only.',
+  unsupported: () =>
+    'This browser cannot open serial ports. Use Chrome or Edge on a computer, or start the gateway there.',
+  insecureAddress: () =>
+    'This address is not secure, so the browser hides its serial ports. Open the page on 127.0.0.1 instead.',
+  gatewayUnreachable: () => 'No gateway answers at this address. Start it with “npm start” and try again.',
+  gatewayRefused: (detail) => withDetail('The gateway refused this', detail),
+  noAnswer: () => 'The board did not answer in time. Check its power and its cable, then try again.',
+  notSupported: () => 'This board has no such command.',
+  latched: () => 'Stopped. Choose Resume before anything may move.',
+  busy: () => 'The board is busy. Wait for the download or the erase to end, or cancel it.',
+  slotBroken: () => 'This slot is broken: its download did not finish. Download a group to it again.',
+  cancelled: () => 'Cancelled.',
+  outOfRange: (detail) => withDetail('The board cannot take this value', detail),
+  internal: (detail) => withDetail('Servodeck made a mistake; please report it', detail),
+};
+
+export function errorSentence(code: LinkErrorCode, detail = ''): string {
+  return SENTENCES[code](detail);
+}
+
+function withDetail(sentence: string, detail: string): string {
+  return detail === '' ? `${sentence}.` : `${sentence}: ${detail}${/[.!?]$/u.test(detail) ? '' : '.'}`;
+}

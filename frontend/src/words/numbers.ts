@@ -1,0 +1,51 @@
+// Numbers and units as people read them, through Intl. Knows no sentence.
+
+const language = 'en';
+const whole = new Intl.NumberFormat(language, { useGrouping: false });
+const volts = new Intl.NumberFormat(language, {
+  style: 'unit',
+  unit: 'volt',
+  minimumFractionDigits: 2,
+  maximumFractionDigits: 2,
+});
+const seconds = new Intl.NumberFormat(language, {
+  style: 'unit',
+  unit: 'second',
+  minimumFractionDigits: 1,
+  maximumFractionDigits: 1,
+});
+const grouped = new Intl.NumberFormat(language);
+const percent = new Intl.NumberFormat(language, { style: 'percent' });
+const ago = new Intl.RelativeTimeFormat(language, { style: 'short' });
+const list = new Intl.ListFormat(language, { style: 'short', type: 'conjunction' });
+const elapsed = new Intl.DateTimeFormat(language, {
+  timeZone: 'UTC',
+  minute: '2-digit',
+  second: '2-digit',
+  fractionalSecondDigits: 3,
+});
+
+export type PositionUnit = 'us' | 'steps';
+
+/** Digits only, never grouped: positions stand in columns. */
+export const formatWhole = (value: number): string => whole.format(value);
+export const formatCount = (value: number): string => grouped.format(value);
+export const formatPercent = (fraction: number): string => percent.format(fraction);
+export const formatList = (values: readonly number[]): string => list.format(values.map(formatWhole));
+export const unitSymbol = (unit: PositionUnit): string => (unit === 'us' ? 'µs' : 'steps');
+export const formatPosition = (position: number, unit: PositionUnit): string =>
+  `${whole.format(position)} ${unitSymbol(unit)}`;
+export const formatVolts = (millivolts: number): string => volts.format(millivolts / 1000);
+export const formatSeconds = (ms: number): string => seconds.format(ms / 1000);
+export const formatMs = (ms: number): string => `${whole.format(ms)} ms`;
+
+/** `3 sec. ago`, by whole seconds and above a minute by minutes. */
+export function formatAge(ms: number): string {
+  const ageSeconds = Math.max(0, Math.round(ms / 1000));
+  return ageSeconds < 60
+    ? ago.format(-ageSeconds, 'second')
+    : ago.format(-Math.round(ageSeconds / 60), 'minute');
+}
+
+/** Time since the page was opened, `02:07.345`. */
+export const formatElapsed = (ms: number): string => elapsed.format(ms);
