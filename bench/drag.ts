@@ -1,0 +1,158 @@
+// How old a slider's value is when its last byte leaves the wire, while all sliders are dragged at once: the session
+// beside a client that sends a packet per slider event, as simple tools do, over an equal wire.
+//
+// The age comes from the board's bus log. Time is virtual: what is measured is a policy of queueing on a wire that is the
+// same everywhere, so the figure is exact and repeatable, and the other client's backlog (up to a minute) need not be
+// waited for. That real timers change little is measured too: `drag.N.realTimersP99Ms`.
+
+import type { Clock } from '#shared/clock.ts';
+import { sleep } from '#shared/clock.ts';
+import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { encodeCommand } from '#shared/protocol/encode.ts';
+import { family as familyOf } from '#shared/protocol/families.ts';
+import { wireMs } from '#shared/protocol/packet.ts';
+import { createSession } from '#shared/session/session.ts';
+import type { BusLogEntry } from '#shared/simulator/busLog.ts';
+import { createSimulatedTransport } from '#shared/simulator/transport.ts';
+import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { packetsInto } from './busPackets.ts';
+import type { Figure, Rival } from './figure.ts';
+import { realClock } from './realClock.ts';
+import { percentile } from './statistics.ts';
+
+const SERVO_COUNTS = [6, 16, 32];
+const DRAG_MS = 10_000;
+const EVENT_MS = 1_000 / 60;
+const EVENTS = DRAG_MS / EVENT_MS;
+const family = familyOf('doc');
+/** Event k says 500 + k: each value names the event it came from. */
+const FIRST_POSITION = family.position.min;
+
+type Send = (targets: readonly ServoTarget[]) => void;
+
+/** One wire with a board at its end, and a client that is told of slider events. */
+interface Client {
+  readonly send: Send;
+  readonly log: readonly BusLogEntry[];
+}
+
+/** What became of one gesture's values. */
+interface Ages {
+  /** By packet while the sliders moved: all values of a packet come from one event. */
+  readonly agesMs: readonly number[];
+  /** Of the last value. It counts apart: nothing newer takes its place while it waits for the packet before it. */
+  readonly finalMs: number;
+}
+
+interface Runs {
+  readonly ours: Ages;
+  readonly perEvent: Ages;
+  readonly realTimers: Ages;
+}
+
+export async function measureDrag(): Promise<Figure[]> {
+  // Side by side: three sessions that wait most of the time do not disturb each other.
+  const inRealTime = await Promise.all(SERVO_COUNTS.map(dragInRealTime));
+  const figures: Figure[] = [];
+  for (const [index, servoCount] of SERVO_COUNTS.entries()) {
+    const ours = await dragInVirtualTime(servoCount, openSession);
+    const perEvent = await dragInVirtualTime(servoCount, openPerEventClient);
+    figures.push(...figuresFor(servoCount, { ours, perEvent, realTimers: inRealTime[index] ?? ours }));
+  }
+  return figures;
+}
+
+function figuresFor(servoCount: number, { ours, perEvent, realTimers }: Runs): Figure[] {
+  const p99Ms = percentile(ours.agesMs, 99);
+  const packetMs = wireMs(packetBytesFor(servoCount));
+  const time = (name: string, value: number, against: Rival, note: string): Figure => ({
+    key: `drag.${servoCount}.${name}`,
+    ...{ value, unit: 'ms', against, note },
+  });
+  const perEventToo = { what: 'a packet per event', value: percentile(perEvent.agesMs, 99) };
+  const oneEvent = { what: 'one event', value: EVENT_MS };
+  const twoPackets = { what: 'two packets, one gap', value: 2 * packetMs + family.serviceGapMs };
+  const virtualTime = { what: 'virtual time', value: p99Ms };
+  const [packets, again] = [ours.agesMs.length, realTimers.agesMs.length];
+  return [
+    time('p99Ms', p99Ms, perEventToo, `${servoCount} sliders at 60 Hz for 10 s, ${packets} packets`),
+    time('overWireMs', p99Ms - packetMs, oneEvent, `less its packet's ${packetMs.toFixed(1)} ms on the wire`),
+    time('finalMs', ours.finalMs, twoPackets, 'the last value waits for the packet before it'),
+    time('realTimersP99Ms', percentile(realTimers.agesMs, 99), virtualTime, `real timers, ${again} packets`),
+  ];
+}
+
+async function dragInVirtualTime(
+  servoCount: number,
+  open: (clock: Clock, servoCount: number) => Promise<Client>,
+): Promise<Ages> {
+  const clock = createVirtualClock();
+  const client = await open(clock, servoCount);
+  const eventsMs = drag(clock, servoCount, client.send);
+  await clock.runUntilIdle();
+  return agesOf(client.log, eventsMs);
+}
+
+async function dragInRealTime(servoCount: number): Promise<Ages> {
+  const client = await openSession(realClock, servoCount);
+  const eventsMs = drag(realClock, servoCount, client.send);
+  // After the last event at most two packets leave: the one under way and the one with the final values.
+  await sleep(realClock, DRAG_MS + 3 * wireMs(packetBytesFor(servoCount)));
+  return agesOf(client.log, eventsMs);
+}
+
+async function openSession(clock: Clock, servoCount: number): Promise<Client> {
+  const log: BusLogEntry[] = [];
+  const transport = createSimulatedTransport(clock, { servoCount, onByte: (entry) => log.push(entry) });
+  const session = createSession({ transport, family, clock });
+  await session.open();
+  return { log, send: (targets) => session.move(targets, 0) };
+}
+
+/**
+ * A packet per event, written at once: the system takes any number of them and the wire works them off in order. All
+ * sliders share that packet, which is kinder than the usual packet per slider.
+ */
+function openPerEventClient(clock: Clock, servoCount: number): Promise<Client> {
+  const log: BusLogEntry[] = [];
+  const { board } = createSimulatedTransport(clock, { servoCount, onByte: (entry) => log.push(entry) });
+  const send: Send = (targets) =>
+    board.receive(encodeCommand({ kind: 'move', durationMs: 20, targets }, family));
+  return Promise.resolve({ log, send });
+}
+
+/** Starts to drag all sliders and returns at once; the list fills with the time of each event. */
+function drag(clock: Clock, servoCount: number, send: Send): readonly number[] {
+  const startMs = clock.now();
+  const eventsMs: number[] = [];
+  function event(): void {
+    const position = FIRST_POSITION + eventsMs.length;
+    eventsMs.push(clock.now());
+    send(Array.from({ length: servoCount }, (_, index) => ({ servo: index + 1, position })));
+    const dueMs = startMs + eventsMs.length * EVENT_MS;
+    if (eventsMs.length < EVENTS) clock.after(dueMs - clock.now(), event);
+  }
+  event();
+  return eventsMs;
+}
+
+/** Throws where the last value never left, which would flatter the rest. */
+function agesOf(log: readonly BusLogEntry[], eventsMs: readonly number[]): Ages {
+  const agesMs: number[] = [];
+  let event = -1;
+  for (const { command, endMs } of packetsInto(log)) {
+    if (command.kind !== 'move') continue;
+    event = (command.targets[0]?.position ?? 0) - FIRST_POSITION;
+    agesMs.push(endMs - (eventsMs[event] ?? NaN));
+  }
+  const finalMs = agesMs.pop();
+  if (finalMs === undefined || event !== eventsMs.length - 1) {
+    throw new Error('the last value of the gesture was never sent');
+  }
+  return { agesMs, finalMs };
+}
+
+function packetBytesFor(servoCount: number): number {
+  const targets = Array.from({ length: servoCount }, (_, index) => ({ servo: index + 1, position: 1_500 }));
+  return encodeCommand({ kind: 'move', durationMs: 0, targets }, family).length;
+}

@@ -1,0 +1,52 @@
+// `npm run bench`: measures what was asked for, prints the table, writes the JSON. Knows which groups there are, not how
+// they measure. Each figure is taken in the same run as what it stands beside.
+
+import { writeFileSync } from 'node:fs';
+import { parseArgs } from 'node:util';
+import { SetupProblem, main, say } from '../scripts/steps.mjs';
+import { measureCodec } from './codec.ts';
+import { measureDownload } from './download.ts';
+import { measureDrag } from './drag.ts';
+import { toRecord, type Figure } from './figure.ts';
+import { toTable } from './table.ts';
+
+const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
+  codec: measureCodec,
+  drag: measureDrag,
+  download: measureDownload,
+};
+
+const USAGE = `npm run bench [-- [--only GROUP,GROUP…] [--json FILE]]
+groups: ${Object.keys(GROUPS).join(', ')}`;
+
+function readArguments(): { only: readonly string[]; json: string | undefined } {
+  const options = { only: { type: 'string' }, json: { type: 'string' } } as const;
+  try {
+    const { values } = parseArgs({ options });
+    const only = values.only?.split(',') ?? Object.keys(GROUPS);
+    const unknown = only.filter((name) => !(name in GROUPS));
+    if (unknown.length > 0) throw new TypeError(`There is no group ${unknown.join(', ')}.`);
+    return { only, json: values.json };
+  } catch (error) {
+    throw new SetupProblem(`${error instanceof Error ? error.message : String(error)}\n${USAGE}`);
+  }
+}
+
+/** One after the other: two measurements at once would measure each other. */
+async function measure(names: readonly string[]): Promise<readonly Figure[]> {
+  const figures: Figure[] = [];
+  for (const name of names) {
+    const startMs = performance.now();
+    figures.push(...((await GROUPS[name]?.()) ?? []));
+    say(`measured ${name} in ${((performance.now() - startMs) / 1_000).toFixed(1)} s`);
+  }
+  return figures;
+}
+
+await main(async () => {
+  const { only, json } = readArguments();
+  const figures = await measure(only);
+  say(`\n${toTable(figures)}\n`);
+  if (json !== undefined) writeFileSync(json, `${JSON.stringify(toRecord(figures), null, 2)}\n`);
+  return 0;
+});
