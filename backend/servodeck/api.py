@@ -70,11 +70,13 @@ class Stopped(Message):
     halted: bool
 
 
-def called_by_own_page(request: Request) -> None:
+# Dependencies are coroutines even where they wait for nothing: a plain function would go through a thread, and STOP
+# with it.
+async def called_by_own_page(request: Request) -> None:
     judge_script(request.scope["headers"])
 
 
-def control_of(connection: HTTPConnection) -> Control:
+async def control_of(connection: HTTPConnection) -> Control:
     control = connection.app.state.control
     assert isinstance(control, Control)
     return control

@@ -2,6 +2,7 @@
 
 import contextlib
 from collections.abc import AsyncIterator
+from pathlib import Path
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
@@ -16,9 +17,8 @@ from servodeck.docs import STYLE, docs_page
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
 from servodeck.gate import allowed_hosts
 from servodeck.guard import Guard
-from servodeck.page import page
+from servodeck.page import STATIC, page
 
-BODY_BYTES = 16 * 1024
 CODE_OF_STATUS: dict[int, ErrorCode] = {
     403: "forbidden",
     404: "notFound",
@@ -27,15 +27,14 @@ CODE_OF_STATUS: dict[int, ErrorCode] = {
 }
 
 
-def create_app(control: Control, port: int) -> ASGIApp:
-    """The gateway as it answers on that TCP port of this computer."""
+def create_app(control: Control, port: int, static: Path = STATIC) -> ASGIApp:
+    """The gateway as it answers on that TCP port of this computer, with the page built into `static`."""
     app = FastAPI(
         title="Servodeck gateway",
         description="Drives a servo controller on a serial port. An error is a code and a sentence.",
         version=__version__,
         docs_url=None,
         redoc_url=None,
-        max_body_size=BODY_BYTES,
         lifespan=lifespan,
     )
     app.state.control = control
@@ -43,7 +42,7 @@ def create_app(control: Control, port: int) -> ASGIApp:
     app.include_router(socket)
     add_docs(app)
     add_errors(app)
-    app.mount("/", page())
+    app.mount("/", page(static))
     return Guard(app, allowed_hosts(port))
 
 
@@ -56,32 +55,32 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
 
 def add_docs(app: FastAPI) -> None:
     @app.get("/docs", include_in_schema=False)
-    def docs() -> HTMLResponse:
+    async def docs() -> HTMLResponse:
         return HTMLResponse(docs_page(app.openapi()))
 
     @app.get("/docs.css", include_in_schema=False)
-    def style() -> Response:
+    async def style() -> Response:
         return Response(STYLE, media_type="text/css")
 
 
 def add_errors(app: FastAPI) -> None:
     @app.exception_handler(GatewayError)
-    def gateway_error(_request: Request, error: GatewayError) -> JSONResponse:
+    async def gateway_error(_request: Request, error: GatewayError) -> JSONResponse:
         return problem(error.status, error.code, error.detail)
 
     @app.exception_handler(RequestValidationError)
-    def validation_error(_request: Request, error: RequestValidationError) -> JSONResponse:
+    async def validation_error(_request: Request, error: RequestValidationError) -> JSONResponse:
         first = error.errors()[0]
         where = ".".join(str(part) for part in first["loc"])
         return problem(MalformedError.status, MalformedError.code, f"{where}: {first['msg']}")
 
     @app.exception_handler(HTTPException)
-    def http_error(_request: Request, error: HTTPException) -> JSONResponse:
+    async def http_error(_request: Request, error: HTTPException) -> JSONResponse:
         code = CODE_OF_STATUS.get(error.status_code, "malformed")
         return problem(error.status_code, code, error.detail)
 
     @app.exception_handler(Exception)
-    def defect(_request: Request, _error: Exception) -> JSONResponse:
+    async def defect(_request: Request, _error: Exception) -> JSONResponse:
         return problem(500, "internal", "The gateway made a mistake; its log says more.")
 
 

@@ -12,6 +12,7 @@ ErrorCode = Literal[
     "portBusy",
     "portDenied",
     "noAnswer",
+    "notSupported",
     "latched",
     "busy",
     "cancelled",
@@ -89,6 +90,13 @@ class CancelledError(GatewayError):
 class NoAnswerError(GatewayError):
     code: ClassVar[ErrorCode] = "noAnswer"
     status: ClassVar[int] = 504
+
+
+class NotSupportedError(GatewayError):
+    """This board has no such command."""
+
+    code: ClassVar[ErrorCode] = "notSupported"
+    status: ClassVar[int] = 409
 
 
 class OutOfRangeError(GatewayError):

@@ -6,7 +6,14 @@ them, and programs of the same computer, which have no Origin.
 
 from collections.abc import Iterable
 
-from servodeck.errors import ForbiddenError, LatchedError, MalformedError, OutOfRangeError
+from servodeck.errors import (
+    ForbiddenError,
+    GatewayError,
+    LatchedError,
+    MalformedError,
+    NotSupportedError,
+    OutOfRangeError,
+)
 from servodeck.packets import FAMILIES, PacketError, check_command
 
 MOVE, RUN, STOP, BATTERY = 3, 6, 7, 15
@@ -81,9 +88,7 @@ def only(headers: list[tuple[bytes, bytes]], name: bytes) -> bytes | None:
 
 
 def judge_packet(text: str, board: str) -> bytes:
-    """The packet in `text` (hex) when it is one command that board can take. Raises MalformedError or
-    OutOfRangeError.
-    """
+    """The packet in `text` (hex) when it is one command that board can take. Raises what is wrong with it."""
     try:
         packet = bytes.fromhex(text)
     except ValueError:
@@ -91,8 +96,14 @@ def judge_packet(text: str, board: str) -> bytes:
     try:
         check_command(packet, FAMILIES[board])
     except PacketError as error:
-        raise (OutOfRangeError if error.code == "outOfRange" else MalformedError)(str(error)) from error
+        raise refusal_of(error) from error
     return packet
+
+
+def refusal_of(error: PacketError) -> GatewayError:
+    if error.code == "malformed":
+        return MalformedError(error.detail)
+    return (NotSupportedError if error.field == "command" else OutOfRangeError)(error.detail)
 
 
 def judge_hold(text: str | None, board: str) -> bytes | None:

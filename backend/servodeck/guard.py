@@ -5,12 +5,14 @@ Pure ASGI, because ordinary middleware does not see WebSockets. Knows no route.
 """
 
 from starlette.datastructures import MutableHeaders
+from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from servodeck.errors import ForbiddenError
 from servodeck.gate import judge_handshake
 
+BODY_BYTES = 16 * 1024
 STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
 
 CONTENT_POLICY = (
@@ -41,7 +43,8 @@ class Guard:
             # The Host is not to be trusted here, so it does not appear in the policy.
             refusal = JSONResponse({"code": error.code, "detail": error.detail}, error.status)
             return await refusal(scope, receive, with_headers(send, host="127.0.0.1"))
-        return await self._app(scope, receive, with_headers(send, host))
+        limited = limit_body(receive) if scope["type"] == "http" else receive
+        return await self._app(scope, limited, with_headers(send, host))
 
 
 def with_headers(send: Send, host: str) -> Send:
@@ -54,3 +57,18 @@ def with_headers(send: Send, host: str) -> Send:
         await send(message)
 
     return send_with_headers
+
+
+def limit_body(receive: Receive) -> Receive:
+    """Nothing that anybody may send here is larger than that."""
+    total_bytes = 0
+
+    async def receive_limited() -> Message:
+        nonlocal total_bytes
+        message = await receive()
+        total_bytes += len(message.get("body", b""))
+        if total_bytes > BODY_BYTES:
+            raise HTTPException(413, f"The request is larger than {BODY_BYTES} bytes.")
+        return message
+
+    return receive_limited

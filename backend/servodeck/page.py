@@ -22,11 +22,15 @@ COMPRESS_LEVEL = 4
 
 
 class Page(StaticFiles):
+    def __init__(self, folder: Path) -> None:
+        super().__init__(directory=folder, html=True, check_dir=False)
+        self._index = folder / "index.html"
+
     async def check_config(self) -> None:
         """Nothing: the folder may come while we run, when the page is built."""
 
     async def get_response(self, path: str, scope: Scope) -> Response:
-        if path == "." and not (STATIC / "index.html").exists():
+        if path == "." and not self._index.exists():
             return PlainTextResponse(NOT_BUILT, 503)
         response = await super().get_response(path, scope)
         hashed = Path(path).parts[:1] == (HASHED_FOLDER,)
@@ -34,6 +38,5 @@ class Page(StaticFiles):
         return response
 
 
-def page() -> ASGIApp:
-    files = Page(directory=STATIC, html=True, check_dir=False)
-    return GZipMiddleware(files, minimum_size=1024, compresslevel=COMPRESS_LEVEL)
+def page(folder: Path) -> ASGIApp:
+    return GZipMiddleware(Page(folder), minimum_size=1024, compresslevel=COMPRESS_LEVEL)

@@ -10,7 +10,7 @@ import socket
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol, TypeVar, cast
+from typing import Any, Protocol, TypeVar
 
 import serial
 from serial.tools import list_ports
@@ -106,7 +106,7 @@ def open_port(device: str) -> OpenPort:
             device, BAUD, timeout=READ_WAIT_S, write_timeout=WRITE_WAIT_S, exclusive=True
         )
         send_at_once(port)
-        return SerialPort(device, cast("serial.Serial", port))
+        return SerialPort(device, port)
     except (serial.SerialException, OSError, ValueError) as error:
         raise explain(device, error) from error
 

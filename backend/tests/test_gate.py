@@ -4,7 +4,13 @@ from contextlib import AbstractContextManager, nullcontext
 
 import pytest
 
-from servodeck.errors import ForbiddenError, LatchedError, MalformedError, OutOfRangeError
+from servodeck.errors import (
+    ForbiddenError,
+    LatchedError,
+    MalformedError,
+    NotSupportedError,
+    OutOfRangeError,
+)
 from servodeck.gate import (
     allowed_hosts,
     judge_handshake,
@@ -150,6 +156,11 @@ def test_what_is_not_exactly_one_command_is_malformed(text: str) -> None:
 def test_what_the_board_cannot_take_is_out_of_range(text: str) -> None:
     with pytest.raises(OutOfRangeError):
         judge_packet(text, "doc")
+
+
+def test_a_command_that_the_board_does_not_have_is_named_as_such() -> None:
+    with pytest.raises(NotSupportedError):
+        judge_packet(BATTERY.hex(), "openarm-new")
 
 
 def test_only_a_move_can_hold_a_pose() -> None:

@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from functools import partial
 from itertools import pairwise
 
 import pytest
@@ -41,9 +42,7 @@ def approx_ms(*times_ms: float) -> object:
 async def test_each_packet_leaves_when_the_one_before_has_left_and_the_board_had_its_pause() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        for packet in (MOVE, BATTERY, RUN):
-            left = wire.send(packet, ANNA)
-        await left
+        await asyncio.gather(*(wire.send(packet, ANNA) for packet in (MOVE, BATTERY, RUN)))
     second_ms = GAP_MS + wire_ms(MOVE) + GAP_MS
     assert port.packets() == [MOVE, BATTERY, RUN]
     assert port.times_ms() == approx_ms(GAP_MS, second_ms, second_ms + wire_ms(BATTERY) + GAP_MS)
@@ -242,7 +241,7 @@ async def play(asked: list[tuple[int, str]], port: FakePort) -> None:
 
     async with open_wire(port) as wire:
         for at_ms, kind in asked:
-            at(at_ms / 1000, lambda kind=kind: ask(wire, kind))
+            at(at_ms / 1000, partial(ask, wire, kind))
         await asyncio.sleep(3)
 
 

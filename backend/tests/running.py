@@ -1,0 +1,62 @@
+"""The whole gateway for a test: behind HTTP without a socket, or as a real server on a free port."""
+
+import asyncio
+import socket
+import time
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from httpx2 import ASGITransport, AsyncClient
+
+from servodeck.app import create_app
+from servodeck.control import Control
+from servodeck.link import Ports
+from servodeck.page import STATIC
+from servodeck.server import Server
+
+PORT = 8300
+DEVICE = "/dev/board"
+
+
+@asynccontextmanager
+async def http_to(
+    ports: Ports, now: Callable[[], float], device: str | None = DEVICE, static: Path = STATIC
+) -> AsyncIterator[tuple[AsyncClient, Control]]:
+    """A client of the application itself, and what stands behind it; its port is open when it starts."""
+    control = Control(ports, now, "doc", device)
+    if device:
+        await control.use_port(device)
+    transport = ASGITransport(create_app(control, PORT, static), raise_app_exceptions=False)
+    async with AsyncClient(transport=transport, base_url=f"http://127.0.0.1:{PORT}") as client:
+        yield client, control
+    await control.link.close()
+
+
+@dataclass
+class Running:
+    host: str
+    control: Control
+    server: Server
+
+    @property
+    def ws(self) -> str:
+        return f"ws://{self.host}/ws"
+
+
+@asynccontextmanager
+async def server_on(ports: Ports, device: str | None = DEVICE) -> AsyncIterator[Running]:
+    """A real server on a free port."""
+    listener = socket.create_server(("127.0.0.1", 0))
+    port = listener.getsockname()[1]
+    control = Control(ports, time.monotonic, "doc", device)
+    ready = asyncio.Event()
+    server = Server(create_app(control, port), control, device, ready.set)
+    life = asyncio.create_task(server.serve([listener]))
+    await ready.wait()
+    try:
+        yield Running(f"127.0.0.1:{port}", control, server)
+    finally:
+        server.leave()
+        await life

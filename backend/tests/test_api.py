@@ -1,0 +1,103 @@
+"""What a script can do over HTTP."""
+
+import asyncio
+import time
+
+from servodeck import __version__
+from servodeck.errors import PortBusyError, PortMissingError
+from tests.fake_port import FakePort, FakePorts
+from tests.running import DEVICE, http_to
+from tests.samples import BATTERY, BATTERY_REPORT, MOVE, STOP
+from tests.virtual_time import at, in_virtual_time, now
+
+OPEN = {"device": DEVICE, "status": "open", "code": None, "detail": None, "retryInMs": None}
+CLOSED = {"device": None, "status": "closed", "code": None, "detail": None, "retryInMs": None}
+
+
+@in_virtual_time
+async def test_health_and_status_tell_how_everything_stands() -> None:
+    async with http_to(FakePorts(FakePort()), now) as (client, _):
+        assert (await client.get("/api/health")).json() == {"status": "ok", "version": __version__}
+        assert (await client.get("/api/status")).json() == {
+            "version": __version__,
+            "board": "doc",
+            "port": OPEN,
+            "latch": False,
+            "clients": 0,
+            "battery": None,
+        }
+
+
+@in_virtual_time
+async def test_the_battery_is_asked_and_remembered_with_its_age() -> None:
+    port = FakePort()
+    async with http_to(FakePorts(port), now) as (client, _):
+        at(0.1, lambda: port.say(BATTERY_REPORT))
+        assert (await client.get("/api/battery")).json() == {"batteryMv": 7500}
+        await asyncio.sleep(2)
+        assert (await client.get("/api/status")).json()["battery"] == {"batteryMv": 7500, "ageMs": 2000}
+        assert port.packets() == [STOP, BATTERY]
+
+
+@in_virtual_time
+async def test_a_silent_board_is_a_time_out() -> None:
+    async with http_to(FakePorts(FakePort()), now) as (client, _):
+        answer = await client.get("/api/battery")
+        assert answer.status_code == 504
+        assert answer.json()["code"] == "noAnswer"
+
+
+@in_virtual_time
+async def test_stop_answers_when_the_stops_have_left_and_resume_moves_nothing() -> None:
+    port = FakePort()
+    async with http_to(FakePorts(port), now) as (client, control):
+        await asyncio.sleep(1)
+        assert (await client.post("/api/stop")).json() == {"latch": True, "halted": True}
+        assert port.packets() == [STOP] * 4
+        assert control.latch is True
+        assert (await client.post("/api/resume")).json()["latch"] is False
+        await asyncio.sleep(1)
+        assert port.packets() == [STOP] * 4
+
+
+@in_virtual_time
+async def test_a_port_is_chosen_and_closed() -> None:
+    ports = FakePorts(FakePort(), FakePort())
+    async with http_to(ports, now) as (client, control):
+        chosen = await client.put("/api/port", json={"device": "/dev/other", "board": "lsc-16"})
+        assert chosen.json() == {**OPEN, "device": "/dev/other"}
+        assert control.board == "lsc-16"
+        assert (await client.delete("/api/port")).json() == CLOSED
+        assert (await client.delete("/api/port")).json() == CLOSED
+        refused = await client.get("/api/battery")
+        assert (refused.status_code, refused.json()["code"]) == (409, "closed")
+
+
+@in_virtual_time
+async def test_a_port_that_cannot_be_had_is_refused_with_its_reason_and_tried_again() -> None:
+    ports = FakePorts(PortBusyError("Another program uses it."), FakePort())
+    async with http_to(ports, now, device=None) as (client, _):
+        refused = await client.put("/api/port", json={"device": DEVICE})
+        assert refused.status_code == 503
+        assert refused.json() == {"code": "portBusy", "detail": "Another program uses it."}
+        assert (await client.get("/api/status")).json()["port"]["retryInMs"] == 250
+        await asyncio.sleep(1)
+        assert (await client.get("/api/status")).json()["port"] == OPEN
+
+
+@in_virtual_time
+async def test_while_stopped_the_battery_can_still_be_asked() -> None:
+    port = FakePort()
+    async with http_to(FakePorts(port), now) as (client, control):
+        control.send("script", MOVE.hex())
+        await client.post("/api/stop")
+        at(now() + 0.1, lambda: port.say(BATTERY_REPORT))
+        assert (await client.get("/api/battery")).status_code == 200
+
+
+async def test_the_ports_list_holds_the_one_named_at_the_start() -> None:
+    ports = FakePorts(PortMissingError("There is no such port."))
+    async with http_to(ports, time.monotonic, device=None) as (client, control):
+        control.named_device = DEVICE
+        listed = (await client.get("/api/ports")).json()
+        assert listed[0] == {"device": DEVICE, "description": "Named at the start", "likely": True}

@@ -1,0 +1,193 @@
+"""The assembled gateway: who gets in on every route, headers, the page, the documentation, the shape of errors."""
+
+import asyncio
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fastapi.routing import APIRoute
+from starlette.types import ASGIApp, Message, Scope
+
+from servodeck.api import api, socket
+from servodeck.app import create_app
+from servodeck.control import Control
+from servodeck.errors import PortMissingError
+from tests.fake_port import FakePorts
+from tests.running import PORT, http_to
+from tests.test_gate import HOSTS, ORIGINS, PASSING, headers_of
+
+NOWHERE = FakePorts(PortMissingError("There is no such port."))
+
+
+def all_routes() -> Iterator[tuple[str, str, str]]:
+    """Type, method and path of everything that answers, read from the routers, and what they do not know."""
+    for route in api.routes:
+        assert isinstance(route, APIRoute)
+        yield from (("http", method, route.path) for method in route.methods or ())
+    yield from (("websocket", "GET", getattr(route, "path", "")) for route in socket.routes)
+    yield from (("http", "GET", path) for path in ("/", "/docs", "/docs.css", "/openapi.json", "/unknown"))
+
+
+async def knock(app: ASGIApp, scope: Scope) -> int:
+    """The status of one request or upgrade; 101 where it was accepted."""
+    first = "http.request" if scope["type"] == "http" else "websocket.connect"
+    messages: list[Message] = [{"type": first}, {"type": "websocket.disconnect", "code": 1000}]
+    statuses: list[int] = []
+
+    async def receive() -> Message:
+        return messages.pop(0) if messages else await asyncio.Future[Message]()
+
+    async def send(message: Message) -> None:
+        if message["type"] == "websocket.accept":
+            statuses.append(101)
+        if message["type"].endswith("response.start"):
+            statuses.append(message["status"])
+
+    await app(scope, receive, send)
+    return statuses[0]
+
+
+def scope_of(kind: str, method: str, path: str, headers: list[tuple[bytes, bytes]]) -> dict[str, Any]:
+    return {
+        "type": kind,
+        "asgi": {"version": "3.0"},
+        "http_version": "1.1",
+        "method": method,
+        "scheme": "http" if kind == "http" else "ws",
+        "path": path,
+        "raw_path": path.encode(),
+        "query_string": b"",
+        "root_path": "",
+        "headers": headers,
+        "client": ("127.0.0.1", 50000),
+        "server": ("127.0.0.1", PORT),
+        "extensions": {"websocket.http.response": {}},
+        "subprotocols": [],
+        "state": {},
+    }
+
+
+@pytest.mark.parametrize(("kind", "method", "path"), list(all_routes()))
+async def test_every_route_lets_in_exactly_whom_the_table_names(kind: str, method: str, path: str) -> None:
+    app = create_app(Control(NOWHERE, time.monotonic, "doc"), PORT)
+    for host in HOSTS:
+        for origin in ORIGINS:
+            status = await knock(app, scope_of(kind, method, path, headers_of(host, origin)))
+            assert (status != 403) == ((host, origin) in PASSING), (host, origin, status)
+
+
+@pytest.mark.parametrize(
+    ("method", "path"), [(method, path) for _, method, path in all_routes() if path.startswith("/api/")]
+)
+async def test_a_link_of_another_site_reaches_no_route_that_acts(method: str, path: str) -> None:
+    app = create_app(Control(NOWHERE, time.monotonic, "doc"), PORT)
+    followed = [(b"sec-fetch-site", b"cross-site"), (b"sec-fetch-mode", b"navigate")]
+    headers = headers_of(f"127.0.0.1:{PORT}", None) + followed
+    assert await knock(app, scope_of("http", method, path, headers)) == 403
+    assert await knock(app, scope_of("http", "GET", "/docs", headers)) == 200
+
+
+async def test_every_answer_carries_the_security_headers() -> None:
+    async with http_to(NOWHERE, time.monotonic, device=None) as (client, _):
+        for path in ("/", "/docs", "/api/health", "/unknown"):
+            headers = (await client.get(path)).headers
+            policy = headers["content-security-policy"]
+            assert policy.startswith("default-src 'none'; script-src 'self'; style-src 'self';")
+            assert f"connect-src 'self' ws://127.0.0.1:{PORT};" in policy
+            assert "frame-ancestors 'none'" in policy
+            assert "unsafe" not in policy
+            assert headers["x-content-type-options"] == "nosniff"
+            assert headers["referrer-policy"] == "no-referrer"
+            assert headers["cross-origin-opener-policy"] == "same-origin"
+            assert headers["cross-origin-resource-policy"] == "same-origin"
+            assert headers["permissions-policy"] == "serial=(self), hid=(self), bluetooth=(self)"
+        refused = await client.get("/api/health", headers={"host": "evil.example"})
+        assert refused.status_code == 403
+        assert refused.json()["code"] == "forbidden"
+        assert "evil" not in refused.headers["content-security-policy"]
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "kwargs", "status", "code"),
+    [
+        ("GET", "/api/nothing", {}, 404, "notFound"),
+        ("GET", "/nothing.js", {}, 404, "notFound"),
+        ("PATCH", "/api/port", {}, 405, "methodNotAllowed"),
+        ("PUT", "/api/port", {"json": {}}, 422, "malformed"),
+        ("PUT", "/api/port", {"json": {"device": "/dev/x", "more": 1}}, 422, "malformed"),
+        ("PUT", "/api/port", {"json": {"device": 5}}, 422, "malformed"),
+        ("PUT", "/api/port", {"json": {"device": "/dev/x", "board": "toaster"}}, 422, "outOfRange"),
+        ("PUT", "/api/port", {"json": {"device": "/dev/\nx"}}, 422, "malformed"),
+        (
+            "PUT",
+            "/api/port",
+            {"content": b"{", "headers": {"content-type": "application/json"}},
+            422,
+            "malformed",
+        ),
+        ("PUT", "/api/port", {"content": b'{"device": "/dev/x"}'}, 422, "malformed"),
+        ("PUT", "/api/port", {"json": {"device": "x" * 20_000}}, 413, "malformed"),
+        ("PUT", "/api/port", {"json": {"device": "/dev/x"}}, 503, "portMissing"),
+        ("POST", "/api/stop", {}, 409, "closed"),
+    ],
+)
+async def test_every_error_has_one_shape(
+    method: str, path: str, kwargs: dict[str, Any], status: int, code: str
+) -> None:
+    async with http_to(NOWHERE, time.monotonic, device=None) as (client, control):
+        answer = await client.request(method, path, **kwargs)
+        assert answer.status_code == status
+        assert answer.json()["code"] == code
+        assert set(answer.json()) == {"code", "detail"}
+        await control.link.close()
+
+
+@pytest.fixture
+def built(tmp_path: Path) -> Path:
+    (tmp_path / "assets").mkdir()
+    (tmp_path / "index.html").write_text("<!doctype html><title>Servodeck</title>")
+    (tmp_path / "assets" / "page-1a2b3c.js").write_text("export const answer = 42;\n" * 200)
+    (tmp_path / "sw.js").write_text("self.x = 1;")
+    return tmp_path
+
+
+async def test_the_page_is_asked_for_again_and_hashed_files_are_kept(built: Path) -> None:
+    async with http_to(NOWHERE, time.monotonic, device=None, static=built) as (client, _):
+        page = await client.get("/")
+        assert page.text.startswith("<!doctype html>")
+        assert page.headers["content-type"].startswith("text/html")
+        assert page.headers["cache-control"] == "no-cache"
+        again = await client.get("/", headers={"if-none-match": page.headers["etag"]})
+        assert again.status_code == 304
+        script = await client.get("/assets/page-1a2b3c.js")
+        assert script.headers["cache-control"] == "public, max-age=31536000, immutable"
+        assert script.headers["content-encoding"] == "gzip"
+        assert script.headers["content-type"].startswith("text/javascript")
+        assert (await client.get("/sw.js")).headers["cache-control"] == "no-cache"
+        assert (await client.get("/../pyproject.toml")).status_code == 404
+        assert (await client.get("/%2e%2e/%2e%2e/pyproject.toml")).status_code == 404
+
+
+async def test_an_unbuilt_page_says_how_to_build_it(tmp_path: Path) -> None:
+    async with http_to(NOWHERE, time.monotonic, device=None, static=tmp_path / "none") as (client, _):
+        answer = await client.get("/")
+        assert answer.status_code == 503
+        assert "npm run build" in answer.text
+        assert (await client.get("/other")).status_code == 404
+
+
+async def test_the_documentation_needs_no_script_and_no_other_host() -> None:
+    async with http_to(NOWHERE, time.monotonic, device=None) as (client, _):
+        page = (await client.get("/docs")).text
+        assert "<script" not in page
+        assert "//" not in page
+        assert 'style="' not in page
+        described = (await client.get("/openapi.json")).json()
+        for path in described["paths"]:
+            assert path in page
+        assert (await client.get("/docs.css")).headers["content-type"].startswith("text/css")
+        for methods in described["paths"].values():
+            for operation in methods.values():
+                assert operation["description"]
