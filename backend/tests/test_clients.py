@@ -1,0 +1,159 @@
+"""Real WebSocket clients on a real server."""
+
+import asyncio
+import json
+import socket
+from collections.abc import AsyncIterator
+from typing import Any
+
+import pytest
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+
+from tests.fake_port import FakePort, FakePorts
+from tests.running import Running, server_on
+from tests.samples import BATTERY, BATTERY_REPORT, MOVE, RUN, STOP
+
+PATIENCE_S = 3
+
+
+@pytest.fixture
+def port() -> FakePort:
+    return FakePort()
+
+
+@pytest.fixture
+async def gateway(port: FakePort) -> AsyncIterator[Running]:
+    async with server_on(FakePorts(port)) as running:
+        yield running
+
+
+async def hear(client: ClientConnection) -> dict[str, Any]:
+    message = json.loads(await asyncio.wait_for(client.recv(), PATIENCE_S))
+    assert isinstance(message, dict)
+    return message
+
+
+async def hear_until(client: ClientConnection, kind: str) -> dict[str, Any]:
+    while (message := await hear(client))["type"] != kind:
+        pass
+    return message
+
+
+async def say(client: ClientConnection, **message: object) -> None:
+    await client.send(json.dumps(message))
+
+
+async def test_a_conversation_from_welcome_to_resume(port: FakePort, gateway: Running) -> None:
+    async with connect(gateway.ws, origin=f"http://{gateway.host}") as client:
+        assert (await hear(client))["type"] == "welcome"
+        await say(client, type="send", id=1, packet=MOVE.hex())
+        await say(client, type="send", id=2, packet=BATTERY.hex())
+        assert await hear_until(client, "sent") == {"type": "sent", "id": 1}
+        assert await hear_until(client, "sent") == {"type": "sent", "id": 2}
+        port.say(BATTERY_REPORT)
+        assert await hear(client) == {"type": "received", "packet": BATTERY_REPORT.hex()}
+        await say(client, type="send", id=3, packet="55550203")
+        assert (await hear(client))["code"] == "malformed"
+        await say(client, type="stop", hold=RUN.hex())
+        refused = await hear(client)
+        assert (refused["type"], refused["id"], refused["code"]) == ("refused", None, "malformed")
+        assert (await hear(client))["latch"] is True
+        assert await hear(client) == {"type": "halted"}
+        await say(client, type="send", id=4, packet=MOVE.hex())
+        refused = await hear(client)
+        assert (refused["id"], refused["code"]) == (4, "latched")
+        await say(client, type="resume")
+        assert (await hear(client))["latch"] is False
+        assert port.packets() == [STOP, MOVE, BATTERY, STOP, STOP, STOP]
+
+
+async def test_more_than_eight_waiting_packets_are_refused_as_busy(gateway: Running) -> None:
+    async with connect(gateway.ws) as client:
+        for number in range(20):
+            await say(client, type="send", id=number, packet=MOVE.hex())
+        assert (await hear_until(client, "refused"))["code"] == "busy"
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"Origin": "http://evil.example"},
+        {"Origin": "null"},
+        {"X-Forwarded-For": "10.0.0.1"},
+        {"Sec-Fetch-Site": "cross-site"},
+    ],
+)
+async def test_another_page_gets_no_connection_but_a_reason(
+    gateway: Running, headers: dict[str, str]
+) -> None:
+    with pytest.raises(InvalidStatus) as refused:
+        async with connect(gateway.ws, additional_headers=headers):
+            pass
+    assert refused.value.response.status_code == 403
+    assert json.loads(refused.value.response.body)["code"] == "forbidden"
+
+
+async def test_bytes_and_giants_end_the_connection(gateway: Running) -> None:
+    for message, code in ((b"\x55\x55\x02\x07", 1003), ("x" * 20_000, 1009)):
+        async with connect(gateway.ws) as client:
+            await hear(client)
+            await client.send(message)
+            with pytest.raises(ConnectionClosed):
+                await hear_until(client, "nothing")
+            assert client.close_code == code
+
+
+async def test_a_client_that_never_reads_is_dropped_and_the_others_lose_nothing(
+    port: FakePort, gateway: Running
+) -> None:
+    lazy = socket.socket()
+    lazy.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    lazy.setblocking(False)
+    await asyncio.get_running_loop().sock_connect(
+        lazy, tuple(gateway.host.split(":"))[:1] + (port_of(gateway),)
+    )
+    handshake = (
+        f"GET /ws HTTP/1.1\r\nHost: {gateway.host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+    )
+    await asyncio.get_running_loop().sock_sendall(lazy, handshake.encode())
+    async with connect(gateway.ws, max_queue=None) as client:
+        await hear_until(client, "welcome")
+        noises, rounds = 0, 0
+        while len(gateway.control.hub) == 2 and rounds < 2000:
+            port.say(b"\x00" * 64 * 32)
+            rounds += 1
+            while noises < rounds * 32:
+                await hear_until(client, "noise")
+                noises += 1
+        assert len(gateway.control.hub) == 1
+        await say(client, type="send", id=1, packet=MOVE.hex())
+        assert await hear_until(client, "sent") == {"type": "sent", "id": 1}
+    lazy.close()
+
+
+def port_of(gateway: Running) -> int:
+    return int(gateway.host.rpartition(":")[2])
+
+
+async def test_when_the_last_window_closes_a_running_group_is_stopped(
+    port: FakePort, gateway: Running
+) -> None:
+    async with connect(gateway.ws) as client:
+        await say(client, type="send", id=1, packet=RUN.hex())
+        await hear_until(client, "sent")
+    async with asyncio.timeout(PATIENCE_S):
+        while port.packets() != [STOP, RUN, STOP, STOP, STOP]:
+            await asyncio.sleep(0.01)
+
+
+async def test_at_the_end_the_robot_is_stopped_and_clients_are_told(port: FakePort) -> None:
+    async with server_on(FakePorts(port)) as running:
+        client = await connect(running.ws)
+        await say(client, type="send", id=1, packet=RUN.hex())
+        await hear_until(client, "sent")
+    with pytest.raises(ConnectionClosed):
+        await hear_until(client, "nothing")
+    assert client.close_code == 1012
+    assert port.packets() == [STOP, RUN, STOP, STOP, STOP]

@@ -1,0 +1,129 @@
+"""The messages as models, as JSON and as a schema; and that no text whatever harms the gateway or moves anything."""
+
+import json
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from servodeck.clients import take
+from servodeck.control import Control
+from servodeck.hub import Seat
+from servodeck.messages import (
+    PortState,
+    ResumeMessage,
+    SendMessage,
+    SentMessage,
+    StateMessage,
+    StopMessage,
+    client_message,
+    encode,
+    gateway_message,
+    json_schema,
+)
+from tests.fake_port import FakePort, FakePorts
+from tests.samples import BATTERY, MOVE, RUN, STOP
+from tests.virtual_time import in_virtual_time, now
+
+
+def test_each_client_message_is_read_as_what_it_is() -> None:
+    assert client_message.validate_json('{"type":"send","id":7,"packet":"55550207"}') == SendMessage(
+        type="send", id=7, packet="55550207"
+    )
+    assert client_message.validate_json('{"type":"stop","hold":null}') == StopMessage(type="stop", hold=None)
+    assert client_message.validate_json('{"type":"resume"}') == ResumeMessage(type="resume")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "nonsense",
+        "[]",
+        "null",
+        "{}",
+        '{"type":"dance"}',
+        '{"type":"send","id":1}',
+        '{"type":"send","id":"1","packet":"55550207"}',
+        '{"type":"send","id":1.5,"packet":"55550207"}',
+        '{"type":"send","id":-1,"packet":"55550207"}',
+        '{"type":"send","id":true,"packet":"55550207"}',
+        '{"type":"send","id":1,"packet":["55"]}',
+        '{"type":"send","id":1,"packet":"55550207","more":0}',
+        '{"type":"send","id":1,"packet":"' + "5" * 600 + '"}',
+        '{"type":"stop"}',
+        '{"type":"resume","hold":null}',
+        "[" * 5000,
+    ],
+)
+def test_anything_else_is_refused(text: str) -> None:
+    with pytest.raises(ValidationError):
+        client_message.validate_json(text)
+
+
+def test_names_on_the_wire_are_camel_case() -> None:
+    port = PortState(device="/dev/board", status="lost", code="lost", detail="Gone.", retry_in_ms=250)
+    state = json.loads(encode(StateMessage(port=port, latch=True, clients=2)))
+    assert state["port"]["retryInMs"] == 250
+    assert json.loads(encode(SentMessage(id=3))) == {"type": "sent", "id": 3}
+    assert gateway_message.validate_json(encode(SentMessage(id=3))) == SentMessage(id=3)
+
+
+def test_the_schema_names_both_directions_and_leaves_nothing_open() -> None:
+    definitions = json_schema()["$defs"]
+    assert {"ClientMessage", "GatewayMessage", "PortState"} <= set(definitions)
+    assert len(definitions["ClientMessage"]["oneOf"]) == 3
+    assert len(definitions["GatewayMessage"]["oneOf"]) == 7
+    for name, definition in definitions.items():
+        if "properties" in definition:
+            assert definition["additionalProperties"] is False, name
+            assert set(definition["required"]) == set(definition["properties"]), name
+
+
+packets = st.one_of(
+    st.sampled_from([packet.hex() for packet in (MOVE, RUN, STOP, BATTERY)]),
+    st.binary(max_size=20).map(bytes.hex),
+    st.text(max_size=20),
+)
+scalars = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=20), packets)
+messages = st.one_of(
+    st.fixed_dictionaries({"type": st.just("send"), "id": st.integers() | scalars, "packet": packets}),
+    st.fixed_dictionaries({"type": st.just("stop"), "hold": st.none() | packets}),
+    st.dictionaries(st.sampled_from(["type", "id", "packet", "hold", "x"]), scalars),
+    st.recursive(scalars, lambda inner: st.lists(inner, max_size=3), max_leaves=6),
+)
+texts = st.one_of(st.text(max_size=200), messages.map(json.dumps))
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.lists(texts, max_size=5))
+def test_no_text_harms_the_gateway_and_a_stopped_robot_stays_stopped(asked: list[str]) -> None:
+    say_while_latched(asked)
+
+
+@in_virtual_time
+async def say_while_latched(asked: list[str]) -> None:
+    port = FakePort()
+    control = Control(FakePorts(port), now, "doc")
+    await control.use_port("/dev/board")
+    await control.stop(None)
+    seat = Seat()
+    control.join(seat)
+    for text in asked:
+        take(text, seat, control)
+    answers: list[dict[str, Any]] = [json.loads(await seat.next()) for _ in range(seat.waiting)]
+    await control.shut_down()
+    assert {answer["type"] for answer in answers} <= {"welcome", "state", "refused"}
+    held = {json.loads(text)["hold"] for text in asked if is_stop_with_pose(text)}
+    assert set(port.packets()) - {STOP, BATTERY} <= {bytes.fromhex(pose) for pose in held}
+
+
+def is_stop_with_pose(text: str) -> bool:
+    """The only road on which a stopped robot gets a move: the pose to hold."""
+    try:
+        message = client_message.validate_json(text)
+    except ValidationError:
+        return False
+    return isinstance(message, StopMessage) and message.hold == MOVE.hex()
