@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.decoder import Packet
+from servodeck.decoder import Decoder, DecoderEvent, Packet, PacketEvent
 from servodeck.families import DOC, FAMILIES, Family, Range
 from servodeck.limits import PacketError
 from servodeck.packets import check_command, describe, encode, parse_command, parse_report
@@ -89,9 +89,13 @@ def test_commands_are_these_bytes_and_back(vector: Any) -> None:
 
 @pytest.mark.parametrize("vector", load("reports"))
 def test_reports_mean_this_in_this_family(vector: Any) -> None:
-    packet = bytes.fromhex(vector["hex"])
-    report = parse_report(Packet(packet[3], packet[4:]), FAMILIES[vector["family"]])
-    assert report == report_of(vector["report"])
+    events: list[DecoderEvent] = []
+    decoder = Decoder(events.append)
+    decoder.push(bytes.fromhex(vector["hex"]))
+    decoder.idle()
+    (event,) = events
+    assert isinstance(event, PacketEvent)
+    assert parse_report(event.packet, FAMILIES[vector["family"]]) == report_of(vector["report"])
 
 
 @pytest.mark.parametrize("vector", load("refusals"))

@@ -24,6 +24,8 @@ const PACKETS = [
   '55 55 08 03 01 E8 03 01 D0 07',
   '55 55 0E 02 01 02 55 55 02 07 03 00 04 00 05 00',
   '55 55 0E 19 05 02 00 02 E8 03 01 DC 05 02 D0 07',
+  `55 55 63 15 20 ${'01 F4 01 '.repeat(32)}`,
+  `55 55 FB 03 52 E8 03 ${'01 D0 07 '.repeat(82)}`,
 ].map(fromHex);
 
 /** Whole and cut packets, header bytes and plain garbage in any mixture: the worst a line can say. */
@@ -31,7 +33,7 @@ const soup = fc
   .array(
     fc.oneof(
       fc.constantFrom(...PACKETS),
-      fc.tuple(fc.constantFrom(...PACKETS), fc.nat(14)).map(([packet, cut]) => packet.slice(0, 1 + cut)),
+      fc.tuple(fc.constantFrom(...PACKETS), fc.nat(260)).map(([packet, cut]) => packet.slice(0, 1 + cut)),
       fc.array(fc.constantFrom(0x55, 0x02, 0x04, 0x05, 0x06, 0x07, 0x0f, 0x15, 0x19, 0xfd)),
       fc.uint8Array({ maxLength: 80 }),
     ),

@@ -37,7 +37,7 @@ function readDownload(params: Uint8Array): Command | null {
 
 /** Count, time and entries from `at` to the end; null where the count and the bytes there disagree (S13). */
 function readFrame(params: Uint8Array, at: number): Frame | null {
-  if (params.length < at + 3 || params.length !== at + 3 + 3 * byteAt(params, at)) return null;
+  if (params.length !== at + 3 + 3 * byteAt(params, at)) return null;
   const targets: ServoTarget[] = [];
   for (let entry = at + 3; entry < params.length; entry += 3) {
     targets.push({ servo: byteAt(params, entry), position: wordAt(params, entry + 1) });

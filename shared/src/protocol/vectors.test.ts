@@ -111,6 +111,7 @@ describe('report vectors', () => {
       report.kind === 'unknown' ? { ...report, params: fromHex(report.params) } : (report satisfies Report);
     expect(parseReport(packetOf(hex), family(id))).toEqual(expected);
     expect(toHex(encodeReport(expected))).toBe(hex);
+    expect(decode({ direction: 'report', feed: [hex, 'idle'] })).toEqual([{ kind: 'packet', bytes: hex }]);
   });
 });
 
