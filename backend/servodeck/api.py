@@ -70,8 +70,8 @@ class Stopped(Message):
     halted: bool
 
 
-# Dependencies are coroutines even where they wait for nothing: a plain function would go through a thread, and STOP
-# with it.
+# Dependencies are coroutines even where they wait for nothing: a plain function would go through a thread,
+# and STOP with it.
 async def called_by_own_page(request: Request) -> None:
     judge_script(request.scope["headers"])
 

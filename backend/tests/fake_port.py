@@ -15,6 +15,7 @@ class FakePort:
         self.written: list[tuple[float, bytes]] = []
         self.refuses_writes = False
         self.is_open = True
+        self._wrote = asyncio.Event()
 
     def fileno(self) -> int | None:
         return self._ours.fileno()
@@ -32,6 +33,7 @@ class FakePort:
         if self.refuses_writes:
             raise PortLostError("The board takes nothing.")
         self.written.append((asyncio.get_running_loop().time(), data))
+        self._wrote.set()
 
     def close(self) -> None:
         self.is_open = False
@@ -43,6 +45,12 @@ class FakePort:
 
     def unplug(self) -> None:
         self._boards.shutdown(socket.SHUT_RDWR)
+
+    async def until_written(self, count: int) -> None:
+        """Until that many packets were written since the port opened."""
+        while len(self.written) < count:
+            self._wrote.clear()
+            await self._wrote.wait()
 
     def packets(self) -> list[bytes]:
         return [packet for _, packet in self.written]

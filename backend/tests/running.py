@@ -41,6 +41,11 @@ class Running:
     server: Server
 
     @property
+    def address(self) -> tuple[str, int]:
+        name, _, port = self.host.rpartition(":")
+        return name, int(port)
+
+    @property
     def ws(self) -> str:
         return f"ws://{self.host}/ws"
 

@@ -1,4 +1,4 @@
-"""The assembled gateway: who gets in on every route, headers, the page, the documentation, the shape of errors."""
+"""The assembled gateway: who gets in on every route, headers, the page, the documentation, errors."""
 
 import asyncio
 import time

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.typing import Origin
 
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
@@ -45,7 +46,7 @@ async def say(client: ClientConnection, **message: object) -> None:
 
 
 async def test_a_conversation_from_welcome_to_resume(port: FakePort, gateway: Running) -> None:
-    async with connect(gateway.ws, origin=f"http://{gateway.host}") as client:
+    async with connect(gateway.ws, origin=Origin(f"http://{gateway.host}")) as client:
         assert (await hear(client))["type"] == "welcome"
         await say(client, type="send", id=1, packet=MOVE.hex())
         await say(client, type="send", id=2, packet=BATTERY.hex())
@@ -110,9 +111,7 @@ async def test_a_client_that_never_reads_is_dropped_and_the_others_lose_nothing(
     lazy = socket.socket()
     lazy.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     lazy.setblocking(False)
-    await asyncio.get_running_loop().sock_connect(
-        lazy, tuple(gateway.host.split(":"))[:1] + (port_of(gateway),)
-    )
+    await asyncio.get_running_loop().sock_connect(lazy, gateway.address)
     handshake = (
         f"GET /ws HTTP/1.1\r\nHost: {gateway.host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
         "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
@@ -133,19 +132,14 @@ async def test_a_client_that_never_reads_is_dropped_and_the_others_lose_nothing(
     lazy.close()
 
 
-def port_of(gateway: Running) -> int:
-    return int(gateway.host.rpartition(":")[2])
-
-
 async def test_when_the_last_window_closes_a_running_group_is_stopped(
     port: FakePort, gateway: Running
 ) -> None:
     async with connect(gateway.ws) as client:
         await say(client, type="send", id=1, packet=RUN.hex())
         await hear_until(client, "sent")
-    async with asyncio.timeout(PATIENCE_S):
-        while port.packets() != [STOP, RUN, STOP, STOP, STOP]:
-            await asyncio.sleep(0.01)
+    await asyncio.wait_for(port.until_written(5), PATIENCE_S)
+    assert port.packets() == [STOP, RUN, STOP, STOP, STOP]
 
 
 async def test_at_the_end_the_robot_is_stopped_and_clients_are_told(port: FakePort) -> None:

@@ -1,4 +1,4 @@
-"""The messages as models, as JSON and as a schema; and that no text whatever harms the gateway or moves anything."""
+"""The messages as models, as JSON and as a schema; and that no text harms the gateway or moves anything."""
 
 import json
 from typing import Any

@@ -1,0 +1,147 @@
+"""The command line as a person and as the start script use it."""
+
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from urllib.request import urlopen
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from servodeck.cli import app
+from tests.samples import STOP
+from tests.test_ports import Pty
+
+READY = re.compile(r"Servodeck is at (http://127\.0\.0\.1:\d+)\n")
+END_S = 3.0
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(app, list(arguments))
+
+
+class Served:
+    """`servodeck serve` as a process of its own on a pty."""
+
+    def __init__(self, *more: str) -> None:
+        self.pty = Pty()
+        command = [sys.executable, "-m", "servodeck", "serve", "--listen", "127.0.0.1:0"]
+        self.process = subprocess.Popen(
+            [*command, "--serial", self.pty.device, *more],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
+        )
+        assert self.process.stdout
+        ready = READY.fullmatch(self.process.stdout.readline())
+        assert ready
+        self.url = ready[1]
+        self.read_until_stops(1)
+
+    def read_until_stops(self, count: int) -> bytes:
+        """What the board got, until it holds that many stops."""
+        received = b""
+        while received.count(STOP) < count:
+            received += os.read(self.pty.board, 100)
+        return received
+
+    def end(self) -> None:
+        self.process.kill()
+        self.process.communicate()
+        self.pty.unplug()
+
+
+@pytest.fixture
+def served() -> Iterator[Served]:
+    made = Served("--exit-with-stdin")
+    yield made
+    made.end()
+
+
+def test_serve_tells_its_real_address_and_opens_the_port(served: Served) -> None:
+    with urlopen(f"{served.url}/api/status") as answer:
+        assert json.load(answer)["port"]["status"] == "open"
+
+
+@pytest.mark.parametrize("ending", ["SIGTERM", "SIGINT", "end of stdin"])
+def test_at_the_end_the_robot_is_stopped_first_and_the_process_leaves_in_time(
+    served: Served, ending: str
+) -> None:
+    begun_s = time.monotonic()
+    if ending == "end of stdin":
+        assert served.process.stdin
+        served.process.stdin.close()
+        served.process.stdin = None
+    else:
+        served.process.send_signal(signal.Signals[ending])
+    assert served.read_until_stops(3) == STOP * 3
+    _, errors = served.process.communicate(timeout=END_S)
+    assert time.monotonic() - begun_s <= END_S
+    assert served.process.returncode == 0
+    assert errors == ""
+
+
+@pytest.mark.parametrize(
+    ("listen", "why"),
+    [
+        ("0.0.0.0:8300", "other computers"),
+        ("192.168.1.5:8300", "other computers"),
+        ("[::]:8300", "other computers"),
+        ("robot.local:8300", "other computers"),
+        ("127.0.0.2:8300", "other computers"),
+        (":8300", "other computers"),
+        ("8300", "HOST:PORT"),
+        ("127.0.0.1:port", "HOST:PORT"),
+        ("127.0.0.1:70000", "HOST:PORT"),
+    ],
+)
+def test_an_address_that_others_can_reach_is_refused_with_an_explanation(listen: str, why: str) -> None:
+    result = run("serve", "--listen", listen)
+    assert result.exit_code == 2
+    assert why in result.stderr
+
+
+def test_a_taken_address_is_told() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        result = run("serve", "--listen", f"127.0.0.1:{taken.getsockname()[1]}")
+    assert result.exit_code == 1
+    assert "Another Servodeck" in result.stderr or "another Servodeck" in result.stderr
+
+
+def test_an_unknown_board_is_told() -> None:
+    result = run("serve", "--board", "toaster")
+    assert result.exit_code == 2
+    assert "doc" in result.stderr
+
+
+def test_ports_are_listed_for_people_and_for_programs() -> None:
+    assert run("ports").exit_code == 0
+    for port in json.loads(run("ports", "--json").stdout):
+        assert set(port) == {"device", "description", "likely"}
+
+
+def test_decode_says_what_a_packet_means() -> None:
+    assert run("decode", "55", "55", "08", "03", "01", "E8", "03", "01", "D0", "07").stdout == (
+        "move servo 1 to 2000 in 1000 ms\n"
+    )
+    assert "battery 7500 mV" in run("decode", "--report", "5555040f4c1d").stdout
+    assert json.loads(run("decode", "--json", "55550207").stdout) == {
+        "packet": "55550207",
+        "text": "stop the running group after the frame in progress",
+    }
+
+
+@pytest.mark.parametrize(("text", "code"), [("zz", 2), ("555", 2), ("555502", 1), ("5555020755", 1)])
+def test_decode_tells_what_is_no_packet(text: str, code: int) -> None:
+    result = run("decode", text)
+    assert result.exit_code == code
+    assert result.stderr
+    assert not result.stdout
