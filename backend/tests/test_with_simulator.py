@@ -1,4 +1,4 @@
-"""The gateway on the real simulated board behind a real pty: from a client's message to bytes on the bus and back.
+"""The gateway on the real simulated board behind a real pty: from a message to bytes on the bus and back.
 
 Needs the simulator built by `npm run build` and Node; skipped, with the reason, where one is missing.
 """
