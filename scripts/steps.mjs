@@ -12,7 +12,20 @@ export const onWindows = process.platform === 'win32';
 
 /** @type {Set<import('node:child_process').ChildProcess>} */
 const running = new Set();
-process.on('exit', () => running.forEach((child) => child.kill()));
+process.on('exit', () => running.forEach(endGroup));
+
+/**
+ * A program and whatever it started: test runners keep workers, and a worker in an endless loop hears nobody.
+ * @param {import('node:child_process').ChildProcess} child
+ */
+function endGroup(child) {
+  try {
+    if (onWindows || child.pid === undefined) child.kill();
+    else process.kill(-child.pid, 'SIGTERM');
+  } catch {
+    // it went first
+  }
+}
 
 /** Something only the person at the keyboard can mend; the message tells how. */
 export class SetupProblem extends Error {}
@@ -30,25 +43,32 @@ export function at(relative) {
 /**
  * Runs a program to its end and collects what it printed.
  * @param {string} command @param {readonly string[]} args
- * @param {{env?: NodeJS.ProcessEnv, shell?: boolean}} [options]
+ * @param {{env?: NodeJS.ProcessEnv, shell?: boolean, limitMs?: number}} [options]
  * @returns {Promise<{code: number, output: string}>} code 127 when the program could not be started
  */
-export function run(command, args, { env = {}, shell = false } = {}) {
+export function run(command, args, { env = {}, shell = false, limitMs } = {}) {
   return new Promise((resolve) => {
     const child = spawn(command, args, {
       cwd: root,
       env: { ...process.env, ...env },
       stdio: ['ignore', 'pipe', 'pipe'],
       shell,
+      detached: !onWindows, // a group of its own, to be ended as one
     });
     running.add(child);
     let output = '';
+    const limit = limitMs && setTimeout(() => giveUp(limitMs), limitMs);
+    function giveUp(/** @type {number} */ afterMs) {
+      output += `\nNot done after ${afterMs / 1000} s; ended.\n`;
+      endGroup(child);
+    }
     const collect = (/** @type {Buffer} */ bytes) => (output += bytes.toString());
     child.stdout.on('data', collect);
     child.stderr.on('data', collect);
     child.on('error', (error) => resolve({ code: 127, output: error.message }));
     child.on('close', (code) => {
       running.delete(child);
+      clearTimeout(limit);
       resolve({ code: code ?? 1, output });
     });
   });

@@ -14,6 +14,9 @@ import { run, say } from './steps.mjs';
  * @typedef {{task: Task, ok: boolean, counts: Counts, seconds: number}} Result
  */
 
+/** Far more than the slowest needs: an endless loop shall fail, not hang. */
+const limitMs = 10 * 60_000;
+
 /** Tools see a pipe and not the terminal behind it. */
 const colours = process.stdout.isTTY ? { FORCE_COLOR: '1' } : { FORCE_COLOR: undefined, NO_COLOR: '1' };
 
@@ -41,7 +44,7 @@ export async function runTasks(tasks) {
 async function runTask(task) {
   const startedMs = performance.now();
   const [command, ...args] = task.command;
-  const { code, output } = await run(command, args, { env: { ...colours, ...task.env } });
+  const { code, output } = await run(command, args, { env: { ...colours, ...task.env }, limitMs });
   const seconds = (performance.now() - startedMs) / 1000;
   const counts = task.count ? counted(task.count) : nothing;
   const proved = !task.count || counts.passed > 0;

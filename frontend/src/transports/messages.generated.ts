@@ -26,7 +26,8 @@ export interface SendMessage {
   packet: string;
 }
 /**
- * STOP: drop all that waits, send stop three times, then `hold` (one move to the present pose), and latch.
+ * STOP: drop all that waits, send stop three times, then `hold` (one move to the present pose), and
+ * latch.
  */
 export interface StopMessage {
   type: 'stop';
@@ -50,7 +51,8 @@ export interface WelcomeMessage {
   clients: number;
 }
 /**
- * How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt follows.
+ * How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
+ * follows.
  */
 export interface PortState {
   device: string | null;
@@ -63,6 +65,7 @@ export interface PortState {
         | 'portBusy'
         | 'portDenied'
         | 'noAnswer'
+        | 'notSupported'
         | 'latched'
         | 'busy'
         | 'cancelled'
@@ -100,6 +103,7 @@ export interface RefusedMessage {
     | 'portBusy'
     | 'portDenied'
     | 'noAnswer'
+    | 'notSupported'
     | 'latched'
     | 'busy'
     | 'cancelled'
