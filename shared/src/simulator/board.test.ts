@@ -39,6 +39,17 @@ test('bytes sent one after the other queue on the wire', async () => {
   expect(log.at(-1)?.atMs).toBeCloseTo(8 * BYTE_MS, 6);
 });
 
+test('the caller may use its buffer again while the bytes are on the wire', async () => {
+  const { board, clock, takeReplies } = createBoardUnderTest();
+  const buffer = bytesOf(READ_BATTERY);
+  board.receive(buffer);
+  expect(board.waitingBytes()).toBe(4);
+  buffer.fill(0);
+  await clock.advance(100);
+  expect(takeReplies()).toBe(ANSWER);
+  expect(board.waitingBytes()).toBe(0);
+});
+
 test('a faster line is faster', async () => {
   const { exchange, log } = createBoardUnderTest({ baud: 115_200 });
   await exchange(READ_BATTERY);

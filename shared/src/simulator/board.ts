@@ -38,6 +38,8 @@ export interface BoardOptions {
 export interface Board {
   /** Bytes from the host, in whatever pieces. */
   readonly receive: (bytes: Uint8Array) => void;
+  /** How many of them have not reached the board yet: a driver would hold the host back. */
+  readonly waitingBytes: () => number;
   /** Pulse width in µs at the pin now. Throws RangeError for a servo the board has not. */
   readonly pulse: (servo: number) => number;
   readonly target: (servo: number) => number;
@@ -144,6 +146,7 @@ export function createBoard(options: BoardOptions): Board {
   turn(() => undefined);
   return {
     receive: (bytes) => turn(() => line.receive(bytes)),
+    waitingBytes: () => turn(() => line.waitingBytes()),
     pulse: (servo) => turn(() => servos.pulse(servo)),
     target: (servo) => turn(() => servos.target(servo)),
     runningSlot: () => turn(engine.runningSlot),

@@ -51,7 +51,7 @@ export const RUN_ACK = packet(6, []);
 export const ERASE_ACK = packet(8, []);
 export const DOWNLOAD_ACK = packet(25, []);
 /** The board's word for "a group ended by itself" is the same packet as the host's stop. */
-export const GROUP_ENDED = STOP;
+export const GROUP_ENDED = packet(7, []);
 
 export function move(durationMs: number, ...targets: Targets): string {
   return packet(3, [targets.length, ...uint16(durationMs), ...entries(targets)]);

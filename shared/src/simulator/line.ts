@@ -22,6 +22,8 @@ export interface Line extends Source {
   transmit(byte: number, lost: boolean): void;
   /** What reached the host since the last call. */
   takeSent(): Uint8Array;
+  /** Bytes of the host that have not arrived yet. */
+  waitingBytes(): number;
   isPlugged(): boolean;
   plug(plugged: boolean): void;
 }
@@ -29,6 +31,7 @@ export interface Line extends Source {
 export function createLine({ now, byteMs, plan, arrived, log }: LineParts): Line {
   let queue: { readonly atMs: number; readonly bytes: Uint8Array }[] = [];
   let headIndex = 0;
+  let waiting = 0;
   let lineFreeMs = 0;
   let sent: number[] = [];
   let plugged = true;
@@ -46,10 +49,13 @@ export function createLine({ now, byteMs, plan, arrived, log }: LineParts): Line
     if (plugged) return;
     queue = [];
     headIndex = 0;
+    waiting = 0;
   }
 
   function receive(bytes: Uint8Array): void {
-    if (plugged && bytes.length > 0) queue.push({ atMs: now(), bytes: bytes.slice() });
+    if (!plugged || bytes.length === 0) return;
+    queue.push({ atMs: now(), bytes: bytes.slice() });
+    waiting += bytes.length;
   }
 
   function dueMs(): number {
@@ -60,6 +66,7 @@ export function createLine({ now, byteMs, plan, arrived, log }: LineParts): Line
   function takeHead(): number {
     const byte = queue[0]?.bytes[headIndex] ?? 0;
     headIndex += 1;
+    waiting -= 1;
     if (headIndex === queue[0]?.bytes.length) {
       queue.shift();
       headIndex = 0;
@@ -87,5 +94,15 @@ export function createLine({ now, byteMs, plan, arrived, log }: LineParts): Line
     return bytes;
   }
 
-  return { byteMs, receive, dueMs, fire, transmit, takeSent, isPlugged: () => plugged, plug };
+  return {
+    byteMs,
+    receive,
+    dueMs,
+    fire,
+    transmit,
+    takeSent,
+    waitingBytes: () => waiting,
+    isPlugged: () => plugged,
+    plug,
+  };
 }

@@ -4,9 +4,10 @@
 import { closeSync, openSync, writeSync } from 'node:fs';
 import { createServer, type Socket } from 'node:net';
 import { performance } from 'node:perf_hooks';
+import type { Readable } from 'node:stream';
 import { parseArgs } from 'node:util';
 import type { Clock } from '../clock.ts';
-import { createBoard, type BoardOptions } from './board.ts';
+import { createBoard, type Board, type BoardOptions } from './board.ts';
 import type { BusLogEntry } from './busLog.ts';
 import { parseFault } from './faults.ts';
 
@@ -15,6 +16,10 @@ const USAGE = `Usage: simulator (--stdio | --tcp HOST:PORT) [--seed N] [--fault 
 A simulated servo board. Port 0 takes a free port; baud 0 takes no time on the wire.
 Faults: droppedByte, doubledByte, flippedByte, insertedByte [=PROBABILITY], lostAck[=NTH|=PROBABILITY],
         slowErase[=MS], lowBattery[=MV], unplug=MS|byteN`;
+
+/** What the usual serial drivers buffer. */
+const DRIVER_BYTES = 4096;
+const DRAIN_POLL_MS = 50;
 
 const startedAtMs = performance.now();
 
@@ -86,18 +91,33 @@ function openBusLog(path: string): (entry: BusLogEntry) => void {
 }
 
 type Wire = Pick<BoardOptions, 'send' | 'onUnplug'>;
-type Build = (wire: Wire) => (bytes: Uint8Array) => void;
+type Build = (wire: Wire) => Board;
 
 function end(): void {
   process.exit(0);
 }
 
+/** Reads no faster than the line takes it, as a driver does: a flooding host waits, not this program's memory. */
+function feed(board: Board, source: Readable): void {
+  function resumeWhenDrained(): void {
+    if (board.waitingBytes() <= DRIVER_BYTES) source.resume();
+    else setTimeout(resumeWhenDrained, DRAIN_POLL_MS);
+  }
+
+  source.on('data', (bytes: Uint8Array) => {
+    board.receive(bytes);
+    if (board.waitingBytes() <= DRIVER_BYTES) return;
+    source.pause();
+    resumeWhenDrained();
+  });
+}
+
 function serveStdio(build: Build): void {
-  const receive = build({
+  const board = build({
     send: (bytes) => process.stdout.write(bytes),
     onUnplug: end,
   });
-  process.stdin.on('data', receive);
+  feed(board, process.stdin);
   process.stdin.on('end', end);
   // The reader is gone: nothing of us is wanted any more.
   process.stdout.on('error', end);
@@ -106,7 +126,7 @@ function serveStdio(build: Build): void {
 /** One host at a time, as on a cable; the board stays on between two of them. */
 function serveTcp(build: Build, { host, port }: { host: string; port: number }): void {
   let client: Socket | null = null;
-  const receive = build({ send: (bytes) => client?.write(bytes), onUnplug: end });
+  const board = build({ send: (bytes) => client?.write(bytes), onUnplug: end });
   const server = createServer({ noDelay: true }, (socket) => {
     socket.on('error', () => socket.destroy());
     if (client) {
@@ -114,7 +134,7 @@ function serveTcp(build: Build, { host, port }: { host: string; port: number }):
       return;
     }
     client = socket;
-    socket.on('data', receive);
+    feed(board, socket);
     socket.on('close', () => (client = null));
   });
   server.on('error', (error) => {
@@ -144,7 +164,7 @@ function main(): void {
     baud: wholeNumber('baud', values.baud, 0, 1_000_000),
     ...(values['bus-log'] === undefined ? {} : { onByte: openBusLog(values['bus-log']) }),
   };
-  const build: Build = (wire) => createBoard({ ...settings, ...wire }).receive;
+  const build: Build = (wire) => createBoard({ ...settings, ...wire });
   process.on('SIGTERM', end);
   process.on('SIGINT', end);
   if (values.tcp === undefined) serveStdio(build);

@@ -50,6 +50,17 @@ test('S42: a loop that was late is caught up', async () => {
   expect(under.pulses(1)).toEqual([1600]);
 });
 
+test('S44: a group that ended by itself runs all its loops again', async () => {
+  const under = createBoardUnderTest();
+  await store(under, 1, [300, 1000]);
+  for (let round = 0; round < 2; round += 1) {
+    await under.exchange(run(1, 2), 500);
+    expect(under.board.runningSlot()).toBe(1);
+    await under.clock.advance(500);
+    expect(under.takeReplies()).toBe(`${RUN_ACK} ${GROUP_ENDED}`);
+  }
+});
+
 test('S43: a frame of no time is followed by the next at once while its move takes 20 ms', async () => {
   const under = unpacedBoard();
   await store(under, 1, [0, 1000], [1000, 2000]);
