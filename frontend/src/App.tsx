@@ -85,6 +85,14 @@ function PhoneWork() {
       selectedKey={tab}
       onSelectionChange={(key) => view.setState({ tab: key as TabName })}
     >
+      <TabList className={styles.tabList ?? ''} aria-label={words.tabList}>
+        {TABS.map(({ id, icon }) => (
+          <Tab key={id} id={id} className={styles.tab ?? ''}>
+            <Icon name={icon} />
+            {words.tabs[id]}
+          </Tab>
+        ))}
+      </TabList>
       <main className={styles.phone}>
         <TabPanel id="live" className={styles.tabPanel ?? ''}>
           <ServosPanel />
@@ -100,14 +108,6 @@ function PhoneWork() {
           <LogPanel />
         </TabPanel>
       </main>
-      <TabList className={styles.tabList ?? ''} aria-label={words.tabList}>
-        {TABS.map(({ id, icon }) => (
-          <Tab key={id} id={id} className={styles.tab ?? ''}>
-            <Icon name={icon} />
-            {words.tabs[id]}
-          </Tab>
-        ))}
-      </TabList>
     </Tabs>
   );
 }

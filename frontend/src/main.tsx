@@ -4,6 +4,7 @@ import { StrictMode } from 'react';
 import { createRoot } from 'react-dom/client';
 import { App } from './App.tsx';
 import { openPage } from './connect/page.ts';
+import './ui/fonts.css';
 import './ui/tokens.css';
 import './ui/base.css';
 

@@ -7,7 +7,7 @@ import { useDevice, useStores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { words } from '../words/en.ts';
 import { ArmFigure, drawArm } from './ArmFigure.tsx';
-import { armPicture, type ArmPicture, type Pose } from './pose.ts';
+import { armPicture, samePicture, type ArmPicture, type Pose } from './pose.ts';
 import { BaseView, drawBase, drawHand, HandView } from './insets.tsx';
 import styles from './Body.module.css';
 
@@ -57,12 +57,14 @@ function Arm() {
 }
 
 function draw(frame: HTMLElement, estimated: ArmPicture, commanded: ArmPicture): void {
+  const isThere = samePicture(estimated, commanded);
   for (const [name, picture] of [
     ['estimated', estimated],
     ['commanded', commanded],
   ] as const) {
     const figure = frame.querySelector<SVGGElement>(`[data-figure='${name}']`);
     if (figure !== null) drawArm(figure, picture);
+    if (name === 'commanded') figure?.setAttribute('visibility', isThere ? 'hidden' : 'visible');
     drawBase(frame, name, picture);
     drawHand(frame, name, picture);
   }

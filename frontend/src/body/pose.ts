@@ -15,6 +15,7 @@ const TURN_DEGREES = { us: 180, steps: 240 } as const;
 const DIAL_DEGREES = 240;
 const JAW_OPEN_DEGREES = 42;
 const JAW_SHUT_DEGREES = 3;
+const SAME_DEGREES = 0.5;
 
 type Scale = Pick<Family, 'unit' | 'position' | 'centre'>;
 
@@ -61,6 +62,13 @@ export function armPicture(pose: Pose, scale: Scale): ArmPicture {
     },
     jawFront: { degrees: jawDegrees, known: roll.known && grip !== null },
   };
+}
+
+/** Whether the arm is where it was asked to be, as far as the eye can tell: then its outline says nothing. */
+export function samePicture(one: ArmPicture, other: ArmPicture): boolean {
+  return (['shoulder', 'elbow', 'wrist', 'jaw'] as const).every(
+    (link) => Math.abs(one[link].degrees - other[link].degrees) < SAME_DEGREES,
+  );
 }
 
 /** Turn of the shaft away from the centre. */

@@ -58,6 +58,13 @@ export interface Connector {
   disconnect(): void;
 }
 
+const GREETING_MS = 2000;
+/** A readable pose: every joint away from the line of its neighbour. */
+const GREETING = [1200, 1500, 1950, 2050, 1150, 1500].map((position, index) => ({
+  servo: index + 1,
+  position,
+}));
+
 export function createConnector(device: Device, notices: Notices, storage: TextStorage): Connector {
   const store = createStore<ConnectState>(() => ({
     board: 'doc',
@@ -67,24 +74,23 @@ export function createConnector(device: Device, notices: Notices, storage: TextS
     gatewayPorts: [],
   }));
 
-  function connect(transport: Transport, board: FamilyId): void {
+  async function connect(transport: Transport, board: FamilyId): Promise<void> {
     const session = createSession({ transport, family: FAMILIES[board], clock: device.clock });
     device.attach(session, { kind: transport.kind, label: transport.label });
     // A first attempt that fails is in the link's state, with its sentence and its next try.
-    session.open().catch(() => undefined);
+    await session.open().catch(() => undefined);
+    // Some transports learn the device's name only by opening it.
+    device.rename(session, transport.label);
   }
 
   function chosen(kind: Transport['kind'], transport: Transport): void {
     rememberWay(storage, { kind, board: store.getState().board });
-    connect(transport, store.getState().board);
+    void connect(transport, store.getState().board);
   }
 
   async function look(): Promise<void> {
-    const [gateway, ports, granted] = await Promise.all([
-      readGateway(),
-      readPorts().catch(() => []),
-      grantedPorts(),
-    ]);
+    const [gateway, granted] = await Promise.all([readGateway(), grantedPorts()]);
+    const ports = gateway === null ? [] : await readPorts();
     store.setState({
       gateway: gateway ?? 'absent',
       gatewayPorts: ports,
@@ -98,11 +104,21 @@ export function createConnector(device: Device, notices: Notices, storage: TextS
     await look();
     const { gateway, granted, board } = store.getState();
     const [port] = granted;
-    if (last?.kind === 'webSerial' && port !== undefined) connect(createWebSerialTransport(port.port), board);
+    if (last?.kind === 'webSerial' && port !== undefined)
+      await connect(createWebSerialTransport(port.port), board);
     else if (typeof gateway === 'object' && last?.kind !== 'simulated') {
       store.setState({ board: gateway.board });
-      connect(createGatewayTransport(gatewayUrl()), gateway.board);
-    } else connect(createSimulatedTransport(), board);
+      await connect(createGatewayTransport(gatewayUrl()), gateway.board);
+    } else {
+      await connect(createSimulatedTransport(), board);
+      if (last === null) greet();
+    }
+  }
+
+  /** On a first visit the simulated arm rises, so that the page is alive; no real robot ever moves by itself. */
+  function greet(): void {
+    const { unit, usualServoCount } = FAMILIES[store.getState().board];
+    if (unit === 'us' && usualServoCount === 6) device.move(GREETING, GREETING_MS);
   }
 
   return {

@@ -1,5 +1,6 @@
 // Builds the page's stores with the browser's own clock and storage, and starts the first link.
 
+import type { Clock } from '#shared/clock.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { pollBattery } from '../stores/batteryPoll.ts';
 import { createDevice } from '../stores/device.ts';
@@ -10,6 +11,9 @@ import { createView } from '../stores/view.ts';
 import { browserClock } from '../transports/browserClock.ts';
 import { createConnector, type Connector } from './connector.ts';
 
+/** The page's time, for whoever is no transport. */
+export const pageClock: Clock = browserClock;
+
 export interface Page {
   readonly stores: Stores;
   readonly connector: Connector;
@@ -17,8 +21,8 @@ export interface Page {
 
 export function openPage(): Page {
   const storage = browserStorage();
-  const notices = createNotices(browserClock);
-  const device = createDevice(FAMILIES.doc, browserClock, notices);
+  const notices = createNotices(pageClock);
+  const device = createDevice(FAMILIES.doc, pageClock, notices);
   const stores = { device, notices, document: createDocument(storage, notices), view: createView(storage) };
   const connector = createConnector(device, notices, storage);
   connector.start().catch(notices.tellError);

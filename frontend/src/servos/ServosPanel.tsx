@@ -6,12 +6,16 @@ import { motionHindrance } from '../stores/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
+import { cx } from '../ui/cx.ts';
 import { Panel } from '../ui/Panel.tsx';
 import { words } from '../words/en.ts';
 import { Legend } from './Legend.tsx';
 import { MoveTimeControl } from './MoveTimeControl.tsx';
 import { ServoRow } from './ServoRow.tsx';
 import styles from './ServosPanel.module.css';
+
+/** Rows that fit below the picture; more of them scroll. */
+const FIT = 6;
 
 export function ServosPanel() {
   const family = useDevice((state) => state.family);
@@ -26,7 +30,7 @@ export function ServosPanel() {
     >
       <Body />
       <Legend />
-      <ol className={styles.rows}>
+      <ol className={cx(styles.rows, servos.length > FIT && styles.scrolling)}>
         {servos.map((servo) => (
           <ServoRow key={servo} servo={servo} />
         ))}

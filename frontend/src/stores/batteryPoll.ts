@@ -1,4 +1,4 @@
-// Asks for the battery every five seconds while nothing else goes on: on some boards any packet disturbs what runs, and
+// Asks for the battery when a link becomes ready and every five seconds while nothing else goes on: on some boards any packet disturbs what runs, and
 // under load the voltage sags anyway. A board that stayed silent is asked again only by a person.
 
 import type { Device, DeviceState } from './device.ts';
@@ -7,13 +7,21 @@ const INTERVAL_MS = 5000;
 
 /** Returns a function that ends it. `visible` is asked before each question: a hidden page asks nothing. */
 export function pollBattery(device: Device, visible: () => boolean): () => void {
-  let cancel = (): void => undefined;
+  let cancelTimer = (): void => undefined;
   const tick = (): void => {
+    cancelTimer();
+    cancelTimer = device.clock.after(INTERVAL_MS, tick);
     if (visible() && mayAsk(device.store.getState())) device.readBattery();
-    cancel = device.clock.after(INTERVAL_MS, tick);
   };
   tick();
-  return () => cancel();
+  const unsubscribe = device.store.subscribe((state, before) => {
+    const isNew = state.snapshot.link.status === 'ready' && before.snapshot.link.status !== 'ready';
+    if (isNew) tick();
+  });
+  return () => {
+    unsubscribe();
+    cancelTimer();
+  };
 }
 
 export function canReadBattery({ family }: Pick<DeviceState, 'family'>): boolean {

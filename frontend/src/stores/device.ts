@@ -34,6 +34,8 @@ export interface Device {
   readonly clock: Clock;
   /** Takes the session over and closes the one before it. */
   attach(session: Session, way: Way): void;
+  /** The device's name became known, or another one. */
+  rename(session: Session, label: string): void;
   detach(): Promise<void>;
   motion(servo: number): ServoMotion;
   /** Takes the session's targets over; to be called while the page is drawn, once a frame. */
@@ -131,6 +133,11 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
       session = next;
       store.setState({ family: next.family, way, snapshot: next.state });
       unsubscribe = next.subscribe({ state: noteState, traffic: traffic.add, problem: noteProblem });
+    },
+    rename(named, label) {
+      const { way } = store.getState();
+      if (named === session && way !== null && way.label !== label)
+        store.setState({ way: { ...way, label } });
     },
     detach,
     motion,

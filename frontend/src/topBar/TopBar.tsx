@@ -39,11 +39,12 @@ function Sign() {
 }
 
 function Robot() {
-  const name = useDevice((state) => (state.way === null ? words.link.noBoard : state.family.name));
-  const isSimulated = useDevice((state) => state.way?.kind === 'simulated');
+  const name = useDevice(({ way, family }) =>
+    way === null ? words.link.noBoard : way.kind === 'simulated' ? '' : family.name,
+  );
   return (
     <div className={styles.robot}>
-      <span className={styles.robotName}>{isSimulated ? words.link.ways.simulated : name}</span>
+      {name !== '' && <span className={styles.robotName}>{name}</span>}
       <LinkChip />
     </div>
   );

@@ -2,12 +2,7 @@
 
 const language = 'en';
 const whole = new Intl.NumberFormat(language, { useGrouping: false });
-const volts = new Intl.NumberFormat(language, {
-  style: 'unit',
-  unit: 'volt',
-  minimumFractionDigits: 2,
-  maximumFractionDigits: 2,
-});
+const volts = new Intl.NumberFormat(language, { minimumFractionDigits: 2, maximumFractionDigits: 2 });
 const seconds = new Intl.NumberFormat(language, {
   style: 'unit',
   unit: 'second',
@@ -35,7 +30,8 @@ export const formatList = (values: readonly number[]): string => list.format(val
 export const unitSymbol = (unit: PositionUnit): string => (unit === 'us' ? 'µs' : 'steps');
 export const formatPosition = (position: number, unit: PositionUnit): string =>
   `${whole.format(position)} ${unitSymbol(unit)}`;
-export const formatVolts = (millivolts: number): string => volts.format(millivolts / 1000);
+/** Volts are no unit of Intl's list, so the symbol is written here. */
+export const formatVolts = (millivolts: number): string => `${volts.format(millivolts / 1000)}\u00a0V`;
 export const formatSeconds = (ms: number): string => seconds.format(ms / 1000);
 export const formatMs = (ms: number): string => `${whole.format(ms)} ms`;
 

@@ -1,0 +1,67 @@
+// The connect dialog's content in each of its cases.
+
+import type { Way } from '../stores/device.ts';
+import type { ConnectState } from '../connect/connector.ts';
+import { ConnectWays } from '../connect/ConnectWays.tsx';
+import styles from './Gallery.module.css';
+
+const BASE: ConnectState = {
+  board: 'doc',
+  serialObstacle: null,
+  granted: [],
+  gateway: 'absent',
+  gatewayPorts: [],
+};
+
+const CASES: readonly {
+  readonly name: string;
+  readonly state: ConnectState;
+  readonly current: Way | null;
+}[] = [
+  { name: 'Connect, no gateway', state: BASE, current: { kind: 'simulated', label: 'Simulated board' } },
+  {
+    name: 'Connect, gateway with ports',
+    current: { kind: 'gateway', label: '/dev/ttyUSB0' },
+    state: {
+      ...BASE,
+      gateway: { board: 'doc', device: '/dev/ttyUSB0' },
+      gatewayPorts: [
+        { device: '/dev/ttyUSB0', description: 'USB Serial' },
+        { device: '/dev/ttyACM1', description: 'Arduino' },
+      ],
+    },
+  },
+  {
+    name: 'Connect, insecure address',
+    current: null,
+    state: { ...BASE, serialObstacle: 'insecureAddress', gateway: { board: 'doc', device: null } },
+  },
+  {
+    name: 'Connect, browser without serial ports',
+    current: null,
+    state: { ...BASE, serialObstacle: 'unsupported', gateway: 'looking' },
+  },
+];
+
+export function ConnectSpecimens() {
+  const nothing = (): void => undefined;
+  return CASES.map(({ name, state, current }) => (
+    <article key={name} className={styles.specimen} aria-label={name}>
+      <h2 className={styles.name}>{name}</h2>
+      <div className={styles.dialog}>
+        <ConnectWays
+          state={state}
+          current={current}
+          onBoard={nothing}
+          onLook={nothing}
+          onSimulate={nothing}
+          onGateway={nothing}
+          onGatewayPort={nothing}
+          onSerialPort={nothing}
+          onChooseSerial={nothing}
+          onDisconnect={nothing}
+        />
+      </div>
+    </article>
+  ));
+}

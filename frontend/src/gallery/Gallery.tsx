@@ -1,0 +1,98 @@
+// Every panel in every state, one specimen below the other, fed by plain values. A list on top leads to each; `?state=` in
+// the address shows one alone. The panels are the real ones, the session behind them is frozen.
+
+import { useState } from 'react';
+import { insertFrame } from '#shared/actions/edits.ts';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { ActionsPanel } from '../actions/ActionsPanel.tsx';
+import { BatteryPanel } from '../battery/BatteryPanel.tsx';
+import { BoardPanel } from '../board/BoardPanel.tsx';
+import { pageClock } from '../connect/page.ts';
+import { LogPanel } from '../console/LogPanel.tsx';
+import { ServosPanel } from '../servos/ServosPanel.tsx';
+import { createDevice } from '../stores/device.ts';
+import { createDocument, type TextStorage } from '../stores/document.ts';
+import { createNotices } from '../stores/notices.ts';
+import { StoresContext, type Stores } from '../stores/stores.ts';
+import { createView } from '../stores/view.ts';
+import { TopBar } from '../topBar/TopBar.tsx';
+import { ConnectSpecimens } from './ConnectSpecimens.tsx';
+import { frozenSession } from './frozen.ts';
+import { motionsOf, SPECIMENS, type Specimen } from './specimens.ts';
+import { SAMPLE_TRAFFIC } from './traffic.ts';
+import styles from './Gallery.module.css';
+
+export function Gallery() {
+  const wanted = new URLSearchParams(location.search).get('state');
+  const shown = SPECIMENS.filter((specimen) => wanted === null || specimen.name === wanted);
+  return (
+    <div className={styles.gallery}>
+      <nav className={styles.index} aria-label="States">
+        <a href="?">All</a>
+        {SPECIMENS.map(({ name }) => (
+          <a key={name} href={`?state=${encodeURIComponent(name)}`}>
+            {name}
+          </a>
+        ))}
+      </nav>
+      {wanted === null && <ConnectSpecimens />}
+      {shown.map((specimen) => (
+        <Shown key={specimen.name} specimen={specimen} />
+      ))}
+    </div>
+  );
+}
+
+function Shown({ specimen }: { readonly specimen: Specimen }) {
+  const [stores] = useState(() => storesOf(specimen));
+  return (
+    <StoresContext value={stores}>
+      <article className={styles.specimen} aria-label={specimen.name}>
+        <h2 className={styles.name}>{specimen.name}</h2>
+        <TopBar />
+        <div className={styles.panels}>
+          <ServosPanel />
+          <div className={styles.column}>
+            <ActionsPanel />
+            <div className={styles.row}>
+              <BoardPanel />
+              <BatteryPanel />
+            </div>
+            <div className={styles.log}>
+              <LogPanel />
+            </div>
+          </div>
+        </div>
+      </article>
+    </StoresContext>
+  );
+}
+
+const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined };
+
+function storesOf(specimen: Specimen): Stores {
+  const family = FAMILIES[specimen.board ?? 'doc'];
+  const notices = createNotices(pageClock);
+  const device = createDevice(family, pageClock, notices);
+  const motions = motionsOf(specimen);
+  if (specimen.way !== null) device.attach(frozenSession(family, specimen.state, motions), specimen.way);
+  device.refreshTargets();
+  if (specimen.pose !== 'unknown') for (const entry of SAMPLE_TRAFFIC) device.traffic.add(entry);
+  const document = createDocument(NO_STORAGE, notices);
+  for (let number = 1; number <= specimen.frames; number++) {
+    document.edit('frame', (group) =>
+      insertFrame(group, group.frames.length, sampleFrame(number, family), family.unit),
+    );
+  }
+  const view = createView(NO_STORAGE);
+  view.setState({ selectedFrame: specimen.selectedFrame ?? null });
+  return { device, document, view, notices };
+}
+
+function sampleFrame(number: number, { position, usualServoCount }: (typeof FAMILIES)['doc']) {
+  const targets = Array.from({ length: usualServoCount }, (_, index) => {
+    const share = 0.5 + 0.35 * Math.sin(number * 0.9 + (index === 1 ? 0 : index) * 1.3);
+    return { servo: index + 1, position: Math.round(position.min + share * (position.max - position.min)) };
+  });
+  return { durationMs: 300 + 100 * (number % 5), targets };
+}

@@ -1,0 +1,35 @@
+// A session that stays in one state and does nothing: it holds a panel still so that it can be looked at.
+
+import { LinkError } from '#shared/session/linkError.ts';
+import type { Family } from '#shared/protocol/families.ts';
+import type { Session } from '#shared/session/session.ts';
+import type { ServoMotion, SessionState } from '#shared/session/state.ts';
+
+export function frozenSession(
+  family: Family,
+  state: SessionState,
+  motions: Readonly<Record<number, ServoMotion>>,
+): Session {
+  const nothing = (): Promise<void> => Promise.resolve();
+  return {
+    family,
+    state,
+    subscribe: () => () => undefined,
+    open: nothing,
+    close: nothing,
+    retryNow: () => undefined,
+    move: () => {
+      throw new LinkError('latched', 'the gallery moves nothing');
+    },
+    run: nothing,
+    stopGroup: nothing,
+    halt: nothing,
+    resume: nothing,
+    erase: nothing,
+    readBattery: () => Promise.resolve(0),
+    download: nothing,
+    play: nothing,
+    stopPlaying: () => undefined,
+    motion: (servo) => motions[servo] ?? { target: null, estimated: null },
+  };
+}

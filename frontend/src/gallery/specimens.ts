@@ -1,0 +1,158 @@
+// Every state of the page as plain values: what the session says, where the servos are, what is written and selected.
+
+import { LINK_ERROR_CODES, LinkError } from '#shared/session/linkError.ts';
+import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import type { ServoMotion, SessionState } from '#shared/session/state.ts';
+import { UNCONNECTED, type Way } from '../stores/device.ts';
+
+export interface Specimen {
+  readonly name: string;
+  readonly board?: FamilyId;
+  readonly way: Way | null;
+  readonly state: SessionState;
+  readonly pose: 'unknown' | 'still' | 'moving';
+  readonly frames: number;
+  readonly selectedFrame?: number;
+}
+
+const SIMULATED: Way = { kind: 'simulated', label: 'Simulated board' };
+const USB: Way = { kind: 'webSerial', label: 'USB 1A86:7523' };
+const REMOTE: Way = { kind: 'gateway', label: '/dev/ttyUSB0' };
+
+const READY: SessionState = {
+  ...UNCONNECTED,
+  link: { status: 'ready' },
+  battery: { kind: 'read', batteryMv: 7500, atMs: 0 },
+};
+
+const lost = (code: LinkError['code'], retryAtMs: number | null): SessionState => ({
+  ...READY,
+  link: { status: 'lost', error: new LinkError(code, 'detail of the failure'), retryAtMs },
+});
+
+const running = (truth: 'requested' | 'acknowledged' | 'unknown', times: number): SessionState => ({
+  ...READY,
+  activity: { kind: 'running', slot: 5, times, sinceMs: 0, truth },
+});
+
+const DOWNLOADING: SessionState = {
+  ...READY,
+  activity: {
+    kind: 'downloading',
+    slot: 5,
+    framesStored: 9,
+    frameCount: 21,
+    bytesSent: 264,
+    bytesTotal: 616,
+    remainingMs: 4200,
+  },
+};
+
+export const SPECIMENS: readonly Specimen[] = [
+  { name: 'Disconnected', way: null, state: UNCONNECTED, pose: 'unknown', frames: 0 },
+  {
+    name: 'Opening',
+    way: USB,
+    state: { ...UNCONNECTED, link: { status: 'opening' } },
+    pose: 'unknown',
+    frames: 0,
+  },
+  {
+    name: 'Ready, nothing known',
+    way: SIMULATED,
+    state: { ...READY, battery: { kind: 'unread' } },
+    pose: 'unknown',
+    frames: 0,
+  },
+  { name: 'Ready, posed', way: USB, state: READY, pose: 'still', frames: 3, selectedFrame: 2 },
+  { name: 'Moving', way: REMOTE, state: READY, pose: 'moving', frames: 7 },
+  {
+    name: 'Playing from the page',
+    way: USB,
+    state: { ...READY, activity: { kind: 'playing', frameIndex: 1, frameCount: 4 } },
+    pose: 'moving',
+    frames: 4,
+  },
+  { name: 'Running, requested', way: REMOTE, state: running('requested', 2), pose: 'still', frames: 3 },
+  {
+    name: 'Running, acknowledged',
+    way: REMOTE,
+    state: running('acknowledged', 0),
+    pose: 'moving',
+    frames: 3,
+  },
+  { name: 'Running, unknown', way: REMOTE, state: running('unknown', 1), pose: 'still', frames: 3 },
+  { name: 'Downloading', way: USB, state: DOWNLOADING, pose: 'still', frames: 21 },
+  { name: 'Erasing', way: USB, state: { ...READY, activity: { kind: 'erasing' } }, pose: 'still', frames: 2 },
+  ...(['sending', 'sent', 'confirmed', 'failed'] as const).map((stop): Specimen => ({
+    name: `Stopped, ${stop}`,
+    way: USB,
+    state: { ...READY, latch: { reason: 'pressed', stop } },
+    pose: 'moving',
+    frames: 3,
+  })),
+  {
+    name: 'Stopped elsewhere',
+    way: REMOTE,
+    state: { ...READY, latch: { reason: 'elsewhere', stop: 'sent' } },
+    pose: 'still',
+    frames: 3,
+  },
+  {
+    name: 'Back after a loss',
+    way: USB,
+    state: { ...READY, latch: { reason: 'reconnected', stop: 'sent' } },
+    pose: 'unknown',
+    frames: 3,
+  },
+  { name: 'Lost with countdown', way: USB, state: lost('lost', 3_600_000), pose: 'unknown', frames: 3 },
+  {
+    name: 'Battery low',
+    way: USB,
+    state: { ...READY, battery: { kind: 'read', batteryMv: 6900, atMs: 0 } },
+    pose: 'still',
+    frames: 1,
+  },
+  {
+    name: 'Battery empty',
+    way: USB,
+    state: { ...READY, battery: { kind: 'read', batteryMv: 6480, atMs: 0 } },
+    pose: 'still',
+    frames: 1,
+  },
+  {
+    name: 'Battery silent',
+    way: USB,
+    state: { ...READY, battery: { kind: 'silent', lastMv: null } },
+    pose: 'still',
+    frames: 1,
+  },
+  { name: 'Broken slot', way: USB, state: { ...READY, brokenSlots: [0] }, pose: 'still', frames: 3 },
+  { name: 'Stored slot', way: USB, state: { ...READY, storedSlots: [0] }, pose: 'still', frames: 3 },
+  { name: 'Sixteen servos', board: 'lsc-16', way: USB, state: READY, pose: 'moving', frames: 2 },
+  { name: 'Bus servos', board: 'bus-ctrl', way: USB, state: READY, pose: 'moving', frames: 2 },
+  ...LINK_ERROR_CODES.map((code): Specimen => ({
+    name: `Error ${code}`,
+    way: USB,
+    state: lost(code, null),
+    pose: 'unknown',
+    frames: 0,
+  })),
+];
+
+/** Positions of the specimen's servos, spread over the range so that every row differs. */
+export function motionsOf({ pose, board = 'doc' }: Specimen): Readonly<Record<number, ServoMotion>> {
+  if (pose === 'unknown') return {};
+  const { position, usualServoCount } = FAMILIES[board];
+  const at = (share: number): number => Math.round(position.min + share * (position.max - position.min));
+  return Object.fromEntries(
+    Array.from({ length: usualServoCount }, (_, index) => {
+      const target = at(POSED[index % POSED.length] ?? 0.5);
+      const estimated = pose === 'still' ? target : at(STARTED[index % STARTED.length] ?? 0.5);
+      return [index + 1, { target, estimated }];
+    }),
+  );
+}
+
+const POSED = [0.3, 0.5, 0.72, 0.8, 0.3, 0.6];
+const STARTED = [0.45, 0.4, 0.6, 0.65, 0.42, 0.5];
