@@ -125,6 +125,7 @@ class Control:
         """Stops the robot whatever it does, waits for the stops to leave, lets go of the port. Twice is
         harmless.
         """
+        self.latch = True  # nobody starts it again behind the stops
         with contextlib.suppress(GatewayError, TimeoutError):
             left = self._halt(None, CancelledError("The gateway is ending."))
             await asyncio.wait_for(asyncio.shield(left), DRAIN_S)

@@ -75,10 +75,11 @@ class Wire:
         """
         if self._ended:
             raise self._ended
-        if not urgent and sum(job.owner is owner for job in self._queue) >= QUEUE_PER_OWNER:
+        lane = self._urgent if urgent else self._queue
+        if sum(job.owner is owner for job in lane) >= QUEUE_PER_OWNER:
             raise BusyError(f"{QUEUE_PER_OWNER} packets wait already; send the next one when one has left.")
         job = Job(packet, owner, asyncio.get_running_loop().create_future())
-        (self._urgent if urgent else self._queue).append(job)
+        lane.append(job)
         self._work.set()
         return job.left
 

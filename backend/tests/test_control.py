@@ -260,7 +260,11 @@ async def test_shutting_down_stops_the_robot_within_half_a_second() -> None:
             control.send("script", MOVE.hex())
         await asyncio.sleep(0.001)
         begun_s = now()
-        await control.shut_down()
+        ending = asyncio.create_task(control.shut_down())
+        await asyncio.sleep(0.05)
+        with pytest.raises(LatchedError):
+            control.send("script", MOVE.hex())
+        await ending
         assert now() - begun_s <= 0.5
         assert port.packets()[1:] == [MOVE, STOP, STOP, STOP]
         assert control.link.state.status == "closed"

@@ -148,7 +148,19 @@ async def test_one_client_cannot_fill_the_queue_for_the_others() -> None:
         with pytest.raises(BusyError):
             wire.send(MOVE, ANNA)
         await wire.send(BATTERY, BERT)
-        wire.send(STOP, ANNA, urgent=True)
+
+
+@in_virtual_time
+async def test_a_full_queue_does_not_keep_stops_out_yet_they_are_bounded_too() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        for _ in range(QUEUE_PER_OWNER):
+            wire.send(MOVE, ANNA)
+        for _ in range(QUEUE_PER_OWNER):
+            wire.send(STOP, ANNA, urgent=True)
+        with pytest.raises(BusyError):
+            wire.send(STOP, ANNA, urgent=True)
+        await wire.halt(None, STOPPED)
 
 
 @in_virtual_time
