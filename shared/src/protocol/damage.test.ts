@@ -140,7 +140,7 @@ function measure(source: Source, damage: Damage): { mostLost: number; believedSh
 
 describe.each(SOURCES)('one damaged byte in $name', (source) => {
   test.each(['drop', 'double', 'insert'])(
-    '%s: one good neighbour lost at most, 1 %% believed at most',
+    '%s: one good neighbour lost at most, one wrong packet in a hundred believed',
     (kind) => {
       const { mostLost, believedShare } = measure(source, DAMAGES[kind]!);
       expect(mostLost).toBeLessThanOrEqual(DAMAGED_AND_NEIGHBOUR);
