@@ -1,12 +1,13 @@
-// How the end-to-end tests meet a browser. Fixtures start their own gateway and board on free ports, so tests may run
-// side by side and nothing has to be running before.
+// How the end-to-end tests meet a browser. Fixtures start their own gateways and boards on free ports, so tests may run
+// side by side and nothing has to be running before. A project is a way to a robot; tasks tagged `@everyWay` run over each.
 
 import { defineConfig } from '@playwright/test';
+import type { Way } from './e2e/fixtures/test.ts';
 import { findBrowser } from './scripts/browser.mjs';
 
 const executablePath = findBrowser();
 
-export default defineConfig({
+export default defineConfig<object, { way: Way }>({
   testDir: 'e2e',
   outputDir: 'test-results',
   fullyParallel: true,
@@ -17,10 +18,14 @@ export default defineConfig({
   reporter: [['list']],
   projects: [
     { name: 'commands', testMatch: 'commands/**' },
-    { name: 'page', testIgnore: 'commands/**' },
+    { name: 'gateway', testMatch: ['tasks/**', 'gateway/**'], use: { way: 'gateway' } },
+    { name: 'webserial', testMatch: 'tasks/**', grep: /@everyWay/, use: { way: 'webSerial' } },
+    { name: 'real-webserial', testMatch: 'realSerial/**' },
+    { name: 'quality', testMatch: 'quality/**' },
   ],
   use: {
     locale: 'en-GB',
+    viewport: { width: 1440, height: 900 },
     trace: 'retain-on-failure',
     screenshot: 'only-on-failure',
     launchOptions: executablePath === null ? {} : { executablePath },
