@@ -1,0 +1,103 @@
+// Making an action group on the page: capture, retime, reorder, delete, undo, play.
+
+import { ofKind } from '../fixtures/bus.ts';
+import type { Dashboard } from '../fixtures/dashboard.ts';
+import { captureGroup } from '../fixtures/group.ts';
+import { expect, test } from '../fixtures/test.ts';
+
+/** Each frame's time, in order: what tells the frames apart here. */
+async function frameTimes(dashboard: Dashboard): Promise<readonly string[]> {
+  const count = await dashboard.frames.count();
+  const fields = Array.from({ length: count }, (_, index) => dashboard.frameTime(index + 1));
+  return Promise.all(fields.map((field) => field.inputValue()));
+}
+
+async function captureThree(dashboard: Dashboard): Promise<void> {
+  await captureGroup(dashboard, [1000, 1200, 1400]);
+  await dashboard.type(dashboard.frameTime(1), 100);
+  await dashboard.type(dashboard.frameTime(2), 200);
+  await dashboard.type(dashboard.frameTime(3), 300);
+}
+
+test('three poses become three frames that say what they move @everyWay', async ({ dashboard }) => {
+  await expect(dashboard.capture).toBeDisabled();
+  await captureGroup(dashboard, [1000, 1200, 1200]);
+  await expect(dashboard.frame(1)).toHaveAccessibleName('Frame 1, 1000 ms, moves servo 1');
+  await expect(dashboard.frame(3)).toHaveAccessibleName('Frame 3, 1000 ms, moves nothing');
+});
+
+test('a frame out of time is refused with its range', async ({ dashboard }) => {
+  await captureGroup(dashboard, [1000]);
+  await dashboard.type(dashboard.frameTime(1), 30_001);
+  await expect(dashboard.notices).toContainText(
+    'Time of frame 1 in milliseconds: 30001 is out of range; it takes 0 to 30000.',
+  );
+  await expect(dashboard.frameTime(1)).toHaveValue('1000');
+});
+
+test('frames are retimed, moved, duplicated and deleted, and each step is undone', async ({
+  dashboard,
+  page,
+}) => {
+  await captureThree(dashboard);
+  await dashboard.frame(1).click();
+  await page.keyboard.press('Alt+ArrowRight');
+  await expect.poll(() => frameTimes(dashboard)).toEqual(['200', '100', '300']);
+  await dashboard.button('Move later').click();
+  await expect.poll(() => frameTimes(dashboard)).toEqual(['200', '300', '100']);
+  await dashboard.button('Duplicate').click();
+  await expect.poll(() => frameTimes(dashboard)).toEqual(['200', '300', '100', '100']);
+  await dashboard.frame(1).press('Delete');
+  await expect.poll(() => frameTimes(dashboard)).toEqual(['300', '100', '100']);
+
+  await dashboard.button('Undo: delete frame 1').click();
+  await dashboard.button('Undo: duplicate frame 3').click();
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Control+z');
+  await expect.poll(() => frameTimes(dashboard)).toEqual(['100', '200', '300']);
+  await page.keyboard.press('Control+Shift+z');
+  await expect.poll(() => frameTimes(dashboard)).toEqual(['200', '100', '300']);
+});
+
+test('a frame is dragged to another place in one step', async ({ dashboard, page }) => {
+  await captureThree(dashboard);
+  const [from, to] = [
+    await dashboard.frames.nth(0).boundingBox(),
+    await dashboard.frames.nth(2).boundingBox(),
+  ];
+  // The grip is at the lower right of a card.
+  await page.mouse.move(from!.x + from!.width - 14, from!.y + from!.height - 14);
+  await page.mouse.down();
+  await page.mouse.move(to!.x + to!.width / 2, to!.y + to!.height / 2, { steps: 8 });
+  await page.mouse.up();
+  await expect.poll(() => frameTimes(dashboard)).toEqual(['200', '300', '100']);
+  await dashboard.button('Undo: move frame 1').click();
+  await expect.poll(() => frameTimes(dashboard)).toEqual(['100', '200', '300']);
+});
+
+test('the group plays from the page, gently to its first frame, and moves nothing twice', async ({
+  dashboard,
+  robot,
+}) => {
+  await captureGroup(dashboard, [1000, 1600], 300);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1600');
+  const before = ofKind(await robot.bus(), 'move').length;
+  await dashboard.button('Play').click();
+  await expect(dashboard.status).toHaveText('Playing frame 1 of 2');
+  await expect(dashboard.frame(2)).toHaveAttribute('aria-current', 'step');
+  await expect(dashboard.status).toHaveText('Idle');
+  expect(ofKind(await robot.bus(), 'move').slice(before)).toEqual([
+    { kind: 'move', durationMs: 1500, targets: [{ servo: 1, position: 1000 }] },
+    { kind: 'move', durationMs: 300, targets: [{ servo: 1, position: 1600 }] },
+  ]);
+});
+
+test('the group and its name outlive a reload of the page', async ({ dashboard, page }) => {
+  await captureGroup(dashboard, [1000, 1200]);
+  const name = dashboard.field('Name of the group');
+  await name.fill('Wave');
+  await name.press('Enter');
+  await page.reload();
+  await expect(dashboard.frames).toHaveCount(2);
+  await expect(name).toHaveValue('Wave');
+});
