@@ -25,8 +25,10 @@ class BackgroundPorts:
         return await in_thread(lambda: open_port(device), undo=lambda port: port.close())
 
     async def close(self, port: OpenPort) -> None:
+        # Not wait_for: in Python 3.11 it swallows a cancellation that meets the closed port, and the link lived on.
         with contextlib.suppress(TimeoutError):
-            await asyncio.wait_for(in_thread(port.close, undo=lambda _: None), CLOSE_WAIT_S)
+            async with asyncio.timeout(CLOSE_WAIT_S):
+                await in_thread(port.close, undo=lambda _: None)
 
 
 async def in_thread(action: Callable[[], T], undo: Callable[[T], None]) -> T:

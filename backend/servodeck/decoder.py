@@ -1,7 +1,8 @@
 """Bytes in, packets and noise out, whatever pieces the bytes come in and however damaged they are.
 
-Bounded memory, never raises. Knows no meaning, no family and no time: the caller says with `idle` that the
-line has been silent. The rules of shared/src/protocol/decoder.ts; shared/vectors/streams.json holds both.
+Bounded memory, never raises. Knows no meaning, no family and no time: the caller says with `pause` and `idle`
+that the line has been silent. The rules of shared/src/protocol/decoder.ts; shared/vectors/streams.json holds
+both.
 """
 
 from collections.abc import Callable, Iterator
@@ -108,6 +109,13 @@ class Decoder:
                 break
             at = self._drop(pending, at) if size == NO else self._take(pending, at, size)
         del pending[:at]
+
+    def pause(self) -> None:
+        """The line has paused, yet may go on: what is complete is believed, half packets wait."""
+        at = 0
+        while at < len(self._pending) and (size := self._judge_last(self._pending, at)) > 0:
+            at = self._take(self._pending, at, size)
+        del self._pending[:at]
 
     def idle(self) -> None:
         """The line is silent: what is complete is believed, the rest is noise. Harmless at any time."""

@@ -25,7 +25,7 @@ FIXED_HEADERS = {
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
-    "Permissions-Policy": "serial=(self), hid=(self), bluetooth=(self)",
+    "Permissions-Policy": "serial=(self), hid=(self)",
 }
 
 

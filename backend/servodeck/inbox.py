@@ -1,4 +1,4 @@
-"""What the board says: bytes in, packets and noise out. Ends a cut packet when the line has been silent.
+"""What the board says: bytes in, packets and noise out. Tells the decoder when the line has been silent.
 
 Knows the decoder and time, no client and no port.
 """
@@ -8,20 +8,26 @@ from collections.abc import Callable
 
 from servodeck.packets import Decoder, DecoderEvent
 
-# Far longer than the bytes of one packet are apart (1 ms each, plus what a USB adapter holds back).
+# Just above the latency timer of USB adapters (16 ms): bytes of one packet come no further apart, usually.
+PAUSE_S = 0.020
+# Far longer than the bytes of one packet are apart, whatever is between: a half packet was cut.
 SILENCE_S = 0.060
 
 
 class Inbox:
     def __init__(self, emit: Callable[[DecoderEvent], None]) -> None:
         self._decoder = Decoder(emit)
-        self._silence: asyncio.TimerHandle | None = None
+        self._timers: list[asyncio.TimerHandle] = []
 
     def push(self, data: bytes) -> None:
         self.close()
         self._decoder.push(data)
-        self._silence = asyncio.get_running_loop().call_later(SILENCE_S, self._decoder.idle)
+        loop = asyncio.get_running_loop()
+        self._timers = [
+            loop.call_later(PAUSE_S, self._decoder.pause),
+            loop.call_later(SILENCE_S, self._decoder.idle),
+        ]
 
     def close(self) -> None:
-        if self._silence:
-            self._silence.cancel()
+        for timer in self._timers:
+            timer.cancel()

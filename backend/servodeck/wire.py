@@ -42,11 +42,16 @@ class Job:
 
 @dataclass(eq=False, slots=True)
 class Halt:
-    """A stop sequence under way: what is still to be sent of it, and from when on the next stop may go."""
+    """A stop sequence under way: what is still to be sent of it, and from when on the next stop may go.
+
+    `hold` follows the first stop at once, because a stop never ends the move in progress (S50), and the last
+    one, because the first stop may have been lost (S52).
+    """
 
     hold: bytes | None
     left: Left
     stops_to_go: int = STOP_COUNT
+    hold_now: bool = False
     due: float = field(default=float("-inf"))
 
 
@@ -137,15 +142,17 @@ class Wire:
 
     async def _send_of(self, halt: Halt) -> None:
         """Sends the next packet of a stop sequence; nothing else may leave between them."""
-        if halt.stops_to_go:
+        if halt.hold_now and halt.hold:
+            halt.hold_now = False
+            await self._put(halt.hold)
+        elif halt.stops_to_go:
             await self._until(halt.due)
+            is_edge = halt.stops_to_go in (STOP_COUNT, 1)
             halt.stops_to_go -= 1
             halt.due = self._now() + STOP_SPACING_S
             await self._put(STOP_PACKET)
-        elif halt.hold:
-            hold, halt.hold = halt.hold, None
-            await self._put(hold)
-        if halt.stops_to_go == 0 and halt.hold is None:
+            halt.hold_now = is_edge and halt.hold is not None
+        if halt.stops_to_go == 0 and not halt.hold_now:
             self._halt = None
             settle(halt.left)
 

@@ -80,7 +80,7 @@ async def test_stop_latches_for_everyone_until_resume() -> None:
         anna, bert = seated(control), seated(control)
         await heard(anna), await heard(bert)
         await control.stop(MOVE)
-        assert port.packets() == [STOP, STOP, STOP, STOP, MOVE]
+        assert port.packets() == [STOP, STOP, MOVE, STOP, STOP, MOVE]
         for seat in (anna, bert):
             told = await heard(seat)
             assert [message["type"] for message in told] == ["state", "halted"]
@@ -91,7 +91,7 @@ async def test_stop_latches_for_everyone_until_resume() -> None:
         await control.send(anna, BATTERY.hex())
         control.resume()
         assert [message["latch"] for message in await heard(bert)] == [False]
-        assert port.packets()[5:] == [BATTERY]
+        assert port.packets()[6:] == [BATTERY]
         await control.send(anna, MOVE.hex())
 
 

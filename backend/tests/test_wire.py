@@ -68,9 +68,15 @@ async def test_a_stop_waits_for_the_packet_on_the_wire_and_for_nothing_else() ->
                 await left
         await asyncio.sleep(1)
     first_ms = GAP_MS + wire_ms(MOVE) + GAP_MS
-    assert port.packets() == [MOVE, STOP, STOP, STOP, MOVE_ELSEWHERE]
+    hold_after_ms = STOP_MS + GAP_MS
+    assert port.packets() == [MOVE, STOP, MOVE_ELSEWHERE, STOP, STOP, MOVE_ELSEWHERE]
     assert port.times_ms() == approx_ms(
-        GAP_MS, first_ms, first_ms + 70, first_ms + 140, first_ms + 140 + STOP_MS + GAP_MS
+        GAP_MS,
+        first_ms,
+        first_ms + hold_after_ms,
+        first_ms + 70,
+        first_ms + 140,
+        first_ms + 140 + hold_after_ms,
     )
 
 
@@ -102,7 +108,7 @@ async def test_nothing_slips_in_between_the_stops_and_the_pose() -> None:
         wire.send(STOP, ANNA, urgent=True)
         await halted
         await asyncio.sleep(1)
-    assert port.packets() == [STOP, STOP, STOP, MOVE_ELSEWHERE, STOP, BATTERY]
+    assert port.packets() == [STOP, MOVE_ELSEWHERE, STOP, STOP, MOVE_ELSEWHERE, STOP, BATTERY]
 
 
 @in_virtual_time
@@ -113,7 +119,7 @@ async def test_pressing_stop_again_joins_the_sequence_and_brings_the_newer_pose(
         at(0.03, lambda: wire.halt(MOVE_ELSEWHERE, STOPPED))
         at(0.05, lambda: wire.halt(None, STOPPED))
         await first
-    assert port.packets() == [STOP, STOP, STOP, MOVE_ELSEWHERE]
+    assert port.packets() == [STOP, MOVE, STOP, STOP, MOVE_ELSEWHERE]
 
 
 @in_virtual_time

@@ -17,6 +17,7 @@ export function createGatewayTransport(url: string): Transport {
   let nextId = 1;
   const sending = new Map<number, Settle>();
   const halting = new Set<Settle>();
+  const resuming = new Set<Settle>();
   const stateWaiters = new Set<Settle>();
   let notifyAvailable = (): void => undefined;
 
@@ -34,7 +35,7 @@ export function createGatewayTransport(url: string): Transport {
         latchChanged(message.latch);
         break;
       case 'received':
-        events?.received(fromHex(message.packet));
+        events?.received(fromHex(message.packet), true);
         break;
       case 'noise':
         events?.received(fromHex(message.bytes));
@@ -43,12 +44,18 @@ export function createGatewayTransport(url: string): Transport {
         take(message.id)?.resolve();
         break;
       case 'refused':
-        if (message.id !== null) take(message.id)?.reject(refusal(message.code, message.detail));
+        refused(message.id, refusal(message.code, message.detail));
         break;
       case 'halted':
         settleAll(halting, (waiter) => waiter.resolve());
         break;
     }
+  }
+
+  /** Only packets have an id: without one it was a stop or a resume. */
+  function refused(id: number | null, error: LinkError): void {
+    if (id !== null) take(id)?.reject(error);
+    else for (const waiters of [halting, resuming]) settleAll(waiters, (waiter) => waiter.reject(error));
   }
 
   function take(id: number): Settle | undefined {
@@ -68,15 +75,16 @@ export function createGatewayTransport(url: string): Transport {
   function latchChanged(next: boolean): void {
     if (next !== latched) events?.latched?.(next);
     latched = next;
+    if (!next) settleAll(resuming, (waiter) => waiter.resolve());
   }
 
   /** Tells the session once; what was under way has an unknown outcome. */
   function lose(error: LinkError): void {
     const told = events;
     events = null;
-    for (const waiters of [sending.values(), halting]) for (const waiter of waiters) waiter.reject(error);
+    for (const waiter of sending.values()) waiter.reject(error);
     sending.clear();
-    halting.clear();
+    for (const waiters of [halting, resuming]) settleAll(waiters, (waiter) => waiter.reject(error));
     told?.lost(error);
   }
 
@@ -126,8 +134,11 @@ export function createGatewayTransport(url: string): Transport {
       });
     },
     resume() {
-      post({ type: 'resume' });
-      return Promise.resolve();
+      return new Promise((resolve, reject) => {
+        post({ type: 'resume' });
+        if (latched) resuming.add({ resolve, reject });
+        else resolve();
+      });
     },
     whenAvailable(notify) {
       notifyAvailable = notify;

@@ -42,19 +42,24 @@ const soup = fc
   .map((pieces) => Uint8Array.from(pieces.flatMap((piece) => Array.from(piece))));
 
 const IDLE = 'idle';
-const feed = fc.array(fc.oneof({ weight: 4, arbitrary: soup }, { weight: 1, arbitrary: fc.constant(IDLE) }), {
-  maxLength: 6,
-});
+const PAUSE = 'pause';
+const feed = fc.array(
+  fc.oneof({ weight: 4, arbitrary: soup }, { weight: 1, arbitrary: fc.constantFrom(IDLE, PAUSE) }),
+  {
+    maxLength: 6,
+  },
+);
 
 function words(event: DecoderEvent): string {
   return `${event.kind === 'packet' ? 'packet' : event.reason} ${toHex(event.bytes)}`;
 }
 
-function decode(pieces: readonly (Uint8Array | typeof IDLE)[], shape: ShapeRule): string[] {
+function decode(pieces: readonly (Uint8Array | typeof IDLE | typeof PAUSE)[], shape: ShapeRule): string[] {
   const events: string[] = [];
   const decoder = createDecoder((event) => events.push(words(event)), shape);
   for (const piece of pieces) {
     if (piece === IDLE) decoder.idle();
+    else if (piece === PAUSE) decoder.pause();
     else decoder.push(piece);
   }
   return events;
@@ -77,11 +82,11 @@ describe.each(SHAPES)('a decoder of %s', (_name, shape) => {
     fc.assert(
       fc.property(feed, sizes, (pieces, cuts) => {
         const cut = pieces.flatMap(
-          (piece) => (piece === IDLE ? [IDLE] : cutUp(piece, cuts)) as typeof pieces,
+          (piece) => (typeof piece === 'string' ? [piece] : cutUp(piece, cuts)) as typeof pieces,
         );
         expect(decode(cut, shape)).toEqual(decode(pieces, shape));
         const bytewise = pieces.flatMap(
-          (piece) => (piece === IDLE ? [IDLE] : cutUp(piece, [1])) as typeof pieces,
+          (piece) => (typeof piece === 'string' ? [piece] : cutUp(piece, [1])) as typeof pieces,
         );
         expect(decode(bytewise, shape)).toEqual(decode(pieces, shape));
       }),
@@ -97,6 +102,8 @@ describe.each(SHAPES)('a decoder of %s', (_name, shape) => {
           if (piece === IDLE) {
             decoder.idle();
             expect(told).toEqual(fed);
+          } else if (piece === PAUSE) {
+            decoder.pause();
           } else {
             decoder.push(piece);
             fed.push(...piece);

@@ -1,6 +1,6 @@
 // Bytes in, packets and noise out, whatever pieces the bytes come in and however damaged they are. Bounded memory, never
-// throws. Knows no meaning, no family and no time: the caller says with `idle` that the line has been silent for longer
-// than the bytes of one packet can be apart (60 ms covers every adapter).
+// throws. Knows no meaning, no family and no time: the caller says with `pause` and `idle` that the line has been silent
+// for longer than bytes of one packet usually are apart (20 ms), or ever are (60 ms covers every adapter).
 
 import { judge, judgeLast, NO, WAIT } from './judge.ts';
 import { HEADER, type Packet } from './packet.ts';
@@ -13,6 +13,8 @@ export type DecoderEvent =
 
 export interface Decoder {
   push(bytes: Uint8Array): void;
+  /** The line has paused for longer than its bytes are apart, yet may go on: what is complete is believed, half packets wait. */
+  pause(): void;
   /** The line is silent: what is complete is believed, the rest is noise. Harmless at any time. */
   idle(): void;
   /** Forgets everything, silently: a new connection. */
@@ -117,6 +119,21 @@ export function createDecoder(
     return to;
   }
 
+  function pause(): void {
+    let at = 0;
+    for (
+      let size = judgeLast(shape, carry, 0, carried);
+      size > 0;
+      size = judgeLast(shape, carry, at, carried)
+    ) {
+      emitPacket(carry, at, at + size);
+      at += size;
+      if (at === carried) break;
+    }
+    carry.copyWithin(0, at, carried);
+    carried -= at;
+  }
+
   function idle(): void {
     let at = 0;
     while (at < carried) {
@@ -139,7 +156,7 @@ export function createDecoder(
     noiseCount = 0;
   }
 
-  return { push, idle, reset };
+  return { push, pause, idle, reset };
 }
 
 function copy(source: Uint8Array, from: number, to: number): Uint8Array {

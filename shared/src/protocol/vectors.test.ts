@@ -47,7 +47,7 @@ type StreamEvent =
 interface StreamVector {
   readonly name: string;
   readonly direction: 'report' | 'command';
-  /** Hex, or `idle` where the line falls silent. */
+  /** Hex, or `pause` or `idle` where the line falls silent. */
   readonly feed: readonly string[];
   readonly events: readonly StreamEvent[];
 }
@@ -75,6 +75,7 @@ function decode({ direction, feed }: Pick<StreamVector, 'direction' | 'feed'>): 
   );
   for (const piece of feed) {
     if (piece === 'idle') decoder.idle();
+    else if (piece === 'pause') decoder.pause();
     else decoder.push(fromHex(piece));
   }
   return events;
@@ -84,7 +85,7 @@ function decode({ direction, feed }: Pick<StreamVector, 'direction' | 'feed'>): 
 function whole(feed: readonly string[]): string[] {
   return feed
     .join(' ')
-    .split(/(idle)/)
+    .split(/(idle|pause)/)
     .map((piece) => piece.trim())
     .filter((piece) => piece !== '');
 }

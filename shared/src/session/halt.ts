@@ -2,7 +2,7 @@
 // what is known of the stop's fate. Motion waits until a person resumes.
 
 import { sleep, type Clock } from '../clock.ts';
-import type { Core } from './core.ts';
+import { requireReady, type Core } from './core.ts';
 import { encodeOrRefuse } from './exchange.ts';
 import { LinkError } from './linkError.ts';
 import type { Latch } from './state.ts';
@@ -106,6 +106,7 @@ export function createHalt(core: Core, { transport, dropAll, leftTheWire }: Halt
       await send(transport.halt ? haltSharedLink : haltOwnLink);
     },
     async resume() {
+      requireReady(core);
       await transport.resume?.();
       store.update({ latch: null });
     },

@@ -65,7 +65,7 @@ export function createLink({ transport, clock, changed, returned, received, latc
     if (state.status !== 'lost') enter({ status: 'opening' });
     try {
       await transport.open({
-        received: (bytes) => mine === generation && received(bytes),
+        received: (bytes, whole) => mine === generation && received(bytes, whole),
         latched: (value) => mine === generation && latched(value),
         lost: (error) => mine === generation && fail(error),
       });

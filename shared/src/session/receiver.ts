@@ -1,4 +1,4 @@
-// From bytes to reports: feeds the decoder and tells it when the line fell silent. Knows the family's meaning of a
+// From bytes to reports: feeds the decoder and tells it when the line is silent. Knows the family's meaning of a
 // packet; not who waits for it.
 
 import type { Clock } from '../clock.ts';
@@ -6,7 +6,7 @@ import { createDecoder } from '../protocol/decoder.ts';
 import type { Family } from '../protocol/families.ts';
 import { parseReport } from '../protocol/parse.ts';
 import type { Report } from '../protocol/reports.ts';
-import { LINE_IDLE_MS } from './timings.ts';
+import { LINE_IDLE_MS, LINE_PAUSE_MS } from './timings.ts';
 
 export interface ReceiverOptions {
   readonly clock: Clock;
@@ -16,7 +16,8 @@ export interface ReceiverOptions {
 }
 
 export interface Receiver {
-  push(bytes: Uint8Array): void;
+  /** `whole`: these bytes are whole packets, nothing that could belong to them will follow. */
+  push(bytes: Uint8Array, whole: boolean): void;
   /** Forgets a half packet: a new connection starts clean. */
   reset(): void;
 }
@@ -26,16 +27,24 @@ export function createReceiver({ clock, family, report, noise }: ReceiverOptions
     if (event.kind === 'packet') report(parseReport(event.packet, family), event.bytes);
     else noise(event.reason, event.bytes);
   });
-  let cancelIdle = (): void => undefined;
+  let cancelTimers: readonly (() => void)[] = [];
+
+  function silenceBroken(): void {
+    for (const cancel of cancelTimers) cancel();
+  }
 
   return {
-    push(bytes) {
-      cancelIdle();
+    push(bytes, whole) {
+      silenceBroken();
       decoder.push(bytes);
-      cancelIdle = clock.after(LINE_IDLE_MS, () => decoder.idle());
+      if (whole) decoder.pause();
+      cancelTimers = [
+        clock.after(LINE_PAUSE_MS, () => decoder.pause()),
+        clock.after(LINE_IDLE_MS, () => decoder.idle()),
+      ];
     },
     reset() {
-      cancelIdle();
+      silenceBroken();
       decoder.reset();
     },
   };

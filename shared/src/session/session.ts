@@ -70,7 +70,7 @@ export function createSession({ transport, family, clock }: SessionOptions): Ses
   const link = createLink({
     transport,
     clock,
-    received: (bytes) => receiver.push(bytes),
+    received: (bytes, whole = false) => receiver.push(bytes, whole),
     changed: linkChanged,
     returned: () => halt.stopAfterReturn(),
     latched(latched) {

@@ -1,6 +1,8 @@
 // Every waiting time of the session, each with its source. Milliseconds. Knows nothing else.
 
-/** A silent line this long ends an unfinished packet: USB adapters and hubs deliver in bursts up to 16 ms apart. */
+/** Just above the latency timer of USB adapters (16 ms): bytes of one packet come no further apart, usually. */
+export const LINE_PAUSE_MS = 20;
+/** Far longer than the bytes of one packet are apart, whatever is between: a half packet was cut. */
 export const LINE_IDLE_MS = 60;
 
 /** Stop goes out three times: a lone one may fall into a full mailbox, and 70 ms outlast the key's 60 ms debounce (S54). */

@@ -4,8 +4,8 @@
 import type { LinkError } from './linkError.ts';
 
 export interface TransportEvents {
-  /** Bytes from the board, in order, in whatever pieces they came. */
-  received(bytes: Uint8Array): void;
+  /** Bytes from the board, in order, in whatever pieces they came; `whole` where they are whole packets for sure. */
+  received(bytes: Uint8Array, whole?: boolean): void;
   /** The link ended by itself. Comes at most once per `open`, never after `close`. */
   lost(error: LinkError): void;
   /** Only a shared link (gateway): somebody pressed STOP or Resume; `latched` refuses motion for everyone. */
