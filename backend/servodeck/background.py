@@ -25,7 +25,7 @@ class BackgroundPorts:
         return await in_thread(lambda: open_port(device), undo=lambda port: port.close())
 
     async def close(self, port: OpenPort) -> None:
-        # Not wait_for: in Python 3.11 it swallows a cancellation that meets the closed port, and the link lived on.
+        # Not wait_for: Python 3.11's swallows a cancellation that meets the result, and the link lived on.
         with contextlib.suppress(TimeoutError):
             async with asyncio.timeout(CLOSE_WAIT_S):
                 await in_thread(port.close, undo=lambda _: None)
