@@ -3,17 +3,24 @@
 
 import { writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
+import { endChildren, onEnd } from '../scripts/children.mjs';
 import { SetupProblem, main, say } from '../scripts/steps.mjs';
 import { measureCodec } from './codec.ts';
 import { measureDownload } from './download.ts';
 import { measureDrag } from './drag.ts';
 import { toRecord, type Figure } from './figure.ts';
+import { measurePageSize } from './pageSize.ts';
+import { measureRelay } from './relay.ts';
+import { measureStart } from './start.ts';
 import { toTable } from './table.ts';
 
 const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   codec: measureCodec,
   drag: measureDrag,
   download: measureDownload,
+  relay: measureRelay,
+  start: measureStart,
+  page: measurePageSize,
 };
 
 const USAGE = `npm run bench [-- [--only GROUP,GROUP…] [--json FILE]]
@@ -44,6 +51,7 @@ async function measure(names: readonly string[]): Promise<readonly Figure[]> {
 }
 
 await main(async () => {
+  onEnd(() => void endChildren().then(() => process.exit(130)));
   const { only, json } = readArguments();
   const figures = await measure(only);
   say(`\n${toTable(figures)}\n`);

@@ -1,0 +1,94 @@
+// How long the gateway takes from its start to its first answer, and how much memory it then has, beside an application
+// of the same framework that can do nothing. Both are started the same way, in turns.
+
+import { readFileSync } from 'node:fs';
+import { freePort } from '../scripts/address.mjs';
+import { endChild, startChild } from '../scripts/children.mjs';
+import { python } from '../scripts/python.mjs';
+import { SetupProblem } from '../scripts/steps.mjs';
+import type { Figure } from './figure.ts';
+import { startBoard } from './station.ts';
+import { median } from './statistics.ts';
+
+const STARTS = 7;
+const POLL_MS = 2;
+const READY_MS = 15_000;
+const HOST = '127.0.0.1';
+
+interface Start {
+  readonly healthMs: number;
+  /** Null where the system does not tell. */
+  readonly rssMiB: number | null;
+}
+
+type CommandOn = (port: number) => readonly string[];
+
+export async function measureStart(): Promise<Figure[]> {
+  const board = await startBoard();
+  const serve: CommandOn = (port) => [
+    ...['-m', 'servodeck', 'serve', '--listen', `${HOST}:${port}`, '--serial', board.device],
+    ...['--no-open', '--exit-with-stdin'],
+  ];
+  const empty: CommandOn = (port) => ['bench/empty_app.py', HOST, String(port)];
+  const [gateway, rival] = await startInTurns([serve, empty]);
+  await board.end();
+  return figuresOf(gateway ?? [], rival ?? []);
+}
+
+function figuresOf(gateway: readonly Start[], rival: readonly Start[]): Figure[] {
+  const compared = (key: string, unit: string, pick: (start: Start) => number, note: string): Figure => ({
+    ...{ key, unit, note, value: median(gateway.map(pick)) },
+    against: { what: 'empty FastAPI', value: median(rival.map(pick)) },
+  });
+  const note = `until /api/health answers; median of ${STARTS} starts`;
+  const time = compared('start.gatewayMs', 'ms', ({ healthMs }) => healthMs, note);
+  if (gateway.some(({ rssMiB }) => rssMiB === null)) return [time];
+  const memory = 'resident memory right after that';
+  return [time, compared('start.rssMiB', 'MiB', ({ rssMiB }) => rssMiB ?? NaN, memory)];
+}
+
+/** The first start of each only warms the disk's cache and Python's. */
+async function startInTurns(commands: readonly CommandOn[]): Promise<readonly (readonly Start[])[]> {
+  const starts = commands.map((): Start[] => []);
+  for (let round = 0; round <= STARTS; round += 1) {
+    for (const [index, command] of commands.entries()) {
+      const start = await startOnce(command);
+      if (round > 0) starts[index]?.push(start);
+    }
+  }
+  return starts;
+}
+
+async function startOnce(command: CommandOn): Promise<Start> {
+  const port = await freePort(HOST);
+  const lines: string[] = [];
+  const startedMs = performance.now();
+  const child = startChild(python, command(port), (line) => lines.push(line));
+  try {
+    while (!(await answers(port))) {
+      if (child.exitCode !== null || performance.now() - startedMs > READY_MS)
+        throw new SetupProblem(`It did not start: ${lines.join('\n')}`);
+      await new Promise((resolve) => setTimeout(resolve, POLL_MS));
+    }
+    return { healthMs: performance.now() - startedMs, rssMiB: residentMiB(child.pid ?? 0) };
+  } finally {
+    await endChild(child);
+  }
+}
+
+async function answers(port: number): Promise<boolean> {
+  try {
+    return (await fetch(`http://${HOST}:${port}/api/health`)).ok;
+  } catch {
+    return false; // nobody listens yet
+  }
+}
+
+function residentMiB(pid: number): number | null {
+  try {
+    const [, kib] = /^VmRSS:\s+(\d+) kB$/m.exec(readFileSync(`/proc/${pid}/status`, 'utf8')) ?? [];
+    return kib === undefined ? null : Number(kib) / 1_024;
+  } catch {
+    return null; // only Linux keeps such files
+  }
+}

@@ -1,0 +1,95 @@
+// What a person has on the table: a simulated board on a serial port, the gateway on it, a browser. Starts and ends the
+// real programs; measures nothing.
+
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { chromium, type Browser } from '@playwright/test';
+import type { BusLogEntry } from '#shared/simulator/busLog.ts';
+import { browserForTests, findBrowser } from '../scripts/browser.mjs';
+import { simulatedBoard } from '../scripts/cable.mjs';
+import { endChild, startChild } from '../scripts/children.mjs';
+import { python } from '../scripts/python.mjs';
+import { SetupProblem } from '../scripts/steps.mjs';
+
+const READY_MS = 10_000;
+const POLL_MS = 20;
+
+export interface BoardOnPort {
+  readonly device: string;
+  /** Every byte of the bus so far, with its time since the epoch. */
+  readBusLog(): readonly BusLogEntry[];
+  end(): Promise<void>;
+}
+
+export interface Gateway {
+  readonly url: string;
+  end(): Promise<void>;
+}
+
+/** `simulatorArgs` as for the simulator program, e.g. `--baud 0`. */
+export async function startBoard(...simulatorArgs: readonly string[]): Promise<BoardOnPort> {
+  const folder = mkdtempSync(path.join(tmpdir(), 'servodeck-bench-'));
+  const busLog = path.join(folder, 'bus.jsonl');
+  const lines: string[] = [];
+  const cable = await simulatedBoard({
+    link: `build/bench-board-${process.pid}`,
+    simulatorArgs: ['--bus-log', busLog, ...simulatorArgs],
+    onLine: (line) => lines.push(line),
+    onLost: () => lines.push('it ended'),
+  });
+  await cable.plug();
+  if (!cable.isPlugged()) throw new SetupProblem(`The simulated board did not start: ${lines.join(' ')}`);
+  return {
+    device: cable.device,
+    readBusLog: () => parseBusLog(readFileSync(busLog, 'utf8')),
+    async end() {
+      await cable.pull();
+      rmSync(folder, { recursive: true });
+    },
+  };
+}
+
+/** Resolves when its port is open. */
+export async function startGateway(device: string): Promise<Gateway> {
+  const lines: string[] = [];
+  const serve = ['-m', 'servodeck', 'serve', '--listen', '127.0.0.1:0', '--serial', device];
+  const child = startChild(python, [...serve, '--no-open', '--exit-with-stdin'], (line) => lines.push(line));
+  const urlOf = (line: string): string | undefined => /http:\/\/[^\s]+/.exec(line)?.[0].replace(/\/$/, '');
+  const url = await eventually('the gateway to start', () => lines.map(urlOf).find(Boolean));
+  await eventually('the gateway to open the port', async () => {
+    const response = await fetch(`${url}/api/status`);
+    const status = (await response.json()) as { port: { status: string } };
+    return status.port.status === 'open' || undefined;
+  });
+  return { url, end: () => endChild(child) };
+}
+
+export async function startBrowser(): Promise<Browser> {
+  if (findBrowser() === null) await browserForTests();
+  const executablePath = findBrowser();
+  return chromium.launch(executablePath === null ? {} : { executablePath });
+}
+
+async function eventually<Found>(
+  what: string,
+  look: () => Found | undefined | Promise<Found | undefined>,
+): Promise<Found> {
+  const untilMs = performance.now() + READY_MS;
+  while (performance.now() < untilMs) {
+    const found = await look();
+    if (found !== undefined) return found;
+    await new Promise((resolve) => setTimeout(resolve, POLL_MS));
+  }
+  throw new SetupProblem(`Waited ${READY_MS / 1_000} s in vain for ${what}.`);
+}
+
+/** The log's first line says when its clock began. */
+function parseBusLog(text: string): readonly BusLogEntry[] {
+  const [head = '{}', ...lines] = text.trimEnd().split('\n');
+  const { startedAtEpochMs } = JSON.parse(head) as { startedAtEpochMs: number };
+  return lines.map((line) => {
+    const entry = JSON.parse(line) as BusLogEntry;
+    return { ...entry, atMs: startedAtEpochMs + entry.atMs };
+  });
+}
