@@ -34,6 +34,7 @@ export function App({ page }: { readonly page: Page }) {
 
 function Dashboard({ page }: { readonly page: Page }) {
   const layout = useLayout();
+  const said = useView((state) => state.said);
   const { device, document: group } = useStores();
   useTheme();
   useUndoKeys(group);
@@ -44,6 +45,9 @@ function Dashboard({ page }: { readonly page: Page }) {
       {layout === 'phone' ? <PhoneWork /> : <DeskWork />}
       <StopButton />
       <Messages />
+      <p className={styles.said} role="status">
+        {said}
+      </p>
       <ConnectDialog connector={page.connector} />
     </div>
   );

@@ -37,7 +37,13 @@ function Capture() {
   };
   return (
     <>
-      <Button tone="primary" icon="plus" isDisabled={!isKnown} onPress={capture}>
+      <Button
+        tone="primary"
+        icon="plus"
+        hint={words.actions.captureHint}
+        isDisabled={!isKnown}
+        onPress={capture}
+      >
         {words.actions.capture}
       </Button>
       {!isKnown && <p className={styles.hint}>{words.actions.nothingKnown}</p>}

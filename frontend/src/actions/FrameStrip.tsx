@@ -41,6 +41,7 @@ export function FrameStrip() {
     else if (event.altKey) {
       document.edit(words.actions.steps.move(index + 1), (before) => moveFrame(before, id, to));
       select(id);
+      view.setState({ said: words.actions.moved(index + 1, to + 1) });
     } else select(group.frames[to]?.id ?? id);
     event.preventDefault();
   }

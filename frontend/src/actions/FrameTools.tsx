@@ -28,8 +28,10 @@ export function FrameTools() {
     document.edit(steps.update(index + 1), (before) =>
       setTargets(before, id, commandedPose(device.store.getState().targets)),
     );
-  const move = (to: number) => (): void =>
+  const move = (to: number) => (): void => {
     document.edit(steps.move(index + 1), (before) => moveFrame(before, id, to));
+    view.setState({ said: words.actions.moved(index + 1, to + 1) });
+  };
   const remove = (): void => {
     view.setState({ selectedFrame: group.frames[index + 1]?.id ?? group.frames[index - 1]?.id ?? null });
     document.edit(steps.delete(index + 1), (before) => deleteFrame(before, id));

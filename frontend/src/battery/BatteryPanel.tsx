@@ -52,7 +52,14 @@ const isBusy = (activity: string): boolean => activity === 'downloading' || acti
 function About({ batteryMv, supply }: { readonly batteryMv: number | null; readonly supply: Supply }) {
   const battery = useSnapshot((snapshot) => snapshot.battery);
   const canTell = useDevice(canReadBattery);
-  if (!canTell || battery.kind === 'silent') return <Chip truth="unknown">{words.battery.silent}</Chip>;
+  if (!canTell || battery.kind === 'silent') {
+    return (
+      <>
+        <Chip truth="unknown">{words.battery.silent}</Chip>
+        {canTell && <span>{words.battery.silentHint}</span>}
+      </>
+    );
+  }
   if (batteryMv === null || battery.kind !== 'read')
     return <Chip truth="unknown">{words.battery.unread}</Chip>;
   const level = levelOf(batteryMv, supply);

@@ -3,6 +3,7 @@
 
 import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
+import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { words } from '../words/en.ts';
@@ -31,7 +32,7 @@ function SlotControl() {
     brokenSlots.includes(slot) ? 'broken' : storedSlots.includes(slot) ? 'stored' : 'unknown',
   );
   return (
-    <div className={styles.row}>
+    <div className={cx(styles.row, styles.slot)}>
       <div className={styles.field}>
         <span className={styles.label} aria-hidden="true">
           {words.board.slot}

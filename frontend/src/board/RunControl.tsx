@@ -48,7 +48,12 @@ export function RunControl() {
             <p className={styles.hint}>{words.board.runHint(slot, times)}</p>
           )}
           <span className={styles.push} />
-          <Button icon="end" isDisabled={!isReady} onPress={() => device.stopGroup()}>
+          <Button
+            icon="end"
+            hint={words.board.stopGroupHint}
+            isDisabled={!isReady}
+            onPress={() => device.stopGroup()}
+          >
             {words.board.stopGroup}
           </Button>
         </div>

@@ -22,7 +22,7 @@ export function LogPanel({ onFold }: { readonly onFold?: () => void }) {
   const shown = (frozen ?? live).filter((entry) => kinds.includes(kindOf(entry.traffic)));
   const missed = (live.at(-1)?.id ?? 0) - (frozen?.at(-1)?.id ?? 0);
   return (
-    <section className={styles.panel} aria-label={words.log.title}>
+    <section className={styles.panel} aria-label={words.log.title} data-fills="">
       <header className={styles.header}>
         <h2 className={styles.title}>{words.log.title}</h2>
         <Filter />

@@ -46,7 +46,7 @@ export const ServoRow = memo(function ServoRow({ servo }: { readonly servo: numb
         step={positionStep(family)}
         unit={words.servos.unit(family.unit)}
         placeholder={words.servos.unknown}
-        isDisabled={blocked}
+        isReadOnly={blocked}
         onChange={move}
         onRefused={(value) => notices.tell('warning', words.refused(name, value, min, max))}
       />

@@ -49,7 +49,7 @@ function CentreAll({ servos }: { readonly servos: readonly number[] }) {
     device.move(targets, GENTLE_MOVE_MS);
   };
   return (
-    <Button icon="centre" isDisabled={isDisabled} onPress={centre}>
+    <Button icon="centre" hint={words.servos.centreHint} isDisabled={isDisabled} onPress={centre}>
       {words.servos.centre}
     </Button>
   );

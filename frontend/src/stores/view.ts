@@ -23,6 +23,8 @@ export interface ViewState {
   readonly slot: number;
   readonly times: number;
   readonly untilStopped: boolean;
+  /** The latest change that only the eye could see, for screen readers. */
+  readonly said: string;
 }
 
 export type View = StoreApi<ViewState>;
@@ -43,6 +45,7 @@ export const INITIAL_VIEW: ViewState = {
   slot: 0,
   times: 1,
   untilStopped: false,
+  said: '',
 };
 
 export function createView(storage: TextStorage): View {

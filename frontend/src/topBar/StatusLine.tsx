@@ -48,7 +48,7 @@ function Latched({ latch }: { readonly latch: Latch }) {
         text={words.stop.outcome[latch.stop]}
         more={words.stop.reason[latch.reason]}
       />
-      <Button onPress={() => device.resume()} icon="play">
+      <Button onPress={() => device.resume()} icon="play" hint={words.stop.resumeHint}>
         {words.stop.resume}
       </Button>
     </>

@@ -3,6 +3,7 @@
 import type { ReactNode } from 'react';
 import { Button as AriaButton, type ButtonProps as AriaButtonProps } from 'react-aria-components/Button';
 import { cx } from './cx.ts';
+import { Hint } from './Hint.tsx';
 import { Icon, type IconName } from './Icon.tsx';
 import styles from './Button.module.css';
 
@@ -10,16 +11,19 @@ export interface ButtonProps extends Omit<AriaButtonProps, 'className' | 'childr
   readonly tone?: 'plain' | 'primary' | 'quiet' | 'danger';
   readonly icon?: IconName;
   readonly wide?: boolean;
+  /** What the verb alone does not say. */
+  readonly hint?: string;
   readonly children: ReactNode;
 }
 
-export function Button({ tone = 'plain', icon, wide = false, children, ...rest }: ButtonProps) {
-  return (
+export function Button({ tone = 'plain', icon, wide = false, hint, children, ...rest }: ButtonProps) {
+  const button = (
     <AriaButton {...rest} className={cx(styles.button, styles[tone], wide && styles.wide)}>
       {icon !== undefined && <Icon name={icon} />}
       <span className={styles.label}>{children}</span>
     </AriaButton>
   );
+  return hint === undefined ? button : <Hint text={hint}>{button}</Hint>;
 }
 
 export interface IconButtonProps extends Omit<AriaButtonProps, 'className' | 'children' | 'style'> {
@@ -29,8 +33,10 @@ export interface IconButtonProps extends Omit<AriaButtonProps, 'className' | 'ch
 
 export function IconButton({ icon, label, ...rest }: IconButtonProps) {
   return (
-    <AriaButton {...rest} aria-label={label} className={cx(styles.button, styles.quiet, styles.square)}>
-      <Icon name={icon} />
-    </AriaButton>
+    <Hint text={label}>
+      <AriaButton {...rest} aria-label={label} className={cx(styles.button, styles.quiet, styles.square)}>
+        <Icon name={icon} />
+      </AriaButton>
+    </Hint>
   );
 }

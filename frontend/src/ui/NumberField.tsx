@@ -17,13 +17,15 @@ export interface NumberFieldProps {
   readonly placeholder?: string;
   readonly size?: 'plain' | 'large' | 'small';
   readonly isDisabled?: boolean;
+  /** Takes nothing for now, yet keeps its place and the focus. */
+  readonly isReadOnly?: boolean;
   readonly excludeFromTabOrder?: boolean;
   onChange(value: number): void;
   onRefused(value: number): void;
 }
 
 export function NumberField(props: NumberFieldProps) {
-  const { label, value, unit, placeholder, size = 'plain', isDisabled = false } = props;
+  const { label, value, unit, placeholder, size = 'plain', isDisabled = false, isReadOnly = false } = props;
 
   function take(wanted: number): void {
     if (Number.isNaN(wanted) || wanted === value) return;
@@ -33,7 +35,7 @@ export function NumberField(props: NumberFieldProps) {
 
   function stepByKey(event: KeyboardEvent): void {
     const change = stepOf(event, props.step ?? 1);
-    if (change === 0 || isDisabled) return;
+    if (change === 0 || isDisabled || isReadOnly) return;
     event.preventDefault();
     event.stopPropagation();
     const from = value ?? props.min;
@@ -41,13 +43,18 @@ export function NumberField(props: NumberFieldProps) {
   }
 
   return (
-    <div className={cx(styles.field, styles[size])} data-disabled={isDisabled} onKeyDownCapture={stepByKey}>
+    <div
+      className={cx(styles.field, styles[size])}
+      data-disabled={isDisabled || isReadOnly}
+      onKeyDownCapture={stepByKey}
+    >
       <AriaNumberField
         aria-label={label}
         className={styles.value ?? ''}
         value={value ?? Number.NaN}
         onChange={take}
         isDisabled={isDisabled}
+        isReadOnly={isReadOnly}
         isWheelDisabled
         commitBehavior="validate"
         formatOptions={PLAIN_DIGITS}

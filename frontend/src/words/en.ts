@@ -18,16 +18,14 @@ import { timesWords } from './packets.ts';
 
 export const words = {
   product: 'Servodeck',
-  regions: { top: 'Robot and link', live: 'Live', authoring: 'Authoring', notices: 'Notices' },
+  regions: { top: 'Robot and link', notices: 'Notices' },
   tabs: { live: 'Live', actions: 'Actions', board: 'Board', log: 'Log' },
   tabList: 'Parts of the dashboard',
   close: 'Close',
-  cancel: 'Cancel',
 
   truth: {
     commanded: 'Commanded',
     estimated: 'Estimated',
-    confirmed: 'Confirmed',
     unknown: 'Unknown',
     legend: 'What the marks mean',
   },
@@ -114,8 +112,6 @@ export const words = {
   },
 
   body: {
-    title: 'Robot',
-    side: 'From the side',
     base: 'Base, from above',
     hand: 'Hand, from the front',
     figure: 'Arm from the side; solid is estimated, outline is commanded, dashed is unknown',
@@ -167,13 +163,12 @@ export const words = {
     time: (number: number): string => `Time of frame ${formatWhole(number)} in milliseconds`,
     tools: 'Change the selected frame',
     select: 'Select a frame to change it.',
-    load: 'Move robot to this pose',
-    update: 'Update from pose',
+    load: 'Go to pose',
+    update: 'Update pose',
     duplicate: 'Duplicate',
     delete: 'Delete',
     earlier: 'Move earlier',
     later: 'Move later',
-    drag: (number: number): string => `Drag frame ${formatWhole(number)}`,
     undo: 'Undo',
     redo: 'Redo',
     undoStep: (label: string): string => `Undo: ${label}`,
@@ -218,7 +213,6 @@ export const words = {
       `${formatCount(stored)} of ${formatCount(count)} frames`,
     bytes: (sent: number, total: number): string => `${formatCount(sent)} of ${formatCount(total)} bytes`,
     left: (ms: number): string => `${formatSeconds(ms)} left`,
-    noDownload: 'Nothing is downloading',
     times: 'Times',
     untilStopped: 'Until stopped',
     untilStoppedHint: 'Repeats without end until you stop it.',
@@ -233,7 +227,6 @@ export const words = {
     eraseConfirm: 'Erase every slot',
     eraseKeep: 'Keep them',
     erased: 'Every slot is empty.',
-    erasing: 'Erasing; this takes up to a few seconds.',
     downloaded: (slot: number): string => `Slot ${formatWhole(slot)} is downloaded.`,
     downloadCancelled: (slot: number): string =>
       `Download cancelled. Slot ${formatWhole(slot)} is broken until a whole group is downloaded.`,
@@ -251,7 +244,6 @@ export const words = {
     age: (ms: number): string => formatAge(ms),
     level: { good: 'Good', warning: 'Low', danger: 'Charge now' },
     volts: (millivolts: number): string => formatVolts(millivolts),
-    scale: (lowMv: number, highMv: number): string => `${formatVolts(lowMv)} to ${formatVolts(highMv)}`,
   },
 
   log: {
@@ -268,7 +260,6 @@ export const words = {
     kinds: { move: 'Moves', group: 'Groups', battery: 'Battery', noise: 'Noise' },
     sent: 'Sent',
     received: 'Received',
-    columns: { time: 'Time', direction: 'Direction', meaning: 'Meaning', bytes: 'Bytes' },
   },
 
   refused: (name: string, value: number, min: number, max: number): string =>

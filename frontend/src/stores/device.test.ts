@@ -1,0 +1,158 @@
+import { describe, expect, test } from 'vitest';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { createRig } from '#shared/session/rig.ts';
+import { words } from '../words/en.ts';
+import { errorSentence } from '../words/errors.ts';
+import { createDevice } from './device.ts';
+import { createNotices } from './notices.ts';
+
+const FRAMES = [900, 1500, 2100].map((position) => ({
+  durationMs: 400,
+  targets: [{ servo: 1, position }],
+}));
+
+async function createDesk() {
+  const rig = await createRig();
+  const notices = createNotices(rig.clock);
+  const device = createDevice(FAMILIES.doc, rig.clock, notices);
+  device.attach(rig.session, { kind: 'simulated', label: 'Simulated board' });
+  const state = () => device.store.getState();
+  const told = () => notices.store.getState().map((notice) => notice.text);
+  /** Time passes with the page being drawn, as it is in a browser. */
+  async function draw(ms: number) {
+    for (let passed = 0; passed < ms; passed += 20) {
+      await rig.clock.advance(20);
+      device.refreshTargets();
+    }
+  }
+  return { ...rig, device, state, told, draw };
+}
+
+describe('a device with a session', () => {
+  test('shows what was asked for at once and never the value before it again', async () => {
+    const { device, state, clock } = await createDesk();
+    device.move([{ servo: 3, position: 1700 }], 500);
+    expect(state().targets[3]).toBe(1700);
+    for (let step = 0; step < 40; step++) {
+      await clock.advance(5);
+      device.refreshTargets();
+      expect(state().targets).toEqual({ 3: 1700 });
+    }
+  });
+
+  test('knows nothing of a servo that nobody moved', async () => {
+    const { device, state } = await createDesk();
+    expect(state().targets).toEqual({});
+    expect(device.motion(1)).toEqual({ target: null, estimated: null });
+  });
+
+  test('keeps the very same targets while nothing changes, so that nothing is drawn again', async () => {
+    const { device, state, draw } = await createDesk();
+    device.move([{ servo: 1, position: 1600 }], 300);
+    await draw(2500);
+    const before = state().targets;
+    await draw(200);
+    expect(state().targets).toBe(before);
+  });
+
+  test('drops what was only wished for when STOP comes first', async () => {
+    const { device, state, draw } = await createDesk();
+    device.move([{ servo: 1, position: 1600 }], 300);
+    await draw(2500);
+    device.move([{ servo: 1, position: 2400 }], 3000);
+    device.halt();
+    await draw(500);
+    expect(state().snapshot.latch).toMatchObject({ reason: 'pressed' });
+    expect(state().targets[1]).toBeLessThan(2400);
+  });
+
+  test('refuses to move while stopped and says so; Resume moves nothing', async () => {
+    const { device, state, told, draw, ofKind } = await createDesk();
+    device.halt();
+    await draw(400);
+    device.move([{ servo: 1, position: 2400 }], 300);
+    expect(told()).toEqual([errorSentence('latched')]);
+    const movesBefore = ofKind('move').length;
+    device.resume();
+    await draw(400);
+    expect(state().snapshot.latch).toBeNull();
+    expect(ofKind('move')).toHaveLength(movesBefore);
+  });
+
+  test('tells the sentence of a value the board cannot take, and keeps the target', async () => {
+    const { device, state, told } = await createDesk();
+    device.move([{ servo: 1, position: 2600 }], 300);
+    expect(told()[0]).toContain('position of servo 1 is 2600');
+    expect(state().targets).toEqual({});
+  });
+
+  test('stores a group and tells when it is done', async () => {
+    const { device, state, told, draw, transport } = await createDesk();
+    device.download(5, FRAMES);
+    await draw(60);
+    expect(state().snapshot.activity).toMatchObject({ kind: 'downloading', slot: 5, frameCount: 3 });
+    await draw(4000);
+    expect(state().snapshot.storedSlots).toEqual([5]);
+    expect(transport.board.frameCount(5)).toBe(3);
+    expect(told()).toEqual([words.board.downloaded(5)]);
+  });
+
+  test('a cancelled download leaves a broken slot and says so', async () => {
+    const { device, state, told, draw } = await createDesk();
+    device.download(5, [...FRAMES, ...FRAMES, ...FRAMES, ...FRAMES]);
+    await draw(400);
+    device.cancelDownload();
+    await draw(4000);
+    expect(state().snapshot.brokenSlots).toEqual([5]);
+    expect(told()).toEqual([words.board.downloadCancelled(5)]);
+  });
+
+  test('playing to the end is told, pausing is not', async () => {
+    const { device, state, draw } = await createDesk();
+    let finished = 0;
+    device.play(FRAMES, () => finished++);
+    await draw(1600);
+    expect(state().snapshot.activity).toMatchObject({ kind: 'playing', frameIndex: 1 });
+    device.stopPlaying();
+    await draw(2000);
+    expect(finished).toBe(0);
+    device.play(FRAMES, () => finished++);
+    await draw(4000);
+    expect(finished).toBe(1);
+    expect(state().targets[1]).toBe(2100);
+  });
+
+  test('a lost link keeps no position and comes back latched', async () => {
+    const { device, state, draw, transport } = await createDesk();
+    device.move([{ servo: 1, position: 1600 }], 300);
+    await draw(2500);
+    transport.unplug();
+    await draw(100);
+    expect(state().snapshot.link).toMatchObject({ status: 'lost' });
+    expect(state().targets).toEqual({});
+    transport.plugIn();
+    await draw(6000);
+    expect(state().snapshot.link.status).toBe('ready');
+    expect(state().snapshot.latch).toMatchObject({ reason: 'reconnected' });
+  });
+
+  test('logs each packet once, newest last, and at most five hundred', async () => {
+    const { device, draw } = await createDesk();
+    for (let count = 0; count < 520; count++) {
+      device.move([{ servo: 1, position: 1000 + count }], 0);
+      await draw(40);
+    }
+    const entries = device.traffic.store.getState();
+    expect(entries).toHaveLength(500);
+    expect(entries.at(-1)!.id - entries[0]!.id).toBe(499);
+    expect(entries.at(-1)!.traffic).toMatchObject({ direction: 'out', command: { kind: 'move' } });
+  });
+
+  test('detached, it is as if nothing had ever been connected', async () => {
+    const { device, state, session } = await createDesk();
+    await device.detach();
+    expect(state().way).toBeNull();
+    expect(state().snapshot.link.status).toBe('closed');
+    expect(session.state.link.status).toBe('closed');
+  });
+});

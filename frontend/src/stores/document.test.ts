@@ -1,0 +1,86 @@
+import { describe, expect, test } from 'vitest';
+import { insertFrame, moveFrame, setDuration } from '#shared/actions/edits.ts';
+import { groupFromText } from '#shared/actions/groupText.ts';
+import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { words } from '../words/en.ts';
+import { createDocument, type TextStorage } from './document.ts';
+import { createNotices } from './notices.ts';
+
+const FRAME = { durationMs: 500, targets: [{ servo: 1, position: 1500 }] };
+
+function createDesk(texts: Record<string, string> = {}, broken: Partial<TextStorage> = {}) {
+  const stored = new Map(Object.entries(texts));
+  const storage: TextStorage = {
+    getItem: (key) => stored.get(key) ?? null,
+    setItem: (key, text) => void stored.set(key, text),
+    ...broken,
+  };
+  const notices = createNotices(createVirtualClock());
+  const document = createDocument(storage, notices);
+  const saved = () => groupFromText(stored.get('servodeck.group') ?? '');
+  const told = () => notices.store.getState().map((notice) => notice.text);
+  return { document, stored, storage, saved, told, group: () => document.store.getState().present };
+}
+
+describe('the document', () => {
+  test('is saved after each edit, undo and redo, and found again', () => {
+    const { document, storage, saved } = createDesk();
+    document.edit('capture', (group) => insertFrame(group, 0, FRAME));
+    document.edit('capture', (group) => insertFrame(group, 1, FRAME));
+    expect(saved()!.frames).toHaveLength(2);
+    document.undo();
+    expect(saved()!.frames).toHaveLength(1);
+    document.redo();
+    expect(saved()!.frames).toHaveLength(2);
+    const again = createDocument(storage, createNotices(createVirtualClock()));
+    expect(again.store.getState().present.frames).toHaveLength(2);
+  });
+
+  test('a drag is one step, saved once it ends', () => {
+    const { document, saved, group } = createDesk();
+    for (const at of [0, 1, 2]) document.edit('capture', (before) => insertFrame(before, at, FRAME));
+    document.begin('move');
+    document.preview((before) => moveFrame(before, 1, 1));
+    document.preview((before) => moveFrame(before, 1, 2));
+    expect(group().frames.map((frame) => frame.id)).toEqual([2, 3, 1]);
+    document.commit();
+    document.undo();
+    expect(group().frames.map((frame) => frame.id)).toEqual([1, 2, 3]);
+    expect(saved()!.frames).toHaveLength(3);
+  });
+
+  test('a cancelled drag leaves everything as it was', () => {
+    const { document, group } = createDesk();
+    for (const at of [0, 1]) document.edit('capture', (before) => insertFrame(before, at, FRAME));
+    const before = group();
+    document.begin('move');
+    document.preview((current) => moveFrame(current, 1, 1));
+    document.cancel();
+    expect(group()).toBe(before);
+  });
+
+  test('an edit that changes nothing is no step', () => {
+    const { document } = createDesk();
+    document.edit('capture', (group) => insertFrame(group, 0, FRAME));
+    document.edit('time', (group) => setDuration(group, 1, 500));
+    expect(document.store.getState().past).toHaveLength(1);
+  });
+
+  test('text that cannot be read is set aside unharmed, and the person is told', () => {
+    const { group, stored, told } = createDesk({ 'servodeck.group': '{"version":9}' });
+    expect(group().frames).toHaveLength(0);
+    expect(stored.get('servodeck.group.unreadable')).toBe('{"version":9}');
+    expect(told()).toEqual([words.actions.broken]);
+  });
+
+  test('a browser that stores nothing is told once; editing goes on', () => {
+    const refuse = (): never => {
+      throw new Error('storage is forbidden');
+    };
+    const { document, group, told } = createDesk({}, { getItem: refuse, setItem: refuse });
+    document.edit('capture', (before) => insertFrame(before, 0, FRAME));
+    document.edit('capture', (before) => insertFrame(before, 0, FRAME));
+    expect(group().frames).toHaveLength(2);
+    expect(told()).toEqual([words.actions.notSaved]);
+  });
+});

@@ -1,0 +1,30 @@
+import { describe, expect, test } from 'vitest';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { moveDurationMs } from './moveTime.ts';
+
+const at = (estimated: number | null) => () => ({ target: estimated, estimated });
+const to = (position: number) => [{ servo: 1, position }];
+
+describe('the time of a move from the sliders', () => {
+  test('a set time is taken as it is', () => {
+    expect(moveDurationMs(800, to(2500), FAMILIES.doc, at(500))).toBe(800);
+  });
+
+  test('following the hand, a small step takes next to no time', () => {
+    expect(moveDurationMs('hand', to(1510), FAMILIES.doc, at(1500))).toBeLessThan(10);
+  });
+
+  test('following the hand, a jump takes the time a servo needs for it', () => {
+    expect(moveDurationMs('hand', to(2500), FAMILIES.doc, at(500))).toBe(700);
+    expect(moveDurationMs('hand', to(1000), FAMILIES['bus-ctrl'], at(500))).toBe(350);
+  });
+
+  test('the longest way of several decides; an unknown one is the session’s to soften', () => {
+    const motion = (servo: number) => at(servo === 1 ? 1000 : null)();
+    const targets = [
+      { servo: 1, position: 2000 },
+      { servo: 2, position: 2500 },
+    ];
+    expect(moveDurationMs('hand', targets, FAMILIES.doc, motion)).toBe(350);
+  });
+});

@@ -1,0 +1,49 @@
+import { describe, expect, test } from 'vitest';
+import { LinkError } from '#shared/session/linkError.ts';
+import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { errorSentence } from '../words/errors.ts';
+import { createNotices } from './notices.ts';
+
+function createDesk() {
+  const clock = createVirtualClock();
+  const notices = createNotices(clock);
+  return { clock, notices, told: () => notices.store.getState().map((notice) => notice.text) };
+}
+
+describe('notices', () => {
+  test('good news leaves by itself, bad news stays', async () => {
+    const { clock, notices, told } = createDesk();
+    notices.tell('info', 'Slot 1 is downloaded.');
+    notices.tellError(new LinkError('noAnswer', 'silence'));
+    await clock.advance(60_000);
+    expect(told()).toEqual([errorSentence('noAnswer')]);
+  });
+
+  test('the same thing is said once, and at most three things stand there', () => {
+    const { notices, told } = createDesk();
+    for (const text of ['a', 'b', 'a', 'c', 'd']) notices.tell('warning', text);
+    expect(told()).toEqual(['a', 'c', 'd']);
+  });
+
+  test('what the person called off is no failure', () => {
+    const { notices, told } = createDesk();
+    notices.tellError(new LinkError('cancelled', 'called off'));
+    expect(told()).toEqual([]);
+  });
+
+  test('a defect of ours is named as one', () => {
+    const { notices } = createDesk();
+    notices.tellError(new TypeError('x is undefined'));
+    expect(notices.store.getState()[0]).toMatchObject({
+      tone: 'danger',
+      text: errorSentence('internal', 'x is undefined'),
+    });
+  });
+
+  test('a dismissed notice is gone', () => {
+    const { notices, told } = createDesk();
+    notices.tell('warning', 'a');
+    notices.dismiss(notices.store.getState()[0]!.id);
+    expect(told()).toEqual([]);
+  });
+});

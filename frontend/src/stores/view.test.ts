@@ -1,0 +1,24 @@
+import { expect, test } from 'vitest';
+import { createView } from './view.ts';
+
+function storageWith(text: string | null) {
+  const stored = new Map(text === null ? [] : [['servodeck.view', text]]);
+  return {
+    stored,
+    getItem: (key: string) => stored.get(key) ?? null,
+    setItem: (key: string, value: string) => void stored.set(key, value),
+  };
+}
+
+test('the theme is remembered, other words in its place are not taken', () => {
+  const storage = storageWith(null);
+  createView(storage).setState({ theme: 'dark' });
+  expect(createView(storage).getState().theme).toBe('dark');
+  expect(createView(storageWith('<script>')).getState().theme).toBe('system');
+});
+
+test('what else is open or selected begins anew', () => {
+  const storage = storageWith(null);
+  createView(storage).setState({ tab: 'log', slot: 7 });
+  expect(createView(storage).getState()).toMatchObject({ tab: 'live', slot: 0 });
+});
