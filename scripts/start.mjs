@@ -70,11 +70,11 @@ function listenForEnter(cable) {
 }
 
 /**
- * @param {import('./address.mjs').Address} address @param {string} device @param {readonly string[]} passedOn
+ * @param {import('./address.mjs').Address} address @param {readonly string[]} port @param {readonly string[]} passedOn
  * @returns {string[]}
  */
-function gatewayCommand(address, device, passedOn) {
-  const serve = ['-m', 'servodeck', 'serve', '--listen', textOf(address), '--serial', device];
+function gatewayCommand(address, port, passedOn) {
+  const serve = ['-m', 'servodeck', 'serve', '--listen', textOf(address), ...port];
   // What the person says comes last and so has the last word.
   return [...serve, '--exit-with-stdin', showsPages() ? '--open' : '--no-open', ...passedOn];
 }
@@ -100,16 +100,13 @@ async function start() {
   const address = await chooseAddress(listen);
   const cable = serial === null ? await boardOn(`build/simulated-board-${address.port}`) : null;
   const plugged = cable?.plug();
+  const port = cable === null ? ['--serial', serial ?? ''] : ['--serial', cable.device, '--simulated'];
 
-  const gateway = startChild(
-    python,
-    gatewayCommand(address, cable?.device ?? serial ?? '', passedOn),
-    (line) => {
-      const [, url] = readyLine.exec(line) ?? [];
-      if (url === undefined) say(line);
-      else void Promise.resolve(plugged).then(() => greet(url, cable));
-    },
-  );
+  const gateway = startChild(python, gatewayCommand(address, port, passedOn), (line) => {
+    const [, url] = readyLine.exec(line) ?? [];
+    if (url === undefined) say(line);
+    else void Promise.resolve(plugged).then(() => greet(url, cable));
+  });
   await once(gateway, 'close');
   if (leaving) return 0;
   say('The gateway has ended by itself; the lines above may say why.');

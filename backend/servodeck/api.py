@@ -108,7 +108,7 @@ async def status(control: Controlled) -> Status:
     return Status(
         version=__version__,
         board=control.board,
-        port=control.link.state,
+        port=control.port,
         latch=control.latch,
         clients=len(control.hub),
         battery=age_of(control),
@@ -137,14 +137,14 @@ async def use_port(choice: PortChoice, control: Controlled) -> PortState:
     if choice.board is not None and choice.board not in FAMILIES:
         raise OutOfRangeError(f"board is {choice.board}, allowed: {', '.join(FAMILIES)}")
     await control.use_port(choice.device, choice.board)
-    return control.link.state
+    return control.port
 
 
 @api.delete("/port")
 async def close_port(control: Controlled) -> PortState:
     """Closes the port and leaves it closed."""
     await control.close_port()
-    return control.link.state
+    return control.port
 
 
 @api.post("/stop")

@@ -40,6 +40,9 @@ def serve(
     ] = DEFAULT_LISTEN,
     serial: Annotated[str, typer.Option(help="Serial device, or socket://HOST:PORT.")] = "",
     board: Annotated[str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}.")] = "doc",
+    simulated: Annotated[
+        bool, typer.Option("--simulated", help="Tell everyone that the device is no real board.")
+    ] = False,
     open_page: Annotated[
         bool | None,
         typer.Option("--open/--no-open", help="Show the page; by default where a person looks on."),
@@ -58,7 +61,7 @@ def serve(
         fail(f"There is no board family {board}. Choose one of: {', '.join(FAMILIES)}.", USAGE)
     listener = bind(*parse_listen(listen))
     url = url_of(listener)
-    control = Control(BackgroundPorts(), time.monotonic, board, serial or None)
+    control = Control(BackgroundPorts(), time.monotonic, board, serial or None, simulated=simulated)
 
     def ready() -> None:
         print(f"Servodeck is at {url}", flush=True)

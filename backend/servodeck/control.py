@@ -19,6 +19,7 @@ from servodeck.messages import (
     HaltedMessage,
     Message,
     NoiseMessage,
+    PortState,
     ReceivedMessage,
     StateMessage,
     WelcomeMessage,
@@ -41,13 +42,20 @@ class BatteryReading:
 
 class Control:
     def __init__(
-        self, ports: Ports, now: Callable[[], float], board: str, named_device: str | None = None
+        self,
+        ports: Ports,
+        now: Callable[[], float],
+        board: str,
+        named_device: str | None = None,
+        *,
+        simulated: bool = False,
     ) -> None:
         """`named_device` is the port named at the start: always offered, even where the system does not list
-        it.
+        it. `simulated`: what is behind it is no real board.
         """
         self.board = board
         self.named_device = named_device
+        self._simulated_device = named_device if simulated else None
         self.now = now
         self.latch = False
         self.battery: BatteryReading | None = None
@@ -57,6 +65,13 @@ class Control:
         self._halting: Left | None = None
         self._battery_question: asyncio.Task[int] | None = None
         self._battery_answer: asyncio.Future[int] | None = None
+
+    @property
+    def port(self) -> PortState:
+        """How the port stands, as clients are told."""
+        state = self.link.state
+        is_simulated = state.device is not None and state.device == self._simulated_device
+        return state.model_copy(update={"simulated": is_simulated})
 
     # What clients ask
 
@@ -148,13 +163,13 @@ class Control:
         return WelcomeMessage(
             version=__version__,
             board=self.board,
-            port=self.link.state,
+            port=self.port,
             latch=self.latch,
             clients=len(self.hub),
         )
 
     def _tell_state(self, but: Seat | None = None) -> None:
-        state = StateMessage(port=self.link.state, latch=self.latch, clients=len(self.hub))
+        state = StateMessage(port=self.port, latch=self.latch, clients=len(self.hub))
         self.hub.tell_all(encode(state), but)
 
     def _tell(self, message: Message) -> None:

@@ -40,11 +40,12 @@ PortStatus = Literal["closed", "opening", "open", "lost"]
 
 class PortState(Message):
     """How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
-    follows.
+    follows. `simulated` where the device was declared to be no real board.
     """
 
     device: str | None
     status: PortStatus
+    simulated: bool = False
     code: ErrorCode | None = None
     detail: str | None = None
     retry_in_ms: int | None = None

@@ -283,3 +283,15 @@ async def test_a_client_that_does_not_read_is_given_up_and_the_others_lose_nothi
             assert [message["type"] for message in await heard(alert)] == ["received"]
         assert deaf.overflowed.is_set()
         assert not alert.overflowed.is_set()
+
+
+@in_virtual_time
+async def test_a_port_declared_as_simulated_is_told_so_and_only_that_one() -> None:
+    ports = FakePorts(FakePort(), FakePort())
+    control = Control(ports, now, "doc", "/dev/board", simulated=True)
+    await control.use_port("/dev/board")
+    [welcome] = await heard(seated(control))
+    assert welcome["port"]["simulated"] is True
+    await control.use_port("/dev/other")
+    assert control.port.simulated is False
+    await control.link.close()

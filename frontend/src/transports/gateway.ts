@@ -110,6 +110,9 @@ export function createGatewayTransport(url: string): Transport {
 
   return {
     kind: 'gateway',
+    get isSimulated() {
+      return port?.simulated ?? false;
+    },
     get label() {
       return port?.device ?? 'Gateway';
     },

@@ -52,11 +52,12 @@ export interface WelcomeMessage {
 }
 /**
  * How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
- * follows.
+ * follows. `simulated` where the device was declared to be no real board.
  */
 export interface PortState {
   device: string | null;
   status: 'closed' | 'opening' | 'open' | 'lost';
+  simulated: boolean;
   code:
     | (
         | 'closed'

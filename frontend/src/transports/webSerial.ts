@@ -32,6 +32,7 @@ export function createWebSerialTransport(chosen: SerialPort): Transport {
 
   return {
     kind: 'webSerial',
+    isSimulated: false,
     label: portLabel(chosen),
     async open(events) {
       await connection?.close();

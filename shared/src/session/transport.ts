@@ -16,6 +16,8 @@ export interface Transport {
   readonly kind: 'webSerial' | 'gateway' | 'simulated';
   /** Names the device for people, e.g. `/dev/ttyUSB0`. */
   readonly label: string;
+  /** True where no real board is behind it; known once it is open. */
+  readonly isSimulated: boolean;
   /** Rejects with a LinkError. May be called again after `lost` or `close`. */
   open(events: TransportEvents): Promise<void>;
   /** Resolves when the packet's last bit has left the wire. One packet at a time: the caller waits for it. */

@@ -71,7 +71,8 @@ function address(text: string): { host: string; port: number } {
 /** JSON lines; written in the turn in which the bytes passed, so that a reader beside us sees them at once. */
 function openBusLog(path: string): (entry: BusLogEntry) => void {
   const file = openSync(path, 'w');
-  writeSync(file, `${JSON.stringify({ startedAtEpochMs: Date.now() - clock.now() })}\n`);
+  // Not `Date.now()`: that one is cut to whole milliseconds.
+  writeSync(file, `${JSON.stringify({ startedAtEpochMs: performance.timeOrigin + startedAtMs })}\n`);
   let waiting = '';
 
   function flush(): void {

@@ -31,6 +31,7 @@ export function createSimulatedTransport(
 
   return {
     kind: 'simulated',
+    isSimulated: true,
     label: 'Simulated board',
     board,
     open(next) {
