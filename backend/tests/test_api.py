@@ -10,8 +10,9 @@ from tests.running import DEVICE, http_to
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, STOP
 from tests.virtual_time import at, in_virtual_time, now
 
-OPEN = {"device": DEVICE, "status": "open", "code": None, "detail": None, "retryInMs": None}
-CLOSED = {"device": None, "status": "closed", "code": None, "detail": None, "retryInMs": None}
+QUIET = {"simulated": False, "code": None, "detail": None, "retryInMs": None}
+OPEN = {"device": DEVICE, "status": "open", **QUIET}
+CLOSED = {"device": None, "status": "closed", **QUIET}
 
 
 @in_virtual_time
