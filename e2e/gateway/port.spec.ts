@@ -1,0 +1,62 @@
+// The gateway's port and the gateway itself come and go: the page says what to do, and needs no reload.
+
+import { lastTarget } from '../fixtures/bus.ts';
+import { dashboardOf } from '../fixtures/dashboard.ts';
+import { captureGroup } from '../fixtures/group.ts';
+import { expect, test } from '../fixtures/test.ts';
+
+test('a port that is not there at the start says what to do, and is found when it comes', async ({
+  page,
+  ptyBoard,
+  newGateway,
+}) => {
+  await ptyBoard.unplug();
+  const gateway = await newGateway({ serial: ptyBoard.device });
+  await page.goto(gateway.url);
+  const dashboard = dashboardOf(page);
+  await expect(dashboard.status).toContainText('The port is not there. Plug the robot in and switch it on');
+  await ptyBoard.plugIn();
+  await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 8_000 });
+  if (await dashboard.resume.isVisible()) await dashboard.resume.click();
+  await dashboard.type(dashboard.target(1), 1234);
+  await expect.poll(() => lastTarget(ptyBoard.bus, 1)).toBe(1234);
+});
+
+test('a gateway without a port offers the ports it knows', async ({ page, newGateway }) => {
+  const gateway = await newGateway();
+  await page.goto(gateway.url);
+  const dashboard = dashboardOf(page);
+  await dashboard.link.click();
+  await expect(dashboard.connectDialog.getByRole('region', { name: 'Gateway' })).toBeVisible();
+  await expect(dashboard.connectDialog.getByRole('button', { name: 'Look again' })).toBeVisible();
+});
+
+test.describe('when the gateway is killed', () => {
+  test.use({ expectedComplaint: /WebSocket connection to .* failed|ERR_CONNECTION_REFUSED/ });
+
+  test('the page says so, and goes on when it is there again, edits and all', async ({
+    page,
+    ptyBoard,
+    newGateway,
+  }) => {
+    const first = await newGateway({ serial: ptyBoard.device });
+    await page.goto(first.url);
+    const dashboard = dashboardOf(page);
+    await expect(dashboard.link).toHaveText(/^Ready/);
+    await captureGroup(dashboard, [1000, 1200]);
+
+    await first.end();
+    await expect(dashboard.link).toHaveText(/^Lost/);
+    await expect(dashboard.status).toContainText(
+      'No gateway answers at this address. Start it with “npm start”',
+    );
+    await expect(dashboard.bar).toContainText(/Next try in \d+ s/);
+
+    await newGateway({ serial: ptyBoard.device, port: Number(new URL(first.url).port) });
+    await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 8_000 });
+    await expect(dashboard.frames).toHaveCount(2);
+    await dashboard.resume.click();
+    await dashboard.type(dashboard.target(1), 1300);
+    await expect.poll(() => lastTarget(ptyBoard.bus, 1)).toBe(1300);
+  });
+});

@@ -1,0 +1,66 @@
+// The cable is pulled and comes back: the page says what happened and what to do, finds the board again by itself, and
+// waits for a person before anything moves.
+
+import { lastTarget, ofKind } from '../fixtures/bus.ts';
+import { captureGroup } from '../fixtures/group.ts';
+import { expect, test } from '../fixtures/test.ts';
+
+test('a pulled cable is told, comes back without a reload, and moves only after Resume @everyWay', async ({
+  dashboard,
+  robot,
+}) => {
+  await captureGroup(dashboard, [1000, 1200]);
+  await dashboard.type(dashboard.slot, 5);
+
+  await robot.unplug();
+  await expect(dashboard.link).toHaveText(/^Lost/);
+  await expect(dashboard.status).toContainText(/Check the cable|Plug the robot in/);
+  await expect(dashboard.bar).toContainText(/Next try in \d+ s/);
+  await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');
+  await expect(dashboard.button('Run')).toBeDisabled();
+  await expect(dashboard.button('Download')).toBeDisabled();
+
+  await robot.plugIn();
+  await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 8_000 });
+  await expect(dashboard.status).toContainText('The link came back; look at the robot first');
+  await expect(dashboard.frames).toHaveCount(2);
+  await expect(dashboard.slot).toHaveValue('5');
+  await expect(dashboard.estimate(1)).toBeHidden();
+  const movesSoFar = ofKind(await robot.bus(), 'move').length;
+
+  await dashboard.resume.click();
+  await dashboard.type(dashboard.target(1), 1700);
+  await expect.poll(() => lastTarget(robot.bus, 1)).toBe(1700);
+  const moves = ofKind(await robot.bus(), 'move');
+  expect(moves).toHaveLength(movesSoFar + 1);
+  expect(moves.at(-1)!.durationMs).toBeGreaterThanOrEqual(1500);
+});
+
+test('a cable pulled during a download leaves a slot that is known to be broken', async ({
+  dashboard,
+  robot,
+}) => {
+  await captureGroup(
+    dashboard,
+    Array.from({ length: 8 }, (_, index) => 1000 + 10 * index),
+  );
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1070');
+  await dashboard.button('Download').click();
+  await expect(dashboard.progress).toHaveAttribute('aria-valuetext', /^[1-7] of 8 frames$/);
+  await robot.unplug();
+  await expect(dashboard.link).toHaveText(/^Lost/);
+  await expect(dashboard.board).toContainText('Broken: its download did not finish.');
+  await robot.plugIn();
+  await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 8_000 });
+  await dashboard.resume.click();
+  await expect(dashboard.button('Run')).toBeDisabled();
+  await expect(dashboard.button('Download')).toBeEnabled();
+});
+
+test('“Try now” does not wait for the countdown', async ({ dashboard, robot }) => {
+  await robot.unplug();
+  await expect(dashboard.bar).toContainText(/Next try in [2-5] s/);
+  await robot.plugIn();
+  await dashboard.button('Try now').click();
+  await expect(dashboard.link).toHaveText(/^Ready/);
+});
