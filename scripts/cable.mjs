@@ -2,7 +2,7 @@
 // On Linux and macOS behind a pty, on Windows (which has none) over TCP. Knows no gateway.
 
 import { rmSync } from 'node:fs';
-import { endChild, startChild } from './children.mjs';
+import { endChild, isEnding, startChild } from './children.mjs';
 import { python } from './python.mjs';
 import { at, onWindows } from './steps.mjs';
 import { freePort } from './address.mjs';
@@ -40,7 +40,7 @@ export async function simulatedBoard({ link, simulatorArgs = [], onLine, onLost 
     if (!tcp) rmSync(at(link), { force: true });
     if (board !== ended) return;
     board = null;
-    onLost();
+    if (!isEnding()) onLost();
   }
 
   return {

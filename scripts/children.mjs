@@ -50,7 +50,15 @@ export function endChild(child) {
   });
 }
 
+let ending = false;
+
+/** Whether we are on our way out: what ends from then on is no news. */
+export function isEnding() {
+  return ending;
+}
+
 export async function endChildren() {
+  ending = true;
   await Promise.all([...living].map(endChild));
 }
 

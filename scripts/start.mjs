@@ -5,7 +5,7 @@ import { once } from 'node:events';
 import { createInterface } from 'node:readline';
 import { chooseAddress, textOf } from './address.mjs';
 import { simulatedBoard } from './cable.mjs';
-import { endChildren, onEnd, startChild } from './children.mjs';
+import { endChildren, isEnding, onEnd, startChild } from './children.mjs';
 import { python } from './python.mjs';
 import { setUp } from './setup.mjs';
 import { main, say } from './steps.mjs';
@@ -42,12 +42,8 @@ async function toggle(cable) {
   }
 }
 
-/** Set once we are on our way out: what ends from then on is no news. */
-let leaving = false;
-
 /** @param {number} code */
 async function leave(code) {
-  leaving = true;
   await endChildren();
   process.exit(code); // an open stdin would keep us here
 }
@@ -57,7 +53,7 @@ function boardOn(device) {
   return simulatedBoard({
     link: device,
     onLine: say,
-    onLost: () => leaving || say('The simulated board has ended. Enter brings it back.'),
+    onLost: () => say('The simulated board has ended. Enter brings it back.'),
   });
 }
 
@@ -108,7 +104,7 @@ async function start() {
     else void Promise.resolve(plugged).then(() => greet(url, cable));
   });
   await once(gateway, 'close');
-  if (leaving) return 0;
+  if (isEnding()) return 0;
   say('The gateway has ended by itself; the lines above may say why.');
   await leave(1);
   return 1;
