@@ -42,8 +42,8 @@ function Dashboard({ page }: { readonly page: Page }) {
   return (
     <div className={styles.app} data-layout={layout}>
       <TopBar />
-      {layout === 'phone' ? <PhoneWork /> : <DeskWork />}
       <StopButton />
+      {layout === 'phone' ? <PhoneWork /> : <DeskWork />}
       <Messages />
       <p className={styles.said} role="status">
         {said}
@@ -89,14 +89,16 @@ function PhoneWork() {
       selectedKey={tab}
       onSelectionChange={(key) => view.setState({ tab: key as TabName })}
     >
-      <TabList className={styles.tabList ?? ''} aria-label={words.tabList}>
-        {TABS.map(({ id, icon }) => (
-          <Tab key={id} id={id} className={styles.tab ?? ''}>
-            <Icon name={icon} />
-            {words.tabs[id]}
-          </Tab>
-        ))}
-      </TabList>
+      <nav className={styles.tabBar} aria-label={words.tabList}>
+        <TabList className={styles.tabList ?? ''} aria-label={words.tabList}>
+          {TABS.map(({ id, icon }) => (
+            <Tab key={id} id={id} className={styles.tab ?? ''}>
+              <Icon name={icon} />
+              {words.tabs[id]}
+            </Tab>
+          ))}
+        </TabList>
+      </nav>
       <main className={styles.phone}>
         <TabPanel id="live" className={styles.tabPanel ?? ''}>
           <ServosPanel />

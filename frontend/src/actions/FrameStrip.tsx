@@ -1,7 +1,7 @@
 // The frames in order, one card each; they wrap like a contact sheet. One tab stop for the cards: arrows select, Alt with
 // an arrow moves the frame, Delete deletes it. The frame that plays is marked.
 
-import { useEffect, useRef, type KeyboardEvent } from 'react';
+import { useEffect, useRef, useState, type KeyboardEvent } from 'react';
 import { deleteFrame, indexOfFrame, moveFrame } from '#shared/actions/edits.ts';
 import { useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { words } from '../words/en.ts';
@@ -16,18 +16,19 @@ export function FrameStrip() {
   const playFrom = useView((state) => state.playFrom);
   const playing = useSnapshot(({ activity }) => (activity.kind === 'playing' ? activity.frameIndex : null));
   const list = useRef<HTMLOListElement>(null);
-  const wantsFocus = useRef(false);
+  /** Counts wishes to see the focus on the selected card, which may be drawn only by the next round. */
+  const [focusWish, setFocusWish] = useState(0);
   const tabStop = indexOfFrame(group, selected ?? -1) >= 0 ? selected : group.frames[0]?.id;
 
   useEffect(() => {
-    if (!wantsFocus.current) return;
-    wantsFocus.current = false;
-    list.current?.querySelector<HTMLElement>(`[data-frame='${selected}'] [data-card-face]`)?.focus();
-  }, [selected, group]);
+    if (focusWish === 0) return;
+    const id = view.getState().selectedFrame;
+    list.current?.querySelector<HTMLElement>(`[data-frame='${id}'] [data-card-face]`)?.focus();
+  }, [focusWish, view]);
 
   function select(id: number | null): void {
-    wantsFocus.current = true;
     view.setState({ selectedFrame: id });
+    setFocusWish((wish) => wish + 1);
   }
 
   /** What one key does to the frame that has the focus. */
@@ -38,7 +39,7 @@ export function FrameStrip() {
       select(group.frames[index + 1]?.id ?? group.frames[index - 1]?.id ?? null);
       document.edit(words.actions.steps.delete(index + 1), (before) => deleteFrame(before, id));
     } else if (to === null) return;
-    else if (event.altKey) {
+    else if (event.altKey && to !== index) {
       document.edit(words.actions.steps.move(index + 1), (before) => moveFrame(before, id, to));
       select(id);
       view.setState({ said: words.actions.moved(index + 1, to + 1) });

@@ -69,7 +69,7 @@ interface WayCardProps {
 
 function WayCard({ title, about, isCurrent, children }: WayCardProps) {
   return (
-    <section className={styles.card} aria-label={title}>
+    <div className={styles.card} role="group" aria-label={title}>
       <div className={styles.cardText}>
         <h3>
           {title}{' '}
@@ -82,7 +82,7 @@ function WayCard({ title, about, isCurrent, children }: WayCardProps) {
         <p className={styles.dim}>{about}</p>
       </div>
       <div className={styles.choices}>{children}</div>
-    </section>
+    </div>
   );
 }
 

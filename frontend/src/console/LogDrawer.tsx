@@ -14,13 +14,13 @@ export function LogDrawer() {
   const isOpen = useView((state) => state.logOpen);
   if (isOpen) {
     return (
-      <div className={styles.open}>
+      <div className={styles.open} data-drawer="">
         <LogPanel onFold={() => view.setState({ logOpen: false })} />
       </div>
     );
   }
   return (
-    <section className={styles.folded} aria-label={words.log.title}>
+    <section className={styles.folded} aria-label={words.log.title} data-drawer="">
       <AriaButton
         className={styles.button ?? ''}
         aria-label={words.log.open}

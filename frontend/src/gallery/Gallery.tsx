@@ -26,7 +26,7 @@ export function Gallery() {
   const wanted = new URLSearchParams(location.search).get('state');
   const shown = SPECIMENS.filter((specimen) => wanted === null || specimen.name === wanted);
   return (
-    <div className={styles.gallery}>
+    <main className={styles.gallery}>
       <nav className={styles.index} aria-label="States">
         <a href="?">All</a>
         {SPECIMENS.map(({ name }) => (
@@ -39,7 +39,7 @@ export function Gallery() {
       {shown.map((specimen) => (
         <Shown key={specimen.name} specimen={specimen} />
       ))}
-    </div>
+    </main>
   );
 }
 

@@ -12,7 +12,7 @@ const seconds = new Intl.NumberFormat(language, {
 const grouped = new Intl.NumberFormat(language);
 const percent = new Intl.NumberFormat(language, { style: 'percent' });
 const ago = new Intl.RelativeTimeFormat(language, { style: 'short' });
-const list = new Intl.ListFormat(language, { style: 'short', type: 'conjunction' });
+const list = new Intl.ListFormat(language);
 const elapsed = new Intl.DateTimeFormat(language, {
   timeZone: 'UTC',
   minute: '2-digit',
