@@ -2,6 +2,7 @@
 // they measure. Each figure is taken in the same run as what it stands beside.
 
 import { writeFileSync } from 'node:fs';
+import { availableParallelism, loadavg } from 'node:os';
 import { parseArgs } from 'node:util';
 import { endChildren, onEnd } from '../scripts/children.mjs';
 import { SetupProblem, main, say } from '../scripts/steps.mjs';
@@ -12,6 +13,7 @@ import { toRecord, type Figure } from './figure.ts';
 import { measurePageSize } from './pageSize.ts';
 import { measureRelay } from './relay.ts';
 import { measureStart } from './start.ts';
+import { measureStop } from './stop.ts';
 import { toTable } from './table.ts';
 
 const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
@@ -19,6 +21,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   drag: measureDrag,
   download: measureDownload,
   relay: measureRelay,
+  stop: measureStop,
   start: measureStart,
   page: measurePageSize,
 };
@@ -39,22 +42,35 @@ function readArguments(): { only: readonly string[]; json: string | undefined } 
   }
 }
 
-/** One after the other: two measurements at once would measure each other. */
-async function measure(names: readonly string[]): Promise<readonly Figure[]> {
+/** One after the other: two measurements at once would measure each other. A group that fails leaves the others theirs. */
+async function measure(names: readonly string[]): Promise<{ figures: readonly Figure[]; failed: boolean }> {
   const figures: Figure[] = [];
+  let failed = false;
   for (const name of names) {
     const startMs = performance.now();
-    figures.push(...((await GROUPS[name]?.()) ?? []));
-    say(`measured ${name} in ${((performance.now() - startMs) / 1_000).toFixed(1)} s`);
+    try {
+      figures.push(...((await GROUPS[name]?.()) ?? []));
+      say(`measured ${name} in ${((performance.now() - startMs) / 1_000).toFixed(1)} s`);
+    } catch (error) {
+      failed = true;
+      say(`could not measure ${name}: ${error instanceof Error ? error.message : String(error)}`);
+    }
   }
-  return figures;
+  return { figures, failed };
+}
+
+/** Other work on the machine makes every time longer; figures of a busy one are upper bounds. */
+function describeMachine(): string {
+  const [lastMinute = 0] = loadavg();
+  return `${availableParallelism()} cores, load ${lastMinute.toFixed(1)} in the minute before, Node ${process.version}`;
 }
 
 await main(async () => {
   onEnd(() => void endChildren().then(() => process.exit(130)));
   const { only, json } = readArguments();
-  const figures = await measure(only);
+  say(describeMachine());
+  const { figures, failed } = await measure(only);
   say(`\n${toTable(figures)}\n`);
   if (json !== undefined) writeFileSync(json, `${JSON.stringify(toRecord(figures), null, 2)}\n`);
-  return 0;
+  return failed ? 1 : 0;
 });

@@ -4,15 +4,16 @@
 // The board's line takes no time here, so what is left is the relay's own. The question is to run an empty slot: its
 // answer is immediate and has no parameters, so no decoder holds it back to see what follows it.
 
+import type { Page } from '@playwright/test';
 import { encodeCommand, encodeReport } from '#shared/protocol/encode.ts';
 import { family } from '#shared/protocol/families.ts';
 import { python } from '../scripts/python.mjs';
 import { mustRun } from '../scripts/steps.mjs';
 import type { Figure } from './figure.ts';
-import { startBoard, startBrowser, startGateway } from './station.ts';
+import { withBoard, withPage } from './station.ts';
 import { percentile } from './statistics.ts';
 
-const TRIPS = 500;
+const TRIPS = 400;
 /** Thrown away: caches and compilers warm up, on both sides alike. */
 const WARM_UP_TRIPS = 50;
 /** Longer than the gateway leaves between two packets (the wire's time and 10 ms), so that no question waits for its turn. */
@@ -22,13 +23,13 @@ const question = hex(encodeCommand({ kind: 'run', slot: 200, times: 1 }, family(
 const answer = hex(encodeReport({ kind: 'runAccepted' }));
 
 export async function measureRelay(): Promise<Figure[]> {
-  const board = await startBoard('--baud', '0');
-  const throughPage = (await tripsThroughPage(board.device)).slice(WARM_UP_TRIPS);
-  const plain = (await tripsOfPyserial(board.device)).slice(WARM_UP_TRIPS);
-  await board.end();
+  const [throughPage, plain] = await withBoard(['--baud', '0'], async ({ device }) => [
+    await withPage(device, tripsThroughPage),
+    await tripsOfPyserial(device),
+  ]);
   const figure = (key: string, percent: number, note: string): Figure => ({
-    ...{ key, value: percentile(throughPage, percent), unit: 'µs', note },
-    against: { what: 'pyserial alone', value: percentile(plain, percent) },
+    ...{ key, value: percentile(throughPage.slice(WARM_UP_TRIPS), percent), unit: 'µs', note },
+    against: { what: 'pyserial alone', value: percentile(plain.slice(WARM_UP_TRIPS), percent) },
   });
   return [
     figure('relay.roundtripP50Us', 50, `page, gateway, pty, board and back; ${TRIPS} trips`),
@@ -36,23 +37,16 @@ export async function measureRelay(): Promise<Figure[]> {
   ];
 }
 
-async function tripsThroughPage(device: string): Promise<readonly number[]> {
-  const gateway = await startGateway(device);
-  const browser = await startBrowser();
-  // Any document of the gateway's own address will do. Isolated, its clock steps by 5 µs instead of 100; the header for
-  // that is added on the way, after which Chromium no longer knows that the page came from this computer.
-  const page = await browser.newPage({ permissions: ['local-network-access'] });
+/** Any document of the gateway's own address will do. Isolated, a page's clock steps by 5 µs instead of 100. */
+async function tripsThroughPage(page: Page, url: string): Promise<readonly number[]> {
   await page.route('**/api/health', async (route) => {
     const response = await route.fetch();
     const headers = { ...response.headers(), 'cross-origin-embedder-policy': 'require-corp' };
     await route.fulfill({ response, headers });
   });
-  await page.goto(`${gateway.url}/api/health`);
+  await page.goto(`${url}/api/health`);
   const trips = WARM_UP_TRIPS + TRIPS;
-  const microseconds = await page.evaluate(askInPage, { question, answer, trips, pauseMs: PAUSE_MS });
-  await browser.close();
-  await gateway.end();
-  return microseconds;
+  return page.evaluate(askInPage, { question, answer, trips, pauseMs: PAUSE_MS });
 }
 
 interface Questions {

@@ -7,10 +7,10 @@ import { endChild, startChild } from '../scripts/children.mjs';
 import { python } from '../scripts/python.mjs';
 import { SetupProblem } from '../scripts/steps.mjs';
 import type { Figure } from './figure.ts';
-import { startBoard } from './station.ts';
+import { withBoard } from './station.ts';
 import { median } from './statistics.ts';
 
-const STARTS = 7;
+const STARTS = 5;
 const POLL_MS = 2;
 const READY_MS = 15_000;
 const HOST = '127.0.0.1';
@@ -23,16 +23,16 @@ interface Start {
 
 type CommandOn = (port: number) => readonly string[];
 
-export async function measureStart(): Promise<Figure[]> {
-  const board = await startBoard();
-  const serve: CommandOn = (port) => [
-    ...['-m', 'servodeck', 'serve', '--listen', `${HOST}:${port}`, '--serial', board.device],
-    ...['--no-open', '--exit-with-stdin'],
-  ];
-  const empty: CommandOn = (port) => ['bench/empty_app.py', HOST, String(port)];
-  const [gateway, rival] = await startInTurns([serve, empty]);
-  await board.end();
-  return figuresOf(gateway ?? [], rival ?? []);
+export function measureStart(): Promise<Figure[]> {
+  return withBoard([], async ({ device }) => {
+    const serve: CommandOn = (port) => [
+      ...['-m', 'servodeck', 'serve', '--listen', `${HOST}:${port}`, '--serial', device],
+      ...['--no-open', '--exit-with-stdin'],
+    ];
+    const empty: CommandOn = (port) => ['bench/empty_app.py', HOST, String(port)];
+    const [gateway = [], rival = []] = await startInTurns([serve, empty]);
+    return figuresOf(gateway, rival);
+  });
 }
 
 function figuresOf(gateway: readonly Start[], rival: readonly Start[]): Figure[] {

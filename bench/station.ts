@@ -1,10 +1,10 @@
-// What a person has on the table: a simulated board on a serial port, the gateway on it, a browser. Starts and ends the
-// real programs; measures nothing.
+// What a person has on the table: a simulated board on a serial port, the gateway on it, a browser. Starts the real
+// programs, lends them, ends them however the work ended; measures nothing.
 
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
-import { chromium, type Browser } from '@playwright/test';
+import { chromium, type Browser, type Page } from '@playwright/test';
 import type { BusLogEntry } from '#shared/simulator/busLog.ts';
 import { browserForTests, findBrowser } from '../scripts/browser.mjs';
 import { simulatedBoard } from '../scripts/cable.mjs';
@@ -19,16 +19,13 @@ export interface BoardOnPort {
   readonly device: string;
   /** Every byte of the bus so far, with its time since the epoch. */
   readBusLog(): readonly BusLogEntry[];
-  end(): Promise<void>;
 }
 
-export interface Gateway {
-  readonly url: string;
-  end(): Promise<void>;
-}
-
-/** `simulatorArgs` as for the simulator program, e.g. `--baud 0`. */
-export async function startBoard(...simulatorArgs: readonly string[]): Promise<BoardOnPort> {
+/** Lends a fresh board to `work`. `simulatorArgs` as for the simulator program, e.g. `--baud 0`. */
+export async function withBoard<Result>(
+  simulatorArgs: readonly string[],
+  work: (board: BoardOnPort) => Promise<Result>,
+): Promise<Result> {
   const folder = mkdtempSync(path.join(tmpdir(), 'servodeck-bench-'));
   const busLog = path.join(folder, 'bus.jsonl');
   const lines: string[] = [];
@@ -38,34 +35,52 @@ export async function startBoard(...simulatorArgs: readonly string[]): Promise<B
     onLine: (line) => lines.push(line),
     onLost: () => lines.push('it ended'),
   });
-  await cable.plug();
-  if (!cable.isPlugged()) throw new SetupProblem(`The simulated board did not start: ${lines.join(' ')}`);
-  return {
-    device: cable.device,
-    readBusLog: () => parseBusLog(readFileSync(busLog, 'utf8')),
-    async end() {
-      await cable.pull();
-      rmSync(folder, { recursive: true });
-    },
-  };
+  try {
+    await cable.plug();
+    if (!cable.isPlugged()) throw new SetupProblem(`The simulated board did not start: ${lines.join(' ')}`);
+    return await work({
+      device: cable.device,
+      readBusLog: () => parseBusLog(readFileSync(busLog, 'utf8')),
+    });
+  } finally {
+    await cable.pull();
+    rmSync(folder, { recursive: true });
+  }
 }
 
-/** Resolves when its port is open. */
-export async function startGateway(device: string): Promise<Gateway> {
+/** Lends `work` an empty page of a browser and the address of a gateway whose port is open. */
+export async function withPage<Result>(
+  device: string,
+  work: (page: Page, url: string) => Promise<Result>,
+): Promise<Result> {
   const lines: string[] = [];
   const serve = ['-m', 'servodeck', 'serve', '--listen', '127.0.0.1:0', '--serial', device];
-  const child = startChild(python, [...serve, '--no-open', '--exit-with-stdin'], (line) => lines.push(line));
-  const urlOf = (line: string): string | undefined => /http:\/\/[^\s]+/.exec(line)?.[0].replace(/\/$/, '');
-  const url = await eventually('the gateway to start', () => lines.map(urlOf).find(Boolean));
-  await eventually('the gateway to open the port', async () => {
-    const response = await fetch(`${url}/api/status`);
-    const status = (await response.json()) as { port: { status: string } };
-    return status.port.status === 'open' || undefined;
-  });
-  return { url, end: () => endChild(child) };
+  const gateway = startChild(python, [...serve, '--no-open', '--exit-with-stdin'], (line) =>
+    lines.push(line),
+  );
+  const browser = await startBrowser();
+  try {
+    const url = await openedGateway(lines);
+    // Pages of this computer may always speak to it; one whose headers a measurement changed has to be allowed.
+    return await work(await browser.newPage({ permissions: ['local-network-access'] }), url);
+  } finally {
+    await browser.close();
+    await endChild(gateway);
+  }
 }
 
-export async function startBrowser(): Promise<Browser> {
+/** Its address, once it has said it and opened its port. */
+async function openedGateway(lines: readonly string[]): Promise<string> {
+  const urlIn = (line: string): string | undefined => /http:\/\/[^\s/]+/.exec(line)?.[0];
+  const url = await eventually('the gateway to start', () => lines.map(urlIn).find(Boolean));
+  return eventually('the gateway to open its port', async () => {
+    const response = await fetch(`${url}/api/status`);
+    const status = (await response.json()) as { port: { status: string } };
+    return status.port.status === 'open' ? url : undefined;
+  });
+}
+
+async function startBrowser(): Promise<Browser> {
   if (findBrowser() === null) await browserForTests();
   const executablePath = findBrowser();
   return chromium.launch(executablePath === null ? {} : { executablePath });
