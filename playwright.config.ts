@@ -20,7 +20,7 @@ export default defineConfig<object, { way: Way }>({
     { name: 'commands', testMatch: 'commands/**' },
     { name: 'gateway', testMatch: ['tasks/**', 'gateway/**'], use: { way: 'gateway' } },
     { name: 'webserial', testMatch: 'tasks/**', grep: /@everyWay/, use: { way: 'webSerial' } },
-    { name: 'real-webserial', testMatch: 'realSerial/**' },
+    { name: 'real-webserial', testMatch: 'realSerial/**', use: { way: 'webSerial' } },
     { name: 'quality', testMatch: 'quality/**' },
   ],
   use: {
