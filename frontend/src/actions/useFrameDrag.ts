@@ -23,6 +23,7 @@ export function useFrameDrag(id: number, index: number): FrameDrag {
 
   function startDrag(event: ReactPointerEvent): void {
     if (event.button !== 0) return;
+    event.preventDefault();
     const ended = new AbortController();
     const end = (finish: () => void) => (): void => {
       ended.abort();

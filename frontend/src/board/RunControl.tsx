@@ -41,13 +41,12 @@ export function RunControl() {
         >
           {words.board.run}
         </Button>
-        <div className={styles.actions}>
+        <div className={styles.running}>
           {isRunning ? (
             <Running activity={activity} />
           ) : (
             <p className={styles.hint}>{words.board.runHint(slot, times)}</p>
           )}
-          <span className={styles.push} />
           <Button
             icon="end"
             hint={words.board.stopGroupHint}
@@ -96,7 +95,7 @@ const TRUTH = { requested: 'commanded', acknowledged: 'confirmed', unknown: 'unk
 
 function Running({ activity }: { readonly activity: Extract<Activity, { kind: 'running' }> }) {
   return (
-    <div className={styles.about}>
+    <div className={styles.run}>
       <Chip truth={TRUTH[activity.truth]}>{words.activity.running(activity.slot, activity.times)}</Chip>
       <p>{words.activity.runTruth[activity.truth]}</p>
     </div>

@@ -5,7 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { createSession } from '#shared/session/session.ts';
 import type { Transport } from '#shared/session/transport.ts';
-import type { Device } from '../stores/device.ts';
+import type { Device, Way } from '../stores/device.ts';
 import type { TextStorage } from '../stores/document.ts';
 import type { Notices } from '../stores/notices.ts';
 import { createGatewayTransport } from '../transports/gateway.ts';
@@ -76,11 +76,11 @@ export function createConnector(device: Device, notices: Notices, storage: TextS
 
   async function connect(transport: Transport, board: FamilyId): Promise<void> {
     const session = createSession({ transport, family: FAMILIES[board], clock: device.clock });
-    device.attach(session, { kind: transport.kind, label: transport.label });
+    device.attach(session, wayOf(transport));
     // A first attempt that fails is in the link's state, with its sentence and its next try.
     await session.open().catch(() => undefined);
-    // Some transports learn the device's name only by opening it.
-    device.rename(session, transport.label);
+    // Some transports learn what they lead to only by opening it.
+    device.describe(session, wayOf(transport));
   }
 
   function chosen(kind: Transport['kind'], transport: Transport): void {
@@ -139,3 +139,5 @@ export function createConnector(device: Device, notices: Notices, storage: TextS
     disconnect: () => void device.detach().catch(notices.tellError),
   };
 }
+
+const wayOf = ({ kind, label, isSimulated }: Transport): Way => ({ kind, label, isSimulated });

@@ -23,7 +23,10 @@ export async function readGateway(): Promise<GatewayStatus | null> {
     const status: unknown = await ask('api/status');
     if (!isRecord(status) || typeof status.board !== 'string' || !isRecord(status.port)) return null;
     const { device } = status.port;
-    return { board: boardOf(status.board), device: typeof device === 'string' ? device : null };
+    return {
+      board: boardOf(status.board),
+      device: typeof device === 'string' ? device : null,
+    };
   } catch {
     return null;
   }

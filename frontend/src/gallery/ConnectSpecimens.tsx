@@ -18,10 +18,14 @@ const CASES: readonly {
   readonly state: ConnectState;
   readonly current: Way | null;
 }[] = [
-  { name: 'Connect, no gateway', state: BASE, current: { kind: 'simulated', label: 'Simulated board' } },
+  {
+    name: 'Connect, no gateway',
+    state: BASE,
+    current: { kind: 'simulated', label: 'Simulated board', isSimulated: true },
+  },
   {
     name: 'Connect, gateway with ports',
-    current: { kind: 'gateway', label: '/dev/ttyUSB0' },
+    current: { kind: 'gateway', label: '/dev/ttyUSB0', isSimulated: false },
     state: {
       ...BASE,
       gateway: { board: 'doc', device: '/dev/ttyUSB0' },
@@ -34,7 +38,11 @@ const CASES: readonly {
   {
     name: 'Connect, insecure address',
     current: null,
-    state: { ...BASE, serialObstacle: 'insecureAddress', gateway: { board: 'doc', device: null } },
+    state: {
+      ...BASE,
+      serialObstacle: 'insecureAddress',
+      gateway: { board: 'doc', device: null },
+    },
   },
   {
     name: 'Connect, browser without serial ports',

@@ -15,9 +15,9 @@ export interface Specimen {
   readonly selectedFrame?: number;
 }
 
-const SIMULATED: Way = { kind: 'simulated', label: 'Simulated board' };
-const USB: Way = { kind: 'webSerial', label: 'USB 1A86:7523' };
-const REMOTE: Way = { kind: 'gateway', label: '/dev/ttyUSB0' };
+const SIMULATED: Way = { kind: 'simulated', label: 'Simulated board', isSimulated: true };
+const USB: Way = { kind: 'webSerial', label: 'USB 1A86:7523', isSimulated: false };
+const REMOTE: Way = { kind: 'gateway', label: '/dev/ttyUSB0', isSimulated: false };
 
 const READY: SessionState = {
   ...UNCONNECTED,

@@ -9,7 +9,7 @@ async function createDesk(visible = () => true) {
   const rig = await createRig();
   const device = createDevice(FAMILIES.doc, rig.clock, createNotices(rig.clock));
   const end = pollBattery(device, visible);
-  device.attach(rig.session, { kind: 'simulated', label: 'Simulated board' });
+  device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
   return { ...rig, device, end, asked: () => rig.ofKind('readBattery').length };
 }
 

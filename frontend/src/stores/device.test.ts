@@ -15,7 +15,7 @@ async function createDesk() {
   const rig = await createRig();
   const notices = createNotices(rig.clock);
   const device = createDevice(FAMILIES.doc, rig.clock, notices);
-  device.attach(rig.session, { kind: 'simulated', label: 'Simulated board' });
+  device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
   const state = () => device.store.getState();
   const told = () => notices.store.getState().map((notice) => notice.text);
   /** Time passes with the page being drawn, as it is in a browser. */

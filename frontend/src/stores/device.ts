@@ -18,6 +18,8 @@ import { createTrafficLog, type TrafficLog } from './traffic.ts';
 export interface Way {
   readonly kind: Transport['kind'];
   readonly label: string;
+  /** Nothing real moves, whichever way leads there. */
+  readonly isSimulated: boolean;
 }
 
 export interface DeviceState {
@@ -34,8 +36,8 @@ export interface Device {
   readonly clock: Clock;
   /** Takes the session over and closes the one before it. */
   attach(session: Session, way: Way): void;
-  /** The device's name became known, or another one. */
-  rename(session: Session, label: string): void;
+  /** What the session's way leads to became known. */
+  describe(session: Session, way: Way): void;
   detach(): Promise<void>;
   motion(servo: number): ServoMotion;
   /** Takes the session's targets over; to be called while the page is drawn, once a frame. */
@@ -134,10 +136,8 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
       store.setState({ family: next.family, way, snapshot: next.state });
       unsubscribe = next.subscribe({ state: noteState, traffic: traffic.add, problem: noteProblem });
     },
-    rename(named, label) {
-      const { way } = store.getState();
-      if (named === session && way !== null && way.label !== label)
-        store.setState({ way: { ...way, label } });
+    describe(described, way) {
+      if (described === session) store.setState({ way });
     },
     detach,
     motion,

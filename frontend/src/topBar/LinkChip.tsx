@@ -19,7 +19,7 @@ export function LinkChip() {
   const { view } = useStores();
   const status = useSnapshot((snapshot) => snapshot.link.status);
   const way = useDevice((state) => state.way);
-  const isSimulated = way?.kind === 'simulated';
+  const isSimulated = way?.isSimulated === true;
   const open = (): void => view.setState({ connectOpen: true });
   const label = way === null || isSimulated ? '' : way.label;
   return (

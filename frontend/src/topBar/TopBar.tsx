@@ -40,7 +40,7 @@ function Sign() {
 
 function Robot() {
   const name = useDevice(({ way, family }) =>
-    way === null ? words.link.noBoard : way.kind === 'simulated' ? '' : family.name,
+    way === null ? words.link.noBoard : way.isSimulated ? '' : family.name,
   );
   return (
     <div className={styles.robot}>

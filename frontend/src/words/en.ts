@@ -138,7 +138,7 @@ export const words = {
     centre: 'Centre all',
     centreHint: 'Moves every servo slowly to the middle',
     blocked: {
-      closed: 'Connect a robot to move it.',
+      closed: 'No link to a robot.',
       latched: 'Stopped. Resume to move.',
       busy: 'The board is busy; moving waits.',
     },
