@@ -59,18 +59,22 @@ async function measure(names: readonly string[]): Promise<{ figures: readonly Fi
   return { figures, failed };
 }
 
-/** Other work on the machine makes every time longer; figures of a busy one are upper bounds. */
-function describeMachine(): string {
+function machineLoad(): Figure {
   const [lastMinute = 0] = loadavg();
-  return `${availableParallelism()} cores, load ${lastMinute.toFixed(1)} in the minute before, Node ${process.version}`;
+  return {
+    ...{ key: 'machine.load', value: lastMinute, unit: '' },
+    against: { what: 'cores', value: availableParallelism() },
+    note: 'work in the minute before; where others take the cores, times are upper bounds',
+  };
 }
 
 await main(async () => {
   onEnd(() => void endChildren().then(() => process.exit(130)));
   const { only, json } = readArguments();
-  say(describeMachine());
-  const { figures, failed } = await measure(only);
+  const load = machineLoad();
+  const measured = await measure(only);
+  const figures = [load, ...measured.figures];
   say(`\n${toTable(figures)}\n`);
   if (json !== undefined) writeFileSync(json, `${JSON.stringify(toRecord(figures), null, 2)}\n`);
-  return failed ? 1 : 0;
+  return measured.failed ? 1 : 0;
 });

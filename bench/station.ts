@@ -26,7 +26,7 @@ export async function withBoard<Result>(
   simulatorArgs: readonly string[],
   work: (board: BoardOnPort) => Promise<Result>,
 ): Promise<Result> {
-  const folder = mkdtempSync(path.join(tmpdir(), 'servodeck-bench-'));
+  const folder = temporaryFolder();
   const busLog = path.join(folder, 'bus.jsonl');
   const lines: string[] = [];
   const cable = await simulatedBoard({
@@ -44,8 +44,14 @@ export async function withBoard<Result>(
     });
   } finally {
     await cable.pull();
-    rmSync(folder, { recursive: true });
   }
+}
+
+/** Goes with this process, however that ends. */
+function temporaryFolder(): string {
+  const folder = mkdtempSync(path.join(tmpdir(), 'servodeck-bench-'));
+  process.once('exit', () => rmSync(folder, { recursive: true, force: true }));
+  return folder;
 }
 
 /** Lends `work` an empty page of a browser and the address of a gateway whose port is open. */
