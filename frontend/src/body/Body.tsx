@@ -3,9 +3,12 @@
 
 import { useRef } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
-import { useDevice, useStores } from '../stores/stores.ts';
+import { useDevice, useStores, useView } from '../stores/stores.ts';
+import { cx } from '../ui/cx.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { words } from '../words/en.ts';
+import { formatWhole } from '../words/numbers.ts';
+import { Dial } from './Dial.tsx';
 import { ArmFigure, drawArm } from './ArmFigure.tsx';
 import { armPicture, samePicture, type ArmPicture, type Pose } from './pose.ts';
 import { BaseView, drawBase, drawHand, HandView } from './insets.tsx';
@@ -16,9 +19,30 @@ export function Body() {
   const unknown = useDevice((state) => Object.keys(state.targets).length === 0);
   return (
     <div className={styles.body}>
-      {family.usualServoCount === 6 && <Arm />}
+      {family.usualServoCount === 6 ? <Arm /> : <Dials />}
       <p className={styles.note}>{unknown ? words.body.allUnknown : ''}</p>
     </div>
+  );
+}
+
+/** A robot whose body nobody described: its dials, large enough to read across the room. */
+function Dials() {
+  const { view } = useStores();
+  const family = useDevice((state) => state.family);
+  const selected = useView((state) => state.selectedServo);
+  return (
+    <ol className={styles.dials}>
+      {Array.from({ length: family.usualServoCount }, (_, index) => index + 1).map((servo) => (
+        <li
+          key={servo}
+          className={cx(styles.dial, servo === selected && styles.selected)}
+          onPointerDown={() => view.setState({ selectedServo: servo })}
+        >
+          <Dial servo={servo} family={family} />
+          {formatWhole(servo)}
+        </li>
+      ))}
+    </ol>
   );
 }
 

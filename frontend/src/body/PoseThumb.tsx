@@ -14,7 +14,7 @@ export interface PoseThumbProps {
 export function PoseThumb({ pose, changed, family }: PoseThumbProps) {
   const servos = Array.from({ length: family.usualServoCount }, (_, index) => index + 1);
   return (
-    <span className={styles.thumb} aria-hidden="true">
+    <span className={styles.thumb} data-arm={family.usualServoCount === 6} aria-hidden="true">
       {family.usualServoCount === 6 && (
         <svg className={styles.arm} viewBox="-250 -262 500 300">
           <path className={styles.ground} d="M-250 26H250M-26 26v-26a26 26 0 0 1 52 0v26z" />

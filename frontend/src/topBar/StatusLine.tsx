@@ -5,6 +5,7 @@ import { useSnapshot, useStores } from '../stores/stores.ts';
 import type { Activity, Latch, LinkState } from '#shared/session/state.ts';
 import { Button } from '../ui/Button.tsx';
 import { Mark, type Truth } from '../ui/Chip.tsx';
+import { cx } from '../ui/cx.ts';
 import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/en.ts';
 import { errorSentence } from '../words/errors.ts';
@@ -15,7 +16,7 @@ export function StatusLine() {
   const latch = useSnapshot((snapshot) => snapshot.latch);
   const activity = useSnapshot((snapshot) => snapshot.activity);
   return (
-    <div className={styles.line}>
+    <div className={cx(styles.line, link.status === 'lost' && styles.lost)}>
       {link.status === 'lost' ? (
         <Lost link={link} />
       ) : latch !== null ? (

@@ -29,5 +29,5 @@ const SHAPES: Readonly<Record<Truth, React.ReactNode>> = {
   confirmed: <path d="M1.5 6.5l3 3L10.5 2.5" className={styles.outline} />,
   unknown: <path d="M2 10L10 2M2 6l4-4M6 10l4-4" className={styles.outline} />,
   warning: <path d="M6 1l5.5 10H.5z" className={styles.solid} />,
-  danger: <path d="M3.8 1h4.4L11 3.8v4.4L8.2 11H3.8L1 8.2V3.8z" className={styles.solid} />,
+  danger: <path d="M2.5 2.5l7 7M9.5 2.5l-7 7" className={styles.outline} />,
 };
