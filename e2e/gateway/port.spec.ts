@@ -27,7 +27,7 @@ test('a gateway without a port offers the ports it knows', async ({ page, newGat
   await page.goto(gateway.url);
   const dashboard = dashboardOf(page);
   await dashboard.link.click();
-  await expect(dashboard.connectDialog.getByRole('region', { name: 'Gateway' })).toBeVisible();
+  await expect(dashboard.connectDialog.getByRole('group', { name: 'Gateway' })).toBeVisible();
   await expect(dashboard.connectDialog.getByRole('button', { name: 'Look again' })).toBeVisible();
 });
 

@@ -22,14 +22,8 @@ test('a slider stepped by key moves the servo, slowly at first, and the estimate
   await expect(dashboard.estimate(3)).toHaveText('≈ 1510');
 });
 
-test('a dragged slider takes the servo along to where it is let go', async ({ dashboard, robot, page }) => {
-  const box = await dashboard.slider(1).boundingBox();
-  const [y, atShare] = [box!.y + box!.height / 2, (share: number) => box!.x + box!.width * share];
-  await page.mouse.move(atShare(0.5), y);
-  await page.mouse.down();
-  await page.mouse.move(atShare(0.8), y, { steps: 20 });
-  await page.mouse.up();
-
+test('a dragged slider takes the servo along to where it is let go', async ({ dashboard, robot }) => {
+  await dashboard.drag(1, 0.8);
   const shown = Number(await dashboard.slider(1).inputValue());
   expect(shown).toBeGreaterThan(2000);
   await expect(dashboard.target(1)).toHaveValue(String(shown));

@@ -1,0 +1,86 @@
+// Every main state in every layout, light and dark: axe finds nothing to object to, and nothing has to be scrolled
+// sideways.
+
+import { AxeBuilder } from '@axe-core/playwright';
+import type { Page } from '@playwright/test';
+import { dashboardOf } from '../fixtures/dashboard.ts';
+import { expect, test } from '../fixtures/test.ts';
+
+const SIZES = [
+  { width: 390, height: 844 },
+  { width: 820, height: 1180 },
+  { width: 1440, height: 900 },
+];
+const TABS = ['Actions', 'Board', 'Log', 'Live'];
+
+interface Look {
+  readonly page: Page;
+  readonly isDark: boolean;
+}
+
+async function expectSound({ page, isDark }: Look, state: string): Promise<void> {
+  // Without frames on the page the plain mode finds the same and needs no second page for its report.
+  const axe = new AxeBuilder({ page }).setLegacyMode();
+  // Dark differs from light in its colours only.
+  if (isDark) axe.withRules('color-contrast');
+  const { violations } = await axe.analyze();
+  const found = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' | ')}`);
+  expect.soft(found, state).toEqual([]);
+  await expectNoSidewaysScroll(page, state);
+}
+
+async function expectNoSidewaysScroll(page: Page, state: string): Promise<void> {
+  const overflow = await page.evaluate(() => {
+    const { scrollWidth, clientWidth } = document.documentElement;
+    return scrollWidth - clientWidth;
+  });
+  expect.soft(overflow, `${state}: pixels beyond the right edge`).toBe(0);
+}
+
+/** On a phone each part by itself. */
+async function expectSoundEverywhere(look: Look, state: string): Promise<void> {
+  const { page } = look;
+  const isPhone = await page.getByRole('tablist').isVisible();
+  for (const tab of isPhone ? TABS : ['']) {
+    if (isPhone) await page.getByRole('tab', { name: tab }).click();
+    await expectSound(look, `${state} ${tab}`);
+  }
+}
+
+for (const colorScheme of ['light', 'dark'] as const) {
+  for (const viewport of SIZES) {
+    test.describe(`${viewport.width} px, ${colorScheme}`, () => {
+      test.use({ colorScheme, viewport, contextOptions: { reducedMotion: 'reduce' } });
+
+      test('every main state is accessible and fits', async ({ page, servers }) => {
+        const dashboard = dashboardOf(page);
+        const look = { page, isDark: colorScheme === 'dark' };
+        await page.goto((await servers.files()).url);
+        await expect(dashboard.link).toContainText('Ready');
+        await expectSoundEverywhere(look, 'ready');
+
+        await page.keyboard.press('Escape');
+        await expect(dashboard.resume).toBeVisible();
+        await expectSound(look, 'stopped');
+
+        await dashboard.link.click();
+        await expect(dashboard.connectDialog).toBeVisible();
+        await expectSound(look, 'connect dialog');
+
+        await dashboard.button('Disconnect').click();
+        await expect(dashboard.link).toContainText('Not connected');
+        await expectSound(look, 'disconnected');
+      });
+    });
+  }
+}
+
+test('nothing has to be scrolled sideways from 390 to 1920 px', async ({ page, servers }) => {
+  const dashboard = dashboardOf(page);
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.link).toContainText('Ready');
+  for (const width of [390, 430, 600, 699, 700, 820, 1024, 1099, 1100, 1280, 1440, 1920]) {
+    await page.setViewportSize({ width, height: 900 });
+    await expectNoSidewaysScroll(page, `${width} px`);
+  }
+});

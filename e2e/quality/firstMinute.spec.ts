@@ -1,0 +1,50 @@
+// Without a gateway and without a robot the page is alive on the simulated one, says so, and offers the ways to a real one,
+// each with the reason where it is not possible.
+
+import { dashboardOf } from '../fixtures/dashboard.ts';
+import { expect, test } from '../fixtures/test.ts';
+
+test('without a gateway the page starts on the simulated robot, and it moves', async ({ page, servers }) => {
+  const dashboard = dashboardOf(page);
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.link).toHaveText(/Ready\s*Simulated/);
+  await expect(dashboard.battery).toContainText('7.50 V');
+  await dashboard.type(dashboard.target(6), 1800);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1800');
+});
+
+test('a way that is not possible here says why', async ({ page, servers }) => {
+  await page.addInitScript(() => Object.defineProperty(window, 'isSecureContext', { value: false }));
+  const dashboard = dashboardOf(page);
+  await page.goto((await servers.files()).url);
+  await dashboard.button('Connect').click();
+  const dialog = dashboard.connectDialog;
+  await expect(dialog.getByRole('group', { name: 'This computer’s port' })).toContainText(
+    'This address is not secure, so the browser hides its serial ports.',
+  );
+  await expect(dialog.getByRole('group', { name: 'Gateway' })).toContainText(
+    'No gateway answers at this address.',
+  );
+});
+
+test('a chooser that is closed without a choice is no failure of the page', async ({ page, servers }) => {
+  await page.addInitScript(() => {
+    Serial.prototype.requestPort = () =>
+      Promise.reject(new DOMException('No port selected.', 'NotFoundError'));
+  });
+  const dashboard = dashboardOf(page);
+  await page.goto((await servers.files()).url);
+  await dashboard.button('Connect').click();
+  await dashboard.button('Choose a port').click();
+  await expect(dashboard.notices).toContainText('No port was chosen.');
+  await expect(dashboard.connectDialog).toBeVisible();
+});
+
+test('the appearance that was chosen is remembered', async ({ page, servers }) => {
+  const dashboard = dashboardOf(page);
+  await page.goto((await servers.files()).url);
+  await dashboard.button('Appearance: As the system').click();
+  await dashboard.button('Appearance: Light').click();
+  await page.reload();
+  await expect(dashboard.button('Appearance: Dark')).toBeVisible();
+});
