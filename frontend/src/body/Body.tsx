@@ -10,8 +10,9 @@ import { words } from '../words/en.ts';
 import { formatWhole } from '../words/numbers.ts';
 import { Dial } from './Dial.tsx';
 import { ArmFigure, drawArm } from './ArmFigure.tsx';
-import { armPicture, samePicture, type ArmPicture, type Pose } from './pose.ts';
+import { armPicture, JOINT, samePicture, type ArmPicture, type Pose } from './pose.ts';
 import { BaseView, drawBase, drawHand, HandView } from './insets.tsx';
+import { sameMotion } from './useMotion.ts';
 import styles from './Body.module.css';
 
 export function Body() {
@@ -50,6 +51,7 @@ function Arm() {
   const { device } = useStores();
   const family = useDevice((state) => state.family);
   const frame = useRef<HTMLDivElement>(null);
+  const drawn = useRef<readonly ServoMotion[]>([]);
   const pictureOf = (value: (motion: ServoMotion) => number | null): ArmPicture => {
     const pose: Pose = (servo) => value(device.motion(servo));
     return armPicture(pose, family);
@@ -58,7 +60,14 @@ function Arm() {
   const commanded = (): ArmPicture => pictureOf((motion) => motion.target);
 
   useEachFrame(() => {
-    if (frame.current !== null) draw(frame.current, estimated(), commanded());
+    const motions = ARM_SERVOS.map(device.motion);
+    const moved = motions.some((motion, index) => {
+      const before = drawn.current[index];
+      return before === undefined || !sameMotion(before, motion);
+    });
+    if (!moved || frame.current === null) return;
+    drawn.current = motions;
+    draw(frame.current, estimated(), commanded());
   });
 
   return (
@@ -79,6 +88,8 @@ function Arm() {
     </div>
   );
 }
+
+const ARM_SERVOS = Object.values(JOINT);
 
 function draw(frame: HTMLElement, estimated: ArmPicture, commanded: ArmPicture): void {
   const isThere = samePicture(estimated, commanded);

@@ -5,16 +5,16 @@ import { useRef } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
-import { useEachFrame } from '../ui/useEachFrame.ts';
 import { words } from '../words/en.ts';
 import { dialDegrees } from './pose.ts';
+import { useMotion } from './useMotion.ts';
 import styles from './Dial.module.css';
 
 export function Dial({ servo, family }: { readonly servo: number; readonly family: Family }) {
   const { device } = useStores();
   const dial = useRef<SVGSVGElement>(null);
-  useEachFrame(() => {
-    if (dial.current !== null) drawDial(dial.current, device.motion(servo), family);
+  useMotion(servo, (motion) => {
+    if (dial.current !== null) drawDial(dial.current, motion, family);
   });
   return (
     <DialFace

@@ -2,19 +2,15 @@
 // and the slider's own value text says what was asked.
 
 import { useRef } from 'react';
-import { useStores } from '../stores/stores.ts';
-import { useEachFrame } from '../ui/useEachFrame.ts';
+import { useMotion } from '../body/useMotion.ts';
 import { words } from '../words/en.ts';
 import styles from './Estimate.module.css';
 
 export function Estimate({ servo }: { readonly servo: number }) {
-  const { device } = useStores();
   const output = useRef<HTMLSpanElement>(null);
-  useEachFrame(() => {
+  useMotion(servo, ({ estimated }) => {
     if (output.current === null) return;
-    const { estimated } = device.motion(servo);
-    const text = estimated === null ? '' : words.servos.estimated(Math.round(estimated));
-    if (output.current.textContent !== text) output.current.textContent = text;
+    output.current.textContent = estimated === null ? '' : words.servos.estimated(Math.round(estimated));
   });
   return <span ref={output} className={styles.estimate} aria-hidden="true" />;
 }

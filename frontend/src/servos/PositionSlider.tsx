@@ -3,10 +3,9 @@
 
 import { useEffect, useRef, type KeyboardEvent, type RefObject } from 'react';
 import { fraction } from '../body/pose.ts';
+import { useMotion } from '../body/useMotion.ts';
 import type { Family } from '#shared/protocol/families.ts';
-import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
-import { useEachFrame } from '../ui/useEachFrame.ts';
 import { words } from '../words/en.ts';
 import { positionStep } from './positionStep.ts';
 import styles from './PositionSlider.module.css';
@@ -75,11 +74,9 @@ function release(held: RefObject<boolean>, input: HTMLInputElement | null, shown
 }
 
 function EstimateMark({ servo, family }: { readonly servo: number; readonly family: Family }) {
-  const { device } = useStores();
   const mark = useRef<HTMLDivElement>(null);
-  useEachFrame(() => {
+  useMotion(servo, ({ estimated }) => {
     if (mark.current === null) return;
-    const { estimated } = device.motion(servo);
     mark.current.hidden = estimated === null;
     if (estimated !== null)
       mark.current.style.translate = `${(fraction(estimated, family) * 100).toFixed(2)}% 0`;

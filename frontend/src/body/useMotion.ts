@@ -1,0 +1,22 @@
+// Calls a function with a servo's motion on each animation frame in which it changed: needles and numbers that move by
+// themselves are drawn past React, and a robot at rest costs nothing.
+
+import { useRef } from 'react';
+import type { ServoMotion } from '#shared/session/state.ts';
+import { useStores } from '../stores/stores.ts';
+import { useEachFrame } from '../ui/useEachFrame.ts';
+
+export function useMotion(servo: number, draw: (motion: ServoMotion) => void): void {
+  const { device } = useStores();
+  const drawn = useRef<ServoMotion | null>(null);
+  useEachFrame(() => {
+    const motion = device.motion(servo);
+    if (drawn.current !== null && sameMotion(drawn.current, motion)) return;
+    drawn.current = motion;
+    draw(motion);
+  });
+}
+
+export function sameMotion(one: ServoMotion, other: ServoMotion): boolean {
+  return one.target === other.target && one.estimated === other.estimated;
+}
