@@ -10,8 +10,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from servodeck import __version__
+from servodeck.decoder import COMMAND_AT
 from servodeck.errors import CancelledError, GatewayError, LatchedError, NoAnswerError, PortLostError
-from servodeck.gate import COMMAND_AT, RUN, STOP, judge_latch, judge_packet
+from servodeck.gate import RUN, STOP, judge_latch, judge_packet
 from servodeck.hub import Hub, Seat
 from servodeck.inbox import Inbox
 from servodeck.link import Link, Ports
@@ -210,6 +211,8 @@ class Control:
         if not isinstance(event, PacketEvent):
             self._tell(NoiseMessage(bytes=event.bytes.hex()))
             return
+        with contextlib.suppress(GatewayError):
+            self.link.wire().answered(event.packet.command)
         self._tell(ReceivedMessage(packet=event.bytes.hex()))
         report = parse_report(event.packet, FAMILIES[self.board])
         if isinstance(report, Battery):

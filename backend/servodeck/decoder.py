@@ -16,6 +16,7 @@ HEADER: Final = 0x55
 MAX_LENGTH: Final = 253
 # Two headers, LEN, CMD: a packet without parameters is no longer.
 HEAD_SIZE: Final = 4
+COMMAND_AT: Final = 3
 NOISE_SIZE: Final = 64
 # More than any robot of these families has.
 MOST_SERVOS: Final = 32

@@ -6,6 +6,7 @@ them, and programs of the same computer, which have no Origin.
 
 from collections.abc import Iterable
 
+from servodeck.decoder import COMMAND_AT
 from servodeck.errors import (
     ForbiddenError,
     GatewayError,
@@ -18,7 +19,6 @@ from servodeck.packets import FAMILIES, PacketError, check_command
 
 MOVE, RUN, STOP, BATTERY = 3, 6, 7, 15
 PASS_WHILE_LATCHED = frozenset({STOP, BATTERY})
-COMMAND_AT = 3  # offset of CMD in `55 55 LEN CMD`
 
 FORWARDING = frozenset(
     {b"forwarded", b"via", b"x-real-ip", b"x-client-ip", b"true-client-ip", b"cf-connecting-ip"}

@@ -6,10 +6,12 @@ wait for.
 """
 
 import asyncio
+import contextlib
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from servodeck.decoder import COMMAND_AT
 from servodeck.errors import BusyError, ClosedError, GatewayError
 from servodeck.ports import BAUD, OpenPort
 from servodeck.reader import start_reading
@@ -66,7 +68,10 @@ class Wire:
         self._now = now
         self._received = received
         # What the last owner of the port sent is unknown: it may be on the wire still.
-        self._free_at = now() + self._gap_s
+        self._left_at = now()
+        self._free_at = self._left_at + self._gap_s
+        self._freed = asyncio.Event()
+        self._last_command: int | None = None
         self._halt: Halt | None = None
         self._urgent: deque[Job] = deque()
         self._queue: deque[Job] = deque()
@@ -106,6 +111,12 @@ class Wire:
         self._work.set()
         return self._halt.left
 
+    def answered(self, command: int) -> None:
+        """The board has answered a packet of that command number: if it left last, the gap is over."""
+        if command == self._last_command:
+            self._free_at = min(self._free_at, max(self._left_at, self._now()))
+            self._freed.set()
+
     def purge(self, unwanted: Callable[[Job], bool], reason: GatewayError) -> None:
         """Takes packets that have not begun to leave out of the queue; each fails with `reason`."""
         for job in [job for job in self._queue if unwanted(job)]:
@@ -132,7 +143,7 @@ class Wire:
     async def _send_all(self) -> None:
         while True:
             await self._work.wait()
-            await self._until(self._free_at)  # choose only then: a stop may have come meanwhile
+            await self._until_free()  # choose only then: a stop may have come meanwhile
             if self._halt:
                 await self._send_of(self._halt)
             elif self._urgent or self._queue:
@@ -164,9 +175,17 @@ class Wire:
 
     async def _put(self, packet: bytes) -> None:
         self._port.write(packet)
-        left_at = self._now() + wire_s(len(packet))
-        self._free_at = left_at + self._gap_s
-        await self._until(left_at)
+        self._last_command = packet[COMMAND_AT]
+        self._left_at = self._now() + wire_s(len(packet))
+        self._free_at = self._left_at + self._gap_s
+        await self._until(self._left_at)
+
+    async def _until_free(self) -> None:
+        while (left_s := self._free_at - self._now()) > CLOCK_GRAIN_S:
+            self._freed.clear()
+            with contextlib.suppress(TimeoutError):
+                async with asyncio.timeout(left_s):
+                    await self._freed.wait()
 
     async def _until(self, when: float) -> None:
         # In a loop: event loops round to milliseconds, uvloop down, and a gap must not shrink.

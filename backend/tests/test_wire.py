@@ -49,6 +49,18 @@ async def test_each_packet_leaves_when_the_one_before_has_left_and_the_board_had
 
 
 @in_virtual_time
+async def test_an_answered_packet_needs_no_pause_behind_it() -> None:
+    port = FakePort()
+    async with open_wire(port) as wire:
+        answered_ms = GAP_MS + wire_ms(BATTERY) + 4
+        await wire.send(BATTERY, ANNA)
+        wire.answered(BATTERY[3] + 1)
+        at(answered_ms / 1000, lambda: wire.answered(BATTERY[3]))
+        await wire.send(MOVE, ANNA)
+    assert port.times_ms() == approx_ms(GAP_MS, answered_ms)
+
+
+@in_virtual_time
 async def test_a_packet_counts_as_sent_when_its_last_bit_has_left() -> None:
     port = FakePort()
     async with open_wire(port) as wire:

@@ -30,6 +30,18 @@ describe('download', () => {
     expect((second ?? 0) - (first ?? 0)).toBeGreaterThan(eraseMs + wireMs(4));
   });
 
+  test('loses no time between an acknowledgement and the next frame', async () => {
+    const rig = await createRig();
+    const frames = Array.from({ length: 21 }, () => WAVE[0]!);
+    const startMs = rig.clock.now();
+    const done = rig.session.download(5, frames).then(() => rig.clock.now() - startMs);
+    await rig.clock.advance(5_000);
+    const eraseMs = 4 * 45;
+    const countTableMs = 45 + 0.8;
+    const frameMs = wireMs(13) + 0.8 + wireMs(4);
+    expect(await done).toBeLessThan((eraseMs + 21 * frameMs + countTableMs) * 1.02);
+  });
+
   test('shows frames, bytes and the time left', async () => {
     const rig = await createRig();
     const seen: number[] = [];

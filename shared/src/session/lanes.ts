@@ -1,7 +1,7 @@
 // The outgoing order: stop lane first, then requests, then the newest move. Never more than one packet in flight and
 // never sooner than the board's service gap after the one before. Knows packets as bytes; no replies, no meaning.
 
-import { sleep, type Clock } from '../clock.ts';
+import type { Clock } from '../clock.ts';
 import { LinkError } from './linkError.ts';
 
 export interface LaneOptions {
@@ -22,6 +22,8 @@ export interface Lanes {
   request(packet: Uint8Array): Promise<void>;
   /** Says that `takeMove` has something. */
   wake(): void;
+  /** The board answered a packet with that command number: if it left last, the board is free and the gap is over. */
+  answered(command: number): void;
   /** Rejects every request that has not begun to leave. Stops stay. */
   purge(error: LinkError): void;
 }
@@ -36,6 +38,10 @@ export function createLanes(options: LaneOptions): Lanes {
   const stops: Waiting[] = [];
   const requests: Waiting[] = [];
   let pumping = false;
+  /** Command numbers of the packet that leaves or left last, and of the board's latest answer to it. */
+  let lastCommand: number | undefined;
+  let lastAnswer: number | undefined;
+  let endGap = (): void => undefined;
 
   const next = (): Waiting | null => stops.shift() ?? requests.shift() ?? newestMove();
 
@@ -51,6 +57,8 @@ export function createLanes(options: LaneOptions): Lanes {
   }
 
   async function leave({ packet, resolve, reject }: Waiting): Promise<void> {
+    lastCommand = packet[3];
+    lastAnswer = undefined;
     try {
       await options.send(packet);
     } catch (error) {
@@ -59,7 +67,17 @@ export function createLanes(options: LaneOptions): Lanes {
     }
     options.sent(packet);
     resolve();
-    await sleep(options.clock, options.serviceGapMs);
+    if (lastAnswer !== lastCommand) await gap();
+  }
+
+  function gap(): Promise<void> {
+    return new Promise((resolve) => {
+      const cancelTimer = options.clock.after(options.serviceGapMs, resolve);
+      endGap = () => {
+        cancelTimer();
+        resolve();
+      };
+    });
   }
 
   async function pump(): Promise<void> {
@@ -80,6 +98,10 @@ export function createLanes(options: LaneOptions): Lanes {
     stop: (packet) => enqueue(stops, packet),
     request: (packet) => enqueue(requests, packet),
     wake: () => void pump(),
+    answered(command) {
+      lastAnswer = command;
+      if (command === lastCommand) endGap();
+    },
     purge: (error) => requests.splice(0).forEach((waiting) => waiting.reject(error)),
   };
 }

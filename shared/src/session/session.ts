@@ -107,6 +107,7 @@ export function createSession({ transport, family, clock }: SessionOptions): Ses
 
   function heard(report: Report, bytes: Uint8Array): void {
     store.emit('traffic', { atMs: clock.now(), direction: 'in', bytes, report });
+    lanes.answered(bytes[3] ?? 0);
     replies.deliver(report);
     groups.heard(report);
     if (report.kind === 'runStopped') halt.confirmed();
