@@ -99,7 +99,10 @@ describe('a device with a session', () => {
 
   test('a cancelled download leaves a broken slot and says so', async () => {
     const { device, state, told, draw } = await createDesk();
-    device.download(5, [...FRAMES, ...FRAMES, ...FRAMES, ...FRAMES]);
+    device.download(
+      5,
+      Array.from({ length: 60 }, () => FRAMES[0]!),
+    );
     await draw(400);
     device.cancelDownload();
     await draw(4000);

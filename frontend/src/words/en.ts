@@ -266,5 +266,3 @@ export const words = {
     `${name}: ${formatWhole(value)} is out of range; it takes ${formatWhole(min)} to ${formatWhole(max)}.`,
   dismiss: 'Dismiss',
 };
-
-export type Words = typeof words;

@@ -10,7 +10,6 @@ const seconds = new Intl.NumberFormat(language, {
   maximumFractionDigits: 1,
 });
 const grouped = new Intl.NumberFormat(language);
-const percent = new Intl.NumberFormat(language, { style: 'percent' });
 const ago = new Intl.RelativeTimeFormat(language, { style: 'short' });
 const list = new Intl.ListFormat(language);
 const elapsed = new Intl.DateTimeFormat(language, {
@@ -25,7 +24,6 @@ export type PositionUnit = 'us' | 'steps';
 /** Digits only, never grouped: positions stand in columns. */
 export const formatWhole = (value: number): string => whole.format(value);
 export const formatCount = (value: number): string => grouped.format(value);
-export const formatPercent = (fraction: number): string => percent.format(fraction);
 export const formatList = (values: readonly number[]): string => list.format(values.map(formatWhole));
 export const unitSymbol = (unit: PositionUnit): string => (unit === 'us' ? 'µs' : 'steps');
 export const formatPosition = (position: number, unit: PositionUnit): string =>
