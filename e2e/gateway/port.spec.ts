@@ -3,7 +3,7 @@
 import { lastTarget } from '../fixtures/bus.ts';
 import { dashboardOf } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
-import { expect, test } from '../fixtures/test.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
 
 test('a port that is not there at the start says what to do, and is found when it comes', async ({
   page,
@@ -19,7 +19,7 @@ test('a port that is not there at the start says what to do, and is found when i
   await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 8_000 });
   if (await dashboard.resume.isVisible()) await dashboard.resume.click();
   await dashboard.type(dashboard.target(1), 1234);
-  await expect.poll(() => lastTarget(ptyBoard.bus, 1)).toBe(1234);
+  await poll(() => lastTarget(ptyBoard.bus, 1)).toBe(1234);
 });
 
 test('a gateway without a port offers the ports it knows', async ({ page, newGateway }) => {
@@ -57,6 +57,6 @@ test.describe('when the gateway is killed', () => {
     await expect(dashboard.frames).toHaveCount(2);
     await dashboard.resume.click();
     await dashboard.type(dashboard.target(1), 1300);
-    await expect.poll(() => lastTarget(ptyBoard.bus, 1)).toBe(1300);
+    await poll(() => lastTarget(ptyBoard.bus, 1)).toBe(1300);
   });
 });

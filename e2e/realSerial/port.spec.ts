@@ -8,7 +8,7 @@ import { root } from '../../scripts/steps.mjs';
 import { kindsAfter, lastTarget, ofKind } from '../fixtures/bus.ts';
 import { dashboardOf, type Dashboard } from '../fixtures/dashboard.ts';
 import { writeDeviceTree, writeProfile } from '../fixtures/mockDevice.ts';
-import { expect, test as base } from '../fixtures/test.ts';
+import { expect, poll, test as base } from '../fixtures/test.ts';
 
 const problem = umockdevProblem();
 
@@ -52,7 +52,7 @@ test('a slider moves the servo behind a real port, and the estimate follows', as
   ptyBoard,
 }) => {
   await openPort.slider(2).press('PageUp');
-  await expect.poll(() => lastTarget(ptyBoard.bus, 2)).toBe(1600);
+  await poll(() => lastTarget(ptyBoard.bus, 2)).toBe(1600);
   await expect(openPort.estimate(2)).toHaveText('≈ 1600');
 });
 

@@ -1,7 +1,7 @@
 // The battery: what the board says, how old that is, and when it is low.
 
 import { ofKind } from '../fixtures/bus.ts';
-import { expect, test } from '../fixtures/test.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
 
 test('the battery is read in volts, with the age of the reading @everyWay', async ({
   dashboard,
@@ -14,7 +14,7 @@ test('the battery is read in volts, with the age of the reading @everyWay', asyn
   await expect(dashboard.bar).toContainText('7.50 V');
   const asked = ofKind(await robot.bus(), 'readBattery').length;
   await dashboard.battery.getByRole('button', { name: 'Refresh' }).click();
-  await expect.poll(async () => ofKind(await robot.bus(), 'readBattery').length).toBeGreaterThan(asked);
+  await poll(async () => ofKind(await robot.bus(), 'readBattery').length).toBeGreaterThan(asked);
 });
 
 for (const { batteryMv, volts, word } of [

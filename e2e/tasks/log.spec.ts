@@ -1,7 +1,7 @@
 // Under the hood: the packet log says in words and bytes what went over the link.
 
 import { lastTarget } from '../fixtures/bus.ts';
-import { expect, test } from '../fixtures/test.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
 
 test('the log shows packets in words and in bytes, both ways, and can be thinned out', async ({
   dashboard,
@@ -10,7 +10,7 @@ test('the log shows packets in words and in bytes, both ways, and can be thinned
 }) => {
   await dashboard.button('Show the log').click();
   await dashboard.type(dashboard.target(1), 2000);
-  await expect.poll(() => lastTarget(robot.bus, 1)).toBe(2000);
+  await poll(() => lastTarget(robot.bus, 1)).toBe(2000);
   await expect(dashboard.log).toContainText('Move 1 → 2000 in 1500 ms');
   await expect(dashboard.log).toContainText('55 55 08 03 01 DC 05 01 D0 07');
   await expect(dashboard.log).toContainText('Ask for the battery');
