@@ -47,7 +47,7 @@ RUN_TIMES = Range(0, 0xFFFF)
 
 DOC = Family(
     id="doc",
-    name="Protocol document",
+    name="Generic board",
     unit="us",
     position=PULSE_US,
     servo=Range(1, 32),

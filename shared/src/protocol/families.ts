@@ -84,7 +84,7 @@ export const FAMILIES: Readonly<Record<FamilyId, Family>> = {
   doc: {
     ...openFirmware,
     id: 'doc',
-    name: 'Protocol document',
+    name: 'Generic board',
     servo: { min: 1, max: 32 },
     usualServoCount: 6,
     servosPerMove: 32,

@@ -182,6 +182,15 @@ describe('the battery', () => {
     expect(rig.session.state.battery).toMatchObject({ kind: 'read', batteryMv: 7_500 });
   });
 
+  test('stands in the log after its question', async () => {
+    const rig = await createRig();
+    const seen: string[] = [];
+    rig.session.subscribe({ traffic: ({ direction }) => seen.push(direction) });
+    void rig.session.readBattery();
+    await rig.clock.advance(500);
+    expect(seen).toEqual(['out', 'in']);
+  });
+
   test('is silent after three questions without an answer', async () => {
     const rig = await createRig({ faults: [{ name: 'droppedByte', probability: 1 }] });
     for (let question = 0; question < 3; question += 1) {

@@ -37,10 +37,10 @@ export interface HaltOptions {
   readonly transport: Transport;
   dropAll(error: LinkError): void;
   /** Books a packet that a shared link sends for us, as if it had left by our own lanes. */
-  leftTheWire(packet: Uint8Array): void;
+  sentByOthers(packet: Uint8Array): void;
 }
 
-export function createHalt(core: Core, { transport, dropAll, leftTheWire }: HaltOptions): Halt {
+export function createHalt(core: Core, { transport, dropAll, sentByOthers }: HaltOptions): Halt {
   const { family, clock, store, robot, lanes } = core;
   const stopPacket = encodeOrRefuse({ kind: 'stop' }, family);
 
@@ -80,8 +80,8 @@ export function createHalt(core: Core, { transport, dropAll, leftTheWire }: Halt
   async function haltSharedLink(): Promise<void> {
     const hold = holdPacket();
     const done = transport.halt?.(hold);
-    leftTheWire(stopPacket);
-    if (hold !== null) leftTheWire(hold);
+    sentByOthers(stopPacket);
+    if (hold !== null) sentByOthers(hold);
     await done;
   }
 

@@ -11,6 +11,8 @@ export interface LaneOptions {
   send(packet: Uint8Array): Promise<void>;
   /** Builds the newest move as late as possible, or null when there is nothing to say. */
   takeMove(): Uint8Array | null;
+  /** Its first bit is about to leave. */
+  leaving(packet: Uint8Array): void;
   sent(packet: Uint8Array): void;
   /** A move could not be sent; stops and requests reject instead. */
   moveFailed(error: LinkError): void;
@@ -59,6 +61,7 @@ export function createLanes(options: LaneOptions): Lanes {
   async function leave({ packet, resolve, reject }: Waiting): Promise<void> {
     lastCommand = packet[3];
     lastAnswer = undefined;
+    options.leaving(packet);
     try {
       await options.send(packet);
     } catch (error) {

@@ -2,7 +2,7 @@
 // lanes, the replies and the estimate of the robot. Knows no transport by name and no user interface.
 
 import type { Clock } from '../clock.ts';
-import type { Frame, ServoTarget } from '../protocol/commands.ts';
+import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
 import { parseCommand } from '../protocol/parse.ts';
 import type { Report } from '../protocol/reports.ts';
@@ -87,7 +87,8 @@ export function createSession({ transport, family, clock }: SessionOptions): Ses
       const move = moves.take();
       return move && encodeOrRefuse(robot.softened(move), family);
     },
-    sent: leftTheWire,
+    leaving: note,
+    sent: take,
     moveFailed: (error) => store.emit('problem', error),
   });
 
@@ -95,14 +96,25 @@ export function createSession({ transport, family, clock }: SessionOptions): Ses
   const live = createLive(core, moves);
   const groups = createGroups(core);
   const readBattery = createBatteryReader(core);
-  const halt = createHalt(core, { transport, dropAll, leftTheWire });
+  const halt = createHalt(core, { transport, dropAll, sentByOthers });
   const receiver = createReceiver({ clock, family, report: heard, noise: heardNoise });
 
-  function leftTheWire(packet: Uint8Array): void {
-    const command = parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
-    if (command === null) return;
-    store.emit('traffic', { atMs: clock.now(), direction: 'out', bytes: packet, command });
-    robot.applied(command);
+  /** Into the log when it begins to leave, so that its answer comes after it. */
+  function note(packet: Uint8Array): void {
+    const command = commandIn(packet);
+    if (command !== null)
+      store.emit('traffic', { atMs: clock.now(), direction: 'out', bytes: packet, command });
+  }
+
+  /** Into the estimate when it has left: not before can the board act on it. */
+  function take(packet: Uint8Array): void {
+    const command = commandIn(packet);
+    if (command !== null) robot.applied(command);
+  }
+
+  function sentByOthers(packet: Uint8Array): void {
+    note(packet);
+    take(packet);
   }
 
   function heard(report: Report, bytes: Uint8Array): void {
@@ -160,4 +172,8 @@ export function createSession({ transport, family, clock }: SessionOptions): Ses
     stopPlaying: live.stopPlaying,
     motion: robot.motion,
   };
+}
+
+function commandIn(packet: Uint8Array): Command | null {
+  return parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
 }
