@@ -18,6 +18,7 @@ const TRUTH: Readonly<Record<LinkState['status'], Truth>> = {
 export function LinkChip() {
   const { view } = useStores();
   const status = useSnapshot((snapshot) => snapshot.link.status);
+  const mustChoose = useSnapshot(({ link }) => link.status === 'lost' && link.error.code === 'closed');
   const way = useDevice((state) => state.way);
   const isSimulated = way?.isSimulated === true;
   const open = (): void => view.setState({ connectOpen: true });
@@ -37,7 +38,7 @@ export function LinkChip() {
           <span className={styles.label}>{label}</span>
         )}
       </AriaButton>
-      {(way === null || isSimulated) && (
+      {(way === null || isSimulated || mustChoose) && (
         <Button tone="primary" icon="plug" onPress={open}>
           {words.link.connect}
         </Button>

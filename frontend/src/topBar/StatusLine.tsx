@@ -58,9 +58,12 @@ function Latched({ latch }: { readonly latch: Latch }) {
 
 function Lost({ link }: { readonly link: Extract<LinkState, { status: 'lost' }> }) {
   const { device } = useStores();
+  const said = <Said truth="danger" text={errorSentence(link.error.code, link.error.message)} />;
+  // There is nothing to try again: the sentence says to connect.
+  if (link.error.code === 'closed') return said;
   return (
     <>
-      <Said truth="danger" text={errorSentence(link.error.code, link.error.message)} />
+      {said}
       <span className={styles.countdown}>
         {link.retryAtMs === null ? words.link.needsYou : <Countdown untilMs={link.retryAtMs} />}
       </span>

@@ -42,16 +42,20 @@ export function createLink({ transport, clock, changed, returned, received, latc
   }
 
   function fail(error: LinkError): void {
-    if (!PASSING.includes(error.code)) return enter({ status: 'lost', error, retryAtMs: null });
-    const delayMs = RECONNECT_DELAYS_MS[Math.min(attempts, RECONNECT_DELAYS_MS.length - 1)] ?? 0;
-    attempts += 1;
-    const cancelTimer = clock.after(delayMs, retry);
+    const delayMs = PASSING.includes(error.code) ? nextDelayMs() : null;
+    const cancelTimer = delayMs === null ? undefined : clock.after(delayMs, retry);
     const cancelWatch = transport.whenAvailable?.(retry);
     stopWaiting = () => {
-      cancelTimer();
+      cancelTimer?.();
       cancelWatch?.();
     };
-    enter({ status: 'lost', error, retryAtMs: clock.now() + delayMs });
+    enter({ status: 'lost', error, retryAtMs: delayMs === null ? null : clock.now() + delayMs });
+  }
+
+  function nextDelayMs(): number {
+    const index = Math.min(attempts, RECONNECT_DELAYS_MS.length - 1);
+    attempts += 1;
+    return RECONNECT_DELAYS_MS[index] ?? 0;
   }
 
   function retry(): void {
