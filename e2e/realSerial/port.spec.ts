@@ -13,13 +13,16 @@ import { expect, poll, test as base } from '../fixtures/test.ts';
 const problem = umockdevProblem();
 
 const test = base.extend<{ context: BrowserContext; openPort: Dashboard }>({
-  context: async ({ servers, ptyBoard, launchOptions, viewport }, use, testInfo) => {
-    const [tree, profile] = [testInfo.outputPath('mock'), testInfo.outputPath('profile')];
+  context: async ({ servers, ptyBoard, launchOptions, viewport, scratch }, use) => {
+    const [tree, profile] = [path.join(scratch, 'mock'), path.join(scratch, 'profile')];
     writeDeviceTree(tree, path.join(root, ptyBoard.device));
     writeProfile(profile, await originOf(servers));
     const context = await chromium.launchPersistentContext(profile, {
       ...launchOptions,
       viewport,
+      // Chromium forks once more for its network service, and about once in fifty starts that fork waits for ever for a
+      // lock of umockdev's that another thread held: inside the browser it needs no fork.
+      args: ['--enable-features=NetworkServiceInProcess2'],
       env: { ...process.env, LD_PRELOAD: 'libumockdev-preload.so.0', UMOCKDEV_DIR: tree },
     });
     await use(context);
