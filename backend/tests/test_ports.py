@@ -13,7 +13,6 @@ import pytest
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
 from servodeck.ports import explain, list_devices, open_port
 
-
 NOBODY = 65534
 
 
