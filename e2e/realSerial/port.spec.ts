@@ -22,7 +22,7 @@ const test = base.extend<{ context: BrowserContext; openPort: Dashboard }>({
       viewport,
       // Chromium forks once more for its network service, and about once in fifty starts that fork waits for ever for a
       // lock of umockdev's that another thread held: inside the browser it needs no fork.
-      args: ['--enable-features=NetworkServiceInProcess2'],
+      args: [...(launchOptions.args ?? []), '--enable-features=NetworkServiceInProcess2'],
       env: { ...process.env, LD_PRELOAD: 'libumockdev-preload.so.0', UMOCKDEV_DIR: tree },
     });
     await use(context);
