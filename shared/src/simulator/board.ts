@@ -1,22 +1,26 @@
-// The simulated board: the open firmware's engine (boards.md section 3) with the battery answer of the protocol document.
-// The only face to the outside: bytes in, bytes out, pulse widths, a log of the bus. Knows time and pacing, no command.
+// The simulated board: the firmware of a profile behind a cable, and what happens to both. The only face to the outside:
+// bytes in, bytes out, pulse widths, a log of the bus. Knows time and pacing, no command and no firmware.
 
 import type { Clock } from '../clock.ts';
 import { BAUD, packetBytes, wireMs } from '../protocol/packet.ts';
 import { COMMAND_NUMBER, type Frame } from '../protocol/commands.ts';
 import { createAgenda, type Source } from './agenda.ts';
 import type { BusLogEntry } from './busLog.ts';
-import { createEngine } from './engine.ts';
+import type { Engine } from './engine.ts';
 import { planFaults, type Fault } from './faults.ts';
 import { createFlashChip, type FlashChip } from './flashChip.ts';
 import { createLine } from './line.ts';
+import { PROFILES, type BoardProfile, type ProfileName } from './profiles.ts';
+import { createSchedule } from './schedule.ts';
 import type { Work } from './work.ts';
 
 export interface BoardOptions {
   readonly clock: Clock;
   /** Gets what the board sends, in whatever pieces. It may call the board. */
   readonly send: (bytes: Uint8Array) => void;
-  /** Servos with a pin, numbered from 1 (1..32). The real board has 6. */
+  /** Which board it is; `doc` where nothing is said. */
+  readonly profile?: ProfileName;
+  /** Servos it has, numbered from 1; as many as such a board usually has where nothing is said. */
   readonly servoCount?: number;
   /** 0: bytes take no time, a reply comes before `receive` returns. */
   readonly baud?: number;
@@ -70,34 +74,38 @@ const ACKS: readonly number[] = [COMMAND_NUMBER.run, COMMAND_NUMBER.erase, COMMA
 const SLOT_COUNT = 256;
 const LONG_ON_MS = 10_000;
 
+function servoCountOf({ usualServoCount, maxServoCount }: BoardProfile, wanted = usualServoCount): number {
+  if (wanted <= maxServoCount) return wanted;
+  throw new RangeError(`this board has no more than ${maxServoCount} servos`);
+}
+
 export function createBoard(options: BoardOptions): Board {
-  const { clock, send, servoCount = 6, baud = BAUD, onForMs = LONG_ON_MS } = options;
+  const { clock, send, baud = BAUD, onForMs = LONG_ON_MS } = options;
+  const profile: BoardProfile = PROFILES[options.profile ?? 'doc'];
+  const servoCount = servoCountOf(profile, options.servoCount);
+  const chip = options.flash ?? createFlashChip();
   const plan = planFaults(options.faults ?? [], options.seed ?? 1);
   const startedAtMs = clock.now();
-  let unplugDueMs = onForMs + plan.unplugAfterMs;
   let unplugTold = false;
 
   const agenda = createAgenda(clock, onForMs, () => sources, tellHost);
   const { now, turn } = agenda;
-  const engine = createEngine({
-    now,
-    chip: options.flash ?? createFlashChip(),
-    sectorMs: plan.sectorMs,
-    servoCount,
-    batteryMv: plan.batteryMv ?? options.batteryMv ?? 7500,
-    reply,
-  });
-  const { servos } = engine;
+  const engine = switchOn();
   const line = createLine({
     now,
     byteMs: baud === 0 ? 0 : wireMs(1, baud),
     plan,
-    arrived: engine.takeByte,
+    arrived: (byte) => engine.takeByte(byte),
     log: (direction, byte) => options.onByte?.({ atMs: startedAtMs + now() - onForMs, direction, byte }),
   });
-  const cable: Source = { dueMs: () => unplugDueMs, fire: unplug };
+  const happenings = createSchedule([{ atMs: onForMs + plan.unplugAfterMs, happen: unplug }]);
   // At one instant the loop comes before the next byte: so it does not matter how the host cuts its bytes into pieces.
-  const sources: readonly Source[] = [cable, engine.loop, line];
+  const sources: readonly Source[] = [happenings, ...engine.sources, line];
+
+  function switchOn(): Engine {
+    const batteryMv = plan.batteryMv ?? options.batteryMv ?? 7500;
+    return profile.createEngine({ now, chip, sectorMs: plan.sectorMs, servoCount, batteryMv, reply });
+  }
 
   /** Sent by busy-waiting: each byte blocks the loop for its time on the wire (S21). */
   function* reply(command: number, params: readonly number[]): Work {
@@ -118,7 +126,6 @@ export function createBoard(options: BoardOptions): Board {
   }
 
   function unplug(): void {
-    unplugDueMs = Infinity;
     line.plug(false);
   }
 
@@ -135,8 +142,8 @@ export function createBoard(options: BoardOptions): Board {
   function snapshot(): BoardSnapshot {
     const servoNumbers = Array.from({ length: servoCount }, (_, index) => index + 1);
     return {
-      pulses: servoNumbers.map(servos.pulse),
-      targets: servoNumbers.map(servos.target),
+      pulses: servoNumbers.map(engine.pulse),
+      targets: servoNumbers.map(engine.target),
       runningSlot: engine.runningSlot(),
       frameCounts: Array.from({ length: SLOT_COUNT }, (_, slot) => engine.frameCount(slot)),
     };
@@ -147,8 +154,8 @@ export function createBoard(options: BoardOptions): Board {
   return {
     receive: (bytes) => turn(() => line.receive(bytes)),
     waitingBytes: () => turn(() => line.waitingBytes()),
-    pulse: (servo) => turn(() => servos.pulse(servo)),
-    target: (servo) => turn(() => servos.target(servo)),
+    pulse: (servo) => turn(() => engine.pulse(servo)),
+    target: (servo) => turn(() => engine.target(servo)),
     runningSlot: () => turn(engine.runningSlot),
     frameCount: (slot) => turn(() => engine.frameCount(slot)),
     storedFrame: (slot, frameIndex) => turn(() => engine.storedFrame(slot, frameIndex)),

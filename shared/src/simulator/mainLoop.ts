@@ -1,8 +1,10 @@
-// The board's processor: one pass after the other, each doing time tasks, one packet, the group runner (S16), and nothing
-// else while a job blocks it (S41). Knows the order of work, not the work. Sleeps while no pass would change anything.
+// The board's main loop: each pass does time tasks, one packet, the group runner, key and pad (S16). Knows the order of
+// work, not the work.
 
 import type { Source } from './agenda.ts';
 import type { Mailbox } from './mailbox.ts';
+import type { Panel } from './panel.ts';
+import { createProcessor } from './processor.ts';
 import type { Runner } from './runner.ts';
 import type { Servos } from './servos.ts';
 import type { Slots } from './slots.ts';
@@ -14,6 +16,7 @@ export interface MainLoopParts {
   readonly servos: Servos;
   readonly mailbox: Mailbox;
   readonly runner: Runner;
+  readonly panel: Panel;
   /** Serves the packet in the mailbox's slot. */
   readonly serve: () => Work;
 }
@@ -21,36 +24,24 @@ export interface MainLoopParts {
 /** Packets are served from here on; one that came earlier waits (S61). */
 const BOOT_MS = 300;
 
-export function createMainLoop({ now, slots, servos, mailbox, runner, serve }: MainLoopParts): Source {
-  let job: Work | null = null;
-  let readyMs = BOOT_MS;
-  let idle = true;
-
-  function nextPassMs(): number {
-    if (mailbox.waiting()) return readyMs;
+export function createMainLoop({ now, slots, servos, mailbox, runner, panel, serve }: MainLoopParts): Source {
+  function wantedMs(): number {
+    if (mailbox.waiting()) return 0;
     const tickMs = servos.moving() ? slots.nextTickMs() : Infinity;
-    return Math.max(readyMs, Math.min(tickMs, runner.dueMs()));
+    return Math.min(tickMs, runner.dueMs(), panel.dueMs());
   }
 
   function* pass(): Work {
     if (slots.take(now())) servos.tick();
     if (mailbox.take()) yield* serve();
     yield* runner.step();
+    yield* panel.step();
   }
 
-  function begin(): Work {
+  function begin(idle: boolean): Work {
     if (idle) slots.skipIdle(now(), servos.moving());
     return pass();
   }
 
-  function fire(): void {
-    job ??= begin();
-    const step = job.next();
-    readyMs = now() + (step.done ? 0 : step.value);
-    if (!step.done) return;
-    job = null;
-    idle = nextPassMs() > now();
-  }
-
-  return { dueMs: () => (job ? readyMs : nextPassMs()), fire };
+  return createProcessor({ now, bootMs: BOOT_MS, wantedMs, pass: begin });
 }

@@ -10,9 +10,11 @@ import type { Clock } from '../clock.ts';
 import { createBoard, type Board, type BoardOptions } from './board.ts';
 import type { BusLogEntry } from './busLog.ts';
 import { parseFault } from './faults.ts';
+import { isProfileName, PROFILES, type ProfileName } from './profiles.ts';
 
-const USAGE = `Usage: simulator (--stdio | --tcp HOST:PORT) [--seed N] [--fault NAME[=VALUE]]... [--battery-mv N]
+const USAGE = `Usage: simulator (--stdio | --tcp HOST:PORT) [--board NAME] [--seed N] [--fault NAME[=VALUE]]... [--battery-mv N]
                  [--servos N] [--baud N] [--bus-log FILE]
+Boards: ${Object.keys(PROFILES).join(', ')}
 A simulated servo board. Port 0 takes a free port; baud 0 takes no time on the wire.
 Faults: droppedByte, doubledByte, flippedByte, insertedByte [=PROBABILITY], lostAck[=NTH|=PROBABILITY],
         slowErase[=MS], lowBattery[=MV], unplug=MS|byteN`;
@@ -42,10 +44,11 @@ function readArguments() {
     options: {
       stdio: { type: 'boolean', default: false },
       tcp: { type: 'string' },
+      board: { type: 'string', default: 'doc' },
       seed: { type: 'string', default: '1' },
       fault: { type: 'string', multiple: true, default: [] },
       'battery-mv': { type: 'string', default: '7500' },
-      servos: { type: 'string', default: '6' },
+      servos: { type: 'string' },
       baud: { type: 'string', default: '9600' },
       'bus-log': { type: 'string' },
       help: { type: 'boolean', default: false },
@@ -60,6 +63,11 @@ function wholeNumber(name: string, text: string, min: number, max: number): numb
   const value = text === '' ? NaN : Number(text);
   if (Number.isInteger(value) && value >= min && value <= max) return value;
   throw new RangeError(`--${name} is a whole number ${min}..${max}, not "${text}"`);
+}
+
+function profileName(text: string): ProfileName {
+  if (isProfileName(text)) return text;
+  throw new RangeError(`no board is called "${text}"; there are ${Object.keys(PROFILES).join(', ')}`);
 }
 
 function address(text: string): { host: string; port: number } {
@@ -156,12 +164,15 @@ function main(): void {
     say(USAGE);
     return;
   }
+  const profile = profileName(values.board);
+  const { usualServoCount, maxServoCount } = PROFILES[profile];
   const settings = {
     clock,
     seed: wholeNumber('seed', values.seed, 0, 2 ** 32 - 1),
     faults: values.fault.map(parseFault),
     batteryMv: wholeNumber('battery-mv', values['battery-mv'], 0, 65_535),
-    servoCount: wholeNumber('servos', values.servos, 1, 32),
+    profile,
+    servoCount: wholeNumber('servos', values.servos ?? String(usualServoCount), 1, maxServoCount),
     baud: wholeNumber('baud', values.baud, 0, 1_000_000),
     ...(values['bus-log'] === undefined ? {} : { onByte: openBusLog(values['bus-log']) }),
   };

@@ -5,13 +5,22 @@ import type { Work } from './work.ts';
 
 export interface Runner {
   /** A run command: what it does depends on what runs already (S44-S47). */
-  request(slot: number, times: number): void;
+  request(slot: number, times: number): Work;
   /** The frame in progress completes all the same (S50). */
-  stop(): void;
+  stop(): Work;
   /** What one pass of the main loop does for the group. */
   step(): Work;
   dueMs(): number;
   readonly runningSlot: () => number | null;
+}
+
+/** What the board says of a run by itself; empty work where it says nothing. */
+export interface RunReports {
+  readonly started: (slot: number, times: number) => Work;
+  /** Only where a group was running. */
+  readonly stopped: () => Work;
+  /** The group ended by itself (S48). */
+  readonly ended: (slot: number, times: number) => Work;
 }
 
 export interface RunnerParts {
@@ -20,18 +29,18 @@ export interface RunnerParts {
   /** Null where the frame cannot be played. */
   readonly frame: (slot: number, frameIndex: number) => Frame | null;
   readonly issue: (frame: Frame) => void;
-  /** Says that a group ended by itself (S48). */
-  readonly reportEnd: () => Work;
+  readonly reports: RunReports;
+  /** When this group ends by itself, the next one starts once (S49); null where the board does not chain. */
+  readonly chainedSlot: number | null;
 }
 
 /** Group 0 pre-empts any other (S47). */
 const PREEMPTIVE_SLOT = 0;
-/** When this group ends by itself, the next one starts once (S49). */
-const CHAINED_SLOT = 100;
 /** Fetching a frame over SPI and taking its entries; keeps an endless group of zero-time frames from taking no time. */
 const FRAME_FETCH_MS = 0.1;
 
-export function createRunner({ now, frameCount, frame, issue, reportEnd }: RunnerParts): Runner {
+export function createRunner(parts: RunnerParts): Runner {
+  const { now, frameCount, frame, issue, reports, chainedSlot } = parts;
   let running = false;
   let slot = 0;
   let frameTotal = 0;
@@ -50,13 +59,16 @@ export function createRunner({ now, frameCount, frame, issue, reportEnd }: Runne
     deadlineMs = now();
   }
 
-  function request(requestedSlot: number, requestedTimes: number): void {
+  function* request(requestedSlot: number, requestedTimes: number): Work {
     const total = frameCount(requestedSlot);
     if (total === 0) return;
     // Before anything is decided: this is how another group cuts the running one short (S46).
     frameTotal = total;
     const preempts = requestedSlot === PREEMPTIVE_SLOT && slot !== PREEMPTIVE_SLOT;
-    if (!running || preempts) start(requestedSlot);
+    if (!running || preempts) {
+      yield* reports.started(requestedSlot, requestedTimes);
+      start(requestedSlot);
+    }
     if (requestedSlot === slot) times = requestedTimes;
   }
 
@@ -78,9 +90,15 @@ export function createRunner({ now, frameCount, frame, issue, reportEnd }: Runne
     if (times === 0) return;
     loopsDone += 1;
     if (loopsDone < times) return;
-    yield* reportEnd();
+    yield* reports.ended(slot, times);
     running = false;
-    if (slot === CHAINED_SLOT) request(CHAINED_SLOT + 1, 1);
+    if (slot === chainedSlot) yield* request(chainedSlot + 1, 1);
+  }
+
+  function* stop(): Work {
+    if (!running) return;
+    running = false;
+    yield* reports.stopped();
   }
 
   function* step(): Work {
@@ -102,7 +120,7 @@ export function createRunner({ now, frameCount, frame, issue, reportEnd }: Runne
 
   return {
     request,
-    stop: () => void (running = false),
+    stop,
     step,
     dueMs,
     runningSlot: () => (running ? slot : null),

@@ -2,3 +2,8 @@
 // keep arriving meanwhile, because an interrupt takes them (S41).
 
 export type Work = Generator<number, void, undefined>;
+
+/** Nothing to do, in no time. */
+export function* noWork(): Work {
+  yield* [];
+}

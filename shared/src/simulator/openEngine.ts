@@ -1,0 +1,77 @@
+// The open firmware without its cable: parser, mailbox, main loop, servos, flash and runner put together (boards.md
+// section 3). What differs between its builds is a value. Knows no pacing and no clock.
+
+import { COMMAND_NUMBER, type Frame } from '../protocol/commands.ts';
+import { createBatterySampler } from './battery.ts';
+import { batteryHandler, createDispatch, motionHandlers, storeHandlers } from './dispatch.ts';
+import type { Engine, EngineParts } from './engine.ts';
+import { createGroupStore } from './groupStore.ts';
+import { createMailbox } from './mailbox.ts';
+import { createMainLoop } from './mainLoop.ts';
+import { createPanel } from './panel.ts';
+import { createParser } from './parser.ts';
+import { createRunner } from './runner.ts';
+import { createServos } from './servos.ts';
+import { createSlots } from './slots.ts';
+import { decodeFrame } from './storedFrame.ts';
+import { noWork } from './work.ts';
+
+/** What differs between the builds of the open firmware (boards.md 3.2). */
+export interface OpenBuild {
+  /** Answers a run before it looks the group up (S18). */
+  readonly acksRun: boolean;
+  /** Says when a group ended by itself (S48). */
+  readonly reportsEnd: boolean;
+  /** The group behind which the next one starts (S49). */
+  readonly chainedSlot: number | null;
+  /** Only the protocol document's board does: the open firmware reads the voltage and tells nobody (S17). */
+  readonly answersBattery: boolean;
+}
+
+/** Playback refuses more entries than this (S38), unless the board is configured for more servos. */
+const SERVOS_PLAYED = 8;
+
+export function createOpenEngine(build: OpenBuild, parts: EngineParts): Engine {
+  const { now, reply } = parts;
+  const servosPlayed = Math.max(SERVOS_PLAYED, parts.servoCount);
+  const slots = createSlots();
+  const servos = createServos(parts.servoCount);
+  const mailbox = createMailbox();
+  const { slot } = mailbox;
+  const store = createGroupStore(parts.chip, parts.sectorMs, servosPlayed);
+
+  function storedFrame(group: number, frameIndex: number): Frame | null {
+    return decodeFrame(store.readFrame(group, frameIndex), servosPlayed);
+  }
+
+  function issue({ durationMs, targets }: Frame): void {
+    for (const { servo, position } of targets) servos.accept(servo, position, durationMs);
+  }
+
+  const ended = build.reportsEnd ? () => reply(COMMAND_NUMBER.stop, []) : noWork;
+  const runner = createRunner({
+    now,
+    frameCount: store.frameCount,
+    frame: storedFrame,
+    issue,
+    reports: { started: noWork, stopped: noWork, ended },
+    chainedSlot: build.chainedSlot,
+  });
+  const panel = createPanel((group) => runner.request(group, 1));
+  const serve = createDispatch(
+    slot,
+    motionHandlers({ slot, servos, runner, reply }, build.acksRun),
+    storeHandlers({ slot, store, reply }),
+    build.answersBattery ? batteryHandler(createBatterySampler(slots, parts.batteryMv), reply) : new Map(),
+  );
+  return {
+    takeByte: createParser(mailbox.put),
+    sources: [createMainLoop({ now, slots, servos, mailbox, runner, panel, serve })],
+    press: panel.press,
+    pulse: servos.pulse,
+    target: servos.target,
+    frameCount: store.frameCount,
+    storedFrame,
+    runningSlot: runner.runningSlot,
+  };
+}
