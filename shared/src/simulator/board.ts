@@ -44,7 +44,7 @@ export interface Board {
   readonly receive: (bytes: Uint8Array) => void;
   /** How many of them have not reached the board yet: a driver would hold the host back. */
   readonly waitingBytes: () => number;
-  /** Pulse width in µs at the pin now. Throws RangeError for a servo the board has not. */
+  /** Where the servo is now, in the unit of the board; 0 for a pin without pulses. Throws RangeError for a servo it has not. */
   readonly pulse: (servo: number) => number;
   readonly target: (servo: number) => number;
   readonly runningSlot: () => number | null;
@@ -98,7 +98,10 @@ export function createBoard(options: BoardOptions): Board {
     arrived: (byte) => engine.takeByte(byte),
     log: (direction, byte) => options.onByte?.({ atMs: startedAtMs + now() - onForMs, direction, byte }),
   });
-  const happenings = createSchedule([{ atMs: onForMs + plan.unplugAfterMs, happen: unplug }]);
+  const happenings = createSchedule([
+    { atMs: onForMs + plan.unplugAfterMs, happen: unplug },
+    ...plan.presses.map((press) => ({ atMs: onForMs + press.afterMs, happen: () => engine.press(press) })),
+  ]);
   // At one instant the loop comes before the next byte: so it does not matter how the host cuts its bytes into pieces.
   const sources: readonly Source[] = [happenings, ...engine.sources, line];
 

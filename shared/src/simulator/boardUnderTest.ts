@@ -4,6 +4,7 @@
 import { createBoard, type Board, type BoardOptions } from './board.ts';
 
 import type { BusLogEntry } from './busLog.ts';
+import { uint16 } from './storedFrame.ts';
 import { createVirtualClock, type VirtualClock } from './virtualClock.ts';
 
 export interface BoardUnderTest {
@@ -29,12 +30,7 @@ export function hexOf(bytes: Iterable<number>): string {
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, '0').toUpperCase()).join(' ');
 }
 
-/** Two bytes, low first. */
-function uint16(value: number): number[] {
-  return [value & 0xff, value >> 8];
-}
-
-function packet(command: number, params: readonly number[]): string {
+export function packet(command: number, params: readonly number[]): string {
   return hexOf([0x55, 0x55, params.length + 2, command, ...params]);
 }
 

@@ -5,7 +5,7 @@ import { COMMAND_NUMBER } from '../protocol/commands.ts';
 import type { GroupStore } from './groupStore.ts';
 import type { Runner } from './runner.ts';
 import type { Servos } from './servos.ts';
-import { readUint16 } from './storedFrame.ts';
+import { readUint16, uint16 } from './storedFrame.ts';
 import type { Work } from './work.ts';
 
 /** How long each piece of the answer blocks the loop; empty for what takes no time. */
@@ -80,8 +80,7 @@ export function storeHandlers({ slot, store, reply }: StoreParts): Handlers {
 
 export function batteryHandler(batteryMv: () => number, reply: Reply): Handlers {
   function* readBattery(): Work {
-    const mv = batteryMv();
-    yield* reply(COMMAND_NUMBER.readBattery, [mv & 0xff, mv >> 8]);
+    yield* reply(COMMAND_NUMBER.readBattery, uint16(batteryMv()));
   }
 
   return new Map([[COMMAND_NUMBER.readBattery, readBattery]]);

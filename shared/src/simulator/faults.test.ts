@@ -142,6 +142,8 @@ test.each<[string, Fault]>([
   ['lostAck=12', { name: 'lostAck', nth: 12 }],
   ['slowErase', { name: 'slowErase', sectorMs: 400 }],
   ['lowBattery', { name: 'lowBattery', batteryMv: 6200 }],
+  ['padRun=8@1500', { name: 'padRun', slot: 8, afterMs: 1500 }],
+  ['keyRun=20', { name: 'keyRun', slot: 100, afterMs: 20 }],
   ['unplug=1500', { name: 'unplug', afterMs: 1500 }],
   ['unplug=byte120', { name: 'unplug', atByte: 120 }],
 ])('%s is understood', (text, fault) => {

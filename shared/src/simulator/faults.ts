@@ -1,6 +1,7 @@
 // What can go wrong on purpose: named faults with a value, and the plan a board follows, the same for the same seed.
 // Knows bytes and replies as counts and chances; does not know what they mean.
 
+import type { Press } from './panel.ts';
 import { createRandom } from './random.ts';
 
 /** Faults of the line strike each byte by chance, in both directions. */
@@ -16,10 +17,17 @@ export type Fault =
   /** How long the chip takes to erase a sector: 45 ms typical, 400 ms at worst. */
   | { readonly name: 'slowErase'; readonly sectorMs: number }
   | { readonly name: 'lowBattery'; readonly batteryMv: number }
+  /** Somebody starts a group at the board itself, with its pad or its key. */
+  | { readonly name: 'padRun' | 'keyRun'; readonly slot: number; readonly afterMs: number }
   /** The cable comes off; motion goes on. */
   | { readonly name: 'unplug'; readonly afterMs: number }
   /** After that many bytes on the wire, both directions counted together. */
   | { readonly name: 'unplug'; readonly atByte: number };
+
+/** A group that somebody starts at the board. */
+interface PlannedPress extends Press {
+  readonly afterMs: number;
+}
 
 export interface FaultPlan {
   /** What the other end gets for one byte sent. */
@@ -31,11 +39,18 @@ export interface FaultPlan {
   /** Since the board was created; Infinity for never. */
   readonly unplugAfterMs: number;
   readonly unplugAtByte: number;
+  /** Since the board was created. */
+  readonly presses: readonly PlannedPress[];
 }
 
 const TYPICAL_SECTOR_MS = 45;
 const WORST_SECTOR_MS = 400;
 const LOW_BATTERY_MV = 6200;
+/** How long looking at the button blocks the board's loop (S52, S55). */
+const BLOCK_MS = { padRun: 5.2, keyRun: 60 } as const;
+/** What the key starts (S55, X8). */
+const KEY_SLOT = 100;
+const SLOT_COUNT = 256;
 /** About one byte a second on a busy line. */
 const USUAL_LINE_PROBABILITY = 0.001;
 
@@ -78,6 +93,11 @@ export function planFaults(faults: readonly Fault[], seed: number): FaultPlan {
     batteryMv: null as number | null,
     unplugAfterMs: Infinity,
     unplugAtByte: Infinity,
+    presses: faults.flatMap((fault) =>
+      fault.name === 'padRun' || fault.name === 'keyRun'
+        ? [{ slot: fault.slot, afterMs: fault.afterMs, blockMs: BLOCK_MS[fault.name] }]
+        : [],
+    ),
   };
   for (const fault of faults) {
     if (fault.name === 'slowErase') plan.sectorMs = fault.sectorMs;
@@ -113,9 +133,17 @@ function unplug(text: string | undefined): Fault {
   return { name: 'unplug', afterMs: number(text ?? '') };
 }
 
+function padRun(text: string): Fault {
+  const [slotText = '', afterText = ''] = text.split('@', 2);
+  const slot = number(slotText);
+  if (!Number.isInteger(slot) || slot >= SLOT_COUNT)
+    throw new RangeError(`a group is 0..${SLOT_COUNT - 1}, not ${slot}`);
+  return { name: 'padRun', slot, afterMs: number(afterText) };
+}
+
 /**
  * Reads `name` or `name=value`: `droppedByte=0.01`, `lostAck=3`, `slowErase=400`, `lowBattery=6200`, `unplug=1500` (ms),
- * `unplug=byte120`. Throws RangeError with a sentence for people.
+ * `unplug=byte120`, `padRun=8@1500` (group 8 after 1500 ms), `keyRun=1500`. Throws RangeError with a sentence for people.
  */
 export function parseFault(text: string): Fault {
   const [name, value] = text.split('=', 2);
@@ -128,11 +156,15 @@ export function parseFault(text: string): Fault {
       return { name, sectorMs: value === undefined ? WORST_SECTOR_MS : number(value) };
     case 'lowBattery':
       return { name, batteryMv: value === undefined ? LOW_BATTERY_MV : number(value) };
+    case 'padRun':
+      return padRun(value ?? '');
+    case 'keyRun':
+      return { name, slot: KEY_SLOT, afterMs: number(value ?? '') };
     case 'unplug':
       return unplug(value);
     default:
       throw new RangeError(
-        `no fault is called "${text}"; there are ${LINE_FAULTS.join(', ')}, lostAck, slowErase, lowBattery, unplug`,
+        `no fault is called "${text}"; there are ${LINE_FAULTS.join(', ')}, lostAck, slowErase, lowBattery, padRun, keyRun, unplug`,
       );
   }
 }

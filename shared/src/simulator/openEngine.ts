@@ -5,7 +5,7 @@ import { COMMAND_NUMBER, type Frame } from '../protocol/commands.ts';
 import { createBatterySampler } from './battery.ts';
 import { batteryHandler, createDispatch, motionHandlers, storeHandlers } from './dispatch.ts';
 import type { Engine, EngineParts } from './engine.ts';
-import { createGroupStore } from './groupStore.ts';
+import { createGroupStore, openLayout } from './groupStore.ts';
 import { createMailbox } from './mailbox.ts';
 import { createMainLoop } from './mainLoop.ts';
 import { createPanel } from './panel.ts';
@@ -38,7 +38,7 @@ export function createOpenEngine(build: OpenBuild, parts: EngineParts): Engine {
   const servos = createServos(parts.servoCount);
   const mailbox = createMailbox();
   const { slot } = mailbox;
-  const store = createGroupStore(parts.chip, parts.sectorMs, servosPlayed);
+  const store = createGroupStore(parts.chip, parts.sectorMs, openLayout(servosPlayed));
 
   function storedFrame(group: number, frameIndex: number): Frame | null {
     return decodeFrame(store.readFrame(group, frameIndex), servosPlayed);

@@ -17,7 +17,7 @@ const USAGE = `Usage: simulator (--stdio | --tcp HOST:PORT) [--board NAME] [--se
 Boards: ${Object.keys(PROFILES).join(', ')}
 A simulated servo board. Port 0 takes a free port; baud 0 takes no time on the wire.
 Faults: droppedByte, doubledByte, flippedByte, insertedByte [=PROBABILITY], lostAck[=NTH|=PROBABILITY],
-        slowErase[=MS], lowBattery[=MV], unplug=MS|byteN`;
+        slowErase[=MS], lowBattery[=MV], padRun=SLOT@MS, keyRun=MS, unplug=MS|byteN`;
 
 /** What the usual serial drivers buffer. */
 const DRIVER_BYTES = 4096;

@@ -1,6 +1,7 @@
 // The boards there are to simulate, as values: which firmware, with how many servos. Knows their names, no behaviour: that
 // is in the engines. Source: boards.md chapter 2.
 
+import { createClosedEngine, type ClosedTraits } from './closedEngine.ts';
 import type { CreateEngine } from './engine.ts';
 import { createOpenEngine, type OpenBuild } from './openEngine.ts';
 
@@ -20,11 +21,36 @@ function openFirmware(build: OpenBuild, maxServoCount: number): BoardProfile {
   return { usualServoCount: 6, maxServoCount, createEngine: (parts) => createOpenEngine(build, parts) };
 }
 
+/** 500..2500 µs; its pins carry no pulse until their first target (X4). */
+const LSC: ClosedTraits = {
+  position: { min: 500, max: 2500 },
+  start: null,
+  broadcast: null,
+  talksToServos: false,
+};
+/** 0..1000 steps; bus servos know where they are and stay there at power-up (X4). */
+const BUS: ClosedTraits = {
+  position: { min: 0, max: 1000 },
+  start: 400,
+  broadcast: 254,
+  talksToServos: true,
+};
+
+function closedFirmware(traits: ClosedTraits, usualServoCount: number, maxServoCount: number): BoardProfile {
+  return { usualServoCount, maxServoCount, createEngine: (parts) => createClosedEngine(traits, parts) };
+}
+
 export const PROFILES = {
   /** The ideal board of the protocol document: the open firmware that tells its battery, with any number of servos. */
   doc: openFirmware({ ...NEW_BUILD, answersBattery: true }, 32),
   'openarm-old': openFirmware(OLD_BUILD, 6),
   'openarm-new': openFirmware(NEW_BUILD, 6),
+  'lsc-6': closedFirmware(LSC, 6, 6),
+  'lsc-16': closedFirmware(LSC, 16, 16),
+  'lsc-24': closedFirmware(LSC, 24, 24),
+  'lsc-32': closedFirmware(LSC, 32, 32),
+  'bus-ctrl': closedFirmware(BUS, 6, 32),
+  xarm: closedFirmware(BUS, 6, 6),
 } as const satisfies Readonly<Record<string, BoardProfile>>;
 
 export type ProfileName = keyof typeof PROFILES;

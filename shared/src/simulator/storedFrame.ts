@@ -7,6 +7,16 @@ export function readUint16(bytes: Uint8Array, at: number): number {
   return (bytes[at] ?? 0) | ((bytes[at + 1] ?? 0) << 8);
 }
 
+/** Two bytes, low first. */
+export function uint16(value: number): number[] {
+  return [value & 0xff, value >> 8];
+}
+
+export function encodeFrame({ durationMs, targets }: Frame): number[] {
+  const entries = targets.flatMap(({ servo, position }) => [servo, ...uint16(position)]);
+  return [targets.length, ...uint16(durationMs), ...entries];
+}
+
 /** Null where the count is larger than the board plays: an erased frame reads 255 (S35, S38). */
 export function decodeFrame(bytes: Uint8Array, servosPlayed: number): Frame | null {
   const count = bytes[0] ?? 0;

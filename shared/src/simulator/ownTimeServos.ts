@@ -1,0 +1,82 @@
+// Servos that each take their own time: one that starts or ends leaves the others alone. Bus servos time themselves; of the
+// closed PWM boards nothing else is documented. Counts ticks and knows no clock.
+
+import type { Servos } from './servos.ts';
+
+export interface OwnTimeServos extends Servos {
+  /** Stays where it is from the next tick on, until the next target. */
+  readonly freeze: (servo: number) => void;
+}
+
+export interface ServoTraits {
+  readonly tickMs: number;
+  /** The target the board makes of a position; null where it takes none. */
+  readonly targetOf: (servo: number, position: number) => number | null;
+  /** Where a servo is at power-up; null where it gets no pulse until its first target, and then jumps (X4). */
+  readonly startOf: (servo: number) => number | null;
+  /** This number means all servos. */
+  readonly broadcast: number | null;
+}
+
+interface Channel {
+  position: number | null;
+  target: number | null;
+  ticksLeft: number;
+}
+
+const SHORTEST_MOVE_MS = 20;
+const LONGEST_MOVE_MS = 30_000;
+/** What a pin without pulses shows. */
+const NO_PULSE = 0;
+
+export function createOwnTimeServos(servoCount: number, traits: ServoTraits): OwnTimeServos {
+  const channels = new Map<number, Channel>();
+  for (let servo = 1; servo <= servoCount; servo += 1) {
+    const position = traits.startOf(servo);
+    channels.set(servo, { position, target: position, ticksLeft: 0 });
+  }
+
+  function aim(servo: number, position: number, requestedMs: number): void {
+    const channel = channels.get(servo);
+    const target = traits.targetOf(servo, position);
+    if (!channel || target === null) return;
+    const durationMs = Math.min(Math.max(requestedMs, SHORTEST_MOVE_MS), LONGEST_MOVE_MS);
+    channel.target = target;
+    channel.position ??= target;
+    channel.ticksLeft = Math.trunc(durationMs / traits.tickMs);
+  }
+
+  function accept(servo: number, position: number, durationMs: number): void {
+    const servos = servo === traits.broadcast ? [...channels.keys()] : [servo];
+    for (const each of servos) aim(each, position, durationMs);
+  }
+
+  function step(channel: Channel): void {
+    const { position, target, ticksLeft } = channel;
+    if (ticksLeft === 0 || position === null || target === null) return;
+    channel.position = target - ((target - position) * (ticksLeft - 1)) / ticksLeft;
+    channel.ticksLeft -= 1;
+  }
+
+  function freeze(servo: number): void {
+    const channel = channels.get(servo);
+    if (!channel) return;
+    channel.target = channel.position;
+    channel.ticksLeft = 0;
+  }
+
+  function channelOf(servo: number): Channel {
+    const channel = channels.get(servo);
+    if (channel) return channel;
+    throw new RangeError(`servo ${servo} is not one of the servos 1..${servoCount}`);
+  }
+
+  return {
+    accept,
+    tick: () => channels.forEach(step),
+    moving: () => [...channels.values()].some(({ ticksLeft }) => ticksLeft > 0),
+    freeze,
+    pulse: (servo) => Math.trunc(channelOf(servo).position ?? NO_PULSE),
+    target: (servo) => Math.trunc(channelOf(servo).target ?? NO_PULSE),
+  };
+}
