@@ -2,17 +2,17 @@
 // bytes in, bytes out, pulse widths, a log of the bus. Knows time and pacing, no command and no firmware.
 
 import type { Clock } from '../clock.ts';
-import { BAUD, packetBytes, wireMs } from '../protocol/packet.ts';
-import { COMMAND_NUMBER, type Frame } from '../protocol/commands.ts';
+import { BAUD, wireMs } from '../protocol/packet.ts';
+import type { Frame } from '../protocol/commands.ts';
 import { createAgenda, type Source } from './agenda.ts';
 import type { BusLogEntry } from './busLog.ts';
 import type { Engine } from './engine.ts';
-import { planFaults, type Fault } from './faults.ts';
+import { planFaults, type Fault, type Incident } from './faults.ts';
 import { createFlashChip, type FlashChip } from './flashChip.ts';
-import { createLine } from './line.ts';
+import { createLine, type Line } from './line.ts';
 import { PROFILES, type BoardProfile, type ProfileName } from './profiles.ts';
 import { createSchedule } from './schedule.ts';
-import type { Work } from './work.ts';
+import { createSender } from './sender.ts';
 
 export interface BoardOptions {
   readonly clock: Clock;
@@ -56,6 +56,8 @@ export interface Board {
   /** The cable comes off: bytes are lost in both directions, the board goes on. */
   readonly unplug: () => void;
   readonly plugIn: () => void;
+  /** Loses power for `offMs` (0: a reset) and starts anew; what flash holds stays. */
+  readonly reboot: (offMs?: number) => void;
   /** Ends everything: no more ticks, no more replies. */
   readonly powerOff: () => void;
 }
@@ -69,8 +71,6 @@ export interface BoardSnapshot {
   readonly frameCounts: readonly number[];
 }
 
-/** Replies that say no more than "taken" (S18-S20). */
-const ACKS: readonly number[] = [COMMAND_NUMBER.run, COMMAND_NUMBER.erase, COMMAND_NUMBER.download];
 const SLOT_COUNT = 256;
 const LONG_ON_MS = 10_000;
 
@@ -90,33 +90,58 @@ export function createBoard(options: BoardOptions): Board {
 
   const agenda = createAgenda(clock, onForMs, () => sources, tellHost);
   const { now, turn } = agenda;
-  const engine = switchOn();
-  const line = createLine({
+  const sender = createSender(() => line, plan);
+  let onSinceMs = 0;
+  let engine = switchOn(onSinceMs);
+  const line: Line = createLine({
     now,
     byteMs: baud === 0 ? 0 : wireMs(1, baud),
     plan,
-    arrived: (byte) => engine.takeByte(byte),
+    arrived: (byte) => {
+      if (now() >= onSinceMs) engine.takeByte(byte);
+    },
     log: (direction, byte) => options.onByte?.({ atMs: startedAtMs + now() - onForMs, direction, byte }),
   });
-  const happenings = createSchedule([
-    { atMs: onForMs + plan.unplugAfterMs, happen: unplug },
-    ...plan.presses.map((press) => ({ atMs: onForMs + press.afterMs, happen: () => engine.press(press) })),
-  ]);
-  // At one instant the loop comes before the next byte: so it does not matter how the host cuts its bytes into pieces.
-  const sources: readonly Source[] = [happenings, ...engine.sources, line];
+  const happenings = createSchedule(
+    plan.incidents.map(({ afterMs, incident }) => ({
+      atMs: onForMs + afterMs,
+      happen: () => happen(incident),
+    })),
+  );
+  let sources = allSources();
 
-  function switchOn(): Engine {
+  /** The firmware counts its time from power-up, and knows nothing before it. */
+  function switchOn(atMs: number): Engine {
     const batteryMv = plan.batteryMv ?? options.batteryMv ?? 7500;
-    return profile.createEngine({ now, chip, sectorMs: plan.sectorMs, servoCount, batteryMv, reply });
+    const sinceOn = () => now() - atMs;
+    return profile.createEngine({
+      now: sinceOn,
+      chip,
+      sectorMs: plan.sectorMs,
+      servoCount,
+      batteryMv,
+      ...sender,
+    });
   }
 
-  /** Sent by busy-waiting: each byte blocks the loop for its time on the wire (S21). */
-  function* reply(command: number, params: readonly number[]): Work {
-    const lost = ACKS.includes(command) && plan.losesAck();
-    for (const byte of packetBytes(command, params)) {
-      yield line.byteMs;
-      line.transmit(byte, lost);
-    }
+  /** At one instant the loop comes before the next byte: so it does not matter how the host cuts its bytes into pieces. */
+  function allSources(): readonly Source[] {
+    const own = engine.sources.map(({ dueMs, fire }) => ({ dueMs: () => onSinceMs + dueMs(), fire }));
+    return [happenings, ...own, line, line.outbox];
+  }
+
+  /** Flash work in progress stays half done (S40); a reply is cut. */
+  function reboot(offMs: number): void {
+    onSinceMs = now() + offMs;
+    engine = switchOn(onSinceMs);
+    sources = allSources();
+  }
+
+  function happen(incident: Incident): void {
+    if (incident.kind === 'unplug') unplug();
+    else if (incident.kind === 'press') engine.press(incident);
+    else if (incident.kind === 'pressMode') engine.pressMode?.();
+    else reboot(incident.offMs);
   }
 
   /** At the end of a turn, when the host may call the board again. */
@@ -159,12 +184,13 @@ export function createBoard(options: BoardOptions): Board {
     waitingBytes: () => turn(() => line.waitingBytes()),
     pulse: (servo) => turn(() => engine.pulse(servo)),
     target: (servo) => turn(() => engine.target(servo)),
-    runningSlot: () => turn(engine.runningSlot),
+    runningSlot: () => turn(() => engine.runningSlot()),
     frameCount: (slot) => turn(() => engine.frameCount(slot)),
     storedFrame: (slot, frameIndex) => turn(() => engine.storedFrame(slot, frameIndex)),
     snapshot: () => turn(snapshot),
     unplug: () => turn(unplug),
     plugIn: () => turn(plugIn),
+    reboot: (offMs = 0) => turn(() => reboot(offMs)),
     powerOff,
   };
 }

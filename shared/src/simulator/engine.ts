@@ -14,6 +14,8 @@ export interface EngineParts {
   readonly servoCount: number;
   readonly batteryMv: number;
   readonly reply: (command: number, params: readonly number[]) => Work;
+  /** Text on the line, in plain ASCII. */
+  readonly print: (text: string) => Work;
 }
 
 export interface Engine {
@@ -23,6 +25,8 @@ export interface Engine {
   readonly sources: readonly Source[];
   /** Somebody starts a group at the board. */
   readonly press: (press: Press) => void;
+  /** Somebody presses the key that says whom the board listens to, where it has one (L2). */
+  readonly pressMode?: () => void;
   readonly pulse: (servo: number) => number;
   readonly target: (servo: number) => number;
   readonly frameCount: (slot: number) => number;

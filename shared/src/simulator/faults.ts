@@ -1,46 +1,71 @@
 // What can go wrong on purpose: named faults with a value, and the plan a board follows, the same for the same seed.
 // Knows bytes and replies as counts and chances; does not know what they mean.
 
+import { HEADER } from '../protocol/packet.ts';
 import type { Press } from './panel.ts';
 import { createRandom } from './random.ts';
 
 /** Faults of the line strike each byte by chance, in both directions. */
-const LINE_FAULTS = ['droppedByte', 'doubledByte', 'flippedByte', 'insertedByte'] as const;
+const LINE_FAULTS = ['droppedByte', 'doubledByte', 'flippedByte', 'insertedByte', 'stray55'] as const;
 type LineFault = (typeof LINE_FAULTS)[number];
+
+/** Faults of acknowledgements (empty replies to run, erase and download) strike by chance or the n-th alone, from 1. */
+const ACK_FAULTS = ['lostAck', 'doubledAck', 'foreignAck'] as const;
+type AckFaultName = (typeof ACK_FAULTS)[number];
+type Strikes = { readonly probability: number } | { readonly nth: number };
 
 export type Fault =
   | { readonly name: LineFault; readonly probability: number }
-  /** Loses acknowledgements (replies to run, erase and download) by chance. */
-  | { readonly name: 'lostAck'; readonly probability: number }
-  /** Loses the `nth` acknowledgement alone, counted from 1. */
-  | { readonly name: 'lostAck'; readonly nth: number }
-  /** How long the chip takes to erase a sector: 45 ms typical, 400 ms at worst. */
+  /** `foreignAck` sends that of another command ahead of the right one. */
+  | ({ readonly name: AckFaultName } & Strikes)
+  /** It reaches the host that much later, and all behind it too. */
+  | ({ readonly name: 'lateAck'; readonly delayMs: number } & Strikes)
+  /** How long the chip takes to erase a sector: 45 ms typical, 400 ms at worst; Infinity for an erase without end. */
   | { readonly name: 'slowErase'; readonly sectorMs: number }
   | { readonly name: 'lowBattery'; readonly batteryMv: number }
   /** Somebody starts a group at the board itself, with its pad or its key. */
   | { readonly name: 'padRun' | 'keyRun'; readonly slot: number; readonly afterMs: number }
+  /** Somebody presses the key that says whom the board listens to (L2). */
+  | { readonly name: 'modeKey'; readonly afterMs: number }
+  /** A reset at that time; `brownOut` is without power for a moment first. */
+  | { readonly name: 'reboot' | 'brownOut'; readonly afterMs: number }
   /** The cable comes off; motion goes on. */
   | { readonly name: 'unplug'; readonly afterMs: number }
   /** After that many bytes on the wire, both directions counted together. */
   | { readonly name: 'unplug'; readonly atByte: number };
 
-/** A group that somebody starts at the board. */
-interface PlannedPress extends Press {
+/** What happens to the board at a time of its own. */
+export type Incident =
+  | { readonly kind: 'unplug' }
+  | ({ readonly kind: 'press' } & Press)
+  | { readonly kind: 'pressMode' }
+  | { readonly kind: 'reboot'; readonly offMs: number };
+
+interface PlannedIncident {
+  /** Since the board was created. */
   readonly afterMs: number;
+  readonly incident: Incident;
 }
+
+/** What becomes of one acknowledgement. */
+export interface AckFate {
+  readonly lost: boolean;
+  readonly doubled: boolean;
+  readonly foreign: boolean;
+  readonly lateMs: number;
+}
+
+export const UNHARMED: AckFate = { lost: false, doubled: false, foreign: false, lateMs: 0 };
 
 export interface FaultPlan {
   /** What the other end gets for one byte sent. */
   distort(byte: number): readonly number[];
-  losesAck(): boolean;
+  nextAck(): AckFate;
   readonly sectorMs: number;
   /** Null where the battery is as configured. */
   readonly batteryMv: number | null;
-  /** Since the board was created; Infinity for never. */
-  readonly unplugAfterMs: number;
   readonly unplugAtByte: number;
-  /** Since the board was created. */
-  readonly presses: readonly PlannedPress[];
+  readonly incidents: readonly PlannedIncident[];
 }
 
 const TYPICAL_SECTOR_MS = 45;
@@ -51,6 +76,8 @@ const BLOCK_MS = { padRun: 5.2, keyRun: 60 } as const;
 /** What the key starts (S55, X8). */
 const KEY_SLOT = 100;
 const SLOT_COUNT = 256;
+/** Long enough for the board's capacitors. */
+const BROWN_OUT_MS = 400;
 /** About one byte a second on a busy line. */
 const USUAL_LINE_PROBABILITY = 0.001;
 
@@ -61,16 +88,29 @@ const STRIKES: Readonly<Record<LineFault, Strike>> = {
   doubledByte: (byte) => [byte, byte],
   flippedByte: (byte, random) => [byte ^ (1 << Math.floor(random() * 8))],
   insertedByte: (byte, random) => [Math.floor(random() * 256), byte],
+  // Only a third 55 does what a stray one does (S4).
+  stray55: (byte) => (byte === HEADER ? [HEADER, byte] : [byte]),
 };
 
 function isLineFault(fault: Fault): fault is Extract<Fault, { name: LineFault }> {
   return LINE_FAULTS.some((name) => name === fault.name);
 }
 
+type AckFault = Extract<Fault, { name: AckFaultName | 'lateAck' }>;
+
+function isAckFault(fault: Fault): fault is AckFault {
+  return fault.name === 'lateAck' || ACK_FAULTS.some((name) => name === fault.name);
+}
+
+function strikesAt(fault: AckFault, ordinal: number, random: () => number): boolean {
+  return 'nth' in fault ? fault.nth === ordinal : random() < fault.probability;
+}
+
 /** Gives the plan for these faults; where a name comes twice with a single value, the last one counts. */
 export function planFaults(faults: readonly Fault[], seed: number): FaultPlan {
   const random = createRandom(seed);
   const lineFaults = faults.filter(isLineFault);
+  const ackFaults = faults.filter(isAckFault);
   let acks = 0;
 
   function distort(byte: number): readonly number[] {
@@ -78,34 +118,51 @@ export function planFaults(faults: readonly Fault[], seed: number): FaultPlan {
     return struck ? STRIKES[struck.name](byte, random) : [byte];
   }
 
-  function losesAck(): boolean {
+  function nextAck(): AckFate {
     acks += 1;
-    return faults.some((fault) => {
-      if (fault.name !== 'lostAck') return false;
-      return 'nth' in fault ? fault.nth === acks : random() < fault.probability;
-    });
+    const striking = ackFaults.filter((fault) => strikesAt(fault, acks, random));
+    const has = (name: AckFaultName) => striking.some((fault) => fault.name === name);
+    const delays = striking.map((fault) => (fault.name === 'lateAck' ? fault.delayMs : 0));
+    return {
+      lost: has('lostAck'),
+      doubled: has('doubledAck'),
+      foreign: has('foreignAck'),
+      lateMs: Math.max(0, ...delays),
+    };
   }
 
   const plan = {
     distort,
-    losesAck,
+    nextAck,
     sectorMs: TYPICAL_SECTOR_MS,
     batteryMv: null as number | null,
-    unplugAfterMs: Infinity,
     unplugAtByte: Infinity,
-    presses: faults.flatMap((fault) =>
-      fault.name === 'padRun' || fault.name === 'keyRun'
-        ? [{ slot: fault.slot, afterMs: fault.afterMs, blockMs: BLOCK_MS[fault.name] }]
-        : [],
-    ),
+    incidents: faults.flatMap(incidentOf),
   };
   for (const fault of faults) {
     if (fault.name === 'slowErase') plan.sectorMs = fault.sectorMs;
     if (fault.name === 'lowBattery') plan.batteryMv = fault.batteryMv;
-    if (fault.name === 'unplug' && 'afterMs' in fault) plan.unplugAfterMs = fault.afterMs;
     if (fault.name === 'unplug' && 'atByte' in fault) plan.unplugAtByte = fault.atByte;
   }
   return plan;
+}
+
+function incidentOf(fault: Fault): PlannedIncident[] {
+  if (!('afterMs' in fault)) return [];
+  const { afterMs } = fault;
+  switch (fault.name) {
+    case 'padRun':
+    case 'keyRun':
+      return [{ afterMs, incident: { kind: 'press', slot: fault.slot, blockMs: BLOCK_MS[fault.name] } }];
+    case 'modeKey':
+      return [{ afterMs, incident: { kind: 'pressMode' } }];
+    case 'reboot':
+      return [{ afterMs, incident: { kind: 'reboot', offMs: 0 } }];
+    case 'brownOut':
+      return [{ afterMs, incident: { kind: 'reboot', offMs: BROWN_OUT_MS } }];
+    case 'unplug':
+      return [{ afterMs, incident: { kind: 'unplug' } }];
+  }
 }
 
 function number(text: string): number {
@@ -120,17 +177,26 @@ function probability(text: string | undefined, usual: number): number {
   throw new RangeError(`a probability is 0..1, not ${value}`);
 }
 
-/** A whole number names the n-th acknowledgement, a fraction is a chance, no value loses them all. */
-function lostAck(text: string | undefined): Fault {
+/** A whole number names the n-th acknowledgement, a fraction is a chance, no value strikes them all. */
+function strikes(text: string | undefined): Strikes {
   const value = text === undefined ? NaN : number(text);
-  if (Number.isInteger(value) && value > 0) return { name: 'lostAck', nth: value };
-  return { name: 'lostAck', probability: probability(text, 1) };
+  if (Number.isInteger(value) && value > 0) return { nth: value };
+  return { probability: probability(text, 1) };
 }
 
-function unplug(text: string | undefined): Fault {
-  const atByte = /^byte(.*)$/.exec(text ?? '')?.[1];
+function lateAck(text: string): Fault {
+  const [delayText = '', strikesText] = text.split('@', 2);
+  return { name: 'lateAck', delayMs: number(delayText), ...strikes(strikesText) };
+}
+
+function unplug(text: string): Fault {
+  const atByte = /^byte(.*)$/.exec(text)?.[1];
   if (atByte !== undefined) return { name: 'unplug', atByte: number(atByte) };
-  return { name: 'unplug', afterMs: number(text ?? '') };
+  return { name: 'unplug', afterMs: number(text) };
+}
+
+function eraseMs(text: string): number {
+  return text === 'never' ? Infinity : number(text);
 }
 
 function padRun(text: string): Fault {
@@ -141,30 +207,47 @@ function padRun(text: string): Fault {
   return { name: 'padRun', slot, afterMs: number(afterText) };
 }
 
+/** One fault a name: what stands behind `=`, undefined where nothing does. */
+const READERS: Readonly<Record<Fault['name'], (value: string | undefined) => Fault>> = {
+  droppedByte: (value) => ({ name: 'droppedByte', probability: probability(value, USUAL_LINE_PROBABILITY) }),
+  doubledByte: (value) => ({ name: 'doubledByte', probability: probability(value, USUAL_LINE_PROBABILITY) }),
+  flippedByte: (value) => ({ name: 'flippedByte', probability: probability(value, USUAL_LINE_PROBABILITY) }),
+  insertedByte: (value) => ({
+    name: 'insertedByte',
+    probability: probability(value, USUAL_LINE_PROBABILITY),
+  }),
+  stray55: (value) => ({ name: 'stray55', probability: probability(value, USUAL_LINE_PROBABILITY) }),
+  lostAck: (value) => ({ name: 'lostAck', ...strikes(value) }),
+  doubledAck: (value) => ({ name: 'doubledAck', ...strikes(value) }),
+  foreignAck: (value) => ({ name: 'foreignAck', ...strikes(value) }),
+  lateAck: (value = '') => lateAck(value),
+  slowErase: (value) => ({
+    name: 'slowErase',
+    sectorMs: value === undefined ? WORST_SECTOR_MS : eraseMs(value),
+  }),
+  lowBattery: (value) => ({
+    name: 'lowBattery',
+    batteryMv: value === undefined ? LOW_BATTERY_MV : number(value),
+  }),
+  padRun: (value = '') => padRun(value),
+  keyRun: (value = '') => ({ name: 'keyRun', slot: KEY_SLOT, afterMs: number(value) }),
+  modeKey: (value = '') => ({ name: 'modeKey', afterMs: number(value) }),
+  reboot: (value = '') => ({ name: 'reboot', afterMs: number(value) }),
+  brownOut: (value = '') => ({ name: 'brownOut', afterMs: number(value) }),
+  unplug: (value = '') => unplug(value),
+};
+
+function isFaultName(text: string): text is Fault['name'] {
+  return Object.hasOwn(READERS, text);
+}
+
 /**
- * Reads `name` or `name=value`: `droppedByte=0.01`, `lostAck=3`, `slowErase=400`, `lowBattery=6200`, `unplug=1500` (ms),
- * `unplug=byte120`, `padRun=8@1500` (group 8 after 1500 ms), `keyRun=1500`. Throws RangeError with a sentence for people.
+ * Reads `name` or `name=value`: `droppedByte=0.01`, `lostAck=3`, `lateAck=400@3` (the third, 400 ms later),
+ * `slowErase=400`, `slowErase=never`, `lowBattery=6200`, `unplug=1500` (ms), `unplug=byte120`, `padRun=8@1500` (group 8
+ * after 1500 ms), `keyRun=1500`, `modeKey=1500`, `reboot=1500`, `brownOut=1500`. Throws RangeError with a sentence for people.
  */
 export function parseFault(text: string): Fault {
-  const [name, value] = text.split('=', 2);
-  const lineFault = LINE_FAULTS.find((candidate) => candidate === name);
-  if (lineFault) return { name: lineFault, probability: probability(value, USUAL_LINE_PROBABILITY) };
-  switch (name) {
-    case 'lostAck':
-      return lostAck(value);
-    case 'slowErase':
-      return { name, sectorMs: value === undefined ? WORST_SECTOR_MS : number(value) };
-    case 'lowBattery':
-      return { name, batteryMv: value === undefined ? LOW_BATTERY_MV : number(value) };
-    case 'padRun':
-      return padRun(value ?? '');
-    case 'keyRun':
-      return { name, slot: KEY_SLOT, afterMs: number(value ?? '') };
-    case 'unplug':
-      return unplug(value);
-    default:
-      throw new RangeError(
-        `no fault is called "${text}"; there are ${LINE_FAULTS.join(', ')}, lostAck, slowErase, lowBattery, padRun, keyRun, unplug`,
-      );
-  }
+  const [name = '', value] = text.split('=', 2);
+  if (isFaultName(name)) return READERS[name](value);
+  throw new RangeError(`no fault is called "${text}"; there are ${Object.keys(READERS).join(', ')}`);
 }

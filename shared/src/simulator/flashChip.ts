@@ -2,7 +2,7 @@
 // instant here; how long they block the board is groupStore.ts. Knows nothing of groups.
 
 export interface FlashChip {
-  /** A copy of `length` bytes; the range must lie within one sector. */
+  /** A copy of `length` bytes. */
   read(address: number, length: number): Uint8Array;
   /** Bits can only be cleared: what was there and what comes are ANDed (S36). */
   program(address: number, bytes: Uint8Array): void;
@@ -21,18 +21,22 @@ export function createFlashChip(): FlashChip {
     return Math.floor(address / SECTOR_BYTES);
   }
 
+  function byteAt(address: number): number {
+    return sectors.get(sectorOf(address))?.[address % SECTOR_BYTES] ?? ERASED;
+  }
+
   function read(address: number, length: number): Uint8Array {
-    const offset = address % SECTOR_BYTES;
-    const sector = sectors.get(sectorOf(address));
-    return sector ? sector.slice(offset, offset + length) : new Uint8Array(length).fill(ERASED);
+    return Uint8Array.from({ length }, (_, index) => byteAt(address + index));
+  }
+
+  function programByte(address: number, byte: number): void {
+    const sector = sectors.get(sectorOf(address)) ?? new Uint8Array(SECTOR_BYTES).fill(ERASED);
+    sectors.set(sectorOf(address), sector);
+    sector[address % SECTOR_BYTES] = byteAt(address) & byte;
   }
 
   function program(address: number, bytes: Uint8Array): void {
-    const sector = sectors.get(sectorOf(address)) ?? new Uint8Array(SECTOR_BYTES).fill(ERASED);
-    sectors.set(sectorOf(address), sector);
-    const offset = address % SECTOR_BYTES;
-    for (const [index, byte] of bytes.entries())
-      sector[offset + index] = (sector[offset + index] ?? ERASED) & byte;
+    for (const [index, byte] of bytes.entries()) programByte(address + index, byte);
   }
 
   return { read, program, eraseSector: (address) => void sectors.delete(sectorOf(address)) };

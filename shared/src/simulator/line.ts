@@ -3,7 +3,8 @@
 
 import type { Source } from './agenda.ts';
 import type { BusLogEntry } from './busLog.ts';
-import type { FaultPlan } from './faults.ts';
+import type { AckFate, FaultPlan } from './faults.ts';
+import { createOutbox } from './outbox.ts';
 
 export interface LineParts {
   readonly now: () => number;
@@ -18,8 +19,10 @@ export interface Line extends Source {
   readonly byteMs: number;
   /** The host starts to send; each byte completes after the one before it. */
   receive(bytes: Uint8Array): void;
-  /** One byte has left the board; `lost` ones never reach the host. */
-  transmit(byte: number, lost: boolean): void;
+  /** One byte has left the board; lost ones never reach the host, late ones later. */
+  transmit(byte: number, fate: Pick<AckFate, 'lost' | 'lateMs'>): void;
+  /** Brings late bytes to the host. */
+  readonly outbox: Source;
   /** What reached the host since the last call. */
   takeSent(): Uint8Array;
   /** Bytes of the host that have not arrived yet. */
@@ -33,7 +36,7 @@ export function createLine({ now, byteMs, plan, arrived, log }: LineParts): Line
   let headIndex = 0;
   let waiting = 0;
   let lineFreeMs = 0;
-  let sent: number[] = [];
+  const outbox = createOutbox(now);
   let plugged = true;
   let bytesOnWire = 0;
 
@@ -50,6 +53,7 @@ export function createLine({ now, byteMs, plan, arrived, log }: LineParts): Line
     queue = [];
     headIndex = 0;
     waiting = 0;
+    outbox.drop();
   }
 
   function receive(bytes: Uint8Array): void {
@@ -82,16 +86,11 @@ export function createLine({ now, byteMs, plan, arrived, log }: LineParts): Line
     }
   }
 
-  function transmit(byte: number, lost: boolean): void {
+  function transmit(byte: number, { lost, lateMs }: Pick<AckFate, 'lost' | 'lateMs'>): void {
     if (!plugged) return;
     pass('out', byte);
-    if (!lost) sent.push(...plan.distort(byte));
-  }
-
-  function takeSent(): Uint8Array {
-    const bytes = Uint8Array.from(sent);
-    sent = [];
-    return bytes;
+    if (lost) return;
+    for (const heard of plan.distort(byte)) outbox.put(heard, lateMs);
   }
 
   return {
@@ -100,7 +99,8 @@ export function createLine({ now, byteMs, plan, arrived, log }: LineParts): Line
     dueMs,
     fire,
     transmit,
-    takeSent,
+    takeSent: outbox.take,
+    outbox,
     waitingBytes: () => waiting,
     isPlugged: () => plugged,
     plug,

@@ -20,7 +20,9 @@ export interface ServoTraits {
 
 interface Channel {
   position: number | null;
-  target: number | null;
+  start: number;
+  target: number;
+  ticks: number;
   ticksLeft: number;
 }
 
@@ -33,7 +35,13 @@ export function createOwnTimeServos(servoCount: number, traits: ServoTraits): Ow
   const channels = new Map<number, Channel>();
   for (let servo = 1; servo <= servoCount; servo += 1) {
     const position = traits.startOf(servo);
-    channels.set(servo, { position, target: position, ticksLeft: 0 });
+    channels.set(servo, {
+      position,
+      start: position ?? NO_PULSE,
+      target: position ?? NO_PULSE,
+      ticks: 0,
+      ticksLeft: 0,
+    });
   }
 
   function aim(servo: number, position: number, requestedMs: number): void {
@@ -43,7 +51,9 @@ export function createOwnTimeServos(servoCount: number, traits: ServoTraits): Ow
     const durationMs = Math.min(Math.max(requestedMs, SHORTEST_MOVE_MS), LONGEST_MOVE_MS);
     channel.target = target;
     channel.position ??= target;
-    channel.ticksLeft = Math.trunc(durationMs / traits.tickMs);
+    channel.start = channel.position;
+    channel.ticks = Math.trunc(durationMs / traits.tickMs);
+    channel.ticksLeft = channel.ticks;
   }
 
   function accept(servo: number, position: number, durationMs: number): void {
@@ -52,16 +62,16 @@ export function createOwnTimeServos(servoCount: number, traits: ServoTraits): Ow
   }
 
   function step(channel: Channel): void {
-    const { position, target, ticksLeft } = channel;
-    if (ticksLeft === 0 || position === null || target === null) return;
-    channel.position = target - ((target - position) * (ticksLeft - 1)) / ticksLeft;
+    if (channel.ticksLeft === 0) return;
     channel.ticksLeft -= 1;
+    const { start, target, ticks, ticksLeft } = channel;
+    channel.position = target + Math.trunc(((start - target) * ticksLeft) / ticks);
   }
 
   function freeze(servo: number): void {
     const channel = channels.get(servo);
     if (!channel) return;
-    channel.target = channel.position;
+    channel.target = channel.position ?? NO_PULSE;
     channel.ticksLeft = 0;
   }
 
@@ -76,7 +86,7 @@ export function createOwnTimeServos(servoCount: number, traits: ServoTraits): Ow
     tick: () => channels.forEach(step),
     moving: () => [...channels.values()].some(({ ticksLeft }) => ticksLeft > 0),
     freeze,
-    pulse: (servo) => Math.trunc(channelOf(servo).position ?? NO_PULSE),
-    target: (servo) => Math.trunc(channelOf(servo).target ?? NO_PULSE),
+    pulse: (servo) => channelOf(servo).position ?? NO_PULSE,
+    target: (servo) => channelOf(servo).target,
   };
 }

@@ -7,7 +7,7 @@ import type { Readable } from 'node:stream';
 import { fileURLToPath } from 'node:url';
 import { build } from 'vite';
 import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
-import { bytesOf, hexOf, READ_BATTERY } from './boardUnderTest.ts';
+import { bytesOf, hexOf, READ_BATTERY, run } from './boardUnderTest.ts';
 
 const ANSWER = '55 55 04 0F 4C 1D';
 const folder = mkdtempSync(join(tmpdir(), 'servodeck-simulator-'));
@@ -99,6 +99,12 @@ test('on TCP it answers one host after the other, one at a time', async () => {
   }
 });
 
+test('--board says which board it is', async () => {
+  const child = start('--stdio', '--board', 'lsc-16', '--baud', '0');
+  child.stdin.write(bytesOf(run(8, 1)));
+  expect(await firstBytes(child.stdout, 7)).toBe('55 55 05 06 08 01 00');
+});
+
 test('it ends on SIGTERM, and by itself when the unplug fault strikes', async () => {
   const terminated = start('--stdio', '--baud', '0');
   terminated.stdin.write(bytesOf(READ_BATTERY));
@@ -117,6 +123,8 @@ test.each([
   { args: ['--stdio', '--fault', 'nonsense'], says: 'no fault is called "nonsense"' },
   { args: ['--tcp', 'nowhere'], says: '--tcp takes HOST:PORT' },
   { args: ['--stdio', '--servos', '33'], says: '--servos is a whole number 1..32' },
+  { args: ['--stdio', '--board', 'xarm', '--servos', '7'], says: '--servos is a whole number 1..6' },
+  { args: ['--stdio', '--board', 'toaster'], says: 'no board is called "toaster"; there are doc,' },
 ])('bad arguments $args are refused with a sentence', async ({ args, says }) => {
   const child = start(...args);
   const line = firstLine(child.stderr);

@@ -16,8 +16,9 @@ const USAGE = `Usage: simulator (--stdio | --tcp HOST:PORT) [--board NAME] [--se
                  [--servos N] [--baud N] [--bus-log FILE]
 Boards: ${Object.keys(PROFILES).join(', ')}
 A simulated servo board. Port 0 takes a free port; baud 0 takes no time on the wire.
-Faults: droppedByte, doubledByte, flippedByte, insertedByte [=PROBABILITY], lostAck[=NTH|=PROBABILITY],
-        slowErase[=MS], lowBattery[=MV], padRun=SLOT@MS, keyRun=MS, unplug=MS|byteN`;
+Faults: droppedByte, doubledByte, flippedByte, insertedByte, stray55 [=PROBABILITY],
+        lostAck, doubledAck, foreignAck [=NTH|=PROBABILITY], lateAck=MS[@NTH|@PROBABILITY], slowErase[=MS|=never],
+        lowBattery[=MV], padRun=SLOT@MS, keyRun=MS, modeKey=MS, reboot=MS, brownOut=MS, unplug=MS|byteN`;
 
 /** What the usual serial drivers buffer. */
 const DRIVER_BYTES = 4096;
