@@ -3,6 +3,7 @@
 
 import { createClosedEngine, type ClosedTraits } from './closedEngine.ts';
 import type { CreateEngine } from './engine.ts';
+import { createLearmEngine } from './learm/engine.ts';
 import { createOpenEngine, type OpenBuild } from './openEngine.ts';
 
 export interface BoardProfile {
@@ -51,6 +52,7 @@ export const PROFILES = {
   'lsc-32': closedFirmware(LSC, 32, 32),
   'bus-ctrl': closedFirmware(BUS, 6, 32),
   xarm: closedFirmware(BUS, 6, 6),
+  'learm-esp32': { usualServoCount: 6, maxServoCount: 6, createEngine: createLearmEngine },
 } as const satisfies Readonly<Record<string, BoardProfile>>;
 
 export type ProfileName = keyof typeof PROFILES;

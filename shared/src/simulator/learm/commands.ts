@@ -1,0 +1,122 @@
+// What LeArm does with a command: the numbers of the other boards and its own ones (boards.md 2.3), with its delays before
+// each answer (L13). Knows no bytes on the line and no loop.
+
+import { COMMAND_NUMBER } from '../../protocol/commands.ts';
+import type { Reply } from '../dispatch.ts';
+import type { GroupStore } from '../groupStore.ts';
+import type { OwnTimeServos } from '../ownTimeServos.ts';
+import { readUint16, uint16 } from '../storedFrame.ts';
+import type { Work } from '../work.ts';
+import type { LearmRunner } from './runner.ts';
+
+export interface LearmCommandParts {
+  readonly servos: OwnTimeServos;
+  readonly store: GroupStore;
+  readonly runner: LearmRunner;
+  readonly sectorMs: number;
+  readonly reply: Reply;
+}
+
+export const LEARM_SERVOS: readonly number[] = [1, 2, 3, 4, 5, 6];
+/** Where the servos are at power-up and after a reset (L1). */
+export const RESET_POSE: readonly number[] = [770, 1500, 644, 511, 1255, 1500];
+
+/** PWM servos, first version (boards.md 2.3). */
+const VERSION: readonly number[] = [1, 1];
+const RESET_MS = 1000;
+const OFFSET_LIMIT = 125;
+/** The loop of the stop command ends one servo too early (L9). */
+const STOPPED_SERVOS = LEARM_SERVOS.slice(0, 5);
+const MOVE_ENTRIES_AT = 3;
+const FRAME_AT = 3;
+
+type Handler = (params: Uint8Array) => Iterable<number>;
+const AT_ONCE: Iterable<number> = [];
+
+/** Serves one command: a run in progress dies of every one but run and stop, even an unknown one (L8). */
+export function createLearmCommands(
+  parts: LearmCommandParts,
+): (command: number, params: Uint8Array) => Iterable<number> {
+  const { servos, store, runner, sectorMs, reply } = parts;
+  const offsets = new Map(LEARM_SERVOS.map((servo) => [servo, 0]));
+
+  function answer(command: number, delayMs: number, params: () => readonly number[]): Handler {
+    return function* (): Work {
+      yield delayMs;
+      yield* reply(command, params());
+    };
+  }
+
+  function move(params: Uint8Array): Iterable<number> {
+    const end = MOVE_ENTRIES_AT + (params[0] ?? 0) * 3;
+    for (let at = MOVE_ENTRIES_AT; at < Math.min(end, params.length); at += 3)
+      servos.accept(params[at] ?? 0, readUint16(params, at + 1), readUint16(params, 1));
+    return AT_ONCE;
+  }
+
+  function run(params: Uint8Array): Iterable<number> {
+    runner.request(params[0] ?? 0, readUint16(params, 1));
+    return AT_ONCE;
+  }
+
+  function stop(): Iterable<number> {
+    runner.stop();
+    STOPPED_SERVOS.forEach(servos.freeze);
+    return AT_ONCE;
+  }
+
+  function* erase(): Work {
+    yield* store.clearCounts();
+    yield 10;
+    yield* reply(COMMAND_NUMBER.erase, []);
+  }
+
+  function* download(params: Uint8Array): Work {
+    const [slot = 0, frameCount = 0, frameIndex = 0] = params;
+    const frame = new Uint8Array(store.frameBytes);
+    frame.set(params.slice(FRAME_AT, FRAME_AT + store.frameBytes));
+    yield* store.saveFrame({ slot, frameCount, frameIndex }, () => frame);
+    yield 10;
+    yield* reply(COMMAND_NUMBER.download, []);
+  }
+
+  function setOffset([servo = 0, byte = 0]: Uint8Array): Iterable<number> {
+    const offset = (byte << 24) >> 24;
+    if (offsets.has(servo) && Math.abs(offset) <= OFFSET_LIMIT) offsets.set(servo, offset);
+    return AT_ONCE;
+  }
+
+  function resetPose(): Iterable<number> {
+    for (const servo of LEARM_SERVOS) servos.accept(servo, RESET_POSE[servo - 1] ?? 0, RESET_MS);
+    return AT_ONCE;
+  }
+
+  const positions = () => LEARM_SERVOS.flatMap((servo) => [servo, ...uint16(servos.pulse(servo))]);
+  const offsetList = () => [...offsets].flatMap(([servo, offset]) => [servo, offset & 0xff]);
+
+  /** Offsets go to flash (L14). */
+  function* saveOffsets(): Work {
+    yield sectorMs;
+    yield 20;
+    yield* reply(11, []);
+  }
+
+  const handlers = new Map<number, Handler>([
+    [1, answer(1, 30, () => VERSION)],
+    [2, answer(2, 20, offsetList)],
+    [COMMAND_NUMBER.move, move],
+    [COMMAND_NUMBER.run, run],
+    [COMMAND_NUMBER.stop, stop],
+    [COMMAND_NUMBER.erase, erase],
+    [10, setOffset],
+    [11, saveOffsets],
+    [12, resetPose],
+    [13, answer(13, 10, positions)],
+    [COMMAND_NUMBER.download, download],
+  ]);
+
+  return (command, params) => {
+    if (command !== COMMAND_NUMBER.run && command !== COMMAND_NUMBER.stop) runner.kill();
+    return handlers.get(command)?.(params) ?? AT_ONCE;
+  };
+}

@@ -1,0 +1,108 @@
+// LeArm AI with its ESP32 (boards.md chapter 4), PWM servos, without its cable: parser, mode, loop, servos and store put
+// together. Knows no pacing and no clock.
+
+import type { Frame } from '../../protocol/commands.ts';
+import type { Engine, EngineParts } from '../engine.ts';
+import { createGroupStore } from '../groupStore.ts';
+import { createOwnTimeServos } from '../ownTimeServos.ts';
+import { createProcessor } from '../processor.ts';
+import { decodeFrame } from '../storedFrame.ts';
+import type { Work } from '../work.ts';
+import { createLearmCommands, LEARM_SERVOS, RESET_POSE } from './commands.ts';
+import { createLearmParser } from './parser.ts';
+import { createLearmRunner } from './runner.ts';
+import { createTicker, LEARM_TICK_MS } from './ticker.ts';
+
+/** 21 bytes a frame, 8 KiB a group, 255 groups (L12). */
+const LAYOUT = { frameBytes: 21, groupBytes: 8192, groupCount: 255 };
+/** The key K1 goes round; only in the second one the line is the USB's (L2). */
+const MODES = ['app', 'pc', 'ps2', 'offline'] as const;
+const FIRST_LINE_MS = 500;
+const READY_MS = 2700;
+const MIN_US = 500;
+const MAX_US = 2500;
+/** The gripper would break itself (boards.md 2.1). */
+const GRIPPER = 1;
+const GRIPPER_MAX_US = 1500;
+
+function targetOf(servo: number, position: number): number {
+  return Math.min(Math.max(position, MIN_US), servo === GRIPPER ? GRIPPER_MAX_US : MAX_US);
+}
+
+export function createLearmEngine(parts: EngineParts): Engine {
+  const { now, reply, print, sectorMs } = parts;
+  const packets: { readonly command: number; readonly params: Uint8Array }[] = [];
+  // A board that has been on for a while: somebody has pressed the key already.
+  let booted = now() >= READY_MS;
+  let mode = MODES.indexOf(booted ? 'pc' : 'app');
+  let jammed = false;
+
+  const servos = createOwnTimeServos(LEARM_SERVOS.length, {
+    tickMs: LEARM_TICK_MS,
+    targetOf,
+    startOf: (servo) => RESET_POSE[servo - 1] ?? null,
+    broadcast: null,
+  });
+  const store = createGroupStore(parts.chip, sectorMs, LAYOUT);
+
+  function storedFrame(slot: number, frameIndex: number): Frame | null {
+    return decodeFrame(store.readFrame(slot, frameIndex), LEARM_SERVOS.length);
+  }
+
+  function issue({ durationMs, targets }: Frame): void {
+    for (const { servo, position } of targets) servos.accept(servo, position, durationMs);
+  }
+
+  const runner = createLearmRunner({
+    now,
+    frameCount: store.frameCount,
+    frame: storedFrame,
+    issue,
+    arrived: () => !servos.moving(),
+  });
+  const serve = createLearmCommands({ servos, store, runner, sectorMs, reply });
+  const takeByte = createLearmParser({
+    complete: (command, params) => packets.push({ command, params }),
+    overrun: () => (jammed = true),
+  });
+
+  /** Text on the same line (L1). */
+  function* boot(): Work {
+    yield FIRST_LINE_MS;
+    yield* print('pwm servo\r\n');
+    yield READY_MS - now();
+    yield* print('begin\r\n');
+    booted = true;
+  }
+
+  function* pass(): Work {
+    if (!booted) yield* boot();
+    const packet = packets.shift();
+    if (packet) yield* serve(packet.command, packet.params);
+    runner.step();
+  }
+
+  const loop = createProcessor({
+    now,
+    bootMs: 0,
+    wantedMs: () => (booted && packets.length === 0 ? runner.dueMs() : 0),
+    pass,
+  });
+  const alive = [createTicker(now, servos), loop];
+
+  return {
+    takeByte: (byte) => {
+      if (booted && !jammed && MODES[mode] === 'pc') takeByte(byte);
+    },
+    // Of a jammed board nothing goes on but the pulses it last gave.
+    sources: alive.map(({ dueMs, fire }) => ({ dueMs: () => (jammed ? Infinity : dueMs()), fire })),
+    // Its pad does nothing in PC mode.
+    press: () => undefined,
+    pressMode: () => void (mode = (mode + 1) % MODES.length),
+    pulse: servos.pulse,
+    target: servos.target,
+    frameCount: (slot) => (slot < LAYOUT.groupCount ? store.frameCount(slot) : 0),
+    storedFrame,
+    runningSlot: runner.runningSlot,
+  };
+}
