@@ -86,6 +86,7 @@ COMMAND_SHAPES: Final[Shapes] = {
     **dict(growing(3, 5, 3, 0, range(83))),
     (6, 5): None,
     (7, 2): None,
+    (8, 2): None,
     (8, 3): None,
     (15, 2): None,
     **dict(growing(25, 8, 3, 3, range(82))),

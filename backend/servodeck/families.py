@@ -4,8 +4,9 @@ The same rows as shared/src/protocol/families.ts; shared/vectors/families.json h
 Sources: boards.md section 2, cited there row by row.
 """
 
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Final, Literal
 
 CommandKind = Literal["move", "run", "stop", "erase", "readBattery", "download"]
 
@@ -22,6 +23,8 @@ class Family:
     name: str
     unit: Literal["us", "steps"]
     position: Range
+    # Servos that may turn less far than `position` says.
+    servo_position: Mapping[int, Range] = field(default_factory=dict)
     servo: Range
     servos_per_move: int
     servos_per_frame: int
@@ -32,6 +35,8 @@ class Family:
     # Largest LEN that is safe to send.
     max_length: int
     commands: tuple[CommandKind, ...]
+    # LEN of the erase command: with a reserved byte or without.
+    erase_length: Literal[2, 3] = 3
     answers: tuple[CommandKind, ...]
     # 6 and 8 with LEN 5 tell slot and times, whoever asked for the run; otherwise they are empty.
     run_reports_name_slot: bool
@@ -40,10 +45,15 @@ class Family:
     # Pause after the last byte has left the wire.
     service_gap_ms: int
 
+    def position_of(self, servo: int) -> Range:
+        return self.servo_position.get(servo, self.position)
+
 
 PULSE_US = Range(500, 2500)
 DURATION_MS = Range(0, 30_000)
 RUN_TIMES = Range(0, 0xFFFF)
+# The longest packet that fits one HID report.
+HID_LENGTH = 62
 
 DOC = Family(
     id="doc",
@@ -65,44 +75,23 @@ DOC = Family(
     service_gap_ms=10,
 )
 
-OPENARM_NEW = Family(
+OPENARM_NEW = replace(
+    DOC,
     id="openarm-new",
-    name="OpenArm, uHand 2.0",
-    unit="us",
-    position=PULSE_US,
+    name="uHand 2.0 / OpenArm",
     servo=Range(1, 6),
     servos_per_move=6,
     servos_per_frame=6,
-    duration_ms=DURATION_MS,
-    frames_per_group=255,
-    slot=Range(0, 255),
-    run_times=RUN_TIMES,
-    max_length=253,
     commands=("move", "run", "stop", "erase", "download"),
     answers=("run", "erase", "download"),
-    run_reports_name_slot=False,
-    empty_seven="runFinished",
-    service_gap_ms=10,
 )
 
-LSC_16 = Family(
-    id="lsc-16",
-    name="LSC-16",
-    unit="us",
-    position=PULSE_US,
-    servo=Range(1, 16),
-    servos_per_move=16,
-    servos_per_frame=16,
-    duration_ms=DURATION_MS,
-    frames_per_group=255,
-    slot=Range(0, 229),
-    run_times=RUN_TIMES,
-    max_length=62,
-    commands=("move", "run", "stop", "readBattery"),
-    answers=("readBattery",),
-    run_reports_name_slot=True,
-    empty_seven="runStopped",
-    service_gap_ms=10,
+OPENARM_OLD = replace(
+    OPENARM_NEW,
+    id="openarm-old",
+    name="uHand 2.0 / OpenArm, old build",
+    answers=("erase", "download"),
+    empty_seven="unknown",
 )
 
 BUS_CTRL = Family(
@@ -117,7 +106,7 @@ BUS_CTRL = Family(
     frames_per_group=255,
     slot=Range(0, 229),
     run_times=RUN_TIMES,
-    max_length=62,
+    max_length=HID_LENGTH,
     commands=("move", "run", "stop", "readBattery"),
     answers=("readBattery",),
     run_reports_name_slot=True,
@@ -125,4 +114,71 @@ BUS_CTRL = Family(
     service_gap_ms=10,
 )
 
-FAMILIES: dict[str, Family] = {row.id: row for row in (DOC, OPENARM_NEW, LSC_16, BUS_CTRL)}
+XARM = replace(
+    BUS_CTRL,
+    id="xarm",
+    name="xArm",
+    servo=Range(1, 6),
+    servos_per_move=6,
+    servos_per_frame=6,
+    duration_ms=Range(0, 3000),
+)
+
+
+def lsc(outputs: int) -> Family:
+    """One move may name every output, also where that is more than a HID report holds."""
+    return replace(
+        BUS_CTRL,
+        id=f"lsc-{outputs}",
+        name=f"LSC-{outputs}",
+        unit="us",
+        position=PULSE_US,
+        servo=Range(1, outputs),
+        servos_per_move=outputs,
+        servos_per_frame=outputs,
+        max_length=max(HID_LENGTH, 3 * outputs + 5),
+    )
+
+
+LEARM_ESP32 = Family(
+    id="learm-esp32",
+    name="LeArm AI",
+    unit="us",
+    position=PULSE_US,
+    servo_position={1: Range(500, 1500)},
+    servo=Range(1, 6),
+    servos_per_move=6,
+    servos_per_frame=6,
+    duration_ms=DURATION_MS,
+    frames_per_group=255,
+    slot=Range(0, 254),
+    run_times=Range(1, 255),
+    max_length=62,
+    commands=("move", "run", "stop", "erase", "download"),
+    erase_length=2,
+    answers=("erase", "download"),
+    run_reports_name_slot=False,
+    empty_seven="unknown",
+    service_gap_ms=10,
+)
+
+LEARM_ESP32_BUS = replace(
+    LEARM_ESP32,
+    id="learm-esp32-bus",
+    name="LeArm AI, bus servos",
+    unit="steps",
+    position=Range(125, 875),
+    servo_position={1: Range(200, 700)},
+)
+
+ROWS: Final = (
+    DOC,
+    OPENARM_OLD,
+    OPENARM_NEW,
+    *(lsc(outputs) for outputs in (6, 16, 24, 32)),
+    BUS_CTRL,
+    XARM,
+    LEARM_ESP32,
+    LEARM_ESP32_BUS,
+)
+FAMILIES: dict[str, Family] = {row.id: row for row in ROWS}

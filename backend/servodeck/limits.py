@@ -7,7 +7,7 @@ the words of shared/src/protocol/limits.ts.
 from typing import Literal
 
 from servodeck.families import Family, Range
-from servodeck.values import Command, Download, Frame, Move, Run
+from servodeck.values import Command, Download, Frame, Move, Run, ServoTarget
 
 UNITS = {"us": "µs", "steps": "steps"}
 
@@ -46,10 +46,15 @@ def check_frame(frame: Frame, servo_count: Range, family: Family) -> None:
     seen: set[int] = set()
     for target in frame.targets:
         check_range("servo", target.servo, family.servo)
-        check_range("position", target.position, family.position, UNITS[family.unit], target.servo)
+        check_position(target, family)
         if target.servo in seen:
             refuse("servo", target.servo, "once in a packet")
         seen.add(target.servo)
+
+
+def check_position(target: ServoTarget, family: Family) -> None:
+    allowed = family.position_of(target.servo)
+    check_range("position", target.position, allowed, UNITS[family.unit], target.servo)
 
 
 def check_range(

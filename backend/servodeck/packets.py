@@ -76,20 +76,20 @@ FRAME_HEAD, ENTRY, DOWNLOAD_HEAD = 3, 3, 3
 def encode(command: Command, family: Family) -> bytes:
     """The whole packet. Raises PacketError where a board of this family cannot take the command."""
     check(command, family)
-    params = params_of(command)
+    params = params_of(command, family)
     length = len(params) + MIN_LENGTH
     check_range("length", length, Range(MIN_LENGTH, family.max_length))
     return bytes((HEADER, HEADER, length, COMMAND_NUMBER[command.kind])) + params
 
 
-def params_of(command: Command) -> bytes:
+def params_of(command: Command, family: Family) -> bytes:
     match command:
         case Move(duration_ms, targets):
             return frame_bytes(Frame(duration_ms, targets))
         case Run(slot, times):
             return bytes((slot,)) + word(times)
         case Erase():
-            return bytes(1)  # reserved
+            return bytes(family.erase_length - MIN_LENGTH)  # reserved
         case Stop() | ReadBattery():
             return b""
         case Download(slot, frame_count, frame_index, frame):
@@ -111,7 +111,9 @@ def check_command(packet: bytes, family: Family) -> Command:
     command = parse_command(packet)
     if command is None:
         raise PacketError("malformed", "The bytes are not exactly one well-formed command.")
-    encode(command, family)  # all limits, LEN among them
+    expected = encode(command, family)  # all limits, LEN among them
+    if len(expected) != len(packet):
+        raise PacketError("malformed", f"A board of this kind takes {command.kind} with LEN {expected[2]}.")
     return command
 
 
@@ -135,7 +137,7 @@ def parse_command(packet: bytes) -> Command | None:
             return Run(params[0], read_word(params, 1))
         case 7, 0:
             return Stop()
-        case 8, 1:
+        case 8, 0 | 1:  # the reserved byte is not everywhere
             return Erase()
         case 15, 0:
             return ReadBattery()

@@ -1,6 +1,7 @@
 """The gateway's codec against the shared vectors, and what holds for all commands."""
 
 import json
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -128,6 +129,8 @@ def camel(name: str) -> str:
 def plain(value: object) -> object:
     if isinstance(value, Range):
         return {"min": value.min, "max": value.max}
+    if isinstance(value, Mapping):
+        return {str(servo): plain(span) for servo, span in value.items()}
     return list(value) if isinstance(value, tuple) else value
 
 
@@ -138,7 +141,7 @@ def whole(allowed: Range) -> st.SearchStrategy[int]:
 @st.composite
 def frames(draw: st.DrawFn, family: Family, least: int, most: int) -> Frame:
     servos = draw(st.lists(whole(family.servo), min_size=least, max_size=most, unique=True))
-    targets = tuple(ServoTarget(servo, draw(whole(family.position))) for servo in servos)
+    targets = tuple(ServoTarget(servo, draw(whole(family.position_of(servo)))) for servo in servos)
     return Frame(draw(whole(family.duration_ms)), targets)
 
 

@@ -14,11 +14,9 @@ import styles from './BatteryPanel.module.css';
 export function BatteryPanel() {
   const { device } = useStores();
   const battery = useSnapshot((snapshot) => snapshot.battery);
+  const canTell = useDevice(canReadBattery);
   const mayAsk = useDevice(
-    (state) =>
-      canReadBattery(state) &&
-      state.snapshot.link.status === 'ready' &&
-      !isBusy(state.snapshot.activity.kind),
+    ({ snapshot }) => snapshot.link.status === 'ready' && !isBusy(snapshot.activity.kind),
   );
   const supply = useDevice((state) => supplyOf(state.family));
   const batteryMv = lastMv(battery);
@@ -26,19 +24,21 @@ export function BatteryPanel() {
     <Panel
       title={words.battery.title}
       tools={
-        <IconButton
-          icon="refresh"
-          label={words.battery.refresh}
-          isDisabled={!mayAsk}
-          onPress={() => device.readBattery()}
-        />
+        canTell && (
+          <IconButton
+            icon="refresh"
+            label={words.battery.refresh}
+            isDisabled={!mayAsk}
+            onPress={() => device.readBattery()}
+          />
+        )
       }
     >
       <div className={styles.reading}>
         <p className={styles.volts}>
           {batteryMv === null ? words.battery.noVolts : words.battery.volts(batteryMv)}
         </p>
-        <Gauge batteryMv={batteryMv} supply={supply} />
+        {canTell && <Gauge batteryMv={batteryMv} supply={supply} />}
         <p className={styles.about}>
           <About batteryMv={batteryMv} supply={supply} />
         </p>
@@ -56,7 +56,7 @@ function About({ batteryMv, supply }: { readonly batteryMv: number | null; reado
     return (
       <>
         <Chip truth="unknown">{words.battery.silent}</Chip>
-        {canTell && <span>{words.battery.silentHint}</span>}
+        <span>{canTell ? words.battery.silentHint : words.battery.absentHint}</span>
       </>
     );
   }

@@ -7,18 +7,27 @@ import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { words } from '../words/en.ts';
+import { Absent } from './Absent.tsx';
 import { DownloadControl } from './DownloadControl.tsx';
 import { EraseControl } from './EraseControl.tsx';
 import { RunControl } from './RunControl.tsx';
 import styles from './BoardPanel.module.css';
 
 export function BoardPanel() {
+  const { commands } = useDevice((state) => state.family);
+  const why = words.board.absent;
+  const canErase = commands.includes('erase');
   return (
-    <Panel title={words.board.title} tools={<EraseControl />}>
+    <Panel title={words.board.title} tools={canErase && <EraseControl />}>
       <div className={styles.rows}>
         <SlotControl />
-        <DownloadControl />
-        <RunControl />
+        {commands.includes('download') ? (
+          <DownloadControl />
+        ) : (
+          <Absent what={words.board.download} why={why.download} />
+        )}
+        {commands.includes('run') ? <RunControl /> : <Absent what={words.board.run} why={why.run} />}
+        {!canErase && <Absent what={words.board.erase} why={why.erase} />}
       </div>
     </Panel>
   );

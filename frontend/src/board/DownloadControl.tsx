@@ -12,22 +12,22 @@ export function DownloadControl() {
   const { frames, unit } = useGroup();
   const slot = useView((state) => state.slot);
   const activity = useSnapshot((snapshot) => snapshot.activity);
-  const hasCommand = useDevice((state) => state.family.commands.includes('download'));
   const sameUnit = useDevice((state) => state.family.unit === unit);
   const mayStart = useSnapshot(
     (snapshot) => motionHindrance(snapshot) === null && snapshot.activity.kind === 'idle',
   );
-  const hint = !hasCommand
-    ? words.board.without
-    : frames.length === 0
+  const hint =
+    frames.length === 0
       ? words.board.nothingToDownload
-      : words.board.downloadHint(frames.length, slot);
+      : sameUnit
+        ? words.board.downloadHint(frames.length, slot)
+        : words.actions.otherUnit(unit);
   return (
     <div className={styles.row}>
       <Button
         wide
         icon="download"
-        isDisabled={!mayStart || !hasCommand || !sameUnit || frames.length === 0}
+        isDisabled={!mayStart || !sameUnit || frames.length === 0}
         onPress={() => device.download(slot, frames)}
       >
         {words.board.download}

@@ -12,14 +12,13 @@ export function EraseControl() {
   const { device } = useStores();
   const [isAsking, setAsking] = useState(false);
   const { min, max } = useDevice((state) => state.family.slot);
-  const hasCommand = useDevice((state) => state.family.commands.includes('erase'));
   const mayErase = useSnapshot(
     (snapshot) => motionHindrance(snapshot) === null && snapshot.activity.kind === 'idle',
   );
   const close = (): void => setAsking(false);
   return (
     <>
-      <Button tone="quiet" icon="erase" isDisabled={!mayErase || !hasCommand} onPress={() => setAsking(true)}>
+      <Button tone="quiet" icon="erase" isDisabled={!mayErase} onPress={() => setAsking(true)}>
         {words.board.erase}
       </Button>
       <Dialog

@@ -12,7 +12,7 @@ import styles from './BoardPanel.module.css';
 
 export function RunControl() {
   const { device, view } = useStores();
-  const { slot, times, untilStopped } = useRunSettings();
+  const { slot, times, untilStopped, canRepeat } = useRunSettings();
   const activity = useSnapshot((snapshot) => snapshot.activity);
   const isReady = useSnapshot((snapshot) => snapshot.link.status === 'ready');
   const mayRun = useSnapshot(
@@ -22,14 +22,17 @@ export function RunControl() {
   return (
     <>
       <div className={styles.row}>
-        <TimesField />
+        <TimesField untilStopped={untilStopped} />
         <div className={styles.actions}>
           <Toggle
             label={words.board.untilStopped}
             isOn={untilStopped}
+            isDisabled={!canRepeat}
             onChange={(isOn) => view.setState({ untilStopped: isOn })}
           />
-          <p className={styles.hint}>{untilStopped ? words.board.untilStoppedHint : ''}</p>
+          <p className={styles.hint}>
+            {!canRepeat ? words.board.untilStoppedAbsent : untilStopped ? words.board.untilStoppedHint : ''}
+          </p>
         </div>
       </div>
       <div className={styles.row}>
@@ -61,17 +64,25 @@ export function RunControl() {
   );
 }
 
-function useRunSettings(): { slot: number; times: number; untilStopped: boolean } {
-  const slot = useView((state) => state.slot);
-  const untilStopped = useView((state) => state.untilStopped);
-  const times = useView((state) => state.times);
-  return { slot, untilStopped, times: untilStopped ? 0 : times };
+interface RunSettings {
+  readonly slot: number;
+  readonly times: number;
+  readonly untilStopped: boolean;
+  /** Some boards take no number of times for "without end". */
+  readonly canRepeat: boolean;
 }
 
-function TimesField() {
+function useRunSettings(): RunSettings {
+  const slot = useView((state) => state.slot);
+  const canRepeat = useDevice((state) => state.family.zeroTimes === 'endless');
+  const untilStopped = useView((state) => state.untilStopped) && canRepeat;
+  const times = useView((state) => state.times);
+  return { slot, canRepeat, untilStopped, times: untilStopped ? 0 : times };
+}
+
+function TimesField({ untilStopped }: Pick<RunSettings, 'untilStopped'>) {
   const { view, notices } = useStores();
   const times = useView((state) => state.times);
-  const untilStopped = useView((state) => state.untilStopped);
   const max = useDevice((state) => state.family.runTimes.max);
   return (
     <div className={styles.field}>

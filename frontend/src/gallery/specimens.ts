@@ -130,6 +130,8 @@ export const SPECIMENS: readonly Specimen[] = [
   { name: 'Broken slot', way: USB, state: { ...READY, brokenSlots: [0] }, pose: 'still', frames: 3 },
   { name: 'Stored slot', way: USB, state: { ...READY, storedSlots: [0] }, pose: 'still', frames: 3 },
   { name: 'Sixteen servos', board: 'lsc-16', way: USB, state: READY, pose: 'moving', frames: 2 },
+  { name: 'Old uHand', board: 'openarm-old', way: USB, state: READY, pose: 'still', frames: 3 },
+  { name: 'LeArm', board: 'learm-esp32', way: USB, state: READY, pose: 'still', frames: 2 },
   { name: 'Bus servos', board: 'bus-ctrl', way: USB, state: READY, pose: 'moving', frames: 2 },
   ...LINK_ERROR_CODES.map((code): Specimen => ({
     name: `Error ${code}`,

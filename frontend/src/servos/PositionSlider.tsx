@@ -4,7 +4,7 @@
 import { useEffect, useRef, type KeyboardEvent, type RefObject } from 'react';
 import { fraction } from '../body/pose.ts';
 import { useMotion } from '../body/useMotion.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import { positionRange, type Family } from '#shared/protocol/families.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/en.ts';
 import { positionStep } from './positionStep.ts';
@@ -22,7 +22,7 @@ export function PositionSlider({ servo, family, target, blocked, onMove }: Posit
   const input = useRef<HTMLInputElement>(null);
   const held = useRef(false);
   const shown = target ?? family.centre;
-  const { min, max } = family.position;
+  const { min, max } = positionRange(family, servo);
 
   useEffect(() => {
     if (input.current !== null && !held.current) input.current.value = String(shown);
@@ -75,11 +75,12 @@ function release(held: RefObject<boolean>, input: HTMLInputElement | null, shown
 
 function EstimateMark({ servo, family }: { readonly servo: number; readonly family: Family }) {
   const mark = useRef<HTMLDivElement>(null);
+  const scale = { ...family, position: positionRange(family, servo) };
   useMotion(servo, ({ estimated }) => {
     if (mark.current === null) return;
     mark.current.hidden = estimated === null;
     if (estimated !== null)
-      mark.current.style.translate = `${(fraction(estimated, family) * 100).toFixed(2)}% 0`;
+      mark.current.style.translate = `${(fraction(estimated, scale) * 100).toFixed(2)}% 0`;
   });
   return (
     <div className={styles.lane} aria-hidden="true">

@@ -2,6 +2,7 @@
 // drawn once a frame past React, so that a moving servo costs nothing elsewhere.
 
 import { memo } from 'react';
+import { positionRange } from '#shared/protocol/families.ts';
 import { Dial } from '../body/Dial.tsx';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
@@ -21,7 +22,7 @@ export const ServoRow = memo(function ServoRow({ servo }: { readonly servo: numb
   const isSelected = useView((state) => state.selectedServo === servo);
   const blocked = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
   const name = words.servos.name(servo);
-  const { min, max } = family.position;
+  const { min, max } = positionRange(family, servo);
   const move = (position: number): void => device.move([{ servo, position }], moveTime);
 
   return (

@@ -216,6 +216,7 @@ export const words = {
     times: 'Times',
     untilStopped: 'Until stopped',
     untilStoppedHint: 'Repeats without end until you stop it.',
+    untilStoppedAbsent: 'This board cannot repeat without end.',
     run: 'Run',
     runHint: (slot: number, times: number): string => `Slot ${formatWhole(slot)}, ${timesWords(times)}`,
     stopGroup: 'End group',
@@ -230,7 +231,12 @@ export const words = {
     downloaded: (slot: number): string => `Slot ${formatWhole(slot)} is downloaded.`,
     downloadCancelled: (slot: number): string =>
       `Download cancelled. Slot ${formatWhole(slot)} is broken until a whole group is downloaded.`,
-    without: 'This board has no such command.',
+    absent: {
+      download:
+        'This board takes no groups from here. Play from this page, or fill its slots with the maker’s program.',
+      run: 'This board runs no groups. Play from this page.',
+      erase: 'This board is erased only with the maker’s program.',
+    },
   },
 
   battery: {
@@ -239,6 +245,7 @@ export const words = {
     noVolts: '– V',
     unread: 'Not read yet',
     silent: 'This board cannot tell',
+    absentHint: 'It has no command for that. Watch the battery itself.',
     silentHint: 'Three questions stayed unanswered. Refresh asks again.',
     refresh: 'Refresh',
     age: (ms: number): string => formatAge(ms),

@@ -26,7 +26,7 @@ const DAMAGES: Readonly<Record<string, Damage>> = {
 };
 
 /** What a family sends, empty packets and packets with parameters as often as each other where it has both. */
-function reportsOf({ answers, runReportsNameSlot, slot }: Family, random: Random): Report {
+function reportsOf({ answers, emptySeven, runReportsNameSlot, slot }: Family, random: Random): Report {
   const battery: Report = { kind: 'battery', batteryMv: 5_000 + random(7_600) };
   const named = { slot: random(slot.max + 1), times: random(4) === 0 ? random(65_536) : random(4) };
   if (runReportsNameSlot) {
@@ -38,12 +38,9 @@ function reportsOf({ answers, runReportsNameSlot, slot }: Family, random: Random
     ];
     return kinds[random(kinds.length)]!;
   }
-  const empty: Report[] = [
-    { kind: 'runAccepted' },
-    { kind: 'runFinished', slot: null },
-    { kind: 'erased' },
-    { kind: 'frameStored' },
-  ];
+  const empty: Report[] = [{ kind: 'erased' }, { kind: 'frameStored' }];
+  if (answers.includes('run')) empty.push({ kind: 'runAccepted' });
+  if (emptySeven === 'runFinished') empty.push({ kind: 'runFinished', slot: null });
   if (answers.includes('readBattery') && random(2) === 0) return battery;
   return empty[random(empty.length)]!;
 }

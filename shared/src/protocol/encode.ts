@@ -18,7 +18,7 @@ const PREFIX = 4;
 /** The whole packet. Throws RangeRefusal where a board of this family cannot take the command. */
 export function encodeCommand(command: Command, family: Family): Uint8Array {
   checkCommand(command, family);
-  const params = paramCount(command);
+  const params = paramCount(command, family);
   checkRange('length', params + MIN_LENGTH, { min: MIN_LENGTH, max: family.maxLength });
   const packet = emptyPacket(COMMAND_NUMBER[command.kind], params);
   switch (command.kind) {
@@ -43,7 +43,7 @@ export function encodeCommand(command: Command, family: Family): Uint8Array {
   return packet;
 }
 
-function paramCount(command: Command): number {
+function paramCount(command: Command, family: Family): number {
   switch (command.kind) {
     case 'move':
       return 3 + 3 * command.targets.length;
@@ -52,7 +52,7 @@ function paramCount(command: Command): number {
     case 'download':
       return 6 + 3 * command.frame.targets.length;
     case 'erase':
-      return 1;
+      return family.eraseLength - MIN_LENGTH;
     case 'stop':
     case 'readBattery':
       return 0;

@@ -14,6 +14,8 @@ export interface Family {
   readonly name: string;
   readonly unit: 'us' | 'steps';
   readonly position: Range;
+  /** Servos that may turn less far than `position` says; `positionRange` knows both. */
+  readonly servoPosition: Readonly<Partial<Record<number, Range>>>;
   /** Centre of the position range, where a servo is at rest. */
   readonly centre: number;
   /** Servo numbers the board accepts in a packet. */
@@ -28,54 +30,152 @@ export interface Family {
   readonly framesPerGroup: number;
   readonly slot: Range;
   readonly runTimes: Range;
+  /** What the board makes of `times` 0; where that is not endless, `runTimes` leaves it out. */
+  readonly zeroTimes: 'endless' | 'once';
   /** Largest LEN that is safe to send. */
   readonly maxLength: number;
   readonly commands: readonly CommandKind[];
+  /** LEN of the erase command: with a reserved byte or without. */
+  readonly eraseLength: 2 | 3;
   /** Commands the board answers; the others are silent by design. */
   readonly answers: readonly CommandKind[];
   /** Reports of runs name slot and times (6 and 8 with LEN 5), whoever asked for the run; otherwise they are empty. */
   readonly runReportsNameSlot: boolean;
   /** What an empty packet 7 says: opposite things per family (boards.md 2.4). */
   readonly emptySeven: 'runFinished' | 'runStopped' | 'unknown';
+  /** Any question ends a running group, unsaid (L8): ask only while nothing runs. */
+  readonly queryKillsRun: boolean;
+  /** What frees a parser that waits for the rest of a cut packet (S7); null where that may do harm. */
+  readonly resyncFiller: number | null;
+  /** Command numbers that must not go out, not even by hand: they write settings, move, or mean nobody knows what. */
+  readonly neverSend: readonly number[];
   /** Pause the board needs between two packets, after the last byte has left the wire (S52, S54). */
   readonly serviceGapMs: number;
 }
 
-export type FamilyId = 'doc' | 'openarm-new' | 'lsc-16' | 'bus-ctrl';
+export type FamilyId =
+  | 'doc'
+  | 'openarm-old'
+  | 'openarm-new'
+  | 'lsc-6'
+  | 'lsc-16'
+  | 'lsc-24'
+  | 'lsc-32'
+  | 'bus-ctrl'
+  | 'xarm'
+  | 'learm-esp32'
+  | 'learm-esp32-bus';
 
 // Where a packet's own field is the only limit: one byte for the slot, two for the times.
 const BYTE: Range = { min: 0, max: 255 };
 const WORD: Range = { min: 0, max: 0xffff };
+/** The longest packet that fits one HID report, which is how most of these boards are reached (boards.md chapter 6). */
+const HID_LENGTH = 62;
 
 /** The open firmware (boards.md chapter 3); what its rows share with the ideal board of the protocol document. */
 const openFirmware = {
   unit: 'us',
   position: { min: 500, max: 2500 }, // S24
+  servoPosition: {},
   centre: 1500,
   durationMs: { min: 0, max: 30_000 }, // S25
   shortestMoveMs: 20, // S25, S27
   framesPerGroup: 255, // S34
   slot: BYTE,
   runTimes: WORD,
+  zeroTimes: 'endless', // S45
   maxLength: 253, // S3
+  eraseLength: 3,
   runReportsNameSlot: false,
   emptySeven: 'runFinished', // S48
+  queryKillsRun: false,
+  resyncFiller: 0xfd, // S7
+  neverSend: [], // numbers it does not know are ignored (S5)
   serviceGapMs: 10, // S54
+} as const;
+
+/** The arm and hand with six outputs; its builds differ in what they report. */
+const openArm = {
+  ...openFirmware,
+  servo: { min: 1, max: 6 }, // channels 0 and 7 are taken but have no pins (S23)
+  usualServoCount: 6,
+  servosPerMove: 6,
+  servosPerFrame: 6, // room for 20, but a frame of more than 8 ends the run (S38)
+  commands: ['move', 'run', 'stop', 'erase', 'download'],
 } as const;
 
 /** LSC and bus servo boards by document (boards.md chapter 5): closed firmware, so every figure is the careful one. */
 const closedFirmware = {
+  servoPosition: {},
   durationMs: { min: 0, max: 30_000 },
   shortestMoveMs: 20,
   // No download on this link: frame limits bound what is composed here and played from here.
   framesPerGroup: 255,
   slot: { min: 0, max: 229 }, // X5
   runTimes: WORD,
-  maxLength: 62, // one HID report (boards.md chapter 6)
+  zeroTimes: 'endless',
+  maxLength: HID_LENGTH,
   commands: ['move', 'run', 'stop', 'readBattery'],
+  eraseLength: 3,
   answers: ['readBattery'],
   runReportsNameSlot: true,
   emptySeven: 'runStopped',
+  queryKillsRun: false,
+  resyncFiller: null, // may count as bad data (X2)
+  // Download and erase of the maker's program, whose steps nobody documented (X6), then what sources call now reading, now
+  // writing of trims, and what hits every servo on the bus.
+  neverSend: [5, 8, 12, 13, 14, 22, 23, 24, 26, 27, 28],
+  serviceGapMs: 10,
+} as const;
+
+const pulseBoard = {
+  ...closedFirmware,
+  unit: 'us',
+  position: { min: 500, max: 2500 },
+  centre: 1500,
+} as const;
+
+const busBoard = {
+  ...closedFirmware,
+  unit: 'steps',
+  position: { min: 0, max: 1000 },
+  centre: 500,
+  usualServoCount: 6,
+} as const;
+
+/** One move may name every output (boards.md section 1), also where that is more than a HID report holds. */
+const outputs = (count: number) => ({
+  servo: { min: 1, max: count },
+  usualServoCount: count,
+  servosPerMove: count,
+  servosPerFrame: count,
+  maxLength: Math.max(HID_LENGTH, 3 * count + 5),
+});
+
+/**
+ * LeArm AI with the ESP32 core (boards.md chapter 4). Its STM32 core has no row: it ignores the time of a move (L5), so
+ * nothing could be gentle there.
+ */
+const leArm = {
+  servo: { min: 1, max: 6 },
+  usualServoCount: 6,
+  servosPerMove: 6,
+  servosPerFrame: 6, // a longer frame hangs the run (L10)
+  durationMs: { min: 0, max: 30_000 }, // L5
+  shortestMoveMs: 20,
+  framesPerGroup: 255,
+  slot: { min: 0, max: 254 }, // L12
+  runTimes: { min: 1, max: 255 }, // kept in one byte (L6)
+  zeroTimes: 'once', // L6
+  maxLength: 62, // more overwrites its memory (L3)
+  commands: ['move', 'run', 'stop', 'erase', 'download'],
+  eraseLength: 2,
+  answers: ['erase', 'download'],
+  runReportsNameSlot: false,
+  emptySeven: 'unknown', // neither start nor end is told (L6)
+  queryKillsRun: true,
+  resyncFiller: null, // L3
+  neverSend: [4, 9, 10, 11, 12], // moves by other means, writes trims to flash, goes to the reset pose
   serviceGapMs: 10,
 } as const;
 
@@ -92,43 +192,65 @@ export const FAMILIES: Readonly<Record<FamilyId, Family>> = {
     commands: ['move', 'run', 'stop', 'erase', 'readBattery', 'download'],
     answers: ['run', 'erase', 'readBattery', 'download'],
   },
+  'openarm-old': {
+    ...openArm,
+    id: 'openarm-old',
+    name: 'uHand 2.0 / OpenArm, old build',
+    answers: ['erase', 'download'], // S18
+    emptySeven: 'unknown', // S48
+  },
   'openarm-new': {
-    ...openFirmware,
+    ...openArm,
     id: 'openarm-new',
-    name: 'OpenArm, uHand 2.0',
-    servo: { min: 1, max: 6 }, // channels 0 and 7 are taken but have no pins (S23)
-    usualServoCount: 6,
-    servosPerMove: 6,
-    servosPerFrame: 6, // room for 20, but a frame of more than 8 ends the run (S38)
-    commands: ['move', 'run', 'stop', 'erase', 'download'],
+    name: 'uHand 2.0 / OpenArm',
     answers: ['run', 'erase', 'download'],
   },
-  'lsc-16': {
-    ...closedFirmware,
-    id: 'lsc-16',
-    name: 'LSC-16',
-    unit: 'us',
-    position: { min: 500, max: 2500 },
-    centre: 1500,
-    servo: { min: 1, max: 16 },
-    usualServoCount: 16,
-    servosPerMove: 16,
-    servosPerFrame: 16,
-  },
+  'lsc-6': { ...pulseBoard, ...outputs(6), id: 'lsc-6', name: 'LSC-6' },
+  'lsc-16': { ...pulseBoard, ...outputs(16), id: 'lsc-16', name: 'LSC-16' },
+  'lsc-24': { ...pulseBoard, ...outputs(24), id: 'lsc-24', name: 'LSC-24' },
+  'lsc-32': { ...pulseBoard, ...outputs(32), id: 'lsc-32', name: 'LSC-32' },
   'bus-ctrl': {
-    ...closedFirmware,
+    ...busBoard,
     id: 'bus-ctrl',
     name: 'Bus Servo Controller',
-    unit: 'steps',
-    position: { min: 0, max: 1000 },
-    centre: 500,
     servo: { min: 1, max: 253 }, // 254 would move every servo at once
-    usualServoCount: 6,
     servosPerMove: 19,
     servosPerFrame: 19,
+  },
+  xarm: {
+    ...busBoard,
+    id: 'xarm',
+    name: 'xArm',
+    servo: { min: 1, max: 6 },
+    servosPerMove: 6,
+    servosPerFrame: 6,
+    durationMs: { min: 0, max: 3000 }, // by one independent source; nobody says what more would do
+  },
+  'learm-esp32': {
+    ...leArm,
+    id: 'learm-esp32',
+    name: 'LeArm AI',
+    unit: 'us',
+    position: { min: 500, max: 2500 },
+    servoPosition: { 1: { min: 500, max: 1500 } },
+    centre: 1500,
+  },
+  'learm-esp32-bus': {
+    ...leArm,
+    id: 'learm-esp32-bus',
+    name: 'LeArm AI, bus servos',
+    unit: 'steps',
+    position: { min: 125, max: 875 },
+    servoPosition: { 1: { min: 200, max: 700 } },
+    centre: 500,
   },
 };
 
 export function family(id: FamilyId): Family {
   return FAMILIES[id];
+}
+
+/** How far this servo may be turned. */
+export function positionRange({ position, servoPosition }: Family, servo: number): Range {
+  return servoPosition[servo] ?? position;
 }

@@ -2,7 +2,7 @@
 // A refusal names the field, its value and what is allowed, so that a person can mend it.
 
 import type { Command, Frame, ServoTarget } from './commands.ts';
-import type { Family, Range } from './families.ts';
+import { positionRange, type Family, type Range } from './families.ts';
 
 export type RefusedField =
   | 'command'
@@ -100,10 +100,10 @@ function checkFrame(frame: Frame, servoCount: Range, family: Family): void {
 
 function checkTarget({ servo, position }: ServoTarget, family: Family): void {
   checkRange('servo', servo, family.servo);
-  const { min, max } = family.position;
-  if (Number.isInteger(position) && position >= min && position <= max) return;
+  const range = positionRange(family, servo);
+  if (Number.isInteger(position) && position >= range.min && position <= range.max) return;
   const unit = family.unit === 'us' ? 'µs' : 'steps';
-  throw new RangeRefusal({ field: 'position', value: position, range: family.position, unit, servo });
+  throw new RangeRefusal({ field: 'position', value: position, range, unit, servo });
 }
 
 /** A servo named twice in one packet: which entry wins is the board's affair, so it is refused. */

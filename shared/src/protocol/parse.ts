@@ -18,7 +18,7 @@ export function parseCommand({ command, params }: Packet): Command | null {
     case COMMAND_NUMBER.stop:
       return params.length === 0 ? { kind: 'stop' } : null;
     case COMMAND_NUMBER.erase:
-      return params.length === 1 ? { kind: 'erase' } : null;
+      return params.length <= 1 ? { kind: 'erase' } : null; // the reserved byte is not everywhere
     case COMMAND_NUMBER.readBattery:
       return params.length === 0 ? { kind: 'readBattery' } : null;
     case COMMAND_NUMBER.download:

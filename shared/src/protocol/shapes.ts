@@ -77,6 +77,7 @@ export const COMMAND_SHAPES: ShapeRule = compile([
   { command: 3, length: 5, perServo: { bytes: 3, countAt: 0, least: 0, most: 82 } },
   { command: 6, length: 5 },
   { command: 7, length: 2 },
+  { command: 8, length: 2 }, // LeArm
   { command: 8, length: 3 },
   { command: 15, length: 2 },
   { command: 25, length: 8, perServo: { bytes: 3, countAt: 3, least: 0, most: 81 } },
