@@ -13,7 +13,8 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from servodeck.packets import FAMILIES, PacketError, describe
+from servodeck.describe import describe
+from servodeck.packets import FAMILIES, PacketError
 from servodeck.ports import list_devices
 
 DEFAULT_LISTEN = "127.0.0.1:8300"

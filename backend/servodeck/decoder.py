@@ -81,7 +81,7 @@ REPORT_SHAPES: Final[Shapes] = {
     (25, 2): None,
 }
 
-# Host to board: the six commands of the protocol document.
+# Host to board: the six commands of the protocol document, then what single families have.
 COMMAND_SHAPES: Final[Shapes] = {
     **dict(growing(3, 5, 3, 0, range(83))),
     (6, 5): None,
@@ -90,6 +90,10 @@ COMMAND_SHAPES: Final[Shapes] = {
     (8, 3): None,
     (15, 2): None,
     **dict(growing(25, 8, 3, 3, range(82))),
+    (1, 2): None,
+    (11, 5): None,
+    **dict(growing(20, 3, 1, 0, range(1, MOST_SERVOS + 1))),
+    **dict(growing(21, 3, 1, 0, range(1, MOST_SERVOS + 1))),
 }
 
 

@@ -8,7 +8,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Final, Literal
 
-CommandKind = Literal["move", "run", "stop", "erase", "readBattery", "download"]
+CommandKind = Literal[
+    "move",
+    "run",
+    "stop",
+    "erase",
+    "readBattery",
+    "download",
+    "setSpeed",
+    "release",
+    "readPositions",
+    "readVersion",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +43,8 @@ class Family:
     frames_per_group: int
     slot: Range
     run_times: Range
+    # Where the group speed cannot be set, it is what it is.
+    speed_percent: Range = Range(100, 100)
     # Largest LEN that is safe to send.
     max_length: int
     commands: tuple[CommandKind, ...]
@@ -106,9 +119,10 @@ BUS_CTRL = Family(
     frames_per_group=255,
     slot=Range(0, 229),
     run_times=RUN_TIMES,
+    speed_percent=Range(1, 300),
     max_length=HID_LENGTH,
-    commands=("move", "run", "stop", "readBattery"),
-    answers=("readBattery",),
+    commands=("move", "run", "stop", "readBattery", "setSpeed", "release", "readPositions"),
+    answers=("readBattery", "readPositions"),
     run_reports_name_slot=True,
     empty_seven="runStopped",
     service_gap_ms=10,
@@ -137,6 +151,8 @@ def lsc(outputs: int) -> Family:
         servos_per_move=outputs,
         servos_per_frame=outputs,
         max_length=max(HID_LENGTH, 3 * outputs + 5),
+        commands=("move", "run", "stop", "readBattery", "setSpeed"),
+        answers=("readBattery",),
     )
 
 
@@ -154,9 +170,9 @@ LEARM_ESP32 = Family(
     slot=Range(0, 254),
     run_times=Range(1, 255),
     max_length=62,
-    commands=("move", "run", "stop", "erase", "download"),
+    commands=("move", "run", "stop", "erase", "download", "readVersion"),
     erase_length=2,
-    answers=("erase", "download"),
+    answers=("erase", "download", "readVersion"),
     run_reports_name_slot=False,
     empty_seven="unknown",
     service_gap_ms=10,

@@ -7,7 +7,17 @@ the words of shared/src/protocol/limits.ts.
 from typing import Literal
 
 from servodeck.families import Family, Range
-from servodeck.values import Command, Download, Frame, Move, Run, ServoTarget
+from servodeck.values import (
+    Command,
+    Download,
+    Frame,
+    Move,
+    ReadPositions,
+    Release,
+    Run,
+    ServoTarget,
+    SetSpeed,
+)
 
 UNITS = {"us": "µs", "steps": "steps"}
 
@@ -38,6 +48,12 @@ def check(command: Command, family: Family) -> None:
             check_range("frameCount", frame_count, Range(1, family.frames_per_group))
             check_range("frameIndex", frame_index, Range(0, frame_count - 1))
             check_frame(frame, Range(0, family.servos_per_frame), family)
+        case SetSpeed(slot, percent):
+            if slot is not None:
+                check_range("slot", slot, family.slot)
+            check_range("percent", percent, family.speed_percent, "%")
+        case Release(servos) | ReadPositions(servos):
+            check_servos(servos, family)
 
 
 def check_frame(frame: Frame, servo_count: Range, family: Family) -> None:
@@ -50,6 +66,15 @@ def check_frame(frame: Frame, servo_count: Range, family: Family) -> None:
         if target.servo in seen:
             refuse("servo", target.servo, "once in a packet")
         seen.add(target.servo)
+
+
+def check_servos(servos: tuple[int, ...], family: Family) -> None:
+    """Never all servos at once by an empty list or by 254, only those that are meant."""
+    check_range("servoCount", len(servos), Range(1, family.servos_per_move))
+    for at, servo in enumerate(servos):
+        check_range("servo", servo, family.servo)
+        if servo in servos[:at]:
+            refuse("servo", servo, "once in a packet")
 
 
 def check_position(target: ServoTarget, family: Family) -> None:

@@ -1,7 +1,8 @@
 """Packets to values and back, and what a board of a family can take: the gateway's door to the protocol.
 
-Knows no port, no time and no client. What the packets are for is the page's affair (shared/src/protocol); the
-gateway only has to judge what goes on the wire. shared/vectors holds both codecs to each other.
+Knows no port, no time and no client, and no words for people (describe.py). What the packets are for is the
+page's affair (shared/src/protocol); the gateway only has to judge what goes on the wire. shared/vectors holds
+both codecs to each other.
 """
 
 from typing import Literal, assert_never
@@ -27,7 +28,11 @@ from servodeck.values import (
     Frame,
     FrameStored,
     Move,
+    Positions,
     ReadBattery,
+    ReadPositions,
+    ReadVersion,
+    Release,
     Report,
     Run,
     RunAccepted,
@@ -35,8 +40,10 @@ from servodeck.values import (
     RunStarted,
     RunStopped,
     ServoTarget,
+    SetSpeed,
     Stop,
     UnknownReport,
+    Version,
 )
 
 __all__ = [
@@ -54,7 +61,6 @@ __all__ = [
     "PacketEvent",
     "Report",
     "check_command",
-    "describe",
     "encode",
     "parse_command",
     "parse_report",
@@ -67,7 +73,15 @@ COMMAND_NUMBER: dict[CommandKind, int] = {
     "erase": 8,
     "readBattery": 15,
     "download": 25,
+    "setSpeed": 11,
+    "release": 20,
+    "readPositions": 21,
+    "readVersion": 1,
 }
+# In place of a slot: every group.
+ALL_GROUPS = 0xFF
+# What the board drives, by the number it tells with its version.
+SERVO_TYPES: dict[int, Literal["us", "steps"]] = {1: "us", 2: "steps"}
 MIN_LENGTH = 2
 # Count and time before the entries of a move or frame; slot, count and number before those of a download.
 FRAME_HEAD, ENTRY, DOWNLOAD_HEAD = 3, 3, 3
@@ -90,7 +104,11 @@ def params_of(command: Command, family: Family) -> bytes:
             return bytes((slot,)) + word(times)
         case Erase():
             return bytes(family.erase_length - MIN_LENGTH)  # reserved
-        case Stop() | ReadBattery():
+        case SetSpeed(slot, percent):
+            return bytes((ALL_GROUPS if slot is None else slot,)) + word(percent)
+        case Release(servos) | ReadPositions(servos):
+            return bytes((len(servos), *servos))
+        case Stop() | ReadBattery() | ReadVersion():
             return b""
         case Download(slot, frame_count, frame_index, frame):
             return bytes((slot, frame_count, frame_index)) + frame_bytes(frame)
@@ -125,7 +143,7 @@ def whole_packet(packet: bytes) -> Packet | None:
 
 
 def parse_command(packet: bytes) -> Command | None:
-    """The command, or None where the bytes are not exactly one of the six in shape. Judges no limits."""
+    """The command, or None where the bytes are not exactly a known one in shape. Judges no limits."""
     whole = whole_packet(packet)
     if whole is None:
         return None
@@ -143,6 +161,21 @@ def parse_command(packet: bytes) -> Command | None:
             return ReadBattery()
         case 25, _:
             return read_download(params)
+    return family_command(whole)
+
+
+def family_command(packet: Packet) -> Command | None:
+    """Those that only some families have."""
+    params = packet.params
+    match packet.command, len(params):
+        case 11, 3:
+            return SetSpeed(None if params[0] == ALL_GROUPS else params[0], read_word(params, 1))
+        case 20, size if size and size == 1 + params[0]:
+            return Release(tuple(params[1:]))
+        case 21, size if size and size == 1 + params[0]:
+            return ReadPositions(tuple(params[1:]))
+        case 1, 0:
+            return ReadVersion()
     return None
 
 
@@ -165,8 +198,8 @@ def read_frame(params: bytes) -> Frame | None:
     return Frame(read_word(params, 1), targets)
 
 
-def read_word(data: bytes, at: int) -> int:
-    return int.from_bytes(data[at : at + 2], "little")
+def read_word(data: bytes, at: int, *, signed: bool = False) -> int:
+    return int.from_bytes(data[at : at + 2], "little", signed=signed)
 
 
 def parse_report(packet: Packet, family: Family) -> Report:
@@ -199,69 +232,17 @@ def full_report(packet: Packet, family: Family) -> Report | None:
             return RunStarted(params[0], read_word(params, 1))
         case 8, 3 if family.run_reports_name_slot:
             return RunFinished(params[0])
+        case 21, _ if "readPositions" in family.answers:
+            positions = read_positions(params)
+            return Positions(positions) if positions else None
+        case 1, 2 if "readVersion" in family.answers and params[0] in SERVO_TYPES:
+            return Version(SERVO_TYPES[params[0]], params[1])
     return None
 
 
-def describe(packet: bytes, direction: Literal["command", "report"]) -> str:
-    """One packet in plain English. Raises PacketError where the bytes are not exactly one packet."""
-    whole = whole_packet(packet)
-    if whole is None:
-        raise PacketError("malformed", "The bytes are not exactly one packet: 55 55, LEN, CMD, LEN - 2 more.")
-    if direction == "report":
-        return describe_report(whole)
-    command = parse_command(packet)
-    return describe_command(command) if command else f"no known command: {whole_words(whole)}"
-
-
-def describe_command(command: Command) -> str:
-    match command:
-        case Move(duration_ms, targets):
-            return f"move {frame_words(Frame(duration_ms, targets))}"
-        case Run(slot, times):
-            return f"run group {slot} {times_words(times)}"
-        case Stop():
-            return "stop the running group after the frame in progress"
-        case Erase():
-            return "erase all groups"
-        case ReadBattery():
-            return "ask for the battery voltage"
-        case Download(slot, frame_count, frame_index, frame):
-            return (
-                f"store frame {frame_index} (of {frame_count}, from 0) of group {slot}: {frame_words(frame)}"
-            )
-    assert_never(command)
-
-
-def frame_words(frame: Frame) -> str:
-    targets = ", ".join(f"servo {target.servo} to {target.position}" for target in frame.targets)
-    return f"{targets or 'nothing'} in {frame.duration_ms} ms"
-
-
-def times_words(times: int) -> str:
-    return {0: "until stopped", 1: "once"}.get(times, f"{times} times")
-
-
-def describe_report(packet: Packet) -> str:
-    """Without a family, so what means opposite things says both."""
-    params = packet.params
-    match packet.command, len(params):
-        case 6, 0:
-            return "run command taken"
-        case 6, 3:
-            return f"group {params[0]} started, {times_words(read_word(params, 1))}"
-        case 7, 0:
-            return "the group ended by itself (OpenArm) or was stopped (LSC, bus servo boards)"
-        case 8, 0:
-            return "all groups erased"
-        case 8, 3:
-            return f"group {params[0]} ended by itself"
-        case 15, 2:
-            return f"battery {read_word(params, 0)} mV"
-        case 25, 0:
-            return "download frame handled"
-    return f"no known report: {whole_words(packet)}"
-
-
-def whole_words(packet: Packet) -> str:
-    params = packet.params.hex(" ").upper()
-    return f"CMD {packet.command}, {f'parameters {params}' if params else 'no parameters'}"
+def read_positions(params: bytes) -> tuple[ServoTarget, ...]:
+    """Signed: turned by hand, a bus servo can stand a little below 0. Empty where the count is wrong."""
+    if not params or len(params) != 1 + ENTRY * params[0]:
+        return ()
+    entries = range(1, len(params), ENTRY)
+    return tuple(ServoTarget(params[at], read_word(params, at + 1, signed=True)) for at in entries)

@@ -4,7 +4,7 @@ The same values as shared/src/protocol/commands.ts and reports.ts.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from servodeck.families import CommandKind
 
@@ -71,7 +71,37 @@ class Download:
     kind: ClassVar[CommandKind] = "download"
 
 
-Command = Move | Run | Stop | Erase | ReadBattery | Download
+@dataclass(frozen=True, slots=True)
+class SetSpeed:
+    """Group speed in percent of how it was stored, until power-off (X3); `slot` None for every group."""
+
+    slot: int | None
+    percent: int
+    kind: ClassVar[CommandKind] = "setSpeed"
+
+
+@dataclass(frozen=True, slots=True)
+class Release:
+    """Takes the torque off: what these servos carry drops (X7)."""
+
+    servos: tuple[int, ...]
+    kind: ClassVar[CommandKind] = "release"
+
+
+@dataclass(frozen=True, slots=True)
+class ReadPositions:
+    servos: tuple[int, ...]
+    kind: ClassVar[CommandKind] = "readPositions"
+
+
+@dataclass(frozen=True, slots=True)
+class ReadVersion:
+    kind: ClassVar[CommandKind] = "readVersion"
+
+
+Command = (
+    Move | Run | Stop | Erase | ReadBattery | Download | SetSpeed | Release | ReadPositions | ReadVersion
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +143,21 @@ class FrameStored:
 
 
 @dataclass(frozen=True, slots=True)
+class Positions:
+    """Where bus servos stand."""
+
+    positions: tuple[ServoTarget, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Version:
+    """Which servos the board drives, by the unit they count in, and its firmware."""
+
+    unit: Literal["us", "steps"]
+    version: int
+
+
+@dataclass(frozen=True, slots=True)
 class UnknownReport:
     """Well-formed, but not a report this family is known to send."""
 
@@ -120,4 +165,15 @@ class UnknownReport:
     params: bytes
 
 
-Report = RunAccepted | RunStarted | RunFinished | RunStopped | Erased | Battery | FrameStored | UnknownReport
+Report = (
+    RunAccepted
+    | RunStarted
+    | RunFinished
+    | RunStopped
+    | Erased
+    | Battery
+    | FrameStored
+    | Positions
+    | Version
+    | UnknownReport
+)

@@ -173,9 +173,20 @@ def test_only_a_move_can_hold_a_pose() -> None:
 
 @pytest.mark.parametrize(
     ("packet", "passes"),
-    [(MOVE, False), (RUN, False), (ERASE, False), (DOWNLOAD, False), (STOP, True), (BATTERY, True)],
+    [
+        (MOVE, False),
+        (RUN, False),
+        (ERASE, False),
+        (DOWNLOAD, False),
+        (bytes.fromhex("5555050b083200"), False),  # speed
+        (bytes.fromhex("555504140101"), False),  # release
+        (STOP, True),
+        (BATTERY, True),
+        (bytes.fromhex("555504150101"), True),  # positions
+        (bytes.fromhex("55550201"), True),  # version
+    ],
 )
-def test_the_latch_lets_only_stop_and_battery_through(packet: bytes, passes: bool) -> None:
+def test_the_latch_lets_only_stop_and_questions_through(packet: bytes, passes: bool) -> None:
     judge_latch(packet, latch=False)
     if passes:
         judge_latch(packet, latch=True)

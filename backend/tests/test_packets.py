@@ -11,9 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from servodeck.decoder import Decoder, DecoderEvent, Packet, PacketEvent
+from servodeck.describe import describe
 from servodeck.families import DOC, FAMILIES, Family, Range
 from servodeck.limits import PacketError
-from servodeck.packets import check_command, describe, encode, parse_command, parse_report
+from servodeck.packets import check_command, encode, parse_command, parse_report
 from servodeck.values import (
     Battery,
     Command,
@@ -23,7 +24,11 @@ from servodeck.values import (
     Frame,
     FrameStored,
     Move,
+    Positions,
     ReadBattery,
+    ReadPositions,
+    ReadVersion,
+    Release,
     Report,
     Run,
     RunAccepted,
@@ -31,8 +36,10 @@ from servodeck.values import (
     RunStarted,
     RunStopped,
     ServoTarget,
+    SetSpeed,
     Stop,
     UnknownReport,
+    Version,
 )
 
 VECTORS = Path(__file__).parents[2] / "shared" / "vectors"
@@ -57,7 +64,18 @@ def command_of(value: Any) -> Command:
             return Run(value["slot"], value["times"])
         case "download":
             return Download(value["slot"], value["frameCount"], value["frameIndex"], frame_of(value["frame"]))
-    plain: dict[str, Command] = {"stop": Stop(), "erase": Erase(), "readBattery": ReadBattery()}
+        case "setSpeed":
+            return SetSpeed(value["slot"], value["percent"])
+        case "release":
+            return Release(tuple(value["servos"]))
+        case "readPositions":
+            return ReadPositions(tuple(value["servos"]))
+    plain: dict[str, Command] = {
+        "stop": Stop(),
+        "erase": Erase(),
+        "readBattery": ReadBattery(),
+        "readVersion": ReadVersion(),
+    }
     return plain[value["kind"]]
 
 
@@ -69,6 +87,10 @@ def report_of(value: Any) -> Report:
             return RunFinished(value["slot"])
         case "battery":
             return Battery(value["batteryMv"])
+        case "positions":
+            return Positions(tuple(ServoTarget(at["servo"], at["position"]) for at in value["positions"]))
+        case "version":
+            return Version(value["unit"], value["version"])
         case "unknown":
             return UnknownReport(value["command"], bytes.fromhex(value["params"]))
     plain: dict[str, Report] = {
@@ -152,6 +174,11 @@ def downloads(draw: st.DrawFn, family: Family) -> Download:
     return Download(draw(whole(family.slot)), count, index, draw(frames(family, 0, family.servos_per_frame)))
 
 
+def servos(family: Family) -> st.SearchStrategy[tuple[int, ...]]:
+    numbers = st.lists(whole(family.servo), min_size=1, max_size=family.servos_per_move, unique=True)
+    return numbers.map(tuple)
+
+
 def commands(family: Family) -> st.SearchStrategy[Command]:
     by_kind: dict[str, st.SearchStrategy[Command]] = {
         "move": frames(family, 1, family.servos_per_move).map(lambda f: Move(f.duration_ms, f.targets)),
@@ -160,6 +187,10 @@ def commands(family: Family) -> st.SearchStrategy[Command]:
         "erase": st.just(Erase()),
         "readBattery": st.just(ReadBattery()),
         "download": downloads(family),
+        "setSpeed": st.builds(SetSpeed, st.none() | whole(family.slot), whole(family.speed_percent)),
+        "release": servos(family).map(Release),
+        "readPositions": servos(family).map(ReadPositions),
+        "readVersion": st.just(ReadVersion()),
     }
     return st.one_of([by_kind[kind] for kind in family.commands])
 
@@ -176,7 +207,7 @@ def test_every_command_of_a_family_comes_back_as_it_went_out(family: Family, dat
 # Right in header and LEN, so that many get past the shape.
 plausible = st.builds(
     lambda command, params: bytes((0x55, 0x55, len(params) + 2, command)) + params,
-    st.sampled_from([3, 6, 7, 8, 15, 25]),
+    st.sampled_from([1, 3, 6, 7, 8, 11, 15, 20, 21, 25]),
     st.one_of(st.binary(max_size=251), st.binary(max_size=12)),
 )
 
@@ -206,6 +237,10 @@ def test_any_bytes_are_either_refused_or_a_command_that_means_them(packet: bytes
         "55 55 02 06",
         "55 55 04 0F 4C 1D",
         "55 55 02 63",
+        "55 55 04 0B 08 32",
+        "55 55 04 14 02 01",
+        "55 55 02 15",
+        "55 55 03 01 00",
         "55 55 02 03",
         "55 55 08 03 02 E8 03 01 D0 07",
         "55 55 0B 19 0A 01 00 02 E8 03 01 DC 05",
@@ -250,6 +285,11 @@ def test_an_empty_seven_stays_unknown_where_nobody_knows_what_it_means() -> None
             "store frame 1 (of 2, from 0) of group 5: servo 1 to 500, servo 2 to 2500 in 500 ms",
         ),
         ("55 55 08 19 07 03 01 00 F4 01", "store frame 1 (of 3, from 0) of group 7: nothing in 500 ms"),
+        ("55 55 05 0B 08 32 00", "set the speed of group 8 to 50 %"),
+        ("55 55 05 0B FF 2C 01", "set the speed of all groups to 300 %"),
+        ("55 55 05 14 02 01 03", "take the torque off servo 1, servo 3"),
+        ("55 55 04 15 01 06", "ask for the position of servo 6"),
+        ("55 55 02 01", "ask for the version"),
         ("55 55 04 63 01 02", "no known command: CMD 99, parameters 01 02"),
     ],
 )
@@ -267,6 +307,9 @@ def test_a_command_in_words(packet: str, words: str) -> None:
         ("55 55 05 08 08 01 00", "group 8 ended by itself"),
         ("55 55 04 0F 4C 1D", "battery 7500 mV"),
         ("55 55 02 19", "download frame handled"),
+        ("55 55 06 15 01 01 F4 01", "servo 1 is at 500"),
+        ("55 55 04 01 02 03", "version 3, bus servos"),
+        ("55 55 04 01 09 03", "version 3, servos of type 9"),
         ("55 55 02 0B", "no known report: CMD 11, no parameters"),
     ],
 )

@@ -33,6 +33,21 @@ describe('a line of the log', () => {
     expect(meaning({ ...out, command })).toBe('Run slot 2, until stopped');
   });
 
+  test('says what only some boards know', () => {
+    const said = (command: Extract<Parameters<typeof meaning>[0], { command: unknown }>['command']): string =>
+      meaning({ ...out, command });
+    expect(said({ kind: 'setSpeed', slot: null, percent: 50 })).toBe('Speed of every slot to 50 %');
+    expect(said({ kind: 'setSpeed', slot: 8, percent: 300 })).toBe('Speed of slot 8 to 300 %');
+    expect(said({ kind: 'release', servos: [1, 2, 3] })).toBe('Release servos 1, 2, 3');
+    expect(said({ kind: 'readPositions', servos: [4] })).toBe('Ask where servo 4 stands');
+    const positions = [{ servo: 4, position: -3 }];
+    expect(meaning({ ...back, report: { kind: 'positions', positions } })).toBe('Positions 4 → -3');
+    expect(kindOf({ ...back, report: { kind: 'positions', positions } })).toBe('move');
+    expect(meaning({ ...back, report: { kind: 'version', unit: 'us', version: 1 } })).toBe(
+      'Version 1, servos in µs',
+    );
+  });
+
   test('sorts reports and noise', () => {
     expect(kindOf({ ...back, report: { kind: 'battery', batteryMv: 7500 } })).toBe('battery');
     expect(kindOf({ ...back, report: { kind: 'runAccepted' } })).toBe('group');

@@ -1,16 +1,27 @@
 // What a line of the log says and which kind it is counted under. Pure.
 
 import { toHex } from '#shared/protocol/hex.ts';
+import type { CommandKind } from '#shared/protocol/commands.ts';
+import type { ReportKind } from '#shared/protocol/reports.ts';
 import type { Traffic } from '#shared/session/state.ts';
 import type { LogKind } from '../stores/view.ts';
 import { commandWords, noiseWords, reportWords } from '../words/packets.ts';
 
 export function kindOf(traffic: Traffic): LogKind {
   if ('noise' in traffic) return 'noise';
-  if (traffic.direction === 'in') return traffic.report.kind === 'battery' ? 'battery' : 'group';
-  if (traffic.command.kind === 'move') return 'move';
-  return traffic.command.kind === 'readBattery' ? 'battery' : 'group';
+  const { kind } = traffic.direction === 'in' ? traffic.report : traffic.command;
+  return KINDS[kind] ?? 'group';
 }
+
+/** What is no affair of groups. */
+const KINDS: Readonly<Partial<Record<CommandKind | ReportKind, LogKind>>> = {
+  move: 'move',
+  release: 'move',
+  readPositions: 'move',
+  positions: 'move',
+  readBattery: 'battery',
+  battery: 'battery',
+};
 
 export function meaning(traffic: Traffic): string {
   if ('noise' in traffic) return noiseWords(traffic.noise, traffic.bytes.length);

@@ -2,7 +2,7 @@
 
 import type { Command, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Report } from '#shared/protocol/reports.ts';
-import { formatMs, formatVolts, formatWhole } from './numbers.ts';
+import { formatMs, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
 
 /** Targets named in one line of the log; the bytes beside it have the rest. */
 const TARGETS_SHOWN = 6;
@@ -21,6 +21,14 @@ export function commandWords(command: Command): string {
       return 'Ask for the battery';
     case 'download':
       return downloadWords(command);
+    case 'setSpeed':
+      return `Speed of ${command.slot === null ? 'every slot' : `slot ${formatWhole(command.slot)}`} to ${formatWhole(command.percent)} %`;
+    case 'release':
+      return `Release ${servoWords(command.servos)}`;
+    case 'readPositions':
+      return `Ask where ${servoWords(command.servos)} ${command.servos.length === 1 ? 'stands' : 'stand'}`;
+    case 'readVersion':
+      return 'Ask for the version';
   }
 }
 
@@ -42,6 +50,10 @@ export function reportWords(report: Report): string {
       return `Battery ${formatVolts(report.batteryMv)}`;
     case 'frameStored':
       return 'Frame handled';
+    case 'positions':
+      return `Positions ${targetWords(report.positions)}`;
+    case 'version':
+      return `Version ${formatWhole(report.version)}, servos in ${unitSymbol(report.unit)}`;
     case 'unknown':
       return `Unknown report ${formatWhole(report.command)}`;
   }
@@ -69,9 +81,15 @@ function downloadWords({
 
 function targetWords(targets: readonly ServoTarget[]): string {
   if (targets.length === 0) return 'nothing';
-  const shown = targets
-    .slice(0, TARGETS_SHOWN)
-    .map((target) => `${target.servo} → ${formatWhole(target.position)}`);
-  const rest = targets.length - shown.length;
+  return listWords(targets.map((target) => `${target.servo} → ${formatWhole(target.position)}`));
+}
+
+function servoWords(servos: readonly number[]): string {
+  return `${servos.length === 1 ? 'servo' : 'servos'} ${listWords(servos.map(formatWhole))}`;
+}
+
+function listWords(items: readonly string[]): string {
+  const shown = items.slice(0, TARGETS_SHOWN);
+  const rest = items.length - shown.length;
   return rest === 0 ? shown.join(', ') : `${shown.join(', ')} and ${formatWhole(rest)} more`;
 }

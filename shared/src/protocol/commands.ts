@@ -1,5 +1,6 @@
 // What the host can ask of a board, as values. Knows no bytes, no board limits, no time: encode.ts turns these into
-// packets and refuses what the board at hand cannot take. Source: protocol document (boards.md section 1).
+// packets and refuses what the board at hand cannot take. Source: protocol document (boards.md section 1), and for what only
+// some families have, section 2.3.
 
 /** One servo's target. `position` is in the board's unit: pulse width in µs, or steps of a bus servo. */
 export interface ServoTarget {
@@ -29,9 +30,19 @@ export type Command =
       readonly frameCount: number;
       readonly frameIndex: number;
       readonly frame: Frame;
-    };
+    }
+  /** Group speed in percent of how it was stored, until power-off (X3); `slot` null for every group. */
+  | { readonly kind: 'setSpeed'; readonly slot: number | null; readonly percent: number }
+  /** Takes the torque off: what these servos carry drops. Any move powers them again (X7). */
+  | { readonly kind: 'release'; readonly servos: readonly number[] }
+  /** Up to 450 ms for six servos (X7). */
+  | { readonly kind: 'readPositions'; readonly servos: readonly number[] }
+  | { readonly kind: 'readVersion' };
 
 export type CommandKind = Command['kind'];
+
+/** On the wire, in place of a slot: every group. */
+export const ALL_GROUPS = 0xff;
 
 /** Command numbers on the wire. */
 export const COMMAND_NUMBER: Readonly<Record<CommandKind, number>> = {
@@ -41,4 +52,8 @@ export const COMMAND_NUMBER: Readonly<Record<CommandKind, number>> = {
   erase: 8,
   readBattery: 15,
   download: 25,
+  setSpeed: 11,
+  release: 20,
+  readPositions: 21,
+  readVersion: 1,
 };

@@ -2,7 +2,7 @@
 // each family sends, with the damage anywhere in the stream. The figures stand in shared/README.md.
 
 import { describe, expect, test } from 'vitest';
-import type { Command } from './commands.ts';
+import { COMMAND_NUMBER, type Command, type CommandKind } from './commands.ts';
 import { createDecoder } from './decoder.ts';
 import { encodeCommand, encodeReport } from './encode.ts';
 import { FAMILIES, type Family } from './families.ts';
@@ -26,7 +26,10 @@ const DAMAGES: Readonly<Record<string, Damage>> = {
 };
 
 /** What a family sends, empty packets and packets with parameters as often as each other where it has both. */
-function reportsOf({ answers, emptySeven, runReportsNameSlot, slot }: Family, random: Random): Report {
+function reportsOf(
+  { answers, emptySeven, runReportsNameSlot, slot, usualServoCount }: Family,
+  random: Random,
+): Report {
   const battery: Report = { kind: 'battery', batteryMv: 5_000 + random(7_600) };
   const named = { slot: random(slot.max + 1), times: random(4) === 0 ? random(65_536) : random(4) };
   if (runReportsNameSlot) {
@@ -36,14 +39,28 @@ function reportsOf({ answers, emptySeven, runReportsNameSlot, slot }: Family, ra
       { kind: 'runFinished', slot: named.slot },
       { kind: 'runStopped' },
     ];
+    if (answers.includes('readPositions')) kinds.push(positionsOf(usualServoCount, random));
     return kinds[random(kinds.length)]!;
   }
   const empty: Report[] = [{ kind: 'erased' }, { kind: 'frameStored' }];
   if (answers.includes('run')) empty.push({ kind: 'runAccepted' });
   if (emptySeven === 'runFinished') empty.push({ kind: 'runFinished', slot: null });
   if (answers.includes('readBattery') && random(2) === 0) return battery;
+  if (answers.includes('readVersion')) empty.push({ kind: 'version', unit: 'us', version: random(4) });
   return empty[random(empty.length)]!;
 }
+
+function positionsOf(servoCount: number, random: Random): Report {
+  const positions = Array.from({ length: servoCount }, (_, i) => ({ servo: i + 1, position: random(1001) }));
+  return { kind: 'positions', positions };
+}
+
+/** Takes every command there is. */
+const ANY: Family = {
+  ...FAMILIES.doc,
+  commands: Object.keys(COMMAND_NUMBER) as CommandKind[],
+  speedPercent: FAMILIES['bus-ctrl'].speedPercent,
+};
 
 function commandOf({ position, servo }: Family, random: Random): Command {
   const targets = Array.from({ length: 1 + random(6) }, (_, i) => ({
@@ -58,6 +75,10 @@ function commandOf({ position, servo }: Family, random: Random): Command {
     { kind: 'stop' },
     { kind: 'erase' },
     { kind: 'readBattery' },
+    { kind: 'setSpeed', slot: random(230), percent: 1 + random(300) },
+    { kind: 'release', servos: targets.map(({ servo: one }) => one) },
+    { kind: 'readPositions', servos: targets.map(({ servo: one }) => one) },
+    { kind: 'readVersion' },
   ];
   return kinds[random(kinds.length)]!;
 }
@@ -77,7 +98,7 @@ const SOURCES: readonly Source[] = [
   {
     name: 'commands',
     shape: COMMAND_SHAPES,
-    packet: (random) => encodeCommand(commandOf(FAMILIES.doc, random), FAMILIES.doc),
+    packet: (random) => encodeCommand(commandOf(ANY, random), ANY),
   },
 ];
 

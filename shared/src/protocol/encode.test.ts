@@ -21,6 +21,10 @@ function targetsOf(row: Family, least: number, most: number): fc.Arbitrary<Servo
   return fc.uniqueArray(target, { selector: ({ servo }) => servo, minLength: least, maxLength: most });
 }
 
+function servosOf(row: Family): fc.Arbitrary<number[]> {
+  return fc.uniqueArray(within(row.servo), { minLength: 1, maxLength: row.servosPerMove });
+}
+
 function frameOf(row: Family, least: number, most: number): fc.Arbitrary<Frame> {
   return fc.record({ durationMs: within(row.durationMs), targets: targetsOf(row, least, most) });
 }
@@ -44,12 +48,33 @@ function commandOf(row: Family): fc.Arbitrary<Command> {
     erase: fc.constant({ kind: 'erase' }),
     readBattery: fc.constant({ kind: 'readBattery' }),
     download: downloadOf(row),
+    setSpeed: fc.record({
+      kind: fc.constant('setSpeed'),
+      slot: fc.option(within(row.slot), { nil: null }),
+      percent: within(row.speedPercent),
+    }),
+    release: servosOf(row).map((servos) => ({ kind: 'release', servos })),
+    readPositions: servosOf(row).map((servos) => ({ kind: 'readPositions', servos })),
+    readVersion: fc.constant({ kind: 'readVersion' }),
   };
   return fc.oneof(...row.commands.map((kind) => byKind[kind]));
 }
 
 const byte = within({ min: 0, max: 0xff });
 const word = within({ min: 0, max: 0xffff });
+
+const positions: fc.Arbitrary<Report> = fc.record({
+  kind: fc.constant('positions'),
+  positions: fc.array(fc.record({ servo: byte, position: within({ min: -0x8000, max: 0x7fff }) }), {
+    minLength: 1,
+    maxLength: 32,
+  }),
+});
+const version: fc.Arbitrary<Report> = fc.record({
+  kind: fc.constant('version'),
+  unit: fc.constantFrom('us', 'steps'),
+  version: byte,
+});
 
 function reportOf({ answers, emptySeven, runReportsNameSlot }: Family): fc.Arbitrary<Report> {
   const kinds: fc.Arbitrary<Report>[] = runReportsNameSlot
@@ -63,6 +88,8 @@ function reportOf({ answers, emptySeven, runReportsNameSlot }: Family): fc.Arbit
   if (emptySeven === 'runFinished') kinds.push(fc.constant({ kind: 'runFinished', slot: null }));
   if (answers.includes('readBattery'))
     kinds.push(fc.record({ kind: fc.constant('battery'), batteryMv: word }));
+  if (answers.includes('readPositions')) kinds.push(positions);
+  if (answers.includes('readVersion')) kinds.push(version);
   return fc.oneof(...kinds);
 }
 
@@ -179,6 +206,10 @@ describe('parsing', () => {
     ['a stop with a parameter', 7, [1]],
     ['a run without its times', 6, [1]],
     ['an erase with two bytes', 8, [0, 0]],
+    ['a speed without its percent', 11, [8]],
+    ['a release that lacks a servo', 20, [2, 1]],
+    ['a question for positions with a servo too many', 21, [1, 1, 2]],
+    ['a version answer', 1, [1, 1]],
     ['a battery answer', 15, [0x4c, 0x1d]],
     ['a move without anything', 3, []],
     ['a move that lacks its entry', 3, [1, 0xe8, 0x03]],

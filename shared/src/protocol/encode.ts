@@ -1,17 +1,18 @@
 // Values to packets. A command leaves here only if the board at hand can take it; what that means is limits.ts and the
 // family's row. Knows no time and no link. Byte layouts: protocol document (boards.md chapter 1).
 
-import { COMMAND_NUMBER, type Command, type Frame } from './commands.ts';
+import { ALL_GROUPS, COMMAND_NUMBER, type Command, type Frame, type ServoTarget } from './commands.ts';
 import type { Family } from './families.ts';
 import { checkCommand, checkRange } from './limits.ts';
 import { HEADER, MIN_LENGTH, packetBytes } from './packet.ts';
-import type { Report } from './reports.ts';
+import { SERVO_TYPES, type Report } from './reports.ts';
 
 /** What encoding throws, beside the functions that throw it. */
 export { RangeRefusal } from './limits.ts';
 
 const BYTE = { min: 0, max: 0xff };
 const WORD = { min: 0, max: 0xffff };
+const SIGNED_WORD = { min: -0x8000, max: 0x7fff };
 /** Bytes before the parameters: two headers, LEN, CMD. */
 const PREFIX = 4;
 
@@ -35,9 +36,18 @@ export function encodeCommand(command: Command, family: Family): Uint8Array {
       packet[6] = command.frameIndex;
       writeFrame(packet, 7, command.frame);
       break;
+    case 'setSpeed':
+      packet[4] = command.slot ?? ALL_GROUPS;
+      writeWord(packet, 5, command.percent);
+      break;
+    case 'release':
+    case 'readPositions':
+      packet.set([command.servos.length, ...command.servos], PREFIX);
+      break;
     case 'stop':
     case 'erase': // its one byte is reserved and stays 0
     case 'readBattery':
+    case 'readVersion':
       break;
   }
   return packet;
@@ -48,13 +58,18 @@ function paramCount(command: Command, family: Family): number {
     case 'move':
       return 3 + 3 * command.targets.length;
     case 'run':
+    case 'setSpeed':
       return 3;
+    case 'release':
+    case 'readPositions':
+      return 1 + command.servos.length;
     case 'download':
       return 6 + 3 * command.frame.targets.length;
     case 'erase':
       return family.eraseLength - MIN_LENGTH;
     case 'stop':
     case 'readBattery':
+    case 'readVersion':
       return 0;
   }
 }
@@ -106,9 +121,20 @@ export function encodeReport(report: Report): Uint8Array {
       return packetBytes(15, [report.batteryMv & 0xff, report.batteryMv >> 8]);
     case 'frameStored':
       return packetBytes(25, []);
+    case 'positions':
+      return packetBytes(21, [report.positions.length, ...report.positions.flatMap(positionBytes)]);
+    case 'version':
+      checkRange('version', report.version, BYTE);
+      return packetBytes(1, [SERVO_TYPES.indexOf(report.unit), report.version]);
     case 'unknown':
       return packetBytes(report.command, report.params);
   }
+}
+
+function positionBytes({ servo, position }: ServoTarget): number[] {
+  checkRange('servo', servo, BYTE);
+  checkRange('position', position, SIGNED_WORD);
+  return [servo, position & 0xff, (position >> 8) & 0xff];
 }
 
 function runReport(command: number, slot: number, times: number): Uint8Array {

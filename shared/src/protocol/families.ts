@@ -30,6 +30,8 @@ export interface Family {
   readonly framesPerGroup: number;
   readonly slot: Range;
   readonly runTimes: Range;
+  /** Where the group speed cannot be set, it is what it is. */
+  readonly speedPercent: Range;
   /** What the board makes of `times` 0; where that is not endless, `runTimes` leaves it out. */
   readonly zeroTimes: 'endless' | 'once';
   /** Largest LEN that is safe to send. */
@@ -69,6 +71,7 @@ export type FamilyId =
 // Where a packet's own field is the only limit: one byte for the slot, two for the times.
 const BYTE: Range = { min: 0, max: 255 };
 const WORD: Range = { min: 0, max: 0xffff };
+const AS_STORED: Range = { min: 100, max: 100 };
 /** The longest packet that fits one HID report, which is how most of these boards are reached (boards.md chapter 6). */
 const HID_LENGTH = 62;
 
@@ -83,6 +86,7 @@ const openFirmware = {
   framesPerGroup: 255, // S34
   slot: BYTE,
   runTimes: WORD,
+  speedPercent: AS_STORED,
   zeroTimes: 'endless', // S45
   maxLength: 253, // S3
   eraseLength: 3,
@@ -113,9 +117,10 @@ const closedFirmware = {
   framesPerGroup: 255,
   slot: { min: 0, max: 229 }, // X5
   runTimes: WORD,
+  speedPercent: { min: 1, max: 300 }, // the largest that the maker's examples show
   zeroTimes: 'endless',
   maxLength: HID_LENGTH,
-  commands: ['move', 'run', 'stop', 'readBattery'],
+  commands: ['move', 'run', 'stop', 'readBattery', 'setSpeed'],
   eraseLength: 3,
   answers: ['readBattery'],
   runReportsNameSlot: true,
@@ -141,6 +146,8 @@ const busBoard = {
   position: { min: 0, max: 1000 },
   centre: 500,
   usualServoCount: 6,
+  commands: [...closedFirmware.commands, 'release', 'readPositions'],
+  answers: ['readBattery', 'readPositions'],
 } as const;
 
 /** One move may name every output (boards.md section 1), also where that is more than a HID report holds. */
@@ -166,11 +173,12 @@ const leArm = {
   framesPerGroup: 255,
   slot: { min: 0, max: 254 }, // L12
   runTimes: { min: 1, max: 255 }, // kept in one byte (L6)
+  speedPercent: AS_STORED,
   zeroTimes: 'once', // L6
   maxLength: 62, // more overwrites its memory (L3)
-  commands: ['move', 'run', 'stop', 'erase', 'download'],
+  commands: ['move', 'run', 'stop', 'erase', 'download', 'readVersion'],
   eraseLength: 2,
-  answers: ['erase', 'download'],
+  answers: ['erase', 'download', 'readVersion'],
   runReportsNameSlot: false,
   emptySeven: 'unknown', // neither start nor end is told (L6)
   queryKillsRun: true,

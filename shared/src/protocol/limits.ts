@@ -14,8 +14,10 @@ export type RefusedField =
   | 'times'
   | 'frameCount'
   | 'frameIndex'
+  | 'percent'
   | 'length'
-  | 'batteryMv';
+  | 'batteryMv'
+  | 'version';
 
 interface Refusal {
   readonly field: RefusedField;
@@ -82,9 +84,18 @@ export function checkCommand(command: Command, family: Family): void {
       checkRange('frameIndex', command.frameIndex, { min: 0, max: command.frameCount - 1 });
       checkFrame(command.frame, { min: 0, max: family.servosPerFrame }, family);
       return;
+    case 'setSpeed':
+      if (command.slot !== null) checkRange('slot', command.slot, family.slot);
+      checkRange('percent', command.percent, family.speedPercent, '%');
+      return;
+    case 'release':
+    case 'readPositions':
+      checkServos(command.servos, family);
+      return;
     case 'stop':
     case 'erase':
     case 'readBattery':
+    case 'readVersion':
       return;
   }
 }
@@ -92,9 +103,19 @@ export function checkCommand(command: Command, family: Family): void {
 function checkFrame(frame: Frame, servoCount: Range, family: Family): void {
   checkRange('durationMs', frame.durationMs, family.durationMs, 'ms');
   checkRange('servoCount', frame.targets.length, servoCount);
+  const servos = frame.targets.map(({ servo }) => servo);
   frame.targets.forEach((target, index) => {
     checkTarget(target, family);
-    checkOnce(frame.targets, index);
+    checkOnce(servos, index);
+  });
+}
+
+/** Never all servos at once by an empty list or by 254, only those that are meant. */
+function checkServos(servos: readonly number[], family: Family): void {
+  checkRange('servoCount', servos.length, { min: 1, max: family.servosPerMove });
+  servos.forEach((servo, index) => {
+    checkRange('servo', servo, family.servo);
+    checkOnce(servos, index);
   });
 }
 
@@ -107,11 +128,9 @@ function checkTarget({ servo, position }: ServoTarget, family: Family): void {
 }
 
 /** A servo named twice in one packet: which entry wins is the board's affair, so it is refused. */
-function checkOnce(targets: readonly ServoTarget[], index: number): void {
-  const servo = targets[index]?.servo;
-  for (let earlier = 0; earlier < index; earlier++) {
-    if (targets[earlier]?.servo === servo && servo !== undefined) {
-      throw new RangeRefusal({ field: 'servo', value: servo, allowed: 'once in a packet' });
-    }
+function checkOnce(servos: readonly number[], index: number): void {
+  const servo = servos[index];
+  if (servo !== undefined && servos.indexOf(servo) < index) {
+    throw new RangeRefusal({ field: 'servo', value: servo, allowed: 'once in a packet' });
   }
 }

@@ -1,12 +1,12 @@
 // Packets to values. Shape decides (command number and LEN), for reports the family too, never the order of arrival.
 // Judges no limits: whether a board can take a command is limits.ts.
 
-import { COMMAND_NUMBER, type Command, type Frame, type ServoTarget } from './commands.ts';
+import { ALL_GROUPS, COMMAND_NUMBER, type Command, type Frame, type ServoTarget } from './commands.ts';
 import type { Family } from './families.ts';
 import type { Packet } from './packet.ts';
-import type { Report } from './reports.ts';
+import { SERVO_TYPES, type Report } from './reports.ts';
 
-/** The command, or null where the packet is not exactly one of the six in shape. */
+/** The command, or null where the packet is not exactly a known one in shape. */
 export function parseCommand({ command, params }: Packet): Command | null {
   switch (command) {
     case COMMAND_NUMBER.move: {
@@ -24,6 +24,26 @@ export function parseCommand({ command, params }: Packet): Command | null {
     case COMMAND_NUMBER.download:
       return readDownload(params);
     default:
+      return familyCommand(command, params);
+  }
+}
+
+/** Those that only some families have. */
+function familyCommand(command: number, params: Uint8Array): Command | null {
+  switch (command) {
+    case COMMAND_NUMBER.setSpeed:
+      return params.length === 3 ? readSpeed(params) : null;
+    case COMMAND_NUMBER.release: {
+      const servos = readServos(params);
+      return servos && { kind: 'release', servos };
+    }
+    case COMMAND_NUMBER.readPositions: {
+      const servos = readServos(params);
+      return servos && { kind: 'readPositions', servos };
+    }
+    case COMMAND_NUMBER.readVersion:
+      return params.length === 0 ? { kind: 'readVersion' } : null;
+    default:
       return null;
   }
 }
@@ -33,6 +53,16 @@ function readDownload(params: Uint8Array): Command | null {
   if (frame === null) return null;
   const [slot, frameCount, frameIndex] = [byteAt(params, 0), byteAt(params, 1), byteAt(params, 2)];
   return { kind: 'download', slot, frameCount, frameIndex, frame };
+}
+
+function readSpeed(params: Uint8Array): Command {
+  const slot = byteAt(params, 0);
+  return { kind: 'setSpeed', slot: slot === ALL_GROUPS ? null : slot, percent: wordAt(params, 1) };
+}
+
+/** Count and servos; null where they disagree. */
+function readServos(params: Uint8Array): number[] | null {
+  return params.length === 1 + byteAt(params, 0) ? Array.from(params.subarray(1)) : null;
 }
 
 /** Count, time and entries from `at` to the end; null where the count and the bytes there disagree (S13). */
@@ -55,10 +85,28 @@ function familyReport({ command, params }: Packet, family: Family): Report | nul
   if (command === 15 && params.length === 2 && family.answers.includes('readBattery')) {
     return { kind: 'battery', batteryMv: wordAt(params, 0) };
   }
+  if (command === 21 && family.answers.includes('readPositions')) return readPositions(params);
+  if (command === 1 && family.answers.includes('readVersion')) return readVersion(params);
   if (params.length !== 3 || !family.runReportsNameSlot) return null;
   if (command === 6) return { kind: 'runStarted', slot: byteAt(params, 0), times: wordAt(params, 1) };
   return command === 8 ? { kind: 'runFinished', slot: byteAt(params, 0) } : null;
 }
+
+function readPositions(params: Uint8Array): Report | null {
+  if (params.length !== 1 + 3 * byteAt(params, 0)) return null;
+  const positions: ServoTarget[] = [];
+  for (let entry = 1; entry < params.length; entry += 3) {
+    positions.push({ servo: byteAt(params, entry), position: signed(wordAt(params, entry + 1)) });
+  }
+  return { kind: 'positions', positions };
+}
+
+function readVersion(params: Uint8Array): Report | null {
+  const unit = SERVO_TYPES[byteAt(params, 0)] ?? null;
+  return params.length === 2 && unit !== null ? { kind: 'version', unit, version: byteAt(params, 1) } : null;
+}
+
+const signed = (word: number): number => (word << 16) >> 16;
 
 function emptyReport(command: number, family: Family): Report | null {
   const { answers, emptySeven } = family;

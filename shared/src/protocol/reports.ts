@@ -1,6 +1,8 @@
 // What a board says, as values. The same number means different things per family, so a report is chosen by command
 // number, LEN and family together (boards.md 2.4), never by "the next packet is my answer".
 
+import type { ServoTarget } from './commands.ts';
+
 export type Report =
   /** The board took a run command. Proves reception only: it comes before the slot is looked up (S18). */
   | { readonly kind: 'runAccepted' }
@@ -14,7 +16,14 @@ export type Report =
   | { readonly kind: 'battery'; readonly batteryMv: number }
   /** A download frame was handled; comes after the flash work, success or not (S20). */
   | { readonly kind: 'frameStored' }
+  /** Where bus servos stand; turned by hand, one can stand a little below 0. */
+  | { readonly kind: 'positions'; readonly positions: readonly ServoTarget[] }
+  /** Which servos the board drives, by the unit they count in, and its firmware. */
+  | { readonly kind: 'version'; readonly unit: 'us' | 'steps'; readonly version: number }
   /** Well-formed on the wire, but not a report this family is known to send. */
   | { readonly kind: 'unknown'; readonly command: number; readonly params: Uint8Array };
+
+/** What the board drives, by the number it tells with its version. */
+export const SERVO_TYPES = [null, 'us', 'steps'] as const;
 
 export type ReportKind = Report['kind'];

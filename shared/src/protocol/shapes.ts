@@ -72,7 +72,7 @@ export const REPORT_SHAPES: ShapeRule = compile([
   { command: 25, length: 2 }, // frame stored
 ]);
 
-/** Host to board: the six commands of the protocol document. */
+/** Host to board: the six commands of the protocol document, then what single families have. */
 export const COMMAND_SHAPES: ShapeRule = compile([
   { command: 3, length: 5, perServo: { bytes: 3, countAt: 0, least: 0, most: 82 } },
   { command: 6, length: 5 },
@@ -81,4 +81,8 @@ export const COMMAND_SHAPES: ShapeRule = compile([
   { command: 8, length: 3 },
   { command: 15, length: 2 },
   { command: 25, length: 8, perServo: { bytes: 3, countAt: 3, least: 0, most: 81 } },
+  { command: 1, length: 2 }, // LeArm: version
+  { command: 11, length: 5 }, // LSC, bus: speed
+  { command: 20, length: 3, perServo: { bytes: 1, countAt: 0, least: 1, most: MOST_SERVOS } }, // bus: release
+  { command: 21, length: 3, perServo: { bytes: 1, countAt: 0, least: 1, most: MOST_SERVOS } }, // bus: positions
 ]);

@@ -53,6 +53,7 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     if (command.kind === 'run')
       motion = afterRun(current, groups.get(command.slot) ?? null, command.times, atMs);
     if (command.kind === 'stop') motion = afterStop(current);
+    if (command.kind === 'release') motion = UNKNOWN_MOTION; // it drops, who knows where to
   }
 
   const isUnknown = ({ servo }: ServoTarget): boolean => positionAt(now(), servo, clock.now()) === null;
