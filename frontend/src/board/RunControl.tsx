@@ -30,9 +30,11 @@ export function RunControl() {
             isDisabled={!canRepeat}
             onChange={(isOn) => view.setState({ untilStopped: isOn })}
           />
-          <p className={styles.hint}>
-            {!canRepeat ? words.board.untilStoppedAbsent : untilStopped ? words.board.untilStoppedHint : ''}
-          </p>
+          {canRepeat ? (
+            <p className={styles.hint}>{untilStopped ? words.board.untilStoppedHint : ''}</p>
+          ) : (
+            <p className={styles.absent}>{words.board.untilStoppedAbsent}</p>
+          )}
         </div>
       </div>
       <div className={styles.row}>

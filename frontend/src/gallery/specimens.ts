@@ -25,6 +25,9 @@ const READY: SessionState = {
   battery: { kind: 'read', batteryMv: 7500, atMs: 0 },
 };
 
+/** No reading ever comes where the board has no command for it. */
+const NO_BATTERY: SessionState = { ...READY, battery: { kind: 'unread' } };
+
 const lost = (code: LinkError['code'], retryAtMs: number | null): SessionState => ({
   ...READY,
   link: { status: 'lost', error: new LinkError(code, 'detail of the failure'), retryAtMs },
@@ -130,8 +133,8 @@ export const SPECIMENS: readonly Specimen[] = [
   { name: 'Broken slot', way: USB, state: { ...READY, brokenSlots: [0] }, pose: 'still', frames: 3 },
   { name: 'Stored slot', way: USB, state: { ...READY, storedSlots: [0] }, pose: 'still', frames: 3 },
   { name: 'Sixteen servos', board: 'lsc-16', way: USB, state: READY, pose: 'moving', frames: 2 },
-  { name: 'Old uHand', board: 'openarm-old', way: USB, state: READY, pose: 'still', frames: 3 },
-  { name: 'LeArm', board: 'learm-esp32', way: USB, state: READY, pose: 'still', frames: 2 },
+  { name: 'Old uHand', board: 'openarm-old', way: USB, state: NO_BATTERY, pose: 'still', frames: 3 },
+  { name: 'LeArm', board: 'learm-esp32', way: USB, state: NO_BATTERY, pose: 'still', frames: 2 },
   { name: 'Bus servos', board: 'bus-ctrl', way: USB, state: READY, pose: 'moving', frames: 2 },
   ...LINK_ERROR_CODES.map((code): Specimen => ({
     name: `Error ${code}`,
