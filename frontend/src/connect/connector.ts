@@ -25,6 +25,7 @@ import {
   type GatewayStatus,
 } from './gatewayApi.ts';
 import { recallWay, rememberWay } from './lastWay.ts';
+import { rememberSlots } from './rememberedSlots.ts';
 
 export interface ConnectState {
   readonly board: FamilyId;
@@ -75,7 +76,9 @@ export function createConnector(device: Device, notices: Notices, storage: TextS
   }));
 
   async function connect(transport: Transport, board: FamilyId): Promise<void> {
-    const session = createSession({ transport, family: FAMILIES[board], clock: device.clock });
+    // The simulated robot in the page is a new one at each visit: nothing of it is worth remembering.
+    const slotMemory = transport.kind === 'simulated' ? undefined : rememberSlots(storage, transport);
+    const session = createSession({ transport, family: FAMILIES[board], clock: device.clock, slotMemory });
     device.attach(session, wayOf(transport));
     // A first attempt that fails is in the link's state, with its sentence and its next try.
     await session.open().catch(() => undefined);

@@ -1,13 +1,14 @@
 // Stores one action group on the board: stop and wait, frame by frame, because a second packet during flash work
-// overwrites the first one's data (S11). Knows the order, time-outs and progress; not the session's state.
+// overwrites the first one's data (S11). Knows the order, restarts and progress; one frame's answer is frameStore.ts.
 
 import type { Clock } from '../clock.ts';
 import type { Command, Frame } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
 import { wireMs } from '../protocol/packet.ts';
-import { encodeOrRefuse, type Exchange } from './exchange.ts';
+import { encodeOrRefuse, isNoAnswer, type Exchange } from './exchange.ts';
+import { createFrameStore } from './frameStore.ts';
 import { LinkError } from './linkError.ts';
-import { EDGE_FRAME_TIMEOUT_MS, MIDDLE_FRAME_TIMEOUT_MS } from './timings.ts';
+import { DOWNLOAD_RESTARTS } from './timings.ts';
 
 /** An AbortSignal is one; this module may not know that type. */
 export interface CancelSignal {
@@ -29,47 +30,67 @@ export interface DownloadJob {
   readonly clock: Clock;
   readonly exchange: Exchange;
   readonly signal: CancelSignal | undefined;
+  /** How long from now answers to earlier packets may still come; 0 when every one was heard. */
+  readonly owedForMs: number;
   /** The first byte is about to leave: from here on the slot's old group is gone (S33, S35). */
   begun(): void;
   progress(progress: DownloadProgress): void;
 }
 
-/** Rejects with `outOfRange` before anything is sent, `cancelled` between frames, or `noAnswer`. */
+type FrameCommand = Extract<Command, { kind: 'download' }>;
+
+/**
+ * Rejects with `outOfRange` before anything is sent, `cancelled` between frames, or `noAnswer` when the board stayed
+ * silent through every restart. A frame that cannot be stored for sure sends the whole group again from frame 0, which
+ * erases the slot first (S33): nothing else repairs it, because a frame written over another one is ANDed (S36).
+ */
 export async function download(job: DownloadJob): Promise<void> {
-  const { slot, frames, family, clock, exchange } = job;
-  const commands = frames.map((frame, frameIndex): Command => ({
-    kind: 'download',
-    slot,
-    frameCount: frames.length,
-    frameIndex,
-    frame,
-  }));
-  if (commands.length === 0) throw new LinkError('outOfRange', 'an action group needs at least one frame');
-  if (commands.length > family.framesPerGroup) {
-    throw new LinkError(
-      'outOfRange',
-      `${commands.length} frames, ${family.name} takes ${family.framesPerGroup}`,
-    );
-  }
-  const sizes = commands.map((command) => encodeOrRefuse(command, family).length);
-  const startedMs = clock.now();
+  const commands = frameCommands(job);
+  const sizes = commands.map((command) => encodeOrRefuse(command, job.family).length);
+  const storeFrame = createFrameStore(job.clock, job.exchange);
 
   refuseIfCancelled(job.signal);
+  job.progress(progressAfter(0, sizes, 0));
+  // An answer that an earlier download did not wait for would be taken for ours.
+  if (job.owedForMs > 0) await job.exchange.silence('frameStored', job.owedForMs);
+  refuseIfCancelled(job.signal);
   job.begun();
+  for (let restarts = 0; ; restarts += 1) {
+    try {
+      await storeAll(job, commands, sizes, storeFrame);
+      return;
+    } catch (error) {
+      if (!isNoAnswer(error) || restarts === DOWNLOAD_RESTARTS) throw error;
+    }
+  }
+}
+
+function frameCommands({ slot, frames, family }: DownloadJob): readonly FrameCommand[] {
+  const frameCount = frames.length;
+  if (frameCount === 0) throw new LinkError('outOfRange', 'an action group needs at least one frame');
+  if (frameCount > family.framesPerGroup) {
+    throw new LinkError('outOfRange', `${frameCount} frames, ${family.name} takes ${family.framesPerGroup}`);
+  }
+  return frames.map((frame, frameIndex) => ({ kind: 'download', slot, frameCount, frameIndex, frame }));
+}
+
+async function storeAll(
+  job: DownloadJob,
+  commands: readonly FrameCommand[],
+  sizes: readonly number[],
+  storeFrame: (command: FrameCommand) => Promise<void>,
+): Promise<void> {
+  const startedMs = job.clock.now();
   job.progress(progressAfter(0, sizes, 0));
   for (const [index, command] of commands.entries()) {
     refuseIfCancelled(job.signal);
-    await exchange.ask(command, 'frameStored', frameTimeoutMs(index, commands.length));
-    job.progress(progressAfter(index + 1, sizes, clock.now() - startedMs));
+    await storeFrame(command);
+    job.progress(progressAfter(index + 1, sizes, job.clock.now() - startedMs));
   }
 }
 
 function refuseIfCancelled(signal: CancelSignal | undefined): void {
   if (signal?.aborted) throw new LinkError('cancelled', 'the download was cancelled');
-}
-
-function frameTimeoutMs(index: number, count: number): number {
-  return index === 0 || index === count - 1 ? EDGE_FRAME_TIMEOUT_MS : MIDDLE_FRAME_TIMEOUT_MS;
 }
 
 /** The time left is at least the wire's; what the first frames really took includes the flash. */

@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { wireMs } from '../protocol/packet.ts';
+import { createFlashChip } from '../simulator/flashChip.ts';
 import { createRig, type Rig } from './rig.ts';
 
 const WAVE = [
@@ -30,16 +31,23 @@ describe('download', () => {
     expect((second ?? 0) - (first ?? 0)).toBeGreaterThan(eraseMs + wireMs(4));
   });
 
-  test('loses no time between an acknowledgement and the next frame', async () => {
-    const rig = await createRig();
-    const frames = Array.from({ length: 21 }, () => WAVE[0]!);
+  test.each([
+    { frameCount: 21, servoCount: 6 },
+    { frameCount: 237, servoCount: 16 },
+  ])('stores $frameCount x $servoCount within 2 % of what wire and flash need', async (group) => {
+    const rig = await createRig({ servoCount: group.servoCount });
+    const targets = Array.from({ length: group.servoCount }, (_, at) => ({ servo: at + 1, position: 1_500 }));
+    const frames = Array.from({ length: group.frameCount }, () => ({ durationMs: 300, targets }));
     const startMs = rig.clock.now();
     const done = rig.session.download(5, frames).then(() => rig.clock.now() - startMs);
-    await rig.clock.advance(5_000);
+    await rig.clock.advance(30_000);
     const eraseMs = 4 * 45;
     const countTableMs = 45 + 0.8;
-    const frameMs = wireMs(13) + 0.8 + wireMs(4);
-    expect(await done).toBeLessThan((eraseMs + 21 * frameMs + countTableMs) * 1.02);
+    const frameMs = wireMs(10 + 3 * group.servoCount) + 0.8 + wireMs(4);
+    const limitMs = eraseMs + group.frameCount * frameMs + countTableMs;
+    const tookMs = await done;
+    expect(tookMs).toBeGreaterThan(limitMs * 0.999);
+    expect(tookMs).toBeLessThan(limitMs * 1.02);
   });
 
   test('shows frames, bytes and the time left', async () => {
@@ -69,11 +77,37 @@ describe('download', () => {
     expect(rig.session.state.brokenSlots).toEqual([]);
   });
 
-  test('fails with a named time-out when an acknowledgement is lost', async () => {
-    const rig = await createRig({ faults: [{ name: 'lostAck', nth: 2 }] });
+  test('survives the lost acknowledgement of any one frame', async () => {
+    for (const nth of [1, 2, 3]) {
+      const rig = await createRig({ faults: [{ name: 'lostAck', nth }] });
+      const done = rig.session.download(5, [...WAVE, ...WAVE].slice(0, 3));
+      await rig.clock.advance(15_000);
+      await done;
+      expect(rig.transport.board.frameCount(5)).toBe(3);
+      expect([0, 1].map((index) => rig.transport.board.storedFrame(5, index))).toEqual(WAVE);
+    }
+  });
+
+  test('repeats a later frame once with the same number, and begins again only for frame 0 (S33, S36)', async () => {
+    const sent = async (nth: number): Promise<readonly number[]> => {
+      const rig = await createRig({ faults: [{ name: 'lostAck', nth }] });
+      void rig.session.download(5, [...WAVE, ...WAVE].slice(0, 3));
+      await rig.clock.advance(15_000);
+      return rig.ofKind('download').map(({ frameIndex }) => frameIndex);
+    };
+    expect([await sent(1), await sent(2), await sent(3)]).toEqual([
+      [0, 0, 1, 2],
+      [0, 1, 1, 2],
+      [0, 1, 2, 2],
+    ]);
+  });
+
+  test('gives up with a named time-out after two restarts', async () => {
+    const rig = await createRig({ faults: [{ name: 'lostAck', probability: 1 }] });
     const done = rig.session.download(5, WAVE).catch((error: unknown) => error);
-    await rig.clock.advance(5_000);
+    await rig.clock.advance(10_000);
     expect(await done).toMatchObject({ code: 'noAnswer' });
+    expect(rig.ofKind('download').map(({ frameIndex }) => frameIndex)).toEqual([0, 0, 0]);
     expect(rig.session.state.brokenSlots).toEqual([5]);
   });
 
@@ -83,6 +117,32 @@ describe('download', () => {
     await rig.clock.advance(6_000);
     await done;
     expect(rig.transport.board.frameCount(5)).toBe(2);
+  });
+
+  test('that broke is remembered for that board and its run refused after a reload', async () => {
+    let remembered: readonly number[] = [];
+    const slotMemory = {
+      read: () => remembered,
+      write: (slots: readonly number[]) => void (remembered = slots),
+    };
+    const flash = createFlashChip();
+    const before = await createRig({ flash, slotMemory });
+    void before.session.download(5, [...WAVE, ...WAVE]).catch(() => undefined);
+    await before.clock.advance(250); // the page is closed in the middle
+
+    const after = await createRig({ flash, slotMemory });
+    expect(after.session.state.brokenSlots).toEqual([5]);
+    await expect(after.session.run(5, 1)).rejects.toMatchObject({ code: 'slotBroken' });
+    expect(after.heard).toEqual([]);
+    await stored(after, 5);
+    expect(remembered).toEqual([]);
+
+    remembered = [8];
+    const last = await createRig({ flash, slotMemory });
+    const erased = last.session.erase();
+    await last.clock.advance(1_000);
+    await erased;
+    expect(remembered).toEqual([]);
   });
 
   test('is refused while the robot moves (S29)', async () => {

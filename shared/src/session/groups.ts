@@ -8,8 +8,9 @@ import { download, type CancelSignal } from './download.ts';
 import { encodeOrRefuse } from './exchange.ts';
 import { repeatStop } from './halt.ts';
 import { LinkError } from './linkError.ts';
+import type { SlotMemory } from './slotMemory.ts';
 import type { Activity } from './state.ts';
-import { ERASE_TIMEOUT_MS, RUN_END_GRACE_MS, RUN_TIMEOUT_MS } from './timings.ts';
+import { EDGE_FRAME_TIMEOUT_MS, ERASE_TIMEOUT_MS, RUN_END_GRACE_MS, RUN_TIMEOUT_MS } from './timings.ts';
 
 export interface Groups {
   run(slot: number, times: number): Promise<void>;
@@ -17,18 +18,33 @@ export interface Groups {
   erase(): Promise<void>;
   download(slot: number, frames: readonly Frame[], signal: CancelSignal | undefined): Promise<void>;
   heard(report: Report): void;
+  /** The link is ready: what is remembered of this board's slots. */
+  linked(): void;
   drop(): void;
 }
 
 type Truth = Extract<Activity, { kind: 'running' }>['truth'];
 
-export function createGroups(core: Core): Groups {
+export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Groups {
   const { family, clock, store, robot, lanes, exchange } = core;
   const broken = new Set<number>();
   let cancelEndTimer = (): void => undefined;
+  /** Until then the board may acknowledge a frame that nobody waits for any more. */
+  let owedUntilMs = 0;
 
-  const publishSlots = (): void =>
-    store.update({ brokenSlots: [...broken].sort((a, b) => a - b), storedSlots: robot.storedSlots() });
+  function publishSlots(): void {
+    const brokenSlots = [...broken].sort((a, b) => a - b);
+    slotMemory?.write(brokenSlots);
+    store.update({ brokenSlots, storedSlots: robot.storedSlots() });
+  }
+
+  /** Which board it is becomes known only now: another one may have taken the name's place. */
+  function linked(): void {
+    if (slotMemory === undefined) return;
+    broken.clear();
+    for (const slot of slotMemory.read()) broken.add(slot);
+    publishSlots();
+  }
 
   function began(slot: number, times: number, truth: Truth): void {
     setActivity(core, { kind: 'running', slot, times, sinceMs: clock.now(), truth });
@@ -97,9 +113,10 @@ export function createGroups(core: Core): Groups {
     signal: CancelSignal | undefined,
   ): Promise<void> {
     requireRest(core);
+    const owedForMs = Math.max(0, owedUntilMs - clock.now());
     try {
       await download({
-        ...{ slot, frames, family, clock, exchange, signal },
+        ...{ slot, frames, family, clock, exchange, signal, owedForMs },
         begun() {
           robot.unstored(slot);
           broken.add(slot);
@@ -109,6 +126,10 @@ export function createGroups(core: Core): Groups {
       });
       robot.stored(slot, frames);
       broken.delete(slot);
+      owedUntilMs = 0;
+    } catch (error) {
+      owedUntilMs = clock.now() + EDGE_FRAME_TIMEOUT_MS;
+      throw error;
     } finally {
       publishSlots();
       if (store.state.activity.kind === 'downloading') setActivity(core, { kind: 'idle' });
@@ -124,6 +145,7 @@ export function createGroups(core: Core): Groups {
       if (report.kind === 'runStarted') began(report.slot, report.times, 'acknowledged');
       if (report.kind === 'runFinished' || report.kind === 'runStopped') ended();
     },
+    linked,
     drop: () => cancelEndTimer(),
   };
 }

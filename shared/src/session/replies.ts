@@ -12,25 +12,29 @@ export interface Expectation {
 }
 
 export interface Replies {
-  /** Throws `busy` while another waits for the same kind. Expect before asking: the answer may overtake the send. */
-  expect(kind: ReportKind): Expectation;
+  /**
+   * Throws `busy` while another waits for the same kind. Expect before asking: the answer may overtake the send. What
+   * comes before `earliestMs` cannot be the answer and stays unsolicited: a doubled one of the question before.
+   */
+  expect(kind: ReportKind, earliestMs?: number): Expectation;
   /** True when somebody was waiting for it. */
   deliver(report: Report): boolean;
   fail(error: LinkError): void;
 }
 
 interface Waiter {
+  readonly earliestMs: number;
   readonly settle: (outcome: Report | LinkError) => void;
 }
 
 export function createReplies(clock: Clock): Replies {
   const waiters = new Map<ReportKind, Waiter>();
 
-  function expect(kind: ReportKind): Expectation {
+  function expect(kind: ReportKind, earliestMs = 0): Expectation {
     if (waiters.has(kind)) throw new LinkError('busy', `already waiting for "${kind}"`);
     let settle: Waiter['settle'] = () => undefined;
     let cancelTimer = (): void => undefined;
-    const waiter: Waiter = { settle: (outcome) => settle(outcome) };
+    const waiter: Waiter = { earliestMs, settle: (outcome) => settle(outcome) };
     const end = (): void => {
       cancelTimer();
       if (waiters.get(kind) === waiter) waiters.delete(kind);
@@ -61,8 +65,9 @@ export function createReplies(clock: Clock): Replies {
     expect,
     deliver(report) {
       const waiter = waiters.get(report.kind);
-      waiter?.settle(report);
-      return waiter !== undefined;
+      if (waiter === undefined || clock.now() < waiter.earliestMs) return false;
+      waiter.settle(report);
+      return true;
     },
     fail: (error) => [...waiters.values()].forEach((waiter) => waiter.settle(error)),
   };

@@ -3,14 +3,14 @@
 
 import type { Command } from '../protocol/commands.ts';
 import { createDecoder } from '../protocol/decoder.ts';
-import { family as familyOf, type Family } from '../protocol/families.ts';
+import { family as familyOf } from '../protocol/families.ts';
 import { wireMs } from '../protocol/packet.ts';
 import { parseCommand } from '../protocol/parse.ts';
 import { COMMAND_SHAPES } from '../protocol/shapes.ts';
 import type { BoardOptions } from '../simulator/board.ts';
 import { createSimulatedTransport, type SimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock, type VirtualClock } from '../simulator/virtualClock.ts';
-import { createSession, type Session } from './session.ts';
+import { createSession, type Session, type SessionOptions } from './session.ts';
 
 export interface HeardCommand {
   /** When its last byte had arrived at the board. */
@@ -29,9 +29,10 @@ export interface Rig {
 
 /** Opened and ready; the board has been on for a while and knows its battery. */
 export async function createRig(
-  options: Omit<BoardOptions, 'clock' | 'send' | 'onUnplug'> & { readonly family?: Family } = {},
+  options: Omit<BoardOptions, 'clock' | 'send' | 'onUnplug'> &
+    Partial<Pick<SessionOptions, 'family' | 'slotMemory'>> = {},
 ): Promise<Rig> {
-  const { family = familyOf('doc'), ...board } = options;
+  const { family = familyOf('doc'), slotMemory, ...board } = options;
   const clock = createVirtualClock();
   const heard: HeardCommand[] = [];
   const ear = createEar(clock, heard);
@@ -40,7 +41,7 @@ export async function createRig(
     ...board,
     onByte: ({ direction, byte }) => direction === 'in' && ear(byte),
   });
-  const session = createSession({ transport, family, clock });
+  const session = createSession({ transport, family, clock, slotMemory });
   await session.open();
   return {
     ...{ clock, session, transport, heard },

@@ -21,6 +21,7 @@ import { createReceiver } from './receiver.ts';
 import { createReplies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
 import type { LinkState, ServoMotion, SessionEvents, SessionState } from './state.ts';
+import type { SlotMemory } from './slotMemory.ts';
 import { createSessionStore } from './store.ts';
 import type { Transport } from './transport.ts';
 
@@ -28,6 +29,8 @@ export interface SessionOptions {
   readonly transport: Transport;
   readonly family: Family;
   readonly clock: Clock;
+  /** Without it broken slots are forgotten with the session. */
+  readonly slotMemory?: SlotMemory | undefined;
 }
 
 /** Every operation throws or rejects with a LinkError; see linkError.ts for the codes. */
@@ -61,7 +64,7 @@ export interface Session {
   motion(servo: number): ServoMotion;
 }
 
-export function createSession({ transport, family, clock }: SessionOptions): Session {
+export function createSession({ transport, family, clock, slotMemory }: SessionOptions): Session {
   const store = createSessionStore();
   const robot = createRobotEstimate(family, clock);
   const replies = createReplies(clock);
@@ -92,9 +95,16 @@ export function createSession({ transport, family, clock }: SessionOptions): Ses
     moveFailed: (error) => store.emit('problem', error),
   });
 
-  const core: Core = { family, clock, store, robot, lanes, exchange: createExchange(family, lanes, replies) };
+  const core: Core = {
+    family,
+    clock,
+    store,
+    robot,
+    lanes,
+    exchange: createExchange(family, clock, lanes, replies),
+  };
   const live = createLive(core, moves);
-  const groups = createGroups(core);
+  const groups = createGroups(core, slotMemory);
   const readBattery = createBatteryReader(core);
   const halt = createHalt(core, { transport, dropAll, sentByOthers });
   const receiver = createReceiver({ clock, family, report: heard, noise: heardNoise });
@@ -132,6 +142,7 @@ export function createSession({ transport, family, clock }: SessionOptions): Ses
   function linkChanged(state: LinkState): void {
     const wasReady = store.state.link.status === 'ready';
     store.update({ link: state });
+    if (state.status === 'ready') groups.linked();
     if (!wasReady) return;
     receiver.reset();
     robot.forget();

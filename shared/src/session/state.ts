@@ -53,7 +53,7 @@ export interface SessionState {
   readonly latch: Latch | null;
   readonly activity: Activity;
   readonly battery: Battery;
-  /** Slots whose download was begun here and not finished: broken on the board (S35). */
+  /** Slots whose download was begun and not finished, here or in an earlier visit: broken on the board (S35). */
   readonly brokenSlots: readonly number[];
   /** What this session stored, by slot. */
   readonly storedSlots: readonly number[];

@@ -11,6 +11,10 @@ export const STOP_REPEATS_MS = [70, 140] as const;
 /** Flash erase before the first frame and count table after the last: worst case 1.6 s and 0.4 s (S33, S34). */
 export const EDGE_FRAME_TIMEOUT_MS = 2_500;
 export const MIDDLE_FRAME_TIMEOUT_MS = 300;
+/** How often a download begins again at its first frame before it is given up. */
+export const DOWNLOAD_RESTARTS = 2;
+/** More late answers in a row than a board can owe: one a packet sent, each doubled on the way, and some. */
+export const BABBLE_LIMIT = 12;
 /** Count table only: 46 ms typical, 403 ms worst (boards.md section 3, flash times). */
 export const ERASE_TIMEOUT_MS = 1_000;
 export const BATTERY_TIMEOUT_MS = 500;
