@@ -26,6 +26,8 @@ export interface Lanes {
   wake(): void;
   /** The board answered a packet with that command number: if it left last, the board is free and the gap is over. */
   answered(command: number): void;
+  /** The packet that has not left the wire for sure: it is leaving, or it failed on the way and none has left since. */
+  unfinished(): Uint8Array | null;
   /** Rejects every request that has not begun to leave. Stops stay. */
   purge(error: LinkError): void;
 }
@@ -43,6 +45,7 @@ export function createLanes(options: LaneOptions): Lanes {
   /** Command numbers of the packet that leaves or left last, and of the board's latest answer to it. */
   let lastCommand: number | undefined;
   let lastAnswer: number | undefined;
+  let unfinished: Uint8Array | null = null;
   let endGap = (): void => undefined;
 
   const next = (): Waiting | null => stops.shift() ?? requests.shift() ?? newestMove();
@@ -62,12 +65,14 @@ export function createLanes(options: LaneOptions): Lanes {
     lastCommand = packet[3];
     lastAnswer = undefined;
     options.leaving(packet);
+    unfinished = packet;
     try {
       await options.send(packet);
     } catch (error) {
       reject(error);
       return;
     }
+    unfinished = null;
     options.sent(packet);
     resolve();
     if (lastAnswer !== lastCommand) await gap();
@@ -105,6 +110,7 @@ export function createLanes(options: LaneOptions): Lanes {
       lastAnswer = command;
       if (command === lastCommand) endGap();
     },
+    unfinished: () => unfinished,
     purge: (error) => requests.splice(0).forEach((waiting) => waiting.reject(error)),
   };
 }

@@ -51,7 +51,7 @@ describe('a lost link', () => {
     await clock.advance(2);
     transport.unplug();
     await clock.advance(100);
-    expect(await run).toMatchObject({ code: 'latched' });
+    expect(await run).toMatchObject({ code: 'lost' });
     expect(session.motion(1)).toEqual({ target: null, estimated: null });
     expect(session.state.activity).toEqual({ kind: 'idle' });
   });

@@ -36,6 +36,8 @@ export function createLink({ transport, clock, changed, returned, received, latc
   /** Counts connections, so that a late word of an old one is not taken for the new one's. */
   let generation = 0;
 
+  const isReady = (connection: number): boolean => state.status === 'ready' && connection === generation;
+
   function enter(next: LinkState): void {
     state = next;
     changed(next);
@@ -106,8 +108,11 @@ export function createLink({ transport, clock, changed, returned, received, latc
       if (state.status === 'lost') retry();
     },
     async send(packet) {
-      if (state.status !== 'ready') throw new LinkError('closed', 'the link is not open');
+      const mine = generation;
+      if (!isReady(mine)) throw new LinkError('closed', 'the link is not open');
       await transport.send(packet);
+      // A transport may count the wire's time without looking at the cable.
+      if (!isReady(mine)) throw new LinkError('lost', 'the link went while the packet left');
     },
   };
 }

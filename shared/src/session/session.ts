@@ -20,6 +20,7 @@ import { createMoveBuffer } from './moveBuffer.ts';
 import { createReceiver } from './receiver.ts';
 import { createReplies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
+import { createResync } from './resync.ts';
 import type { LinkState, ServoMotion, SessionEvents, SessionState } from './state.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { createSessionStore } from './store.ts';
@@ -107,6 +108,7 @@ export function createSession({ transport, family, clock, slotMemory }: SessionO
   const groups = createGroups(core, slotMemory);
   const readBattery = createBatteryReader(core);
   const halt = createHalt(core, { transport, dropAll, sentByOthers });
+  const resync = createResync(core);
   const receiver = createReceiver({ clock, family, report: heard, noise: heardNoise });
 
   /** Into the log when it begins to leave, so that its answer comes after it. */
@@ -142,8 +144,19 @@ export function createSession({ transport, family, clock, slotMemory }: SessionO
   function linkChanged(state: LinkState): void {
     const wasReady = store.state.link.status === 'ready';
     store.update({ link: state });
-    if (state.status === 'ready') groups.linked();
-    if (!wasReady) return;
+    if (state.status === 'ready') linked();
+    if (wasReady) unlinked(state);
+  }
+
+  function linked(): void {
+    groups.linked();
+    resync.send();
+  }
+
+  function unlinked(state: LinkState): void {
+    const packet = lanes.unfinished();
+    // A shared link has its own way to mend the wire behind it.
+    if (packet !== null && transport.halt === undefined) resync.cut(packet);
     receiver.reset();
     robot.forget();
     if (state.status === 'lost') halt.latchedByLoss();

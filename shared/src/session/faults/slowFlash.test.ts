@@ -1,0 +1,70 @@
+// F6 of safety.md section 5: the chip takes 0 to 30 s for a sector, or never answers. Every wait has a named end.
+
+import { expect, test } from 'vitest';
+import { LinkError } from '../linkError.ts';
+import { createRig, type Rig } from '../rig.ts';
+
+const SECTOR_MS = [0, 45, 400, 600, 900, 2_000, 10_000, 30_000, 1e9];
+const FRAME = { durationMs: 100, targets: [{ servo: 1, position: 1_200 }] };
+const FRAMES = [FRAME, { ...FRAME, durationMs: 200 }, { ...FRAME, durationMs: 300 }];
+const SLOT = 5;
+/** Erase waits 1 s; three attempts at frame 0 wait 2.5 s each. */
+const ERASE_ENDS_MS = 1_100;
+
+const codeOf = (error: unknown): unknown => (error instanceof LinkError ? error.code : error);
+const slow = (sectorMs: number): Promise<Rig> => createRig({ faults: [{ name: 'slowErase', sectorMs }] });
+
+test.each(SECTOR_MS)('an erase of %i ms a sector is shown and ends with a name', async (sectorMs) => {
+  const { session, clock } = await slow(sectorMs);
+  let outcome: unknown = 'hangs';
+  session.erase().then(
+    () => (outcome = 'erased'),
+    (error: unknown) => (outcome = codeOf(error)),
+  );
+  expect(session.state.activity).toEqual({ kind: 'erasing' });
+  await clock.advance(ERASE_ENDS_MS);
+  expect(outcome).toBe(sectorMs < 1_000 ? 'erased' : 'noAnswer');
+  expect(session.state.activity).toEqual({ kind: 'idle' });
+});
+
+test.each(SECTOR_MS)(
+  'a download at %i ms a sector stores what was asked or ends with a name',
+  async (sectorMs) => {
+    const { session, clock, transport } = await slow(sectorMs);
+    let outcome: unknown = 'hangs';
+    session.download(SLOT, FRAMES).then(
+      () => (outcome = 'stored'),
+      (error: unknown) => (outcome = codeOf(error)),
+    );
+    expect(session.state.activity).toMatchObject({ kind: 'downloading', slot: SLOT });
+    await clock.advance(120_000);
+    if (sectorMs <= 600) expect(outcome).toBe('stored');
+    if (outcome === 'stored')
+      expect(FRAMES.map((_, at) => transport.board.storedFrame(SLOT, at))).toEqual(FRAMES);
+    else expect([outcome, session.state.brokenSlots]).toEqual(['noAnswer', [SLOT]]);
+  },
+);
+
+test.each(SECTOR_MS)('STOP is served while the chip takes %i ms a sector', async (sectorMs) => {
+  const rig = await slow(sectorMs);
+  const outcome = rig.session.download(SLOT, FRAMES).catch((error: unknown) => error);
+  await rig.clock.advance(35);
+  const halted = rig.session.halt();
+  await rig.clock.advance(300);
+  await halted;
+  expect(await outcome).toMatchObject({ code: 'latched' });
+  expect(rig.ofKind('stop').length).toBe(3);
+  expect(rig.session.state).toMatchObject({ activity: { kind: 'idle' }, brokenSlots: [SLOT] });
+});
+
+test('a download after an interrupted one does not take its late answer for its own', async () => {
+  const { session, clock, transport } = await slow(400);
+  session.download(SLOT, FRAMES).catch(() => undefined);
+  await clock.advance(35);
+  await Promise.all([session.halt(), clock.advance(200)]);
+  await session.resume();
+  const again = session.download(SLOT, FRAMES);
+  await clock.advance(30_000);
+  await again;
+  expect(FRAMES.map((_, at) => transport.board.storedFrame(SLOT, at))).toEqual(FRAMES);
+});
