@@ -20,6 +20,8 @@ export interface Groups {
   heard(report: Report): void;
   /** The link is ready: what is remembered of this board's slots. */
   linked(): void;
+  /** The link is gone: what this board holds, or whether it is the same one at its return, nobody knows. */
+  unlinked(): void;
   drop(): void;
 }
 
@@ -146,6 +148,10 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
       if (report.kind === 'runFinished' || report.kind === 'runStopped') ended();
     },
     linked,
+    unlinked() {
+      robot.unstored();
+      publishSlots();
+    },
     drop: () => cancelEndTimer(),
   };
 }

@@ -56,6 +56,19 @@ describe('a lost link', () => {
     expect(session.state.activity).toEqual({ kind: 'idle' });
   });
 
+  test('leaves no slot called stored: another board may be at the other end', async () => {
+    const { session, transport, clock } = await createRig();
+    const stored = session.download(5, [{ durationMs: 100, targets: [{ servo: 1, position: 1_500 }] }]);
+    await clock.advance(2_000);
+    await stored;
+    expect(session.state.storedSlots).toEqual([5]);
+    transport.unplug();
+    expect(session.state.storedSlots).toEqual([]);
+    transport.plugIn();
+    await clock.advance(1_000);
+    expect(session.state.storedSlots).toEqual([]);
+  });
+
   test('closed by the person is not tried again', async () => {
     const { session, clock } = await createRig();
     await session.close();

@@ -159,6 +159,7 @@ export function createSession({ transport, family, clock, slotMemory }: SessionO
     if (packet !== null && transport.halt === undefined) resync.cut(packet);
     receiver.reset();
     robot.forget();
+    groups.unlinked();
     if (state.status === 'lost') halt.latchedByLoss();
     else dropAll(new LinkError('closed', 'the link was closed'));
   }
