@@ -14,6 +14,7 @@ from typing import Annotated, NoReturn
 import typer
 
 from servodeck.describe import describe
+from servodeck.families import UNKNOWN
 from servodeck.packets import FAMILIES, PacketError
 from servodeck.ports import list_devices
 
@@ -40,7 +41,9 @@ def serve(
         str, typer.Option(help="HOST:PORT of this computer; port 0 takes a free one.")
     ] = DEFAULT_LISTEN,
     serial: Annotated[str, typer.Option(help="Serial device, or socket://HOST:PORT.")] = "",
-    board: Annotated[str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}.")] = "doc",
+    board: Annotated[
+        str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}. Where it is left out the board is asked.")
+    ] = "",
     simulated: Annotated[
         bool, typer.Option("--simulated", help="Tell everyone that the device is no real board.")
     ] = False,
@@ -58,6 +61,7 @@ def serve(
     from servodeck.control import Control
     from servodeck.server import Server, leave_with_stdin
 
+    board = board or ("doc" if simulated else UNKNOWN.id)
     if board not in FAMILIES:
         fail(f"There is no board family {board}. Choose one of: {', '.join(FAMILIES)}.", USAGE)
     listener = bind(*parse_listen(listen))

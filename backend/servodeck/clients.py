@@ -17,6 +17,7 @@ from servodeck.errors import GatewayError, MalformedError
 from servodeck.gate import judge_hold
 from servodeck.hub import Seat
 from servodeck.messages import (
+    BoardMessage,
     RefusedMessage,
     ResumeMessage,
     SendMessage,
@@ -91,6 +92,9 @@ def take(text: str, seat: Seat, control: Control) -> None:
         case ResumeMessage():
             with refusing(seat, None):
                 control.resume()
+        case BoardMessage():
+            with refusing(seat, None):
+                control.take_for(message.board)
 
 
 def take_send(message: SendMessage, seat: Seat, control: Control) -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from servodeck import __version__
 from servodeck.decoder import COMMAND_AT
-from servodeck.errors import CancelledError, GatewayError, LatchedError, NoAnswerError, PortLostError
+from servodeck.errors import CancelledError, GatewayError, LatchedError, NoAnswerError, OutOfRangeError, PortLostError
 from servodeck.gate import RUN, STOP, judge_latch, judge_packet
 from servodeck.hub import Hub, Seat
 from servodeck.inbox import Inbox
@@ -121,6 +121,19 @@ class Control:
             raise PortLostError(self.link.state.detail or "The serial port is gone.")
         self._set_latch(False)
 
+    def take_for(self, board: str) -> None:
+        """What every later packet is judged by; `unknown` lets only harmless questions pass. Everybody is
+        told, also where nothing changed.
+        """
+        if board not in FAMILIES:
+            raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
+        if board != self.board:
+            self.board = board
+            self.battery = None
+            with contextlib.suppress(GatewayError):
+                self.link.wire().purge(is_no_stop, CancelledError("The board is taken for another one now."))
+        self._tell_state()
+
     async def read_battery(self) -> int:
         """In mV. Whoever asks while a question is under way shares its answer."""
         if self._battery_question is None:
@@ -170,7 +183,7 @@ class Control:
         )
 
     def _tell_state(self, but: Seat | None = None) -> None:
-        state = StateMessage(port=self.port, latch=self.latch, clients=len(self.hub))
+        state = StateMessage(board=self.board, port=self.port, latch=self.latch, clients=len(self.hub))
         self.hub.tell_all(encode(state), but)
 
     def _tell(self, message: Message) -> None:
@@ -232,6 +245,10 @@ class Control:
         self._battery_question = None
         if not question.cancelled():
             question.exception()  # whoever asked has it; nobody may be left to take it
+
+
+def is_no_stop(job: Job) -> bool:
+    return job.packet[COMMAND_AT] != STOP
 
 
 def is_run(job: Job) -> bool:

@@ -187,6 +187,20 @@ LEARM_ESP32_BUS = replace(
     servo_position={1: Range(200, 700)},
 )
 
+# A board nobody has identified yet: harmless questions and the stop, nothing that moves or stores.
+UNKNOWN = replace(
+    DOC,
+    id="unknown",
+    name="Unknown board",
+    servo=Range(1, 1),
+    servos_per_move=1,
+    servos_per_frame=0,
+    max_length=6,
+    commands=("stop", "readBattery", "readVersion", "readPositions"),
+    answers=("readBattery", "readVersion", "readPositions"),
+    empty_seven="unknown",
+)
+
 ROWS: Final = (
     DOC,
     OPENARM_OLD,
@@ -196,5 +210,6 @@ ROWS: Final = (
     XARM,
     LEARM_ESP32,
     LEARM_ESP32_BUS,
+    UNKNOWN,
 )
 FAMILIES: dict[str, Family] = {row.id: row for row in ROWS}

@@ -74,7 +74,16 @@ class ResumeMessage(Message):
     type: Literal["resume"]
 
 
-ClientMessage = Annotated[SendMessage | StopMessage | ResumeMessage, Field(discriminator="type")]
+class BoardMessage(Message):
+    """Which family the board is of, as a person has said; `unknown`: ask it again."""
+
+    type: Literal["board"]
+    board: Annotated[str, Field(max_length=64)]
+
+
+ClientMessage = Annotated[
+    SendMessage | StopMessage | ResumeMessage | BoardMessage, Field(discriminator="type")
+]
 
 
 class WelcomeMessage(Message):
@@ -128,6 +137,7 @@ class StateMessage(Message):
     """Something of this changed."""
 
     type: Literal["state"] = "state"
+    board: str
     port: PortState
     latch: bool
     clients: int
@@ -144,7 +154,7 @@ GatewayMessage = Annotated[
     Field(discriminator="type"),
 ]
 
-client_message: TypeAdapter[SendMessage | StopMessage | ResumeMessage] = TypeAdapter(ClientMessage)
+client_message: TypeAdapter[SendMessage | StopMessage | ResumeMessage | BoardMessage] = TypeAdapter(ClientMessage)
 gateway_message: TypeAdapter[Any] = TypeAdapter(GatewayMessage)
 
 

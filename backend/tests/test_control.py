@@ -14,6 +14,8 @@ from servodeck.errors import (
     ClosedError,
     LatchedError,
     NoAnswerError,
+    NotSupportedError,
+    OutOfRangeError,
     PortLostError,
     PortMissingError,
 )
@@ -93,6 +95,42 @@ async def test_stop_latches_for_everyone_until_resume() -> None:
         assert [message["latch"] for message in await heard(bert)] == [False]
         assert port.packets()[6:] == [BATTERY]
         await control.send(anna, MOVE.hex())
+
+
+@in_virtual_time
+async def test_an_unknown_board_gets_questions_and_stops_and_nothing_else() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna, bert = seated(control), seated(control)
+        await heard(anna), await heard(bert)
+        control.take_for("unknown")
+        assert [message["board"] for message in await heard(bert)] == ["unknown"]
+        for packet in (MOVE, RUN, DOWNLOAD, ERASE):
+            with pytest.raises(NotSupportedError):
+                control.send(anna, packet.hex())
+        await control.send(anna, BATTERY.hex())
+        await control.send(anna, STOP.hex())
+        control.take_for("openarm-new")
+        with pytest.raises(NotSupportedError):
+            control.send(anna, BATTERY.hex())
+        await control.send(anna, MOVE.hex())
+        assert port.packets() == [STOP, BATTERY, STOP, MOVE]
+
+
+@in_virtual_time
+async def test_what_waits_for_one_board_does_not_go_to_another() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = seated(control)
+        leaving, waiting = control.send(anna, MOVE.hex()), control.send(anna, ERASE.hex())
+        await asyncio.sleep(0)
+        control.take_for("lsc-6")
+        await leaving
+        with pytest.raises(CancelledError):
+            await waiting
+        with pytest.raises(OutOfRangeError):
+            control.take_for("toaster")
+        assert port.packets() == [STOP, MOVE]
 
 
 @in_virtual_time

@@ -23,6 +23,7 @@ from servodeck.messages import (
     gateway_message,
     json_schema,
 )
+from servodeck.packets import FAMILIES
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, MOVE, RUN, STOP
 from tests.virtual_time import in_virtual_time, now
@@ -65,7 +66,7 @@ def test_anything_else_is_refused(text: str) -> None:
 
 def test_names_on_the_wire_are_camel_case() -> None:
     port = PortState(device="/dev/board", status="lost", code="lost", detail="Gone.", retry_in_ms=250)
-    state = json.loads(encode(StateMessage(port=port, latch=True, clients=2)))
+    state = json.loads(encode(StateMessage(board="doc", port=port, latch=True, clients=2)))
     assert state["port"]["retryInMs"] == 250
     assert json.loads(encode(SentMessage(id=3))) == {"type": "sent", "id": 3}
     assert gateway_message.validate_json(encode(SentMessage(id=3))) == SentMessage(id=3)
@@ -74,7 +75,7 @@ def test_names_on_the_wire_are_camel_case() -> None:
 def test_the_schema_names_both_directions_and_leaves_nothing_open() -> None:
     definitions = json_schema()["$defs"]
     assert {"ClientMessage", "GatewayMessage", "PortState"} <= set(definitions)
-    assert len(definitions["ClientMessage"]["oneOf"]) == 3
+    assert len(definitions["ClientMessage"]["oneOf"]) == 4
     assert len(definitions["GatewayMessage"]["oneOf"]) == 7
     for name, definition in definitions.items():
         if "properties" in definition:
@@ -91,6 +92,7 @@ scalars = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.tex
 messages = st.one_of(
     st.fixed_dictionaries({"type": st.just("send"), "id": st.integers() | scalars, "packet": packets}),
     st.fixed_dictionaries({"type": st.just("stop"), "hold": st.none() | packets}),
+    st.fixed_dictionaries({"type": st.just("board"), "board": st.sampled_from(list(FAMILIES)) | scalars}),
     st.dictionaries(st.sampled_from(["type", "id", "packet", "hold", "x"]), scalars),
     st.recursive(scalars, lambda inner: st.lists(inner, max_size=3), max_leaves=6),
 )

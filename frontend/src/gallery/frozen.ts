@@ -12,12 +12,14 @@ export function frozenSession(
 ): Session {
   const nothing = (): Promise<void> => Promise.resolve();
   return {
-    family,
-    state,
+    state: { ...state, family },
     subscribe: () => () => undefined,
     open: nothing,
     close: nothing,
     retryNow: () => undefined,
+    setAutoReconnect: () => undefined,
+    identify: nothing,
+    choose: nothing,
     move: () => {
       throw new LinkError('latched', 'the gallery moves nothing');
     },

@@ -3,7 +3,8 @@
 import { LINK_ERROR_CODES, LinkError } from '#shared/session/linkError.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
-import { UNCONNECTED, type Way } from '../stores/device.ts';
+import type { Way } from '../stores/device.ts';
+import { INITIAL_STATE } from '#shared/session/store.ts';
 
 export interface Specimen {
   readonly name: string;
@@ -20,7 +21,7 @@ const USB: Way = { kind: 'webSerial', label: 'USB 1A86:7523', isSimulated: false
 const REMOTE: Way = { kind: 'gateway', label: '/dev/ttyUSB0', isSimulated: false };
 
 const READY: SessionState = {
-  ...UNCONNECTED,
+  ...INITIAL_STATE,
   link: { status: 'ready' },
   battery: { kind: 'read', batteryMv: 7500, atMs: 0 },
 };
@@ -31,6 +32,11 @@ const NO_BATTERY: SessionState = { ...READY, battery: { kind: 'unread' } };
 const lost = (code: LinkError['code'], retryAtMs: number | null): SessionState => ({
   ...READY,
   link: { status: 'lost', error: new LinkError(code, 'detail of the failure'), retryAtMs },
+});
+
+const refused = (code: LinkError['code']): SessionState => ({
+  ...READY,
+  link: { status: 'refused', error: new LinkError(code, 'detail of the failure') },
 });
 
 const running = (truth: 'requested' | 'acknowledged' | 'unknown', times: number): SessionState => ({
@@ -52,11 +58,11 @@ const DOWNLOADING: SessionState = {
 };
 
 export const SPECIMENS: readonly Specimen[] = [
-  { name: 'Disconnected', way: null, state: UNCONNECTED, pose: 'unknown', frames: 0 },
+  { name: 'Disconnected', way: null, state: INITIAL_STATE, pose: 'unknown', frames: 0 },
   {
     name: 'Opening',
     way: USB,
-    state: { ...UNCONNECTED, link: { status: 'opening' } },
+    state: { ...INITIAL_STATE, link: { status: 'opening' } },
     pose: 'unknown',
     frames: 0,
   },
@@ -139,7 +145,7 @@ export const SPECIMENS: readonly Specimen[] = [
   ...LINK_ERROR_CODES.map((code): Specimen => ({
     name: `Error ${code}`,
     way: USB,
-    state: lost(code, null),
+    state: refused(code),
     pose: 'unknown',
     frames: 0,
   })),

@@ -6,6 +6,7 @@ import type { Clock } from '#shared/clock.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import type { Session } from '#shared/session/session.ts';
+import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { Transport } from '#shared/session/transport.ts';
 import { words } from '../words/en.ts';
@@ -57,19 +58,10 @@ export interface Device {
   stopPlaying(): void;
 }
 
-export const UNCONNECTED: SessionState = {
-  link: { status: 'closed' },
-  latch: null,
-  activity: { kind: 'idle' },
-  battery: { kind: 'unread' },
-  brokenSlots: [],
-  storedSlots: [],
-};
-
 const NO_MOTION: ServoMotion = { target: null, estimated: null };
 
 export function createDevice(family: Family, clock: Clock, notices: Notices): Device {
-  const store = createStore<DeviceState>(() => ({ family, way: null, snapshot: UNCONNECTED, targets: {} }));
+  const store = createStore<DeviceState>(() => ({ family, way: null, snapshot: INITIAL_STATE, targets: {} }));
   const traffic = createTrafficLog();
   const book = createTargetBook(clock);
   let session: Session | null = null;
@@ -92,7 +84,7 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
   }
 
   function noteState(snapshot: SessionState): void {
-    store.setState({ snapshot });
+    store.setState({ snapshot, family: snapshot.family });
     if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
   }
 
@@ -110,7 +102,7 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
     session = null;
     unsubscribe();
     book.clear();
-    store.setState({ way: null, snapshot: UNCONNECTED, targets: {} });
+    store.setState({ way: null, snapshot: INITIAL_STATE, targets: {} });
     await former?.close();
   }
 
@@ -133,7 +125,7 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
     attach(next, way) {
       void detach();
       session = next;
-      store.setState({ family: next.family, way, snapshot: next.state });
+      store.setState({ family: next.state.family, way, snapshot: next.state });
       unsubscribe = next.subscribe({ state: noteState, traffic: traffic.add, problem: noteProblem });
     },
     describe(described, way) {
@@ -145,7 +137,7 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
     move(targets, time) {
       if (session === null) return;
       try {
-        session.move(targets, moveDurationMs(time, targets, session.family, motion));
+        session.move(targets, moveDurationMs(time, targets, session.state.family, motion));
         book.wish(targets);
         refreshTargets();
       } catch (error) {

@@ -11,14 +11,17 @@ import styles from './LinkChip.module.css';
 const TRUTH: Readonly<Record<LinkState['status'], Truth>> = {
   closed: 'neutral',
   opening: 'unknown',
+  identifying: 'unknown',
   ready: 'confirmed',
+  stale: 'warning',
   lost: 'danger',
+  refused: 'danger',
 };
 
 export function LinkChip() {
   const { view } = useStores();
   const status = useSnapshot((snapshot) => snapshot.link.status);
-  const mustChoose = useSnapshot(({ link }) => link.status === 'lost' && link.error.code === 'closed');
+  const mustChoose = useSnapshot(({ link }) => link.status === 'refused' && link.error.code === 'closed');
   const way = useDevice((state) => state.way);
   const isSimulated = way?.isSimulated === true;
   const open = (): void => view.setState({ connectOpen: true });

@@ -2,6 +2,7 @@
 // what the board does. Changes are read out.
 
 import { useSnapshot, useStores } from '../stores/stores.ts';
+import type { LinkErrorCode } from '#shared/session/linkError.ts';
 import type { Activity, Latch, LinkState } from '#shared/session/state.ts';
 import { Button } from '../ui/Button.tsx';
 import { Mark, type Truth } from '../ui/Chip.tsx';
@@ -16,9 +17,13 @@ export function StatusLine() {
   const latch = useSnapshot((snapshot) => snapshot.latch);
   const activity = useSnapshot((snapshot) => snapshot.activity);
   return (
-    <div className={cx(styles.line, link.status === 'lost' && styles.lost)}>
-      {link.status === 'lost' ? (
-        <Lost link={link} />
+    <div className={cx(styles.line, (link.status === 'lost' || link.status === 'refused') && styles.lost)}>
+      {link.status === 'lost' || link.status === 'refused' ? (
+        <Down link={link} />
+      ) : link.status === 'stale' ? (
+        <Said truth="warning" text={errorSentence('boardSilent')} />
+      ) : link.status === 'identifying' ? (
+        <Said truth="unknown" text={words.identity.asking} />
       ) : latch !== null ? (
         <Latched latch={latch} />
       ) : (
@@ -56,16 +61,21 @@ function Latched({ latch }: { readonly latch: Latch }) {
   );
 }
 
-function Lost({ link }: { readonly link: Extract<LinkState, { status: 'lost' }> }) {
+const ANSWERED_ELSEWHERE: readonly LinkErrorCode[] = ['closed', 'boardUnknown', 'wrongBoard', 'echo'];
+
+type DownState = Extract<LinkState, { status: 'lost' | 'refused' }>;
+
+function Down({ link }: { readonly link: DownState }) {
   const { device } = useStores();
   const said = <Said truth="danger" text={errorSentence(link.error.code, link.error.message)} />;
-  // There is nothing to try again: the sentence says to connect.
-  if (link.error.code === 'closed') return said;
+  // There is nothing to try again: the sentence says to connect, or to say which board it is.
+  if (ANSWERED_ELSEWHERE.includes(link.error.code)) return said;
+  const retryAtMs = link.status === 'lost' ? link.retryAtMs : null;
   return (
     <>
       {said}
       <span className={styles.countdown}>
-        {link.retryAtMs === null ? words.link.needsYou : <Countdown untilMs={link.retryAtMs} />}
+        {retryAtMs === null ? words.link.needsYou : <Countdown untilMs={retryAtMs} />}
       </span>
       <Button onPress={() => device.retryNow()} icon="refresh">
         {words.link.retryNow}

@@ -1,7 +1,7 @@
 // Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change backend/servodeck/messages.py instead.
 
 export type Message = ClientMessage | GatewayMessage;
-export type ClientMessage = SendMessage | StopMessage | ResumeMessage;
+export type ClientMessage = SendMessage | StopMessage | ResumeMessage | BoardMessage;
 export type GatewayMessage =
   | WelcomeMessage
   | SentMessage
@@ -38,6 +38,13 @@ export interface StopMessage {
  */
 export interface ResumeMessage {
   type: 'resume';
+}
+/**
+ * Which family the board is of, as a person has said; `unknown`: ask it again.
+ */
+export interface BoardMessage {
+  type: 'board';
+  board: string;
 }
 /**
  * The first message on each connection.
@@ -141,6 +148,7 @@ export interface HaltedMessage {
  */
 export interface StateMessage {
   type: 'state';
+  board: string;
   port: PortState;
   latch: boolean;
   clients: number;

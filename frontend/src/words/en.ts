@@ -34,8 +34,11 @@ export const words = {
     status: {
       closed: 'Not connected',
       opening: 'Connecting',
+      identifying: 'Asking the board',
       ready: 'Ready',
+      stale: 'No answer',
       lost: 'Lost',
+      refused: 'Needs you',
     } satisfies Record<LinkState['status'], string>,
     simulated: 'Simulated',
     noBoard: 'No robot',
@@ -46,6 +49,10 @@ export const words = {
     retryNow: 'Try now',
     retryIn: (ms: number): string => `Next try in ${formatWhole(Math.max(0, Math.ceil(ms / 1000)))} s`,
     needsYou: 'Waiting for you',
+  },
+
+  identity: {
+    asking: 'Asking the board who it is. Nothing moves.',
   },
 
   stop: {

@@ -20,6 +20,11 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
     'This address is not secure, so the browser hides its serial ports. Open the page on 127.0.0.1 instead.',
   gatewayUnreachable: () => 'No gateway answers at this address. Start it with “npm start” and try again.',
   gatewayRefused: (detail) => withDetail('The gateway refused this', detail),
+  boardUnknown: () => 'Say which board this is. Until then nothing that moves is sent to it.',
+  wrongBoard: () => 'Another board answers here than the one it was taken for. Say which board this is.',
+  echo: () =>
+    'This port sends back everything it is given. Check that the adapter is wired to the board: RX to TX, TX to RX.',
+  boardSilent: () => 'The board does not answer. Switch it on and check its cable; Servodeck keeps asking.',
   noAnswer: () => 'The board did not answer in time. Check its power and its cable, then try again.',
   notSupported: () => 'This board has no such command.',
   latched: () => 'Stopped. Choose Resume before anything may move.',

@@ -9,7 +9,7 @@ export interface Range {
 }
 
 export interface Family {
-  readonly id: FamilyId;
+  readonly id: BoardId;
   /** Shown to people; a proper name, the same in every language. */
   readonly name: string;
   readonly unit: 'us' | 'steps';
@@ -41,6 +41,11 @@ export interface Family {
   readonly eraseLength: 2 | 3;
   /** Commands the board answers; the others are silent by design. */
   readonly answers: readonly CommandKind[];
+  /**
+   * Harmless questions that every such board answers, the cheapest first: the others may stay silent for good reasons. What
+   * tells the families apart (boards.md 2.5), and whether a board is still there.
+   */
+  readonly certainAnswers: readonly Question[];
   /** Reports of runs name slot and times (6 and 8 with LEN 5), whoever asked for the run; otherwise they are empty. */
   readonly runReportsNameSlot: boolean;
   /** What an empty packet 7 says: opposite things per family (boards.md 2.4). */
@@ -54,6 +59,12 @@ export interface Family {
   /** Pause the board needs between two packets, after the last byte has left the wire (S52, S54). */
   readonly serviceGapMs: number;
 }
+
+/** What may be asked of any board: it moves nothing, stores nothing and makes nothing drop. */
+export type Question = Extract<CommandKind, 'readBattery' | 'readVersion' | 'readPositions'>;
+
+/** `unknown` until a board has been identified. */
+export type BoardId = FamilyId | 'unknown';
 
 export type FamilyId =
   | 'doc'
@@ -89,6 +100,7 @@ const openFirmware = {
   speedPercent: AS_STORED,
   zeroTimes: 'endless', // S45
   maxLength: 253, // S3
+  certainAnswers: [], // nobody knows which of the sold boards answer at all
   eraseLength: 3,
   runReportsNameSlot: false,
   emptySeven: 'runFinished', // S48
@@ -123,6 +135,7 @@ const closedFirmware = {
   commands: ['move', 'run', 'stop', 'readBattery', 'setSpeed'],
   eraseLength: 3,
   answers: ['readBattery'],
+  certainAnswers: ['readBattery'],
   runReportsNameSlot: true,
   emptySeven: 'runStopped',
   queryKillsRun: false,
@@ -148,6 +161,7 @@ const busBoard = {
   usualServoCount: 6,
   commands: [...closedFirmware.commands, 'release', 'readPositions'],
   answers: ['readBattery', 'readPositions'],
+  certainAnswers: ['readBattery', 'readPositions'],
 } as const;
 
 /** One move may name every output (boards.md section 1), also where that is more than a HID report holds. */
@@ -179,6 +193,7 @@ const leArm = {
   commands: ['move', 'run', 'stop', 'erase', 'download', 'readVersion'],
   eraseLength: 2,
   answers: ['erase', 'download', 'readVersion'],
+  certainAnswers: ['readVersion'],
   runReportsNameSlot: false,
   emptySeven: 'unknown', // neither start nor end is told (L6)
   queryKillsRun: true,
@@ -254,8 +269,24 @@ export const FAMILIES: Readonly<Record<FamilyId, Family>> = {
   },
 };
 
-export function family(id: FamilyId): Family {
-  return FAMILIES[id];
+/** A board nobody has identified yet: harmless questions and the stop, nothing that moves or stores. */
+export const UNKNOWN_BOARD: Family = {
+  ...openFirmware,
+  id: 'unknown',
+  name: 'Unknown board',
+  servo: { min: 1, max: 1 },
+  usualServoCount: 0,
+  servosPerMove: 1,
+  servosPerFrame: 0,
+  maxLength: 6, // one servo's position asked for
+  commands: ['stop', 'readBattery', 'readVersion', 'readPositions'],
+  answers: ['readBattery', 'readVersion', 'readPositions'],
+  emptySeven: 'unknown',
+  resyncFiller: null,
+};
+
+export function family(id: BoardId): Family {
+  return id === 'unknown' ? UNKNOWN_BOARD : FAMILIES[id];
 }
 
 /** How far this servo may be turned. */

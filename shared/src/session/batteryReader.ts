@@ -12,7 +12,7 @@ export function createBatteryReader(core: Core): () => Promise<number> {
 
   async function read(): Promise<number> {
     const { store, clock, exchange } = core;
-    requireReady(core);
+    requireReady(core.store);
     try {
       const report = await exchange.ask({ kind: 'readBattery' }, 'battery', BATTERY_TIMEOUT_MS);
       const batteryMv = report.kind === 'battery' ? report.batteryMv : 0;

@@ -7,7 +7,7 @@ import type { Exchange } from './exchange.ts';
 import type { Lanes } from './lanes.ts';
 import { LinkError } from './linkError.ts';
 import type { RobotEstimate } from './robot.ts';
-import type { Activity } from './state.ts';
+import type { Activity, LinkState } from './state.ts';
 import type { SessionStore } from './store.ts';
 
 export interface Core {
@@ -24,9 +24,8 @@ export function setActivity({ store }: Core, activity: Activity): void {
 }
 
 /** The link is there and the board is not deaf with flash work (S41). */
-export function requireReady({ store }: Core): void {
-  const { link, activity } = store.state;
-  if (link.status !== 'ready') throw new LinkError('closed', 'the link is not open');
+export function requireReady({ state: { link, activity } }: SessionStore): void {
+  if (link.status !== 'ready') throw notReady(link);
   if (activity.kind === 'downloading' || activity.kind === 'erasing') {
     throw new LinkError('busy', `${activity.kind}: wait for its end or cancel it`);
   }
@@ -34,7 +33,7 @@ export function requireReady({ store }: Core): void {
 
 /** Additionally nobody has pressed STOP since the last Resume. */
 export function requireReleased(core: Core): void {
-  requireReady(core);
+  requireReady(core.store);
   if (core.store.state.latch !== null) throw new LinkError('latched', 'stopped: resume first');
 }
 
@@ -44,4 +43,12 @@ export function requireRest(core: Core): void {
   if (core.store.state.activity.kind !== 'idle' || core.robot.moving()) {
     throw new LinkError('busy', 'the robot is moving: wait or stop it first');
   }
+}
+
+function notReady(link: LinkState): LinkError {
+  if (link.status === 'refused') return link.error;
+  if (link.status === 'stale') return new LinkError('boardSilent', 'the board does not answer');
+  return link.status === 'identifying'
+    ? new LinkError('busy', 'the board is being asked who it is')
+    : new LinkError('closed', 'the link is not open');
 }

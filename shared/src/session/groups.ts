@@ -64,7 +64,7 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
   }
 
   async function stop(): Promise<void> {
-    requireReady(core);
+    requireReady(core.store);
     await repeatStop(clock, () => lanes.stop(encodeOrRefuse({ kind: 'stop' }, family)));
     ended();
   }

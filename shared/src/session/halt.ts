@@ -2,10 +2,13 @@
 // what is known of the stop's fate. Motion waits until a person resumes.
 
 import { sleep, type Clock } from '../clock.ts';
-import { requireReady, type Core } from './core.ts';
-import { encodeOrRefuse } from './exchange.ts';
+import { encodeCommand } from '../protocol/encode.ts';
+import { UNKNOWN_BOARD } from '../protocol/families.ts';
+import { requireReady } from './core.ts';
+import type { Lanes } from './lanes.ts';
 import { LinkError } from './linkError.ts';
 import type { Latch } from './state.ts';
+import type { SessionStore } from './store.ts';
 import { STOP_REPEATS_MS } from './timings.ts';
 import type { Transport } from './transport.ts';
 
@@ -34,15 +37,24 @@ export async function repeatStop(clock: Clock, send: () => Promise<void>): Promi
 }
 
 export interface HaltOptions {
+  readonly clock: Clock;
+  readonly store: SessionStore;
+  readonly lanes: Lanes;
   readonly transport: Transport;
+  /** The move that freezes the robot where it is estimated to be, or null where nothing is known. */
+  holdPacket(): Uint8Array | null;
+  /** Somebody else held the robot: nobody here knows where. */
+  forget(): void;
   dropAll(error: LinkError): void;
   /** Books a packet that a shared link sends for us, as if it had left by our own lanes. */
   sentByOthers(packet: Uint8Array): void;
 }
 
-export function createHalt(core: Core, { transport, dropAll, sentByOthers }: HaltOptions): Halt {
-  const { family, clock, store, robot, lanes } = core;
-  const stopPacket = encodeOrRefuse({ kind: 'stop' }, family);
+/** The same on every board, so also on one that nobody has identified. */
+export const STOP_PACKET = encodeCommand({ kind: 'stop' }, UNKNOWN_BOARD);
+
+export function createHalt(options: HaltOptions): Halt {
+  const { clock, store, lanes, transport, holdPacket, dropAll, sentByOthers } = options;
 
   function latch(value: Latch): void {
     store.update({ latch: value });
@@ -52,11 +64,6 @@ export function createHalt(core: Core, { transport, dropAll, sentByOthers }: Hal
   function note(stop: Latch['stop']): void {
     const { latch: current } = store.state;
     if (current !== null && current.stop !== 'confirmed') store.update({ latch: { ...current, stop } });
-  }
-
-  function holdPacket(): Uint8Array | null {
-    const hold = robot.hold();
-    return hold && encodeOrRefuse(hold, family);
   }
 
   async function sendHold(): Promise<void> {
@@ -71,7 +78,7 @@ export function createHalt(core: Core, { transport, dropAll, sentByOthers }: Hal
   async function haltOwnLink(): Promise<void> {
     let holds = 0;
     await repeatStop(clock, async () => {
-      await lanes.stop(stopPacket);
+      await lanes.stop(STOP_PACKET);
       if (holds++ === 0) await sendHold();
     });
     await sendHold();
@@ -80,7 +87,7 @@ export function createHalt(core: Core, { transport, dropAll, sentByOthers }: Hal
   async function haltSharedLink(): Promise<void> {
     const hold = holdPacket();
     const done = transport.halt?.(hold);
-    sentByOthers(stopPacket);
+    sentByOthers(STOP_PACKET);
     if (hold !== null) sentByOthers(hold);
     await done;
   }
@@ -97,7 +104,7 @@ export function createHalt(core: Core, { transport, dropAll, sentByOthers }: Hal
 
   return {
     latchedElsewhere() {
-      robot.forget();
+      options.forget();
       latch({ reason: 'elsewhere', stop: 'sent' });
     },
     latchedByLoss: () => latch({ reason: 'reconnected', stop: 'failed' }),
@@ -106,14 +113,14 @@ export function createHalt(core: Core, { transport, dropAll, sentByOthers }: Hal
       await send(transport.halt ? haltSharedLink : haltOwnLink);
     },
     async resume() {
-      requireReady(core);
+      requireReady(store);
       await transport.resume?.();
       store.update({ latch: null });
     },
     released: () => store.update({ latch: null }),
     stopAfterReturn() {
       // Its failure is the latch's `failed`; there is no caller to tell.
-      send(() => repeatStop(clock, () => lanes.stop(stopPacket))).catch(() => undefined);
+      send(() => repeatStop(clock, () => lanes.stop(STOP_PACKET))).catch(() => undefined);
     },
     confirmed: () => note('confirmed'),
   };

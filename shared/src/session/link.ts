@@ -1,79 +1,83 @@
-// One link's life: opening, ready, lost, and back again by itself with growing pauses. Knows a transport and the clock;
-// nothing of packets. Every failure leaves here as a LinkError.
+// One line's life: opening, open, lost and back again. Knows a transport and the clock; nothing of packets, nor which board is
+// at the other end. Every failure leaves here as a LinkError.
 
 import type { Clock } from '../clock.ts';
 import { LinkError, type LinkErrorCode } from './linkError.ts';
+import { createReconnect } from './reconnect.ts';
 import type { LinkState } from './state.ts';
-import { RECONNECT_DELAYS_MS } from './timings.ts';
 import type { Transport, TransportEvents } from './transport.ts';
 
-export interface LinkOptions {
+/** What the line itself can be; who answers on it is decided above. */
+export type LineState =
+  | Extract<LinkState, { status: 'closed' | 'opening' | 'lost' | 'refused' }>
+  | { readonly status: 'open'; readonly isReturn: boolean };
+
+export interface LinkOptions extends Pick<TransportEvents, 'received' | 'latched' | 'identified'> {
   readonly transport: Transport;
   readonly clock: Clock;
-  changed(state: LinkState): void;
-  /** The link is back after a loss: ready again. */
-  returned(): void;
-  received: TransportEvents['received'];
-  latched(latched: boolean): void;
+  changed(state: LineState): void;
 }
 
 export interface Link {
-  readonly state: LinkState;
+  readonly isOpen: boolean;
   open(): Promise<void>;
   close(): Promise<void>;
   retryNow(): void;
+  setAutoReconnect(enabled: boolean): void;
   send(packet: Uint8Array): Promise<void>;
 }
 
 /** Failures that pass by themselves; the others need the person. */
 const PASSING: readonly LinkErrorCode[] = ['lost', 'portMissing', 'portBusy', 'gatewayUnreachable'];
 
-export function createLink({ transport, clock, changed, returned, received, latched }: LinkOptions): Link {
-  let state: LinkState = { status: 'closed' };
-  let attempts = 0;
-  let hadBeenReady = false;
-  let stopWaiting = (): void => undefined;
+export function createLink({ transport, clock, changed, ...events }: LinkOptions): Link {
+  let state: LineState = { status: 'closed' };
+  let wasOpenBefore = false;
   /** Counts connections, so that a late word of an old one is not taken for the new one's. */
   let generation = 0;
 
-  const isReady = (connection: number): boolean => state.status === 'ready' && connection === generation;
+  const isOpen = (connection: number): boolean => state.status === 'open' && connection === generation;
+  const isDown = (): boolean => state.status === 'lost' || state.status === 'refused';
 
-  function enter(next: LinkState): void {
+  const reconnect = createReconnect({
+    clock,
+    attempt: retry,
+    watch: (notify) => transport.whenAvailable?.(notify),
+    planned(retryAtMs) {
+      if (state.status === 'lost') enter({ ...state, retryAtMs });
+    },
+  });
+
+  function enter(next: LineState): void {
     state = next;
     changed(next);
   }
 
   function fail(error: LinkError): void {
-    const delayMs = PASSING.includes(error.code) ? nextDelayMs() : null;
-    const cancelTimer = delayMs === null ? undefined : clock.after(delayMs, retry);
-    const cancelWatch = transport.whenAvailable?.(retry);
-    stopWaiting = () => {
-      cancelTimer?.();
-      cancelWatch?.();
-    };
-    enter({ status: 'lost', error, retryAtMs: delayMs === null ? null : clock.now() + delayMs });
-  }
-
-  function nextDelayMs(): number {
-    const index = Math.min(attempts, RECONNECT_DELAYS_MS.length - 1);
-    attempts += 1;
-    return RECONNECT_DELAYS_MS[index] ?? 0;
+    const passes = PASSING.includes(error.code);
+    const retryAtMs = reconnect.plan(passes);
+    enter(passes ? { status: 'lost', error, retryAtMs } : { status: 'refused', error });
   }
 
   function retry(): void {
-    stopWaiting();
+    reconnect.rest();
     // The failure is in the state; there is no caller to tell.
     connect().catch(() => undefined);
   }
 
   async function connect(): Promise<void> {
     const mine = (generation += 1);
-    if (state.status !== 'lost') enter({ status: 'opening' });
+    if (!isDown()) enter({ status: 'opening' });
+    const ifMine =
+      <A extends readonly unknown[]>(tell: ((...values: A) => void) | undefined) =>
+      (...values: A): void =>
+        mine === generation ? tell?.(...values) : undefined;
     try {
       await transport.open({
-        received: (bytes, whole) => mine === generation && received(bytes, whole),
-        latched: (value) => mine === generation && latched(value),
-        lost: (error) => mine === generation && fail(error),
+        received: ifMine(events.received),
+        latched: ifMine(events.latched),
+        identified: ifMine(events.identified),
+        lost: ifMine(fail),
       });
     } catch (error) {
       const reason =
@@ -82,37 +86,38 @@ export function createLink({ transport, clock, changed, returned, received, latc
       throw reason;
     }
     if (mine !== generation) return;
-    attempts = 0;
-    enter({ status: 'ready' });
-    if (hadBeenReady) returned();
-    hadBeenReady = true;
+    reconnect.refresh();
+    const isReturn = wasOpenBefore;
+    wasOpenBefore = true;
+    enter({ status: 'open', isReturn });
   }
 
   return {
-    get state() {
-      return state;
+    get isOpen() {
+      return state.status === 'open';
     },
     open() {
-      stopWaiting();
-      attempts = 0;
+      reconnect.rest();
+      reconnect.refresh();
       return connect();
     },
     async close() {
-      stopWaiting();
+      reconnect.rest();
       generation += 1;
-      hadBeenReady = false;
+      wasOpenBefore = false;
       if (state.status !== 'closed') enter({ status: 'closed' });
       await transport.close();
     },
     retryNow() {
-      if (state.status === 'lost') retry();
+      if (isDown()) retry();
     },
+    setAutoReconnect: reconnect.setEnabled,
     async send(packet) {
       const mine = generation;
-      if (!isReady(mine)) throw new LinkError('closed', 'the link is not open');
+      if (!isOpen(mine)) throw new LinkError('closed', 'the link is not open');
       await transport.send(packet);
       // A transport may count the wire's time without looking at the cable.
-      if (!isReady(mine)) throw new LinkError('lost', 'the link went while the packet left');
+      if (!isOpen(mine)) throw new LinkError('lost', 'the link went while the packet left');
     },
   };
 }

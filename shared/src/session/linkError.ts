@@ -12,6 +12,10 @@ export const LINK_ERROR_CODES = [
   'insecureAddress', // the page's address is no secure context
   'gatewayUnreachable', // no gateway answers at this address
   'gatewayRefused', // the gateway said no; `detail` says why
+  'boardUnknown', // nobody has said which board this is
+  'wrongBoard', // its answers are not those of the board it is taken for
+  'echo', // the line sends back what it is given
+  'boardSilent', // it does not answer what such a board always answers
   'noAnswer', // the board did not answer in time
   'notSupported', // this board has no such command
   'latched', // stopped: motion waits for Resume

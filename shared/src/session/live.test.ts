@@ -71,7 +71,7 @@ describe('moving', () => {
     }
     const arrivals = heard.map((entry) => entry.atMs);
     const gaps = arrivals.slice(1).map((atMs, index) => atMs - (arrivals[index] ?? 0));
-    expect(Math.min(...gaps)).toBeGreaterThanOrEqual(wireMs(10) + session.family.serviceGapMs - 0.001);
+    expect(Math.min(...gaps)).toBeGreaterThanOrEqual(wireMs(10) + session.state.family.serviceGapMs - 0.001);
   });
 
   test('estimate and board agree within one tick on the way and exactly at the end', async () => {

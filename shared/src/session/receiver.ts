@@ -10,7 +10,8 @@ import { LINE_IDLE_MS, LINE_PAUSE_MS } from './timings.ts';
 
 export interface ReceiverOptions {
   readonly clock: Clock;
-  readonly family: Family;
+  /** What the board is taken for at this moment. */
+  family(): Family;
   report(report: Report, bytes: Uint8Array): void;
   noise(reason: 'garbage' | 'truncated', bytes: Uint8Array): void;
 }
@@ -24,7 +25,7 @@ export interface Receiver {
 
 export function createReceiver({ clock, family, report, noise }: ReceiverOptions): Receiver {
   const decoder = createDecoder((event) => {
-    if (event.kind === 'packet') report(parseReport(event.packet, family), event.bytes);
+    if (event.kind === 'packet') report(parseReport(event.packet, family()), event.bytes);
     else noise(event.reason, event.bytes);
   });
   let cancelTimers: readonly (() => void)[] = [];

@@ -2,11 +2,11 @@
 // comes after the return (S2). Knows which filler ends such a packet with the least effect; no link and no state of it.
 
 import { COMMAND_NUMBER } from '../protocol/commands.ts';
-import type { Core } from './core.ts';
+import type { Lanes } from './lanes.ts';
 
 export interface Resync {
-  /** The link went while this packet was on its way. */
-  cut(packet: Uint8Array): void;
+  /** The link went while this packet was on its way to a board that bears this filler, or none. */
+  cut(packet: Uint8Array, filler: number | null): void;
   /** The link is ready: the filler goes first, whatever is sent afterwards. */
   send(): void;
 }
@@ -15,7 +15,7 @@ export interface Resync {
 const FILLER_BYTES = 253;
 const COMMAND_AT = 3;
 
-export function createResync({ family: { resyncFiller }, lanes }: Core): Resync {
+export function createResync(lanes: Lanes): Resync {
   let pending: Uint8Array | null = null;
 
   async function fill(packet: Uint8Array): Promise<void> {
@@ -24,8 +24,8 @@ export function createResync({ family: { resyncFiller }, lanes }: Core): Resync 
   }
 
   return {
-    cut(packet) {
-      if (resyncFiller !== null) pending ??= fillerFor(packet, resyncFiller);
+    cut(packet, filler) {
+      if (filler !== null) pending ??= fillerFor(packet, filler);
     },
     send() {
       // Where it fails the link is lost again, and it is sent at the next return.

@@ -30,9 +30,9 @@ export interface Rig {
 /** Opened and ready; the board has been on for a while and knows its battery. */
 export async function createRig(
   options: Omit<BoardOptions, 'clock' | 'send' | 'onUnplug'> &
-    Partial<Pick<SessionOptions, 'family' | 'slotMemory'>> = {},
+    Partial<Pick<SessionOptions, 'family' | 'slotMemory' | 'identifies' | 'isWatched'>> = {},
 ): Promise<Rig> {
-  const { family = familyOf('doc'), slotMemory, ...board } = options;
+  const { family = familyOf('doc'), slotMemory, identifies, isWatched, ...board } = options;
   const clock = createVirtualClock();
   const heard: HeardCommand[] = [];
   const ear = createEar(clock, heard);
@@ -41,7 +41,7 @@ export async function createRig(
     ...board,
     onByte: ({ direction, byte }) => direction === 'in' && ear(byte),
   });
-  const session = createSession({ transport, family, clock, slotMemory });
+  const session = createSession({ transport, clock, family, slotMemory, identifies, isWatched });
   await session.open();
   return {
     ...{ clock, session, transport, heard },

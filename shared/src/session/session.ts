@@ -1,25 +1,21 @@
-// One session per link: what should happen, in what order, and what came back. Puts together the link, the outgoing
-// lanes, the replies and the estimate of the robot. Knows no transport by name and no user interface.
+// One session per link: what should happen, in what order, and what came back. Puts together the line, the outgoing lanes,
+// the replies and a driver for the board that is there. Knows no transport by name and no user interface.
 
 import type { Clock } from '../clock.ts';
 import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
-import type { Family } from '../protocol/families.ts';
+import { UNKNOWN_BOARD, type Family } from '../protocol/families.ts';
 import { parseCommand } from '../protocol/parse.ts';
 import type { Report } from '../protocol/reports.ts';
-import { createBatteryReader } from './batteryReader.ts';
-import type { Core } from './core.ts';
+import { createDriver, type Driver } from './driver.ts';
 import type { CancelSignal } from './download.ts';
-import { createExchange, encodeOrRefuse } from './exchange.ts';
-import { createGroups } from './groups.ts';
+import { encodeOrRefuse } from './exchange.ts';
 import { createHalt } from './halt.ts';
+import { createIdentification } from './identification.ts';
 import { createLanes } from './lanes.ts';
-import { createLink } from './link.ts';
+import { createLink, type LineState } from './link.ts';
 import { LinkError } from './linkError.ts';
-import { createLive } from './live.ts';
-import { createMoveBuffer } from './moveBuffer.ts';
 import { createReceiver } from './receiver.ts';
 import { createReplies } from './replies.ts';
-import { createRobotEstimate } from './robot.ts';
 import { createResync } from './resync.ts';
 import type { LinkState, ServoMotion, SessionEvents, SessionState } from './state.ts';
 import type { SlotMemory } from './slotMemory.ts';
@@ -28,21 +24,31 @@ import type { Transport } from './transport.ts';
 
 export interface SessionOptions {
   readonly transport: Transport;
-  readonly family: Family;
   readonly clock: Clock;
+  /** What the board is taken for, by a person or from memory. Without it the board is asked, and waits for `choose`. */
+  readonly family?: Family | undefined;
+  /** Check `family` by harmless questions before anything moves, at each opening. Otherwise its word is enough. */
+  readonly identifies?: boolean | undefined;
+  /** Whether somebody looks: then an idle board is asked now and again whether it is still there. Absent: never. */
+  readonly isWatched?: (() => boolean) | undefined;
   /** Without it broken slots are forgotten with the session. */
   readonly slotMemory?: SlotMemory | undefined;
 }
 
 /** Every operation throws or rejects with a LinkError; see linkError.ts for the codes. */
 export interface Session {
-  readonly family: Family;
   readonly state: SessionState;
   subscribe(listener: Partial<SessionEvents>): () => void;
   /** Rejects when the first attempt fails; a failure that passes by itself is tried again nevertheless. */
   open(): Promise<void>;
   close(): Promise<void>;
   retryNow(): void;
+  /** Off: a lost link stays lost until `retryNow`. */
+  setAutoReconnect(enabled: boolean): void;
+  /** Asks the board again who it is. */
+  identify(): Promise<void>;
+  /** A person says which board this is. Refused in the link's state where its answers say otherwise. */
+  choose(family: Family): Promise<void>;
   /** Newest wins per servo. Positions in the family's unit; `durationMs` 0 is as fast as the link allows. */
   move(targets: readonly ServoTarget[], durationMs: number): void;
   /** `times` 0 repeats until stopped. A group that runs already is stopped first (S45, S46). */
@@ -65,18 +71,18 @@ export interface Session {
   motion(servo: number): ServoMotion;
 }
 
-export function createSession({ transport, family, clock, slotMemory }: SessionOptions): Session {
-  const store = createSessionStore();
-  const robot = createRobotEstimate(family, clock);
+export function createSession(options: SessionOptions): Session {
+  const { transport, clock, slotMemory, family = UNKNOWN_BOARD } = options;
+  const { identifies = false, isWatched = () => false } = options;
+  const store = createSessionStore(family);
   const replies = createReplies(clock);
-  const moves = createMoveBuffer(family);
 
   const link = createLink({
     transport,
     clock,
     received: (bytes, whole = false) => receiver.push(bytes, whole),
-    changed: linkChanged,
-    returned: () => halt.stopAfterReturn(),
+    changed: lineChanged,
+    identified: (board) => identification.told(board),
     latched(latched) {
       if (!latched) halt.released();
       else if (store.state.latch === null) halt.latchedElsewhere();
@@ -85,31 +91,52 @@ export function createSession({ transport, family, clock, slotMemory }: SessionO
 
   const lanes = createLanes({
     clock,
-    serviceGapMs: family.serviceGapMs,
+    serviceGapMs: UNKNOWN_BOARD.serviceGapMs,
     send: link.send,
-    takeMove() {
-      const move = moves.take();
-      return move && encodeOrRefuse(robot.softened(move), family);
-    },
+    takeMove: () => driver.takeMove(),
     leaving: note,
     sent: take,
     moveFailed: (error) => store.emit('problem', error),
   });
 
-  const core: Core = {
-    family,
+  let driver: Driver = driverFor(family);
+  const halt = createHalt({
+    ...{ clock, store, lanes, transport, dropAll: (error) => driver.drop(error) },
+    holdPacket() {
+      const hold = driver.core.robot.hold();
+      return hold && encodeOrRefuse(hold, driver.core.family);
+    },
+    forget: () => driver.core.robot.forget(),
+    sentByOthers(packet) {
+      note(packet);
+      take(packet);
+    },
+  });
+  const resync = createResync(lanes);
+  const identification = createIdentification({
+    ...{ clock, store, lanes, replies, transport, family, identifies, isWatched },
+    isMoving: () => driver.core.robot.moving(),
+    drive,
+    entered,
+  });
+  const receiver = createReceiver({
     clock,
-    store,
-    robot,
-    lanes,
-    exchange: createExchange(family, clock, lanes, replies),
-  };
-  const live = createLive(core, moves);
-  const groups = createGroups(core, slotMemory);
-  const readBattery = createBatteryReader(core);
-  const halt = createHalt(core, { transport, dropAll, sentByOthers });
-  const resync = createResync(core);
-  const receiver = createReceiver({ clock, family, report: heard, noise: heardNoise });
+    family: identification.heardAs,
+    report: heard,
+    noise: heardNoise,
+  });
+
+  function driverFor(next: Family): Driver {
+    return createDriver(next, { clock, store, lanes, replies, slotMemory });
+  }
+
+  /** The board is taken for something else: whatever was believed of it was about another one. */
+  function drive(next: Family): void {
+    if (next === driver.core.family) return;
+    driver.drop(new LinkError('cancelled', 'the board is taken for another one now'));
+    driver = driverFor(next);
+    store.update({ family: next, battery: { kind: 'unread' }, brokenSlots: [], storedSlots: [] });
+  }
 
   /** Into the log when it begins to leave, so that its answer comes after it. */
   function note(packet: Uint8Array): void {
@@ -121,60 +148,57 @@ export function createSession({ transport, family, clock, slotMemory }: SessionO
   /** Into the estimate when it has left: not before can the board act on it. */
   function take(packet: Uint8Array): void {
     const command = commandIn(packet);
-    if (command !== null) robot.applied(command);
-  }
-
-  function sentByOthers(packet: Uint8Array): void {
-    note(packet);
-    take(packet);
+    if (command !== null) driver.core.robot.applied(command);
   }
 
   function heard(report: Report, bytes: Uint8Array): void {
     store.emit('traffic', { atMs: clock.now(), direction: 'in', bytes, report });
     lanes.answered(bytes[3] ?? 0);
     replies.deliver(report);
-    groups.heard(report);
+    driver.groups.heard(report);
     if (report.kind === 'runStopped') halt.confirmed();
+    identification.heard(report, bytes);
   }
 
   function heardNoise(noise: 'garbage' | 'truncated', bytes: Uint8Array): void {
     store.emit('traffic', { atMs: clock.now(), direction: 'in', bytes, noise });
+    identification.heardNoise(bytes);
   }
 
-  function linkChanged(state: LinkState): void {
-    const wasReady = store.state.link.status === 'ready';
-    store.update({ link: state });
-    if (state.status === 'ready') linked();
-    if (wasReady) unlinked(state);
-  }
-
-  function linked(): void {
-    groups.linked();
+  function lineChanged(line: LineState): void {
+    if (line.status !== 'open') {
+      identification.ended();
+      entered(line);
+      return;
+    }
     resync.send();
+    if (line.isReturn) halt.stopAfterReturn();
+    identification.begin();
   }
 
-  function unlinked(state: LinkState): void {
+  function entered(next: LinkState): void {
+    const before = store.state.link.status;
+    store.update({ link: next });
+    if (next.status === before) return;
+    if (next.status === 'ready') driver.groups.linked();
+    if (before === 'stale' && link.isOpen) halt.stopAfterReturn();
+    if (before === 'ready') unlinked(next);
+  }
+
+  /** The board may have moved, restarted or been changed for another before it is ready again. */
+  function unlinked(next: LinkState): void {
     const packet = lanes.unfinished();
     // A shared link has its own way to mend the wire behind it.
-    if (packet !== null && transport.halt === undefined) resync.cut(packet);
-    receiver.reset();
-    robot.forget();
-    groups.unlinked();
-    if (state.status === 'lost') halt.latchedByLoss();
-    else dropAll(new LinkError('closed', 'the link was closed'));
-  }
-
-  /** Ends what is under way. Whatever the board was asked and did not answer stays unknown. */
-  function dropAll(error: LinkError): void {
-    live.drop();
-    groups.drop();
-    lanes.purge(error);
-    replies.fail(error);
-    store.update({ activity: { kind: 'idle' } });
+    if (packet !== null && !link.isOpen && transport.halt === undefined)
+      resync.cut(packet, driver.core.family.resyncFiller);
+    if (!link.isOpen) receiver.reset();
+    driver.core.robot.forget();
+    driver.groups.unlinked();
+    if (next.status === 'lost' || next.status === 'stale') halt.latchedByLoss();
+    else driver.drop(new LinkError('closed', 'the link was closed'));
   }
 
   return {
-    family,
     get state() {
       return store.state;
     },
@@ -185,17 +209,20 @@ export function createSession({ transport, family, clock, slotMemory }: SessionO
       store.update({ latch: null });
     },
     retryNow: link.retryNow,
-    move: live.move,
-    run: groups.run,
-    stopGroup: groups.stop,
+    setAutoReconnect: link.setAutoReconnect,
+    identify: identification.again,
+    choose: (chosen) => identification.choose(chosen),
+    move: (targets, durationMs) => driver.live.move(targets, durationMs),
+    run: (slot, times) => driver.groups.run(slot, times),
+    stopGroup: () => driver.groups.stop(),
     halt: halt.halt,
     resume: halt.resume,
-    erase: groups.erase,
-    readBattery,
-    download: (slot, frames, signal) => groups.download(slot, frames, signal),
-    play: (frames, options) => live.play(frames, options?.times ?? 1),
-    stopPlaying: live.stopPlaying,
-    motion: robot.motion,
+    erase: () => driver.groups.erase(),
+    readBattery: () => driver.readBattery(),
+    download: (slot, frames, signal) => driver.groups.download(slot, frames, signal),
+    play: (frames, playing) => driver.live.play(frames, playing?.times ?? 1),
+    stopPlaying: () => driver.live.stopPlaying(),
+    motion: (servo) => driver.core.robot.motion(servo),
   };
 }
 

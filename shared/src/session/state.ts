@@ -3,14 +3,22 @@
 
 import type { Command } from '../protocol/commands.ts';
 import type { Report } from '../protocol/reports.ts';
+import type { Family } from '../protocol/families.ts';
+import type { Identity } from './identity.ts';
 import type { LinkError } from './linkError.ts';
 
 export type LinkState =
   | { readonly status: 'closed' }
   | { readonly status: 'opening' }
+  /** The line is open, the board is being asked who it is. Nothing moves yet. */
+  | { readonly status: 'identifying' }
   | { readonly status: 'ready' }
-  /** `retryAtMs` on the session's clock; null when only the person can bring it back. */
-  | { readonly status: 'lost'; readonly error: LinkError; readonly retryAtMs: number | null };
+  /** The line is open, the board does not answer what such a board always answers: it may be off. It is asked again. */
+  | { readonly status: 'stale'; readonly sinceMs: number }
+  /** `retryAtMs` on the session's clock; null where automatic reconnecting is switched off. */
+  | { readonly status: 'lost'; readonly error: LinkError; readonly retryAtMs: number | null }
+  /** Only a person can go on: no access, or nobody knows which board this is. */
+  | { readonly status: 'refused'; readonly error: LinkError };
 
 /** Motion is refused while this is not null; only `resume` clears it. */
 export interface Latch {
@@ -50,6 +58,10 @@ export type Battery =
 
 export interface SessionState {
   readonly link: LinkState;
+  /** What the board is taken for; `UNKNOWN_BOARD` before somebody has said so. */
+  readonly family: Family;
+  /** What the board answered when it was asked who it is; empty where nobody asked. */
+  readonly identity: Identity;
   readonly latch: Latch | null;
   readonly activity: Activity;
   readonly battery: Battery;

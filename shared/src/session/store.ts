@@ -1,5 +1,7 @@
 // The session's snapshot and its listeners. Each change makes a new object, so that a page can compare references.
 
+import { UNKNOWN_BOARD, type Family } from '../protocol/families.ts';
+import { NOTHING_HEARD } from './identity.ts';
 import type { SessionEvents, SessionState } from './state.ts';
 
 export interface SessionStore {
@@ -9,8 +11,10 @@ export interface SessionStore {
   emit<K extends 'traffic' | 'problem'>(event: K, value: Parameters<SessionEvents[K]>[0]): void;
 }
 
-const INITIAL: SessionState = {
+export const INITIAL_STATE: SessionState = {
   link: { status: 'closed' },
+  family: UNKNOWN_BOARD,
+  identity: NOTHING_HEARD,
   latch: null,
   activity: { kind: 'idle' },
   battery: { kind: 'unread' },
@@ -18,9 +22,9 @@ const INITIAL: SessionState = {
   storedSlots: [],
 };
 
-export function createSessionStore(): SessionStore {
+export function createSessionStore(family: Family): SessionStore {
   const listeners = new Set<Partial<SessionEvents>>();
-  let state = INITIAL;
+  let state: SessionState = { ...INITIAL_STATE, family };
 
   return {
     get state() {

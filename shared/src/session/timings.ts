@@ -31,3 +31,18 @@ export const RUN_END_GRACE_MS = 2_000;
 
 /** Waits between attempts to bring a lost link back; the last one repeats. */
 export const RECONNECT_DELAYS_MS = [250, 500, 1_000, 2_000, 5_000] as const;
+
+/** A board that has just restarted speaks at once. */
+export const IDENTIFY_LISTEN_MS = 200;
+/** A LeArm answers nothing for 2.5 to 3 s after a restart (L1). */
+export const BOOT_MS = 3_000;
+/** Battery and position answers take at most that long (boards.md chapter 6 and X7, for one servo). */
+export const IDENTIFY_TIMEOUT_MS = 400;
+/** A question may fall into a full mailbox (S52) or a byte of it be lost. */
+export const IDENTIFY_ATTEMPTS = 2;
+
+/** An idle board that can answer is asked this often whether it is still there, and more often while it is not. */
+export const HEARTBEAT_MS = 5_000;
+export const STALE_HEARTBEAT_MS = 2_000;
+/** So many silent heartbeats in a row mean that the board is gone: one may have been lost. */
+export const HEARTBEAT_MISSES = 2;

@@ -1,6 +1,7 @@
 // The one interface between a session and a way to a board: this computer's serial port, the gateway, or the simulator in
 // the page. A transport carries whole packets out and raw bytes in; it knows no command, keeps no queue and retries nothing.
 
+import type { BoardId } from '../protocol/families.ts';
 import type { LinkError } from './linkError.ts';
 
 export interface TransportEvents {
@@ -10,6 +11,8 @@ export interface TransportEvents {
   lost(error: LinkError): void;
   /** Only a shared link (gateway): somebody pressed STOP or Resume; `latched` refuses motion for everyone. */
   latched?(latched: boolean): void;
+  /** Only a shared link: somebody said which board this is, or wants it asked again (`unknown`). */
+  identified?(board: BoardId): void;
 }
 
 export interface Transport {
@@ -18,6 +21,10 @@ export interface Transport {
   readonly label: string;
   /** True where no real board is behind it; known once it is open. */
   readonly isSimulated: boolean;
+  /** Only a shared link: which board everybody takes this for. Known once it is open; its word counts. */
+  readonly knownBoard?: BoardId;
+  /** Says so to everybody; `identified` follows. */
+  setBoard?(board: BoardId): Promise<void>;
   /** Rejects with a LinkError. May be called again after `lost` or `close`. */
   open(events: TransportEvents): Promise<void>;
   /** Resolves when the packet's last bit has left the wire. One packet at a time: the caller waits for it. */

@@ -28,7 +28,10 @@ export type Fault =
   /** Somebody presses the key that says whom the board listens to (L2). */
   | { readonly name: 'modeKey'; readonly afterMs: number }
   /** A reset at that time; `brownOut` is without power for a moment first. */
-  | { readonly name: 'reboot' | 'brownOut'; readonly afterMs: number }
+  | { readonly name: 'reboot'; readonly afterMs: number }
+  | { readonly name: 'brownOut'; readonly afterMs: number; readonly offMs: number }
+  /** The line sends back what the host says, as joined wires or an adapter on its own do. */
+  | { readonly name: 'loopback' }
   /** The cable comes off; motion goes on. */
   | { readonly name: 'unplug'; readonly afterMs: number }
   /** After that many bytes on the wire, both directions counted together. */
@@ -65,6 +68,7 @@ export interface FaultPlan {
   /** Null where the battery is as configured. */
   readonly batteryMv: number | null;
   readonly unplugAtByte: number;
+  readonly loopsBack: boolean;
   readonly incidents: readonly PlannedIncident[];
 }
 
@@ -137,6 +141,7 @@ export function planFaults(faults: readonly Fault[], seed: number): FaultPlan {
     sectorMs: TYPICAL_SECTOR_MS,
     batteryMv: null as number | null,
     unplugAtByte: Infinity,
+    loopsBack: faults.some(({ name }) => name === 'loopback'),
     incidents: faults.flatMap(incidentOf),
   };
   for (const fault of faults) {
@@ -159,7 +164,7 @@ function incidentOf(fault: Fault): PlannedIncident[] {
     case 'reboot':
       return [{ afterMs, incident: { kind: 'reboot', offMs: 0 } }];
     case 'brownOut':
-      return [{ afterMs, incident: { kind: 'reboot', offMs: BROWN_OUT_MS } }];
+      return [{ afterMs, incident: { kind: 'reboot', offMs: fault.offMs } }];
     case 'unplug':
       return [{ afterMs, incident: { kind: 'unplug' } }];
   }
@@ -207,6 +212,12 @@ function padRun(text: string): Fault {
   return { name: 'padRun', slot, afterMs: number(afterText) };
 }
 
+function brownOut(text: string): Fault {
+  const [afterText = '', offText] = text.split('@', 2);
+  const offMs = offText === undefined ? BROWN_OUT_MS : number(offText);
+  return { name: 'brownOut', afterMs: number(afterText), offMs };
+}
+
 /** One fault a name: what stands behind `=`, undefined where nothing does. */
 const READERS: Readonly<Record<Fault['name'], (value: string | undefined) => Fault>> = {
   droppedByte: (value) => ({ name: 'droppedByte', probability: probability(value, USUAL_LINE_PROBABILITY) }),
@@ -233,7 +244,8 @@ const READERS: Readonly<Record<Fault['name'], (value: string | undefined) => Fau
   keyRun: (value = '') => ({ name: 'keyRun', slot: KEY_SLOT, afterMs: number(value) }),
   modeKey: (value = '') => ({ name: 'modeKey', afterMs: number(value) }),
   reboot: (value = '') => ({ name: 'reboot', afterMs: number(value) }),
-  brownOut: (value = '') => ({ name: 'brownOut', afterMs: number(value) }),
+  brownOut: (value = '') => brownOut(value),
+  loopback: () => ({ name: 'loopback' }),
   unplug: (value = '') => unplug(value),
 };
 
@@ -244,7 +256,8 @@ function isFaultName(text: string): text is Fault['name'] {
 /**
  * Reads `name` or `name=value`: `droppedByte=0.01`, `lostAck=3`, `lateAck=400@3` (the third, 400 ms later),
  * `slowErase=400`, `slowErase=never`, `lowBattery=6200`, `unplug=1500` (ms), `unplug=byte120`, `padRun=8@1500` (group 8
- * after 1500 ms), `keyRun=1500`, `modeKey=1500`, `reboot=1500`, `brownOut=1500`. Throws RangeError with a sentence for people.
+ * after 1500 ms), `keyRun=1500`, `modeKey=1500`, `reboot=1500`, `brownOut=1500`, `brownOut=1500@60000` (off for a
+ * minute), `loopback`. Throws RangeError with a sentence for people.
  */
 export function parseFault(text: string): Fault {
   const [name = '', value] = text.split('=', 2);

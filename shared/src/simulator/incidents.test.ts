@@ -134,12 +134,14 @@ test.each<[string, Fault]>([
   ['slowErase=never', { name: 'slowErase', sectorMs: Infinity }],
   ['modeKey=10', { name: 'modeKey', afterMs: 10 }],
   ['reboot=10', { name: 'reboot', afterMs: 10 }],
-  ['brownOut=10', { name: 'brownOut', afterMs: 10 }],
+  ['brownOut=10', { name: 'brownOut', afterMs: 10, offMs: 400 }],
+  ['brownOut=10@60000', { name: 'brownOut', afterMs: 10, offMs: 60_000 }],
+  ['loopback', { name: 'loopback' }],
 ])('%s is understood', (text, fault) => {
   expect(parseFault(text)).toEqual(fault);
 });
 
-test.each(['lateAck', 'lateAck=x', 'reboot', 'brownOut=soon', 'modeKey='])(
+test.each(['lateAck', 'lateAck=x', 'reboot', 'brownOut=soon', 'brownOut=10@long', 'modeKey='])(
   '"%s" is refused with a sentence',
   (text) => {
     expect(() => parseFault(text)).toThrow(RangeError);

@@ -83,6 +83,7 @@ export function createLine({ now, byteMs, plan, arrived, log }: LineParts): Line
     for (const byte of plan.distort(takeHead())) {
       pass('in', byte);
       arrived(byte);
+      if (plan.loopsBack) outbox.put(byte, 0);
     }
   }
 

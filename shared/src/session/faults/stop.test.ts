@@ -72,7 +72,7 @@ const STATES: Readonly<Record<string, (rig: Rig) => Promise<number>>> = {
 function begunAfter(rig: Rig, atMs: number): readonly HeardCommand[] {
   return rig.heard.filter(
     ({ command, atMs: endMs }) =>
-      endMs - wireMs(encodeCommand(command, rig.session.family).length) > atMs - 1e-6,
+      endMs - wireMs(encodeCommand(command, rig.session.state.family).length) > atMs - 1e-6,
   );
 }
 
