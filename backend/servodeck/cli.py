@@ -42,7 +42,7 @@ def serve(
     ] = DEFAULT_LISTEN,
     serial: Annotated[str, typer.Option(help="Serial device, or socket://HOST:PORT.")] = "",
     board: Annotated[
-        str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}. Where it is left out the board is asked.")
+        str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}. Left out: ask the board.")
     ] = "",
     simulated: Annotated[
         bool, typer.Option("--simulated", help="Tell everyone that the device is no real board.")

@@ -11,7 +11,14 @@ from dataclasses import dataclass
 
 from servodeck import __version__
 from servodeck.decoder import COMMAND_AT
-from servodeck.errors import CancelledError, GatewayError, LatchedError, NoAnswerError, OutOfRangeError, PortLostError
+from servodeck.errors import (
+    CancelledError,
+    GatewayError,
+    LatchedError,
+    NoAnswerError,
+    OutOfRangeError,
+    PortLostError,
+)
 from servodeck.gate import RUN, STOP, judge_latch, judge_packet
 from servodeck.hub import Hub, Seat
 from servodeck.inbox import Inbox

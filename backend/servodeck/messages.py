@@ -154,7 +154,9 @@ GatewayMessage = Annotated[
     Field(discriminator="type"),
 ]
 
-client_message: TypeAdapter[SendMessage | StopMessage | ResumeMessage | BoardMessage] = TypeAdapter(ClientMessage)
+client_message: TypeAdapter[SendMessage | StopMessage | ResumeMessage | BoardMessage] = TypeAdapter(
+    ClientMessage
+)
 gateway_message: TypeAdapter[Any] = TypeAdapter(GatewayMessage)
 
 
