@@ -34,6 +34,7 @@ const test = base.extend<{ context: BrowserContext; openPort: Dashboard }>({
     const dashboard = dashboardOf(page);
     await dashboard.button('Connect').click();
     await dashboard.button('Open USB serial 1234:5678').click();
+    await dashboard.takeFor('Generic board').click();
     await expect(dashboard.link).toHaveText(/^Ready/);
     await use(dashboard);
   },
@@ -47,7 +48,7 @@ test.skip(problem !== null, `real Web Serial: ${problem}`);
 
 test('a real port is opened and tells the battery', async ({ openPort, ptyBoard }) => {
   await expect(openPort.battery).toContainText('7.50 V');
-  expect(new Set(await kindsAfter(ptyBoard.bus, 0))).toEqual(new Set(['readBattery']));
+  expect(new Set(await kindsAfter(ptyBoard.bus, 0))).toEqual(new Set(['readBattery', 'readPositions']));
 });
 
 test('a slider moves the servo behind a real port, and the estimate follows', async ({

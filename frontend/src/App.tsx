@@ -12,7 +12,7 @@ import { ConnectDialog } from './connect/ConnectDialog.tsx';
 import type { Page } from './connect/page.ts';
 import { LogDrawer } from './console/LogDrawer.tsx';
 import { LogPanel } from './console/LogPanel.tsx';
-import { ServosPanel } from './servos/ServosPanel.tsx';
+import { LivePanel } from './servos/LivePanel.tsx';
 import { StopButton } from './stop/StopButton.tsx';
 import { StoresContext, useStores, useView } from './stores/stores.ts';
 import type { Tab as TabName, Theme } from './stores/view.ts';
@@ -58,7 +58,7 @@ function DeskWork() {
     <>
       <main className={styles.desk}>
         <div className={styles.live}>
-          <ServosPanel />
+          <LivePanel />
         </div>
         <div className={styles.authoring}>
           <ActionsPanel />
@@ -101,7 +101,7 @@ function PhoneWork() {
       </nav>
       <main className={styles.phone}>
         <TabPanel id="live" className={styles.tabPanel ?? ''}>
-          <ServosPanel />
+          <LivePanel />
         </TabPanel>
         <TabPanel id="actions" className={styles.tabPanel ?? ''}>
           <ActionsPanel />

@@ -14,8 +14,8 @@ import { RunControl } from './RunControl.tsx';
 import styles from './BoardPanel.module.css';
 
 export function BoardPanel() {
-  const { commands } = useDevice((state) => state.family);
-  const why = words.board.absent;
+  const { commands, id } = useDevice((state) => state.family);
+  const why = id === 'unknown' ? words.board.unsure : words.board.absent;
   const canErase = commands.includes('erase');
   return (
     <Panel title={words.board.title} tools={canErase && <EraseControl />}>

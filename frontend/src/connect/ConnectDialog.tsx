@@ -29,9 +29,9 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
       <ConnectWays
         state={state}
         current={way}
-        onBoard={connector.setBoard}
         onLook={() => void connector.look().catch(notices.tellError)}
-        onSimulate={() => choose(connector.simulate)}
+        onSimulate={(board) => choose(() => connector.simulate(board))}
+        onReconnects={connector.setReconnects}
         onGateway={() => choose(connector.useGateway)}
         onGatewayPort={(device) => choose(() => connector.useGatewayPort(device))}
         onSerialPort={(port) => choose(() => connector.useSerialPort(port))}

@@ -1,22 +1,26 @@
 // What the connect dialog shows: the board, and three ways, each with its buttons or with the sentence why it is not
 // possible here. Plain values in, choices out; so every case can be shown without a link.
 
-import type { ReactNode } from 'react';
+import { useState, type ReactNode } from 'react';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import type { Way } from '../stores/device.ts';
 import { Button } from '../ui/Button.tsx';
+import { ThisBoard } from '../identity/ThisBoard.tsx';
 import { Chip } from '../ui/Chip.tsx';
+import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/en.ts';
 import { errorSentence } from '../words/errors.ts';
 import type { ConnectState } from './connector.ts';
+import { isProfileName } from '#shared/simulator/profiles.ts';
+import { PortGuide } from './PortGuide.tsx';
 import styles from './ConnectWays.module.css';
 
 export interface ConnectWaysProps {
   readonly state: ConnectState;
   readonly current: Way | null;
-  onBoard(board: FamilyId): void;
   onLook(): void;
-  onSimulate(): void;
+  onSimulate(board: FamilyId): void;
+  onReconnects(reconnects: boolean): void;
   onGateway(): void;
   onGatewayPort(device: string): void;
   onSerialPort(port: SerialPort): void;
@@ -28,7 +32,7 @@ export function ConnectWays(props: ConnectWaysProps) {
   const { state, current } = props;
   return (
     <div className={styles.ways}>
-      <BoardChoice board={state.board} onBoard={props.onBoard} />
+      <ThisBoard />
       <WayCard
         title={words.connect.webSerial.title}
         about={words.connect.webSerial.about}
@@ -48,10 +52,11 @@ export function ConnectWays(props: ConnectWaysProps) {
         about={words.connect.simulated.about}
         isCurrent={current?.kind === 'simulated'}
       >
-        <Button onPress={props.onSimulate}>{words.connect.simulated.open}</Button>
+        <SimulatedWay board={state.board} onSimulate={props.onSimulate} />
       </WayCard>
       <footer className={styles.foot}>
         <p className={styles.dim}>{words.connect.intro}</p>
+        <Toggle label={words.connect.reconnects} isOn={state.reconnects} onChange={props.onReconnects} />
         <Button tone="quiet" isDisabled={current === null} onPress={props.onDisconnect}>
           {words.link.disconnect}
         </Button>
@@ -86,25 +91,29 @@ function WayCard({ title, about, isCurrent, children }: WayCardProps) {
   );
 }
 
-function BoardChoice({ board, onBoard }: Pick<ConnectWaysProps, 'onBoard'> & { readonly board: FamilyId }) {
+function SimulatedWay({
+  board,
+  onSimulate,
+}: Pick<ConnectWaysProps, 'onSimulate'> & { readonly board: FamilyId }) {
+  const [chosen, setChosen] = useState(board);
   return (
-    <label className={styles.board}>
-      <span>
-        {words.connect.board}
-        <span className={styles.boardHint}>{words.connect.boardHint}</span>
-      </span>
+    <>
       <select
         className={styles.select}
-        value={board}
-        onChange={(event) => onBoard(event.target.value as FamilyId)}
+        aria-label={words.connect.simulated.board}
+        value={chosen}
+        onChange={(event) => setChosen(event.target.value as FamilyId)}
       >
-        {Object.values(FAMILIES).map((family) => (
-          <option key={family.id} value={family.id}>
-            {family.name}
-          </option>
-        ))}
+        {Object.values(FAMILIES)
+          .filter(({ id }) => isProfileName(id))
+          .map((family) => (
+            <option key={family.id} value={family.id}>
+              {family.name}
+            </option>
+          ))}
       </select>
-    </label>
+      <Button onPress={() => onSimulate(chosen)}>{words.connect.simulated.open}</Button>
+    </>
   );
 }
 
@@ -131,6 +140,7 @@ function SerialWay({ state, onSerialPort, onChooseSerial }: ConnectWaysProps) {
       <Button tone={state.granted.length === 0 ? 'plain' : 'quiet'} onPress={onChooseSerial}>
         {words.connect.webSerial.choose}
       </Button>
+      <PortGuide />
     </>
   );
 }
@@ -166,6 +176,7 @@ function GatewayWay({ state, onGateway, onGatewayPort, onLook }: ConnectWaysProp
         <p className={styles.why}>{words.connect.gateway.none}</p>
       )}
       {look}
+      <PortGuide />
     </>
   );
 }

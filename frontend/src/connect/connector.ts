@@ -2,9 +2,11 @@
 // The only place that knows transports; hands a session to the device store and forgets it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { FAMILIES, UNKNOWN_BOARD, type FamilyId } from '#shared/protocol/families.ts';
 import { createSession } from '#shared/session/session.ts';
+import { isProfileName } from '#shared/simulator/profiles.ts';
 import type { Transport } from '#shared/session/transport.ts';
+import type { Boards } from '../stores/boards.ts';
 import type { Device, Way } from '../stores/device.ts';
 import type { TextStorage } from '../stores/document.ts';
 import type { Notices } from '../stores/notices.ts';
@@ -24,11 +26,14 @@ import {
   type GatewayPort,
   type GatewayStatus,
 } from './gatewayApi.ts';
-import { recallWay, rememberWay } from './lastWay.ts';
+import { recallReconnects, recallWay, rememberReconnects, rememberWay } from './lastWay.ts';
 import { rememberSlots } from './rememberedSlots.ts';
 
 export interface ConnectState {
+  /** What the simulated robot in the page is. */
   readonly board: FamilyId;
+  /** Links come back by themselves, also at the next visit. */
+  readonly reconnects: boolean;
   readonly serialObstacle: ReturnType<typeof webSerialObstacle>;
   readonly granted: readonly GrantedPort[];
   /** `looking` until the page's own address has answered or not. */
@@ -48,8 +53,8 @@ export interface Connector {
   start(): Promise<void>;
   /** Looks again for the gateway, its ports and the ports granted here. */
   look(): Promise<void>;
-  setBoard(board: FamilyId): void;
-  simulate(): void;
+  simulate(board: FamilyId): void;
+  setReconnects(reconnects: boolean): void;
   useGateway(): void;
   /** Has the gateway open that port first. Rejects with a LinkError. */
   useGatewayPort(device: string): Promise<void>;
@@ -66,19 +71,39 @@ const GREETING = [1200, 1500, 1950, 2050, 1150, 1500].map((position, index) => (
   position,
 }));
 
-export function createConnector(device: Device, notices: Notices, storage: TextStorage): Connector {
+export interface ConnectorOptions {
+  readonly device: Device;
+  readonly notices: Notices;
+  readonly boards: Boards;
+  readonly storage: TextStorage;
+  isWatched(): boolean;
+}
+
+export function createConnector(options: ConnectorOptions): Connector {
+  const { device, notices, boards, storage, isWatched } = options;
   const store = createStore<ConnectState>(() => ({
     board: 'doc',
+    reconnects: recallReconnects(storage),
     serialObstacle: webSerialObstacle(),
     granted: [],
     gateway: 'looking',
     gatewayPorts: [],
   }));
 
-  async function connect(transport: Transport, board: FamilyId): Promise<void> {
-    // The simulated robot in the page is a new one at each visit: nothing of it is worth remembering.
-    const slotMemory = transport.kind === 'simulated' ? undefined : rememberSlots(storage, transport);
-    const session = createSession({ transport, family: FAMILIES[board], clock: device.clock, slotMemory });
+  /** A board in the page is what it was made as; any other is asked, and taken for what it was the last time. */
+  async function connect(transport: Transport): Promise<void> {
+    const { board } = store.getState();
+    const isOwn = transport.kind === 'simulated';
+    const known = boards.recall(deviceOf(transport))?.family;
+    const session = createSession({
+      transport,
+      clock: device.clock,
+      family: isOwn ? FAMILIES[board] : known === undefined ? UNKNOWN_BOARD : FAMILIES[known],
+      identifies: !isOwn,
+      isWatched,
+      // The simulated robot in the page is a new one at each visit: nothing of it is worth remembering.
+      slotMemory: isOwn ? undefined : rememberSlots(storage, transport),
+    });
     device.attach(session, wayOf(transport));
     // A first attempt that fails is in the link's state, with its sentence and its next try.
     await session.open().catch(() => undefined);
@@ -86,9 +111,17 @@ export function createConnector(device: Device, notices: Notices, storage: TextS
     device.describe(session, wayOf(transport));
   }
 
-  function chosen(kind: Transport['kind'], transport: Transport): void {
-    rememberWay(storage, { kind, board: store.getState().board });
-    void connect(transport, store.getState().board);
+  /** The gateway's port is known before its transport is open. */
+  function deviceOf({ kind, label }: Transport): Pick<Way, 'kind' | 'label'> {
+    const { gateway } = store.getState();
+    return kind === 'gateway' && typeof gateway === 'object'
+      ? { kind, label: gateway.device ?? '' }
+      : { kind, label };
+  }
+
+  function chosen(transport: Transport): void {
+    rememberWay(storage, { kind: transport.kind, board: store.getState().board });
+    void connect(transport);
   }
 
   async function look(): Promise<void> {
@@ -105,18 +138,19 @@ export function createConnector(device: Device, notices: Notices, storage: TextS
     const last = recallWay(storage);
     if (last !== null) store.setState({ board: last.board });
     await look();
-    const { gateway, granted, board } = store.getState();
+    const { gateway, granted, reconnects } = store.getState();
     const [port] = granted;
-    if (last?.kind === 'webSerial' && port !== undefined)
-      await connect(createWebSerialTransport(port.port), board);
-    else if (typeof gateway === 'object' && last?.kind !== 'simulated') {
-      store.setState({ board: gateway.board });
-      await connect(createGatewayTransport(gatewayUrl()), gateway.board);
-    } else {
-      await connect(createSimulatedTransport(), board);
+    if (last?.kind === 'simulated' || (gateway === 'absent' && last === null)) {
+      await connect(simulated());
       if (last === null) greet();
-    }
+    } else if (!reconnects) return;
+    else if (last?.kind === 'webSerial' && port !== undefined)
+      await connect(createWebSerialTransport(port.port));
+    else if (typeof gateway === 'object') await connect(createGatewayTransport(gatewayUrl()));
+    else await connect(simulated());
   }
+
+  const simulated = (): Transport => createSimulatedTransport(simulatedAs(store.getState().board));
 
   /** On a first visit the simulated arm rises, so that the page is alive; no real robot ever moves by itself. */
   function greet(): void {
@@ -124,23 +158,36 @@ export function createConnector(device: Device, notices: Notices, storage: TextS
     if (unit === 'us' && usualServoCount === 6) device.move(GREETING, GREETING_MS);
   }
 
+  device.setAutoReconnect(store.getState().reconnects);
+
   return {
     store,
     start,
     look,
-    setBoard: (board) => store.setState({ board }),
-    simulate: () => chosen('simulated', createSimulatedTransport()),
-    useGateway: () => chosen('gateway', createGatewayTransport(gatewayUrl())),
-    async useGatewayPort(path) {
-      await openGatewayPort(path, store.getState().board);
-      chosen('gateway', createGatewayTransport(gatewayUrl()));
+    setReconnects(reconnects) {
+      store.setState({ reconnects });
+      rememberReconnects(storage, reconnects);
+      device.setAutoReconnect(reconnects);
     },
-    useSerialPort: (port) => chosen('webSerial', createWebSerialTransport(port)),
+    simulate(board) {
+      store.setState({ board });
+      chosen(simulated());
+    },
+    useGateway: () => chosen(createGatewayTransport(gatewayUrl())),
+    async useGatewayPort(path) {
+      await openGatewayPort(path, boards.recall({ kind: 'gateway', label: path })?.family ?? 'unknown');
+      await look();
+      chosen(createGatewayTransport(gatewayUrl()));
+    },
+    useSerialPort: (port) => chosen(createWebSerialTransport(port)),
     async chooseSerialPort() {
-      chosen('webSerial', createWebSerialTransport(await choosePort()));
+      chosen(createWebSerialTransport(await choosePort()));
     },
     disconnect: () => void device.detach().catch(notices.tellError),
   };
 }
+
+/** A board that nobody has modelled is simulated by the usual one. */
+const simulatedAs = (board: FamilyId) => (isProfileName(board) ? { profile: board } : {});
 
 const wayOf = ({ kind, label, isSimulated }: Transport): Way => ({ kind, label, isSimulated });

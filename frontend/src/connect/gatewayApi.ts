@@ -1,11 +1,10 @@
 // The gateway's HTTP interface as far as connecting needs it: is there one at the page's own address, which board and ports
 // does it have, open that port. Trusts no answer's shape; every failure is a LinkError.
 
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import type { BoardId } from '#shared/protocol/families.ts';
 import { isLinkErrorCode, LinkError } from '#shared/session/linkError.ts';
 
 export interface GatewayStatus {
-  readonly board: FamilyId;
   /** The port in use, null when none is. */
   readonly device: string | null;
 }
@@ -21,12 +20,9 @@ const ANSWER_WITHIN_MS = 2000;
 export async function readGateway(): Promise<GatewayStatus | null> {
   try {
     const status: unknown = await ask('api/status');
-    if (!isRecord(status) || typeof status.board !== 'string' || !isRecord(status.port)) return null;
+    if (!isRecord(status) || !isRecord(status.port)) return null;
     const { device } = status.port;
-    return {
-      board: boardOf(status.board),
-      device: typeof device === 'string' ? device : null,
-    };
+    return { device: typeof device === 'string' ? device : null };
   } catch {
     return null;
   }
@@ -39,7 +35,7 @@ export async function readPorts(): Promise<readonly GatewayPort[]> {
   return list.filter(isPort).map(({ device, description }) => ({ device, description }));
 }
 
-export async function openGatewayPort(device: string, board: FamilyId): Promise<void> {
+export async function openGatewayPort(device: string, board: BoardId): Promise<void> {
   await ask('api/port', {
     method: 'PUT',
     headers: { 'content-type': 'application/json' },
@@ -72,8 +68,6 @@ function problem(body: unknown): LinkError {
   const detail = typeof body.detail === 'string' ? body.detail : '';
   return new LinkError(isLinkErrorCode(body.code) ? body.code : 'gatewayRefused', detail);
 }
-
-const boardOf = (name: string): FamilyId => (name in FAMILIES ? (name as FamilyId) : 'doc');
 
 function isPort(value: unknown): value is GatewayPort {
   return isRecord(value) && typeof value.device === 'string' && typeof value.description === 'string';

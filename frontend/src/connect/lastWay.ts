@@ -1,4 +1,4 @@
-// Remembers which way to the robot was chosen last, and for which board. Storage that is forbidden means: nothing remembered.
+// Remembers which way to the robot was chosen last, which board was simulated, and whether links come back by themselves. Storage that is forbidden means: nothing remembered.
 
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import type { Transport } from '#shared/session/transport.ts';
@@ -27,5 +27,24 @@ export function recallWay(storage: TextStorage): LastWay | null {
     return { kind: kind as LastWay['kind'], board: board as FamilyId };
   } catch {
     return null;
+  }
+}
+
+const RECONNECTS_KEY = 'servodeck.reconnects';
+
+/** Links come back by themselves unless a person has said otherwise. */
+export function recallReconnects(storage: TextStorage): boolean {
+  try {
+    return storage.getItem(RECONNECTS_KEY) !== 'off';
+  } catch {
+    return true;
+  }
+}
+
+export function rememberReconnects(storage: TextStorage, reconnects: boolean): void {
+  try {
+    storage.setItem(RECONNECTS_KEY, reconnects ? 'on' : 'off');
+  } catch {
+    // It holds until the page is closed.
   }
 }

@@ -3,6 +3,7 @@
 import type { Clock } from '#shared/clock.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { pollBattery } from '../stores/batteryPoll.ts';
+import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import { createNotices } from '../stores/notices.ts';
@@ -23,12 +24,19 @@ export function openPage(): Page {
   const storage = browserStorage();
   const notices = createNotices(pageClock);
   const device = createDevice(FAMILIES.doc, pageClock, notices);
-  const stores = { device, notices, document: createDocument(storage, notices), view: createView(storage) };
-  const connector = createConnector(device, notices, storage);
+  const boards = createBoards(storage);
+  const stores = {
+    ...{ device, notices, boards },
+    document: createDocument(storage, notices),
+    view: createView(storage),
+  };
+  const connector = createConnector({ device, notices, boards, storage, isWatched });
   connector.start().catch(notices.tellError);
-  pollBattery(device, () => document.visibilityState === 'visible');
+  pollBattery(device, isWatched);
   return { stores, connector };
 }
+
+const isWatched = (): boolean => document.visibilityState === 'visible';
 
 /** Asking for localStorage alone may throw; each access then throws instead, where it is expected. */
 function browserStorage(): TextStorage {

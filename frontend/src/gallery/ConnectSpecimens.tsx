@@ -7,6 +7,7 @@ import styles from './Gallery.module.css';
 
 const BASE: ConnectState = {
   board: 'doc',
+  reconnects: true,
   serialObstacle: null,
   granted: [],
   gateway: 'absent',
@@ -28,7 +29,7 @@ const CASES: readonly {
     current: { kind: 'gateway', label: '/dev/ttyUSB0', isSimulated: false },
     state: {
       ...BASE,
-      gateway: { board: 'doc', device: '/dev/ttyUSB0' },
+      gateway: { device: '/dev/ttyUSB0' },
       gatewayPorts: [
         { device: '/dev/ttyUSB0', description: 'USB Serial' },
         { device: '/dev/ttyACM1', description: 'Arduino' },
@@ -41,7 +42,7 @@ const CASES: readonly {
     state: {
       ...BASE,
       serialObstacle: 'insecureAddress',
-      gateway: { board: 'doc', device: null },
+      gateway: { device: null },
     },
   },
   {
@@ -60,9 +61,9 @@ export function ConnectSpecimens() {
         <ConnectWays
           state={state}
           current={current}
-          onBoard={nothing}
           onLook={nothing}
           onSimulate={nothing}
+          onReconnects={nothing}
           onGateway={nothing}
           onGatewayPort={nothing}
           onSerialPort={nothing}

@@ -3,13 +3,14 @@
 
 import { useState } from 'react';
 import { insertFrame } from '#shared/actions/edits.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES, UNKNOWN_BOARD, type Family } from '#shared/protocol/families.ts';
 import { ActionsPanel } from '../actions/ActionsPanel.tsx';
 import { BatteryPanel } from '../battery/BatteryPanel.tsx';
 import { BoardPanel } from '../board/BoardPanel.tsx';
 import { pageClock } from '../connect/page.ts';
 import { LogPanel } from '../console/LogPanel.tsx';
-import { ServosPanel } from '../servos/ServosPanel.tsx';
+import { LivePanel } from '../servos/LivePanel.tsx';
+import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import { createNotices } from '../stores/notices.ts';
@@ -51,7 +52,7 @@ function Shown({ specimen }: { readonly specimen: Specimen }) {
         <h2 className={styles.name}>{specimen.name}</h2>
         <TopBar />
         <div className={styles.panels}>
-          <ServosPanel />
+          <LivePanel />
           <div className={styles.column}>
             <ActionsPanel />
             <div className={styles.row}>
@@ -71,7 +72,7 @@ function Shown({ specimen }: { readonly specimen: Specimen }) {
 const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined };
 
 function storesOf(specimen: Specimen): Stores {
-  const family = FAMILIES[specimen.board ?? 'doc'];
+  const family = specimen.isUnknown === true ? UNKNOWN_BOARD : FAMILIES[specimen.board ?? 'doc'];
   const notices = createNotices(pageClock);
   const device = createDevice(family, pageClock, notices);
   const motions = motionsOf(specimen);
@@ -86,10 +87,15 @@ function storesOf(specimen: Specimen): Stores {
   }
   const view = createView(NO_STORAGE);
   view.setState({ selectedFrame: specimen.selectedFrame ?? null });
-  return { device, document, view, notices };
+  const boards = createBoards(NO_STORAGE);
+  if (specimen.way !== null && specimen.nickname !== undefined) {
+    boards.remember(specimen.way, specimen.board ?? 'doc');
+    boards.rename(specimen.way, specimen.nickname);
+  }
+  return { device, document, view, notices, boards };
 }
 
-function sampleFrame(number: number, { position, usualServoCount }: (typeof FAMILIES)['doc']) {
+function sampleFrame(number: number, { position, usualServoCount }: Family) {
   const targets = Array.from({ length: usualServoCount }, (_, index) => {
     const share = 0.5 + 0.35 * Math.sin(number * 0.9 + (index === 1 ? 0 : index) * 1.3);
     return { servo: index + 1, position: Math.round(position.min + share * (position.max - position.min)) };

@@ -4,11 +4,15 @@ import { LINK_ERROR_CODES, LinkError } from '#shared/session/linkError.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { Way } from '../stores/device.ts';
+import { identityFrom, type Evidence } from '#shared/session/identity.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 
 export interface Specimen {
   readonly name: string;
   readonly board?: FamilyId;
+  /** Nobody has said which board it is. */
+  readonly isUnknown?: boolean;
+  readonly nickname?: string;
   readonly way: Way | null;
   readonly state: SessionState;
   readonly pose: 'unknown' | 'still' | 'moving';
@@ -43,6 +47,39 @@ const running = (truth: 'requested' | 'acknowledged' | 'unknown', times: number)
   ...READY,
   activity: { kind: 'running', slot: 5, times, sinceMs: 0, truth },
 });
+
+const SILENT_TO_ALL: readonly Evidence[] = [
+  { kind: 'silent', question: 'readBattery' },
+  { kind: 'silent', question: 'readVersion' },
+];
+const BATTERY_TOLD: readonly Evidence[] = [
+  { kind: 'answered', question: 'readBattery', report: { kind: 'battery', batteryMv: 7500 } },
+  { kind: 'silent', question: 'readPositions' },
+];
+const POSITIONS_TOLD: readonly Evidence[] = [
+  { kind: 'answered', question: 'readBattery', report: { kind: 'battery', batteryMv: 11_400 } },
+  {
+    kind: 'answered',
+    question: 'readPositions',
+    report: { kind: 'positions', positions: [{ servo: 1, position: 498 }] },
+  },
+];
+const VERSION_TOLD: readonly Evidence[] = [
+  { kind: 'silent', question: 'readBattery' },
+  { kind: 'answered', question: 'readVersion', report: { kind: 'version', unit: 'us', version: 1 } },
+];
+
+const UNSURE: Readonly<Record<string, readonly Evidence[]>> = {
+  'Which board, silent': SILENT_TO_ALL,
+  'Which board, LSC': BATTERY_TOLD,
+  'Which board, bus servos': POSITIONS_TOLD,
+  'Which board, LeArm': VERSION_TOLD,
+  'Which board, noise': [...SILENT_TO_ALL, { kind: 'noise', byteCount: 118 }],
+  'Which board, echo': [...SILENT_TO_ALL, { kind: 'echoed' }],
+};
+
+const codeOf = (evidence: readonly Evidence[]): LinkError['code'] =>
+  evidence.some(({ kind }) => kind === 'echoed') ? 'echo' : 'boardUnknown';
 
 const DOWNLOADING: SessionState = {
   ...READY,
@@ -142,6 +179,42 @@ export const SPECIMENS: readonly Specimen[] = [
   { name: 'Old uHand', board: 'openarm-old', way: USB, state: NO_BATTERY, pose: 'still', frames: 3 },
   { name: 'LeArm', board: 'learm-esp32', way: USB, state: NO_BATTERY, pose: 'still', frames: 2 },
   { name: 'Bus servos', board: 'bus-ctrl', way: USB, state: READY, pose: 'moving', frames: 2 },
+  {
+    name: 'Nicknamed',
+    way: USB,
+    nickname: 'Desk arm',
+    state: { ...READY, identity: identityFrom(BATTERY_TOLD) },
+    pose: 'still',
+    frames: 3,
+  },
+  {
+    name: 'Identifying',
+    way: USB,
+    isUnknown: true,
+    state: { ...INITIAL_STATE, link: { status: 'identifying' } },
+    pose: 'unknown',
+    frames: 0,
+  },
+  ...Object.entries(UNSURE).map(([name, evidence]): Specimen => ({
+    name,
+    way: USB,
+    isUnknown: true,
+    state: { ...refused(codeOf(evidence)), identity: identityFrom(evidence), battery: { kind: 'unread' } },
+    pose: 'unknown',
+    frames: 0,
+  })),
+  {
+    name: 'Stale',
+    way: USB,
+    board: 'lsc-16',
+    state: {
+      ...READY,
+      link: { status: 'stale', sinceMs: 0 },
+      latch: { reason: 'reconnected', stop: 'failed' },
+    },
+    pose: 'unknown',
+    frames: 2,
+  },
   ...LINK_ERROR_CODES.map((code): Specimen => ({
     name: `Error ${code}`,
     way: USB,

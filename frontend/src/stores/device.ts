@@ -47,6 +47,10 @@ export interface Device {
   halt(): void;
   resume(): void;
   retryNow(): void;
+  /** Holds for later sessions too. */
+  setAutoReconnect(enabled: boolean): void;
+  identify(): void;
+  choose(family: Family): void;
   run(slot: number, times: number): void;
   stopGroup(): void;
   erase(): void;
@@ -68,6 +72,7 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
   let unsubscribe = (): void => undefined;
   let downloading = new AbortController();
   let paused = false;
+  let autoReconnect = true;
 
   const motion = (servo: number): ServoMotion => session?.motion(servo) ?? NO_MOTION;
 
@@ -125,6 +130,7 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
     attach(next, way) {
       void detach();
       session = next;
+      session.setAutoReconnect(autoReconnect);
       store.setState({ family: next.state.family, way, snapshot: next.state });
       unsubscribe = next.subscribe({ state: noteState, traffic: traffic.add, problem: noteProblem });
     },
@@ -147,6 +153,12 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
     halt: () => attempt((current) => current.halt()),
     resume: () => attempt((current) => current.resume()),
     retryNow: () => session?.retryNow(),
+    setAutoReconnect(enabled) {
+      autoReconnect = enabled;
+      session?.setAutoReconnect(enabled);
+    },
+    identify: () => attempt((current) => current.identify()),
+    choose: (chosen) => attempt((current) => current.choose(chosen)),
     run: (slot, times) => attempt((current) => current.run(slot, times)),
     stopGroup: () => attempt((current) => current.stopGroup()),
     erase: () => attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased))),

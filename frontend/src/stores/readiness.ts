@@ -3,10 +3,11 @@
 
 import type { SessionState } from '#shared/session/state.ts';
 
-export type Hindrance = 'closed' | 'latched' | 'busy';
+export type Hindrance = 'closed' | 'identifying' | 'stale' | 'latched' | 'busy';
 
 /** null: motion may begin. */
 export function motionHindrance({ link, latch, activity }: SessionState): Hindrance | null {
+  if (link.status === 'identifying' || link.status === 'stale') return link.status;
   if (link.status !== 'ready') return 'closed';
   if (latch !== null) return 'latched';
   return activity.kind === 'downloading' || activity.kind === 'erasing' ? 'busy' : null;

@@ -4,6 +4,7 @@
 import { createContext, use } from 'react';
 import { useStore } from 'zustand';
 import type { ActionGroup } from '#shared/actions/group.ts';
+import type { Boards } from './boards.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { Document, DocumentState } from './document.ts';
 import type { Notices } from './notices.ts';
@@ -14,6 +15,7 @@ export interface Stores {
   readonly document: Document;
   readonly view: View;
   readonly notices: Notices;
+  readonly boards: Boards;
 }
 
 export const StoresContext = createContext<Stores | null>(null);

@@ -67,7 +67,13 @@ type DownState = Extract<LinkState, { status: 'lost' | 'refused' }>;
 
 function Down({ link }: { readonly link: DownState }) {
   const { device } = useStores();
-  const said = <Said truth="danger" text={errorSentence(link.error.code, link.error.message)} />;
+  const needsChoice = link.error.code === 'boardUnknown';
+  const said = (
+    <Said
+      truth={needsChoice ? 'warning' : 'danger'}
+      text={errorSentence(link.error.code, link.error.message)}
+    />
+  );
   // There is nothing to try again: the sentence says to connect, or to say which board it is.
   if (ANSWERED_ELSEWHERE.includes(link.error.code)) return said;
   const retryAtMs = link.status === 'lost' ? link.retryAtMs : null;

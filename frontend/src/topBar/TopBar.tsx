@@ -1,5 +1,7 @@
 // The slim bar: which robot, how it is linked, what goes on, the battery. The right end is kept free for STOP.
 
+import { useStore } from 'zustand';
+import { nameOf } from '../stores/boards.ts';
 import { useDevice, useStores, useView } from '../stores/stores.ts';
 import type { Theme } from '../stores/view.ts';
 import { BatteryReadout } from '../battery/BatteryReadout.tsx';
@@ -39,9 +41,11 @@ function Sign() {
 }
 
 function Robot() {
-  const name = useDevice(({ way, family }) =>
-    way === null ? words.link.noBoard : way.isSimulated ? '' : family.name,
-  );
+  const { boards } = useStores();
+  const way = useDevice((state) => state.way);
+  const family = useDevice((state) => state.family);
+  const nickname = useStore(boards.store, (all) => (way === null ? '' : all[nameOf(way)]?.nickname)) ?? '';
+  const name = way === null ? words.link.noBoard : way.isSimulated ? '' : nickname || family.name;
   return (
     <div className={styles.robot}>
       {name !== '' && <span className={styles.robotName}>{name}</span>}

@@ -1,6 +1,7 @@
 // A board on the gateway's serial port, through its WebSocket. Knows the messages; what may be sent and when is the
 // gateway's to decide. The socket stays open while the gateway's port is away, to hear of its return.
 
+import { FAMILIES, type BoardId } from '#shared/protocol/families.ts';
 import { fromHex, toHex } from '#shared/protocol/hex.ts';
 import { isLinkErrorCode, LinkError } from '#shared/session/linkError.ts';
 import type { Transport, TransportEvents } from '#shared/session/transport.ts';
@@ -14,10 +15,12 @@ export function createGatewayTransport(url: string): Transport {
   let port: PortState | null = null;
   let events: TransportEvents | null = null;
   let latched = false;
+  let board: BoardId = 'unknown';
   let nextId = 1;
   const sending = new Map<number, Settle>();
   const halting = new Set<Settle>();
   const resuming = new Set<Settle>();
+  const naming = new Set<Settle>();
   const stateWaiters = new Set<Settle>();
   let notifyAvailable = (): void => undefined;
 
@@ -31,6 +34,7 @@ export function createGatewayTransport(url: string): Transport {
     switch (message.type) {
       case 'welcome':
       case 'state':
+        boardChanged(message.board);
         portChanged(message.port);
         latchChanged(message.latch);
         break;
@@ -55,7 +59,8 @@ export function createGatewayTransport(url: string): Transport {
   /** Only packets have an id: without one it was a stop or a resume. */
   function refused(id: number | null, error: LinkError): void {
     if (id !== null) take(id)?.reject(error);
-    else for (const waiters of [halting, resuming]) settleAll(waiters, (waiter) => waiter.reject(error));
+    else
+      for (const waiters of [halting, resuming, naming]) settleAll(waiters, (waiter) => waiter.reject(error));
   }
 
   function take(id: number): Settle | undefined {
@@ -72,6 +77,15 @@ export function createGatewayTransport(url: string): Transport {
     else if (wasOpen) lose(portError(next));
   }
 
+  /** Told also where nothing changed, when it was said from here. */
+  function boardChanged(text: string): void {
+    const next = boardNamed(text);
+    if (next === board && naming.size === 0) return;
+    board = next;
+    events?.identified?.(next);
+    settleAll(naming, (waiter) => waiter.resolve());
+  }
+
   function latchChanged(next: boolean): void {
     if (next !== latched) events?.latched?.(next);
     latched = next;
@@ -84,7 +98,7 @@ export function createGatewayTransport(url: string): Transport {
     events = null;
     for (const waiter of sending.values()) waiter.reject(error);
     sending.clear();
-    for (const waiters of [halting, resuming]) settleAll(waiters, (waiter) => waiter.reject(error));
+    for (const waiters of [halting, resuming, naming]) settleAll(waiters, (waiter) => waiter.reject(error));
     told?.lost(error);
   }
 
@@ -112,6 +126,15 @@ export function createGatewayTransport(url: string): Transport {
     kind: 'gateway',
     get isSimulated() {
       return port?.simulated ?? false;
+    },
+    get knownBoard() {
+      return board;
+    },
+    setBoard(next) {
+      return new Promise((resolve, reject) => {
+        post({ type: 'board', board: next });
+        naming.add({ resolve, reject });
+      });
     },
     get label() {
       return port?.device ?? 'Gateway';
@@ -156,6 +179,11 @@ export function createGatewayTransport(url: string): Transport {
       return Promise.resolve();
     },
   };
+}
+
+/** A newer gateway may know boards that this page does not. */
+export function boardNamed(text: string): BoardId {
+  return text in FAMILIES ? (text as BoardId) : 'unknown';
 }
 
 function settleAll(waiters: Set<Settle>, settle: (waiter: Settle) => void): void {

@@ -14,6 +14,8 @@ import {
   unitSymbol,
   type PositionUnit,
 } from './numbers.ts';
+import { guideWords } from './guides.ts';
+import { identityWords } from './identity.ts';
 import { timesWords } from './packets.ts';
 
 export const words = {
@@ -51,9 +53,8 @@ export const words = {
     needsYou: 'Waiting for you',
   },
 
-  identity: {
-    asking: 'Asking the board who it is. Nothing moves.',
-  },
+  identity: identityWords,
+  guide: guideWords,
 
   stop: {
     button: 'Stop',
@@ -93,9 +94,8 @@ export const words = {
   connect: {
     title: 'Connect a robot',
     intro: 'Connecting moves nothing.',
-    board: 'Board',
-    boardHint: 'Decides limits and commands. If unsure, keep the first.',
     here: 'You are here',
+    reconnects: 'Come back by itself after a lost link',
     webSerial: {
       title: 'This computer’s port',
       about: 'A robot on a USB cable of this computer, opened by the browser.',
@@ -113,7 +113,8 @@ export const words = {
     },
     simulated: {
       title: 'Simulated robot',
-      about: 'A board in this page, with six servos and a battery. Nothing real moves.',
+      about: 'A board in this page. Nothing real moves.',
+      board: 'Which board to simulate',
       open: 'Use the simulated robot',
     },
   },
@@ -146,6 +147,8 @@ export const words = {
     centreHint: 'Moves every servo slowly to the middle',
     blocked: {
       closed: 'No link to a robot.',
+      identifying: 'The board is being asked who it is.',
+      stale: 'The board does not answer.',
       latched: 'Stopped. Resume to move.',
       busy: 'The board is busy; moving waits.',
     },
@@ -238,6 +241,11 @@ export const words = {
     downloaded: (slot: number): string => `Slot ${formatWhole(slot)} is downloaded.`,
     downloadCancelled: (slot: number): string =>
       `Download cancelled. Slot ${formatWhole(slot)} is broken until a whole group is downloaded.`,
+    unsure: {
+      download: 'Once it is clear which board this is.',
+      run: 'Once it is clear which board this is.',
+      erase: 'Once it is clear which board this is.',
+    },
     absent: {
       download:
         'This board takes no groups from here. Play from this page, or fill its slots with the maker’s program.',

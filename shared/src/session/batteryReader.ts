@@ -1,7 +1,7 @@
 // Asks for the battery voltage and remembers how often the board stayed silent. Knows when it may ask; not what the
 // figure means for a pack.
 
-import { requireReady, type Core } from './core.ts';
+import { requireLine, type Core } from './core.ts';
 import { LinkError } from './linkError.ts';
 import { BATTERY_SILENT_LIMIT, BATTERY_TIMEOUT_MS } from './timings.ts';
 
@@ -12,7 +12,7 @@ export function createBatteryReader(core: Core): () => Promise<number> {
 
   async function read(): Promise<number> {
     const { store, clock, exchange } = core;
-    requireReady(core.store);
+    requireLine(core.store);
     try {
       const report = await exchange.ask({ kind: 'readBattery' }, 'battery', BATTERY_TIMEOUT_MS);
       const batteryMv = report.kind === 'battery' ? report.batteryMv : 0;
@@ -27,6 +27,8 @@ export function createBatteryReader(core: Core): () => Promise<number> {
 
   function countSilence(): void {
     const { battery } = core.store.state;
+    // Where every such board answers, silence says that the board is gone, not that it cannot tell.
+    if (core.family.certainAnswers.includes('readBattery')) return;
     silences += 1;
     if (silences < BATTERY_SILENT_LIMIT || battery.kind === 'silent') return;
     core.store.update({

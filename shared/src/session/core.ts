@@ -31,6 +31,11 @@ export function requireReady({ state: { link, activity } }: SessionStore): void 
   }
 }
 
+/** The line is there, and so was the board: questions may go out, also to hear whether it is still there. */
+export function requireLine(store: SessionStore): void {
+  if (store.state.link.status !== 'stale') requireReady(store);
+}
+
 /** Additionally nobody has pressed STOP since the last Resume. */
 export function requireReleased(core: Core): void {
   requireReady(core.store);

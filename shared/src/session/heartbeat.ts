@@ -2,15 +2,15 @@
 // it may ask and how much silence means that the board is gone; not what follows from that.
 
 import type { Clock } from '../clock.ts';
-import type { Command } from '../protocol/commands.ts';
+import type { Question } from '../protocol/families.ts';
 import { HEARTBEAT_MISSES, HEARTBEAT_MS, STALE_HEARTBEAT_MS } from './timings.ts';
 
 export interface HeartbeatOptions {
   readonly clock: Clock;
   /** The question, or null while it may not be asked: nobody looks, something runs, no such board answers anything. */
-  question(): Command | null;
+  question(): Question | null;
   /** Sends it and waits; false when no answer came, null when nobody can tell. */
-  ask(question: Command): Promise<boolean | null>;
+  ask(question: Question): Promise<boolean | null>;
   gone(): void;
 }
 

@@ -2,9 +2,15 @@
 // the board falls silent. Real simulated boards, virtual time.
 
 import { describe, expect, test } from 'vitest';
+import { COMMAND_NUMBER } from '../protocol/commands.ts';
 import { family, FAMILIES, UNKNOWN_BOARD, type FamilyId } from '../protocol/families.ts';
 import type { ProfileName } from '../simulator/profiles.ts';
+import { createSimulatedTransport } from '../simulator/transport.ts';
+import { createVirtualClock } from '../simulator/virtualClock.ts';
+import { LinkError } from './linkError.ts';
 import { createRig, type Rig } from './rig.ts';
+import { createSession } from './session.ts';
+import type { Transport } from './transport.ts';
 
 const HARMLESS = ['stop', 'readBattery', 'readVersion', 'readPositions'];
 const kindsHeard = ({ heard }: Rig): readonly string[] => [
@@ -236,4 +242,20 @@ describe('automatic reconnecting', () => {
     rig.session.setAutoReconnect(true);
     expect(rig.session.state.link).toMatchObject({ retryAtMs: rig.clock.now() + 250 });
   });
+});
+
+test('questions that cannot be asked end in a named state, not in a wait', async () => {
+  const clock = createVirtualClock();
+  const board = createSimulatedTransport(clock, { profile: 'lsc-6', onForMs: 60_000 });
+  const refusing: Transport = {
+    ...board,
+    send: (packet) =>
+      packet[3] === COMMAND_NUMBER.readPositions
+        ? Promise.reject(new LinkError('notSupported', 'no such question'))
+        : board.send(packet),
+  };
+  const session = createSession({ transport: refusing, clock, family: family('lsc-6'), identifies: true });
+  await session.open();
+  await clock.advance(3_000);
+  expect(session.state.link).toMatchObject({ status: 'refused', error: { code: 'notSupported' } });
 });

@@ -3,8 +3,13 @@
 // identity.ts.
 
 import type { Clock } from '../clock.ts';
-import type { Command } from '../protocol/commands.ts';
-import { family as familyOf, UNKNOWN_BOARD, type BoardId, type Family } from '../protocol/families.ts';
+import {
+  family as familyOf,
+  UNKNOWN_BOARD,
+  type BoardId,
+  type Family,
+  type Question,
+} from '../protocol/families.ts';
 import type { Report } from '../protocol/reports.ts';
 import { createExchange, isNoAnswer } from './exchange.ts';
 import { createHeartbeat } from './heartbeat.ts';
@@ -28,6 +33,8 @@ export interface IdentificationOptions {
   readonly family: Family;
   readonly identifies: boolean;
   isWatched(): boolean;
+  /** Shows its answer, and shares it with whoever asks at the same time. */
+  readBattery(): Promise<number>;
   /** Something moves: no time for questions. */
   isMoving(): boolean;
   /** From now on the session speaks to such a board. */
@@ -63,16 +70,17 @@ export function createIdentification(options: IdentificationOptions): Identifica
   const heartbeat = createHeartbeat({ clock, question: heartbeatQuestion, ask: isAnswered, gone });
   const status = (): LinkState['status'] => store.state.link.status;
 
-  function heartbeatQuestion(): Command | null {
-    const [question] = claim.certainAnswers;
+  function heartbeatQuestion(): Question | null {
+    const [question = null] = claim.certainAnswers;
     const isIdle = store.state.activity.kind === 'idle' && !options.isMoving();
-    return question !== undefined && isIdle && options.isWatched() ? QUESTIONS[question].command : null;
+    return isIdle && options.isWatched() ? question : null;
   }
 
-  async function isAnswered(command: Command): Promise<boolean | null> {
-    const [question = 'readBattery'] = claim.certainAnswers;
+  async function isAnswered(question: Question): Promise<boolean | null> {
+    const { command, answer } = QUESTIONS[question];
     try {
-      await exchange.ask(command, QUESTIONS[question].answer, IDENTIFY_TIMEOUT_MS);
+      if (question === 'readBattery') await options.readBattery();
+      else await exchange.ask(command, answer, IDENTIFY_TIMEOUT_MS);
       return true;
     } catch (error) {
       return isNoAnswer(error) ? false : null;
@@ -93,8 +101,13 @@ export function createIdentification(options: IdentificationOptions): Identifica
     judge();
   }
 
-  /** Where the line goes while questions are out, its state says so. */
-  const begunCheck = (): void => void check().catch(() => undefined);
+  function begunCheck(): void {
+    check().catch((error: unknown) => {
+      // Where the line went while questions were out, its state says so already.
+      if (lineIsOpen && status() === 'identifying')
+        refuse(error instanceof LinkError ? error.code : 'internal', String(error));
+    });
+  }
 
   function judge(): void {
     const { evidence } = store.state.identity;
@@ -103,6 +116,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
       refuse('echo', 'the line sends back what it is given');
     else if (claim === UNKNOWN_BOARD) refuse('boardUnknown', 'nobody has said which board this is');
     else if (fit === 'contradicts') refuse('wrongBoard', `this does not answer like a ${claim.name}`);
+    else if (fit === 'fits' && transport.knownBoard === 'unknown') share();
     else accept(fit === 'silent');
   }
 
@@ -110,6 +124,11 @@ export function createIdentification(options: IdentificationOptions): Identifica
     heartbeat.stop();
     drive(UNKNOWN_BOARD);
     entered({ status: 'refused', error: new LinkError(code, message) });
+  }
+
+  /** What this one remembers is true for everybody on the link; their word and ours come back by `told`. */
+  function share(): void {
+    transport.setBoard?.(claim.id).catch((error: unknown) => refuse('internal', String(error)));
   }
 
   function accept(isSilent: boolean): void {
@@ -138,8 +157,9 @@ export function createIdentification(options: IdentificationOptions): Identifica
     begin() {
       lineIsOpen = true;
       store.update({ identity: NOTHING_HEARD });
-      if (transport.knownBoard !== undefined) told(transport.knownBoard);
-      else if (identifies) begunCheck();
+      const { knownBoard } = transport;
+      if (knownBoard !== undefined && knownBoard !== 'unknown') told(knownBoard);
+      else if (identifies || knownBoard === 'unknown') begunCheck();
       else accept(false);
     },
     ended() {
@@ -153,7 +173,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
       if (store.state.activity.kind !== 'idle' || options.isMoving())
         throw new LinkError('busy', 'the robot is moving: wait or stop it first');
       if (transport.setBoard !== undefined) return transport.setBoard('unknown');
-      await check();
+      begunCheck();
     },
     async choose(family) {
       const fit = fitOf(family, store.state.identity.evidence);
@@ -166,7 +186,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
       hears(bytes);
       heartbeat.heard();
       if (status() !== 'stale' || report.kind === 'unknown') return;
-      if (identifies) begunCheck();
+      if (identifies && transport.knownBoard === undefined) begunCheck();
       else accept(false);
     },
     heardNoise(bytes) {

@@ -116,6 +116,7 @@ export function createSession(options: SessionOptions): Session {
   const identification = createIdentification({
     ...{ clock, store, lanes, replies, transport, family, identifies, isWatched },
     isMoving: () => driver.core.robot.moving(),
+    readBattery: () => driver.readBattery(),
     drive,
     entered,
   });

@@ -1,0 +1,106 @@
+// Boards nobody knows, and boards that are not what they were: what a person can tell from the page alone. A real gateway that
+// was told no board, real serial devices.
+
+import type { BoardSettings } from '../fixtures/robot.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+import { dashboardOf } from '../fixtures/dashboard.ts';
+
+const HARMLESS = ['stop', 'readBattery', 'readVersion', 'readPositions'];
+
+test.describe('a bus servo board', () => {
+  test.use({ boardSettings: { board: 'xarm' } });
+
+  test('is asked, chosen, named, and known again on every screen', async ({
+    page,
+    ptyBoard,
+    newGateway,
+    context,
+  }) => {
+    const { url } = await newGateway({ serial: ptyBoard.device, board: 'unknown' });
+    const dashboard = dashboardOf(page);
+    await page.goto(url);
+    await expect(page.getByRole('region', { name: 'Which board is this?' })).toContainText(
+      'It told where its servos stand',
+    );
+    await expect(dashboard.stop).toBeEnabled();
+    await dashboard.takeFor('xArm').click();
+    await expect(dashboard.slider(6)).toBeEnabled();
+    const heard = await ptyBoard.bus();
+    expect(HARMLESS).toEqual(expect.arrayContaining(heard.map(({ command }) => command.kind)));
+
+    await dashboard.link.click();
+    await page.getByRole('textbox', { name: 'Name of this board' }).fill('Desk arm');
+    await page.keyboard.press('Enter');
+    await page.reload();
+    await expect(dashboard.bar).toContainText('Desk arm');
+    await dashboard.type(dashboard.target(2), 480);
+    await poll(() => ptyBoard.bus().then((all) => all.at(-1)?.command.kind)).toBe('move');
+
+    const second = await context.newPage();
+    await second.goto(url);
+    await expect(dashboardOf(second).slider(6)).toBeEnabled();
+  });
+});
+
+interface Trouble {
+  readonly trouble: string;
+  readonly settings: BoardSettings;
+  readonly says: RegExp;
+}
+
+const TROUBLES: readonly Trouble[] = [
+  {
+    trouble: 'a board that is switched off',
+    settings: { board: 'lsc-16', faults: ['brownOut=0@600000'] },
+    says: /Nothing answered.*off, not wired/,
+  },
+  { trouble: 'a looped line', settings: { faults: ['loopback'] }, says: /sends back everything.*RX to TX/ },
+  {
+    trouble: 'a line that damages bytes',
+    settings: { board: 'lsc-16', faults: ['flippedByte=0.4'] },
+    says: /Something speaks here, but not in packets/,
+  },
+];
+
+for (const { trouble, settings, says } of TROUBLES) {
+  test.describe(trouble, () => {
+    test.use({ boardSettings: settings });
+
+    test('is told in words that say what to do', async ({ page, ptyBoard, newGateway }) => {
+      const { url } = await newGateway({ serial: ptyBoard.device, board: 'unknown' });
+      await page.goto(url);
+      await expect(page.getByRole('region', { name: 'Which board is this?' })).toContainText(says, {
+        timeout: 15_000,
+      });
+    });
+  });
+}
+
+test.describe('another board under the name of a known one', () => {
+  test.use({ boardSettings: { board: 'learm-esp32' } });
+
+  test('is not driven as the one before', async ({ page, ptyBoard, newGateway }) => {
+    const { url } = await newGateway({ serial: ptyBoard.device, board: 'unknown' });
+    const known = { [`gateway ${ptyBoard.device}`]: { family: 'lsc-6', nickname: 'Hand' } };
+    await page.addInitScript((text) => localStorage.setItem('servodeck.boards', text), JSON.stringify(known));
+    await page.goto(url);
+    const question = page.getByRole('region', { name: 'Another board answers here' });
+    await expect(question).toContainText('It told its version');
+    await dashboardOf(page).takeFor('LeArm AI').click();
+    await expect(dashboardOf(page).slider(1)).toBeEnabled();
+  });
+});
+
+test.describe('a board that falls silent', () => {
+  test.use({ boardSettings: { board: 'lsc-6', faults: ['brownOut=4000@9000'] } });
+
+  test('is called silent, then comes back latched', async ({ page, ptyBoard, newGateway }) => {
+    const { url } = await newGateway({ serial: ptyBoard.device, board: 'lsc-6' });
+    const dashboard = dashboardOf(page);
+    await page.goto(url);
+    await expect(dashboard.link).toHaveText(/^No answer/, { timeout: 20_000 });
+    await expect(dashboard.status).toContainText('Switch it on');
+    await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 20_000 });
+    await expect(dashboard.resume).toBeVisible();
+  });
+});

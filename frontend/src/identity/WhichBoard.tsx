@@ -1,0 +1,80 @@
+// Which board is this? What it answered, which boards answer like that, and the person's choice among them. Stands where the
+// servos will be until somebody has said so.
+
+import { FAMILIES, type Family } from '#shared/protocol/families.ts';
+import { fitOf, type Fit } from '#shared/session/identity.ts';
+import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { Panel } from '../ui/Panel.tsx';
+import { words } from '../words/en.ts';
+import { EvidenceList } from './EvidenceList.tsx';
+import styles from './WhichBoard.module.css';
+
+export function WhichBoard() {
+  const link = useSnapshot((snapshot) => snapshot.link);
+  const isAsking = link.status === 'identifying';
+  const title = link.status === 'refused' && link.error.code === 'wrongBoard' ? 'changed' : 'which';
+  return (
+    <Panel title={words.identity.title[title]}>
+      <div className={styles.work}>
+        {isAsking ? <p className={styles.lead}>{words.identity.asking}</p> : <Answered />}
+      </div>
+    </Panel>
+  );
+}
+
+function Answered() {
+  const { device } = useStores();
+  const { evidence } = useSnapshot((snapshot) => snapshot.identity);
+  const families = Object.values(FAMILIES);
+  const fitting = (fit: Fit): readonly Family[] =>
+    families.filter((family) => fitOf(family, evidence) === fit);
+  const likely = fitting('fits');
+  return (
+    <>
+      <p className={styles.lead}>{words.identity.summary(evidence)}</p>
+      <EvidenceList evidence={evidence} />
+      {likely.length > 0 && (
+        <section className={styles.choice} aria-label={words.identity.likely}>
+          <h3>{words.identity.likely}</h3>
+          <Boards families={likely} />
+        </section>
+      )}
+      <div className={styles.again}>
+        <Button icon="refresh" onPress={device.identify}>
+          {words.identity.again}
+        </Button>
+        <p className={styles.dim}>{words.identity.againHint}</p>
+      </div>
+      <details className={styles.others}>
+        <summary>{words.identity.others}</summary>
+        <p className={styles.dim}>{words.identity.silentHint}</p>
+        <Boards families={fitting('silent')} />
+        <p className={styles.dim}>
+          {words.identity.ruledOut(fitting('contradicts').map(({ name }) => name))}
+        </p>
+      </details>
+    </>
+  );
+}
+
+function Boards({ families }: { readonly families: readonly Family[] }) {
+  const { device, boards } = useStores();
+  const way = useDevice((state) => state.way);
+  const choose = (family: Family): void => {
+    if (way !== null && family.id !== 'unknown') boards.remember(way, family.id);
+    device.choose(family);
+  };
+  return (
+    <ul className={styles.boards}>
+      {families.map((family) => (
+        <li key={family.id}>
+          <Button wide onPress={() => choose(family)}>
+            <span className={styles.name}>{family.name}</span>
+            <span className={styles.about}>{words.identity.about(family)}</span>
+          </Button>
+        </li>
+      ))}
+    </ul>
+  );
+}
