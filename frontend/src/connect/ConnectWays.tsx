@@ -37,6 +37,7 @@ export function ConnectWays(props: ConnectWaysProps) {
         title={words.connect.webSerial.title}
         about={words.connect.webSerial.about}
         isCurrent={current?.kind === 'webSerial'}
+        more={state.serialObstacle === null && <PortGuide />}
       >
         <SerialWay {...props} />
       </WayCard>
@@ -44,6 +45,7 @@ export function ConnectWays(props: ConnectWaysProps) {
         title={words.connect.gateway.title}
         about={words.connect.gateway.about}
         isCurrent={current?.kind === 'gateway'}
+        more={typeof state.gateway === 'object' && <PortGuide />}
       >
         <GatewayWay {...props} />
       </WayCard>
@@ -69,10 +71,12 @@ interface WayCardProps {
   readonly title: string;
   readonly about: string;
   readonly isCurrent: boolean;
+  /** Below both columns. */
+  readonly more?: ReactNode;
   readonly children: ReactNode;
 }
 
-function WayCard({ title, about, isCurrent, children }: WayCardProps) {
+function WayCard({ title, about, isCurrent, more, children }: WayCardProps) {
   return (
     <div className={styles.card} role="group" aria-label={title}>
       <div className={styles.cardText}>
@@ -87,6 +91,7 @@ function WayCard({ title, about, isCurrent, children }: WayCardProps) {
         <p className={styles.dim}>{about}</p>
       </div>
       <div className={styles.choices}>{children}</div>
+      {more}
     </div>
   );
 }
@@ -140,7 +145,6 @@ function SerialWay({ state, onSerialPort, onChooseSerial }: ConnectWaysProps) {
       <Button tone={state.granted.length === 0 ? 'plain' : 'quiet'} onPress={onChooseSerial}>
         {words.connect.webSerial.choose}
       </Button>
-      <PortGuide />
     </>
   );
 }
@@ -176,7 +180,6 @@ function GatewayWay({ state, onGateway, onGatewayPort, onLook }: ConnectWaysProp
         <p className={styles.why}>{words.connect.gateway.none}</p>
       )}
       {look}
-      <PortGuide />
     </>
   );
 }
