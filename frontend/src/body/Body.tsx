@@ -3,7 +3,7 @@
 
 import { useRef } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
-import { useDevice, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useRobot, useStores, useView } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { words } from '../words/en.ts';
@@ -16,11 +16,11 @@ import { sameMotion } from './useMotion.ts';
 import styles from './Body.module.css';
 
 export function Body() {
-  const family = useDevice((state) => state.family);
+  const { body } = useRobot();
   const unknown = useDevice((state) => Object.keys(state.targets).length === 0);
   return (
     <div className={styles.body}>
-      {family.usualServoCount === 6 ? <Arm /> : <Dials />}
+      {body === 'arm' ? <Arm /> : <Dials />}
       <p className={styles.note}>{unknown ? words.body.allUnknown : ''}</p>
     </div>
   );
@@ -31,9 +31,10 @@ function Dials() {
   const { view } = useStores();
   const family = useDevice((state) => state.family);
   const selected = useView((state) => state.selectedServo);
+  const { servos } = useRobot();
   return (
     <ol className={styles.dials}>
-      {Array.from({ length: family.usualServoCount }, (_, index) => index + 1).map((servo) => (
+      {servos.map(({ servo }) => (
         <li
           key={servo}
           className={cx(styles.dial, servo === selected && styles.selected)}

@@ -1,6 +1,7 @@
 // A pose as a small picture: the arm where there is one, otherwise a bar per servo. Servos that move are marked below it.
 
 import type { Family } from '#shared/protocol/families.ts';
+import { useRobot } from '../stores/stores.ts';
 import { ArmFigure } from './ArmFigure.tsx';
 import { armPicture, fraction } from './pose.ts';
 import styles from './PoseThumb.module.css';
@@ -12,10 +13,11 @@ export interface PoseThumbProps {
 }
 
 export function PoseThumb({ pose, changed, family }: PoseThumbProps) {
-  const servos = Array.from({ length: family.usualServoCount }, (_, index) => index + 1);
+  const robot = useRobot();
+  const servos = robot.servos.map(({ servo }) => servo);
   return (
-    <span className={styles.thumb} data-arm={family.usualServoCount === 6} aria-hidden="true">
-      {family.usualServoCount === 6 && (
+    <span className={styles.thumb} data-arm={robot.body === 'arm'} aria-hidden="true">
+      {robot.body === 'arm' && (
         <svg className={styles.arm} viewBox="-250 -262 500 300">
           <path className={styles.ground} d="M-250 26H250M-26 26v-26a26 26 0 0 1 52 0v26z" />
           <ArmFigure picture={armPicture((servo) => pose.get(servo) ?? null, family)} look="small" />
@@ -36,7 +38,7 @@ function Bars({ servos, pose, changed, family }: PoseThumbProps & { readonly ser
         if (position === undefined) {
           return <rect key={servo} className={styles.unknown} x={x} y={10} width={width * 0.7} height={2} />;
         }
-        const top = 20 - fraction(position, family) * 18;
+        const top = 20 - fraction(position, family.position) * 18;
         const className = changed.includes(servo) ? styles.changed : styles.kept;
         return <rect key={servo} className={className} x={x} y={top} width={width * 0.7} height={22 - top} />;
       })}

@@ -43,5 +43,5 @@ describe('the arm as a picture', () => {
 
 test('a dial spans two thirds of a turn around straight up', () => {
   expect([500, 1500, 2500].map((position) => dialDegrees(position, doc))).toEqual([-120, 0, 120]);
-  expect(fraction(2000, doc)).toBe(0.75);
+  expect(fraction(2000, doc.position)).toBe(0.75);
 });

@@ -1,7 +1,7 @@
 // From positions to the picture: angles of an arm's joints and of a dial's needle. Pure geometry; what a position is in
 // the real world (trim, direction) no board can tell, so the middle of the range is drawn as straight.
 
-import type { Family } from '#shared/protocol/families.ts';
+import type { Family, Range } from '#shared/protocol/families.ts';
 
 /** Position of a servo, null where it is not known. */
 export type Pose = (servo: number) => number | null;
@@ -48,7 +48,7 @@ export function armPicture(pose: Pose, scale: Scale): ArmPicture {
   const roll = joint(JOINT.roll, true);
   const grip = pose(JOINT.gripper);
   const jawDegrees =
-    JAW_OPEN_DEGREES - fraction(grip ?? scale.centre, scale) * (JAW_OPEN_DEGREES - JAW_SHUT_DEGREES);
+    JAW_OPEN_DEGREES - fraction(grip ?? scale.centre, scale.position) * (JAW_OPEN_DEGREES - JAW_SHUT_DEGREES);
   const seen = Math.abs(Math.cos((roll.degrees * Math.PI) / 180));
   return {
     shoulder,
@@ -78,10 +78,10 @@ export function shaftDegrees(position: number, { unit, position: range, centre }
 
 /** Turn of a dial's needle away from straight up. */
 export function dialDegrees(position: number, scale: Scale): number {
-  return (fraction(position, scale) - 0.5) * DIAL_DEGREES;
+  return (fraction(position, scale.position) - 0.5) * DIAL_DEGREES;
 }
 
 /** 0 at the low end of the range, 1 at the high end. */
-export function fraction(position: number, { position: range }: Pick<Family, 'position'>): number {
-  return (position - range.min) / (range.max - range.min);
+export function fraction(position: number, { min, max }: Range): number {
+  return (position - min) / (max - min);
 }

@@ -7,6 +7,7 @@ import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import { createNotices } from '../stores/notices.ts';
+import { createRobots } from '../stores/robots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
 import { browserClock } from '../transports/browserClock.ts';
@@ -23,10 +24,11 @@ export interface Page {
 export function openPage(): Page {
   const storage = browserStorage();
   const notices = createNotices(pageClock);
-  const device = createDevice(FAMILIES.doc, pageClock, notices);
+  const robots = createRobots(storage, notices);
+  const device = createDevice({ family: FAMILIES.doc, clock: pageClock, notices, robots });
   const boards = createBoards(storage);
   const stores = {
-    ...{ device, notices, boards },
+    ...{ device, notices, boards, robots },
     document: createDocument(storage, notices),
     view: createView(storage),
   };

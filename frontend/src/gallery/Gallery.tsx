@@ -14,6 +14,7 @@ import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import { createNotices } from '../stores/notices.ts';
+import { createRobots } from '../stores/robots.ts';
 import { StoresContext, type Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
@@ -74,7 +75,8 @@ const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined 
 function storesOf(specimen: Specimen): Stores {
   const family = specimen.isUnknown === true ? UNKNOWN_BOARD : FAMILIES[specimen.board ?? 'doc'];
   const notices = createNotices(pageClock);
-  const device = createDevice(family, pageClock, notices);
+  const robots = createRobots(NO_STORAGE, notices);
+  const device = createDevice({ family, clock: pageClock, notices, robots });
   const motions = motionsOf(specimen);
   if (specimen.way !== null) device.attach(frozenSession(family, specimen.state, motions), specimen.way);
   device.refreshTargets();
@@ -92,7 +94,7 @@ function storesOf(specimen: Specimen): Stores {
     boards.remember(specimen.way, specimen.board ?? 'doc');
     boards.rename(specimen.way, specimen.nickname);
   }
-  return { device, document, view, notices, boards };
+  return { device, document, view, notices, boards, robots };
 }
 
 function sampleFrame(number: number, { position, usualServoCount }: Family) {

@@ -4,14 +4,15 @@
 import { useEffect, useRef, type KeyboardEvent, type RefObject } from 'react';
 import { fraction } from '../body/pose.ts';
 import { useMotion } from '../body/useMotion.ts';
-import { positionRange, type Family } from '#shared/protocol/families.ts';
+import type { RobotServo } from '#shared/actions/robot.ts';
+import type { Family } from '#shared/protocol/families.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/en.ts';
 import { positionStep } from './positionStep.ts';
 import styles from './PositionSlider.module.css';
 
 export interface PositionSliderProps {
-  readonly servo: number;
+  readonly servo: RobotServo;
   readonly family: Family;
   readonly target: number | null;
   readonly blocked: boolean;
@@ -21,8 +22,8 @@ export interface PositionSliderProps {
 export function PositionSlider({ servo, family, target, blocked, onMove }: PositionSliderProps) {
   const input = useRef<HTMLInputElement>(null);
   const held = useRef(false);
-  const shown = target ?? family.centre;
-  const { min, max } = positionRange(family, servo);
+  const { min, max, home } = servo;
+  const shown = target ?? home;
 
   useEffect(() => {
     if (input.current !== null && !held.current) input.current.value = String(shown);
@@ -44,12 +45,12 @@ export function PositionSlider({ servo, family, target, blocked, onMove }: Posit
   return (
     <div className={cx(styles.slider, blocked && styles.blocked, target === null && styles.unknown)}>
       <div className={styles.track} aria-hidden="true" />
-      <EstimateMark servo={servo} family={family} />
+      <EstimateMark servo={servo} />
       <input
         ref={input}
         type="range"
         className={styles.input}
-        aria-label={words.servos.position(servo)}
+        aria-label={words.servos.position(servo.servo)}
         aria-valuetext={
           target === null ? words.servos.unknownValue : words.servos.valueText(target, family.unit)
         }
@@ -73,14 +74,13 @@ function release(held: RefObject<boolean>, input: HTMLInputElement | null, shown
   if (input !== null) input.value = String(shown);
 }
 
-function EstimateMark({ servo, family }: { readonly servo: number; readonly family: Family }) {
+function EstimateMark({ servo }: { readonly servo: RobotServo }) {
   const mark = useRef<HTMLDivElement>(null);
-  const scale = { ...family, position: positionRange(family, servo) };
-  useMotion(servo, ({ estimated }) => {
+  useMotion(servo.servo, ({ estimated }) => {
     if (mark.current === null) return;
     mark.current.hidden = estimated === null;
     if (estimated !== null)
-      mark.current.style.translate = `${(fraction(estimated, scale) * 100).toFixed(2)}% 0`;
+      mark.current.style.translate = `${(fraction(estimated, servo) * 100).toFixed(2)}% 0`;
   });
   return (
     <div className={styles.lane} aria-hidden="true">

@@ -2,7 +2,7 @@
 // drawn once a frame past React, so that a moving servo costs nothing elsewhere.
 
 import { memo } from 'react';
-import { positionRange } from '#shared/protocol/families.ts';
+import type { RobotServo } from '#shared/actions/robot.ts';
 import { Dial } from '../body/Dial.tsx';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
@@ -14,7 +14,8 @@ import { PositionSlider } from './PositionSlider.tsx';
 import { positionStep } from './positionStep.ts';
 import styles from './ServoRow.module.css';
 
-export const ServoRow = memo(function ServoRow({ servo }: { readonly servo: number }) {
+export const ServoRow = memo(function ServoRow({ servo: own }: { readonly servo: RobotServo }) {
+  const { servo, name: joint, min, max } = own;
   const { device, view, notices } = useStores();
   const family = useDevice((state) => state.family);
   const target = useDevice((state) => state.targets[servo] ?? null);
@@ -22,7 +23,6 @@ export const ServoRow = memo(function ServoRow({ servo }: { readonly servo: numb
   const isSelected = useView((state) => state.selectedServo === servo);
   const blocked = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
   const name = words.servos.name(servo);
-  const { min, max } = positionRange(family, servo);
   const move = (position: number): void => device.move([{ servo, position }], moveTime);
 
   return (
@@ -33,11 +33,9 @@ export const ServoRow = memo(function ServoRow({ servo }: { readonly servo: numb
       <Dial servo={servo} family={family} />
       <span className={styles.name}>
         {name}
-        <span className={styles.joint}>
-          {family.usualServoCount === 6 ? words.servos.joints[servo - 1] : ''}
-        </span>
+        <span className={styles.joint}>{joint === name ? '' : joint}</span>
       </span>
-      <PositionSlider servo={servo} family={family} target={target} blocked={blocked} onMove={move} />
+      <PositionSlider servo={own} family={family} target={target} blocked={blocked} onMove={move} />
       <NumberField
         label={words.servos.target(servo)}
         size="large"

@@ -4,7 +4,8 @@
 import { Body } from '../body/Body.tsx';
 import { motionHindrance } from '../stores/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
-import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
+import type { RobotServo } from '#shared/actions/robot.ts';
+import { useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
 import { Panel } from '../ui/Panel.tsx';
@@ -18,9 +19,8 @@ import styles from './ServosPanel.module.css';
 const FIT = 6;
 
 export function ServosPanel() {
-  const family = useDevice((state) => state.family);
+  const { servos } = useRobot();
   const hindrance = useSnapshot(motionHindrance);
-  const servos = Array.from({ length: family.usualServoCount }, (_, index) => index + 1);
   return (
     <Panel
       title={words.servos.title}
@@ -32,7 +32,7 @@ export function ServosPanel() {
       <Legend />
       <ol className={cx(styles.rows, servos.length > FIT && styles.scrolling)}>
         {servos.map((servo) => (
-          <ServoRow key={servo} servo={servo} />
+          <ServoRow key={servo.servo} servo={servo} />
         ))}
       </ol>
       <MoveTimeControl />
@@ -40,12 +40,11 @@ export function ServosPanel() {
   );
 }
 
-function CentreAll({ servos }: { readonly servos: readonly number[] }) {
+function CentreAll({ servos }: { readonly servos: readonly RobotServo[] }) {
   const { device } = useStores();
-  const family = useDevice((state) => state.family);
   const isDisabled = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
   const centre = (): void => {
-    const targets = servos.map((servo) => ({ servo, position: family.centre }));
+    const targets = servos.map(({ servo, home }) => ({ servo, position: home }));
     device.move(targets, GENTLE_MOVE_MS);
   };
   return (

@@ -4,10 +4,16 @@ import { createRig } from '#shared/session/rig.ts';
 import { canReadBattery, pollBattery } from './batteryPoll.ts';
 import { createDevice } from './device.ts';
 import { createNotices } from './notices.ts';
+import { createRobots } from './robots.ts';
 
 async function createDesk(visible = () => true) {
   const rig = await createRig();
-  const device = createDevice(FAMILIES.doc, rig.clock, createNotices(rig.clock));
+  const device = createDevice({
+    family: FAMILIES.doc,
+    clock: rig.clock,
+    notices: createNotices(rig.clock),
+    robots: createRobots({ getItem: () => null, setItem: () => undefined }, createNotices(rig.clock)),
+  });
   const end = pollBattery(device, visible);
   device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
   return { ...rig, device, end, asked: () => rig.ofKind('readBattery').length };

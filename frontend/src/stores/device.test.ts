@@ -1,10 +1,12 @@
 import { describe, expect, test } from 'vitest';
+import type { Robot } from '#shared/actions/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
 import { words } from '../words/en.ts';
 import { errorSentence } from '../words/errors.ts';
 import { createDevice } from './device.ts';
 import { createNotices } from './notices.ts';
+import { createRobots } from './robots.ts';
 
 const FRAMES = [900, 1500, 2100].map((position) => ({
   durationMs: 400,
@@ -14,7 +16,8 @@ const FRAMES = [900, 1500, 2100].map((position) => ({
 async function createDesk() {
   const rig = await createRig();
   const notices = createNotices(rig.clock);
-  const device = createDevice(FAMILIES.doc, rig.clock, notices);
+  const robots = createRobots({ getItem: () => null, setItem: () => undefined }, notices);
+  const device = createDevice({ family: FAMILIES.doc, clock: rig.clock, notices, robots });
   device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
   const state = () => device.store.getState();
   const told = () => notices.store.getState().map((notice) => notice.text);
@@ -25,7 +28,7 @@ async function createDesk() {
       device.refreshTargets();
     }
   }
-  return { ...rig, device, state, told, draw };
+  return { ...rig, robots, device, state, told, draw };
 }
 
 describe('a device with a session', () => {
@@ -79,11 +82,45 @@ describe('a device with a session', () => {
     expect(ofKind('move')).toHaveLength(movesBefore);
   });
 
-  test('tells the sentence of a value the board cannot take, and keeps the target', async () => {
+  test('tells the name and the range of a servo that shall not go there, and keeps the target', async () => {
     const { device, state, told } = await createDesk();
     device.move([{ servo: 1, position: 2600 }], 300);
-    expect(told()[0]).toContain('position of servo 1 is 2600');
+    expect(told()[0]).toContain('Gripper: 2600 is out of range');
     expect(state().targets).toEqual({});
+  });
+
+  describe('with a robot of its own limits and trim', () => {
+    const elbow = (robot: Robot): Robot => ({
+      ...robot,
+      servos: robot.servos.map((servo) =>
+        servo.servo === 4 ? { ...servo, min: 700, max: 2300, trim: 40 } : servo,
+      ),
+    });
+
+    async function createElbowDesk() {
+      const desk = await createDesk();
+      desk.robots.edit('limits', elbow);
+      return desk;
+    }
+
+    test('the board gets the trim on top; the page goes on in what was meant', async () => {
+      const { device, state, draw, ofKind } = await createElbowDesk();
+      device.move([{ servo: 4, position: 1000 }], 0);
+      await draw(2000);
+      expect(ofKind('move')[0]?.targets).toEqual([{ servo: 4, position: 1040 }]);
+      expect(state().targets).toEqual({ 4: 1000 });
+      expect(device.motion(4)).toEqual({ target: 1000, estimated: 1000 });
+    });
+
+    test('a group with one pose outside is neither played nor downloaded', async () => {
+      const { device, told, draw, heard } = await createElbowDesk();
+      const frames = [900, 2400].map((position) => ({ durationMs: 300, targets: [{ servo: 4, position }] }));
+      device.play(frames, () => undefined);
+      device.download(3, frames);
+      await draw(2000);
+      expect(told()[0]).toContain('Elbow: 2400 is out of range; it takes 700');
+      expect(heard).toEqual([]);
+    });
   });
 
   test('stores a group and tells when it is done', async () => {

@@ -2,6 +2,7 @@
 // intents of the panels into calls whose failures become notices. Live, never undoable; knows no transport and no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
+import { fromBoard, onBoard, refusedTarget, type Robot } from '#shared/actions/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
@@ -12,6 +13,7 @@ import type { Transport } from '#shared/session/transport.ts';
 import { words } from '../words/en.ts';
 import { moveDurationMs, type MoveTime } from './moveTime.ts';
 import type { Notices } from './notices.ts';
+import type { RobotStore } from './robots.ts';
 import { createTargetBook } from './targetBook.ts';
 import { createTrafficLog, type TrafficLog } from './traffic.ts';
 
@@ -64,7 +66,15 @@ export interface Device {
 
 const NO_MOTION: ServoMotion = { target: null, estimated: null };
 
-export function createDevice(family: Family, clock: Clock, notices: Notices): Device {
+export interface DeviceOptions {
+  readonly family: Family;
+  readonly clock: Clock;
+  readonly notices: Notices;
+  /** Whose limits and trims hold for everything that moves. */
+  readonly robots: RobotStore;
+}
+
+export function createDevice({ family, clock, notices, robots }: DeviceOptions): Device {
   const store = createStore<DeviceState>(() => ({ family, way: null, snapshot: INITIAL_STATE, targets: {} }));
   const traffic = createTrafficLog();
   const book = createTargetBook(clock);
@@ -74,11 +84,38 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
   let paused = false;
   let autoReconnect = true;
 
-  const motion = (servo: number): ServoMotion => session?.motion(servo) ?? NO_MOTION;
+  const robot = (): Robot => robots.current().robot;
+
+  function motion(servo: number): ServoMotion {
+    if (session === null) return NO_MOTION;
+    const { target, estimated } = session.motion(servo);
+    const meant = (at: number | null): number | null => at && fromBoard(robot(), servo, at);
+    return { target: meant(target), estimated: meant(estimated) };
+  }
+
+  /** What the board is told, or null where a limit of the robot forbids it; then the person is told which. */
+  function allowed(targets: readonly ServoTarget[]): readonly ServoTarget[] | null {
+    const refused = refusedTarget(robot(), targets);
+    if (refused === null) return onBoard(robot(), targets);
+    const { servo, position } = refused;
+    notices.tell('warning', words.refused(servo.name, position, servo.min, servo.max));
+    return null;
+  }
+
+  function allowedFrames(frames: readonly Frame[]): readonly Frame[] | null {
+    const kept: Frame[] = [];
+    for (const { durationMs, targets } of frames) {
+      const onIt = allowed(targets);
+      if (onIt === null) return null;
+      kept.push({ durationMs, targets: onIt });
+    }
+    return kept;
+  }
 
   function refreshTargets(): void {
-    const { family: current, targets } = store.getState();
-    const next = book.read(current.usualServoCount, motion, targets);
+    const { targets } = store.getState();
+    const servos = robot().servos.map(({ servo }) => servo);
+    const next = book.read(servos, motion, targets);
     if (next !== targets) store.setState({ targets: next });
   }
 
@@ -90,6 +127,7 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
 
   function noteState(snapshot: SessionState): void {
     store.setState({ snapshot, family: snapshot.family });
+    if (snapshot.family.id !== 'unknown') robots.takeUpFor(snapshot.family.id);
     if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
   }
 
@@ -131,6 +169,7 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
       void detach();
       session = next;
       session.setAutoReconnect(autoReconnect);
+      if (next.state.family.id !== 'unknown') robots.takeUpFor(next.state.family.id);
       store.setState({ family: next.state.family, way, snapshot: next.state });
       unsubscribe = next.subscribe({ state: noteState, traffic: traffic.add, problem: noteProblem });
     },
@@ -141,9 +180,10 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
     motion,
     refreshTargets,
     move(targets, time) {
-      if (session === null) return;
+      const onIt = session && allowed(targets);
+      if (session === null || onIt === null) return;
       try {
-        session.move(targets, moveDurationMs(time, targets, session.state.family, motion));
+        session.move(onIt, moveDurationMs(time, targets, session.state.family, motion));
         book.wish(targets);
         refreshTargets();
       } catch (error) {
@@ -163,12 +203,17 @@ export function createDevice(family: Family, clock: Clock, notices: Notices): De
     stopGroup: () => attempt((current) => current.stopGroup()),
     erase: () => attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased))),
     readBattery: () => attempt((current) => current.readBattery()),
-    download: (slot, frames) => attempt((current) => downloadTo(current, slot, frames)),
+    download(slot, frames) {
+      const onIt = allowedFrames(frames);
+      if (onIt !== null) attempt((current) => downloadTo(current, slot, onIt));
+    },
     cancelDownload: () => downloading.abort(),
     play(frames, finished) {
+      const onIt = allowedFrames(frames);
+      if (onIt === null) return;
       paused = false;
       attempt(async (current) => {
-        await current.play(frames);
+        await current.play(onIt);
         if (!paused) finished();
       });
     },

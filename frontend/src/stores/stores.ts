@@ -3,10 +3,12 @@
 
 import { createContext, use } from 'react';
 import { useStore } from 'zustand';
+import type { Robot } from '#shared/actions/robot.ts';
 import type { ActionGroup } from '#shared/actions/group.ts';
 import type { Boards } from './boards.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { Document, DocumentState } from './document.ts';
+import { currentOf, type RobotStore } from './robots.ts';
 import type { Notices } from './notices.ts';
 import type { View, ViewState } from './view.ts';
 
@@ -16,6 +18,7 @@ export interface Stores {
   readonly view: View;
   readonly notices: Notices;
   readonly boards: Boards;
+  readonly robots: RobotStore;
 }
 
 export const StoresContext = createContext<Stores | null>(null);
@@ -40,6 +43,11 @@ export function useDocument<T>(select: (state: DocumentState) => T): T {
 
 export function useGroup(): ActionGroup {
   return useDocument((state) => state.present);
+}
+
+/** The robot at hand. */
+export function useRobot(): Robot {
+  return useStore(useStores().robots.store, ({ present }) => currentOf(present).robot);
 }
 
 export function useView<T>(select: (state: ViewState) => T): T {

@@ -10,8 +10,8 @@ export type Targets = Readonly<Record<number, number>>;
 export interface TargetBook {
   wish(targets: readonly ServoTarget[]): void;
   clear(): void;
-  /** Targets of servos 1..count; the very same object where nothing changed. */
-  read(count: number, motion: (servo: number) => ServoMotion, before: Targets): Targets;
+  /** Targets of these servos; the very same object where nothing changed. */
+  read(servos: readonly number[], motion: (servo: number) => ServoMotion, before: Targets): Targets;
 }
 
 /** Longer than any packet waits for the wire; a wish that has not left by then was dropped. */
@@ -33,9 +33,9 @@ export function createTargetBook(clock: Clock): TargetBook {
       for (const { servo, position } of targets) wishes.set(servo, { position, untilMs });
     },
     clear: () => wishes.clear(),
-    read(count, motion, before) {
+    read(servos, motion, before) {
       const next: Record<number, number> = {};
-      for (let servo = 1; servo <= count; servo++) {
+      for (const servo of servos) {
         const target = targetOf(servo, motion(servo).target);
         if (target !== null) next[servo] = target;
       }

@@ -16,6 +16,7 @@ import {
 } from './numbers.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
+import { robotWords } from './robots.ts';
 import { timesWords } from './packets.ts';
 
 export const words = {
@@ -55,6 +56,7 @@ export const words = {
 
   identity: identityWords,
   guide: guideWords,
+  robots: robotWords,
 
   stop: {
     button: 'Stop',
@@ -130,7 +132,6 @@ export const words = {
   servos: {
     title: 'Servos',
     name: (servo: number): string => `Servo ${formatWhole(servo)}`,
-    joints: ['Gripper', 'Wrist roll', 'Wrist', 'Elbow', 'Shoulder', 'Base'] as readonly string[],
     position: (servo: number): string => `Servo ${formatWhole(servo)} position`,
     target: (servo: number): string => `Servo ${formatWhole(servo)} target`,
     valueText: (position: number, unit: PositionUnit): string => formatPosition(position, unit),

@@ -1,0 +1,85 @@
+import { describe, expect, test } from 'vitest';
+import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import type { Robot } from '#shared/actions/robot.ts';
+import { createNotices } from './notices.ts';
+import { createRobots } from './robots.ts';
+
+function storageWith(texts = new Map<string, string>()) {
+  return {
+    texts,
+    getItem: (key: string) => texts.get(key) ?? null,
+    setItem: (key: string, text: string) => void texts.set(key, text),
+  };
+}
+
+function shelf(storage = storageWith()) {
+  const notices = createNotices(createVirtualClock());
+  const robots = createRobots(storage, notices);
+  const told = () => notices.store.getState().map(({ text }) => text);
+  const names = () => robots.store.getState().present.own.map(({ robot }) => robot.name);
+  return { robots, told, names, storage };
+}
+
+const named =
+  (name: string) =>
+  (robot: Robot): Robot => ({ ...robot, name });
+
+const narrowed = (robot: Robot): Robot => ({
+  ...robot,
+  servos: robot.servos.map((servo) => (servo.servo === 4 ? { ...servo, min: 2000, max: 900 } : servo)),
+});
+
+describe('robots', () => {
+  test('there is one from the start, an arm', () => {
+    expect(shelf().robots.current().robot).toMatchObject({ body: 'arm', board: 'doc' });
+  });
+
+  test('edits are undone and redone, and are there at the next visit', () => {
+    const { robots, storage } = shelf();
+    robots.edit('rename', named('Desk arm'));
+    robots.undo();
+    robots.redo();
+    expect(shelf(storage).robots.current().robot.name).toBe('Desk arm');
+  });
+
+  test('an edit that leaves nonsense is refused with its reason, and changes nothing', () => {
+    const { robots, told } = shelf();
+    const before = robots.current();
+    expect(robots.edit('limits', narrowed)).toBe(false);
+    expect(robots.current()).toBe(before);
+    expect(told()).toEqual([expect.stringContaining('Elbow (servo 4): its lowest position 2000')]);
+  });
+
+  test('a board brings the robot that was described for it, or the usual one', () => {
+    const { robots, names } = shelf();
+    robots.takeUpFor('lsc-16');
+    expect(robots.current().robot.servos).toHaveLength(16);
+    robots.edit('rename', named('Walker'));
+    robots.takeUpFor('doc');
+    robots.takeUpFor('lsc-16');
+    expect(robots.current().robot.name).toBe('Walker');
+    expect(names()).toHaveLength(2);
+  });
+
+  test('duplicates and removals are steps; the last robot stays', () => {
+    const { robots, names } = shelf();
+    robots.duplicate();
+    expect(names()).toEqual(['Arm, 6 servos', 'Arm, 6 servos, copy']);
+    robots.remove(robots.current().id);
+    robots.remove(robots.current().id);
+    expect(names()).toEqual(['Arm, 6 servos']);
+    robots.undo();
+    expect(names()).toHaveLength(2);
+  });
+
+  test.each(['x', '{}', '{"files":[],"currentId":1}', '{"files":[{"id":1,"file":"no"}],"currentId":1}'])(
+    'saved text that is none of ours is set aside: %s',
+    (text) => {
+      const storage = storageWith(new Map([['servodeck.robots', text]]));
+      const { robots, told } = shelf(storage);
+      expect(robots.current().robot.body).toBe('arm');
+      expect(storage.texts.get('servodeck.robots.unreadable')).toBe(text);
+      expect(told()).toHaveLength(1);
+    },
+  );
+});

@@ -1,0 +1,167 @@
+// The robots a person has described, and the one at hand: undoable, saved in the browser's storage after each edit. Text that
+// cannot be read is set aside, never thrown away. Knows no link; which robot belongs to a connected board is asked of it.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import { commit, record, redo, startHistory, undo, type History } from '#shared/actions/history.ts';
+import { readyRobot, usualRobot, type ReadyRobotId } from '#shared/actions/readyRobots.ts';
+import { flawOf, type Robot } from '#shared/actions/robot.ts';
+import { robotFromText, robotToText } from '#shared/actions/robotText.ts';
+import type { FamilyId } from '#shared/protocol/families.ts';
+import { robotNames } from '../words/robots.ts';
+import { words } from '../words/en.ts';
+import type { TextStorage } from './document.ts';
+import type { Notices } from './notices.ts';
+
+export interface OwnRobot {
+  /** Means nothing outside this store; never used twice. */
+  readonly id: number;
+  readonly robot: Robot;
+}
+
+export interface Robots {
+  readonly own: readonly OwnRobot[];
+  /** The one at hand. */
+  readonly currentId: number;
+  readonly nextId: number;
+}
+
+export interface RobotStore {
+  readonly store: StoreApi<History<Robots>>;
+  current(): OwnRobot;
+  /** The robot on such a board: the one at hand, else the last one described for it, else the usual one, made now. */
+  takeUpFor(board: FamilyId): void;
+  takeUp(id: number): void;
+  add(label: string, robot: Robot): void;
+  /** False where the edit would leave a robot that cannot be; the person is told why. */
+  edit(label: string, change: (robot: Robot) => Robot): boolean;
+  duplicate(): void;
+  remove(id: number): void;
+  undo(): void;
+  redo(): void;
+}
+
+const KEY = 'servodeck.robots';
+const ASIDE_KEY = 'servodeck.robots.unreadable';
+
+export function createRobots(storage: TextStorage, notices: Notices): RobotStore {
+  const store = createStore<History<Robots>>(() => startHistory(load(storage, notices)));
+  const present = (): Robots => store.getState().present;
+
+  function change(next: History<Robots>): void {
+    store.setState(next, true);
+    try {
+      storage.setItem(KEY, toText(next.present));
+    } catch {
+      notices.tell('warning', words.robots.notSaved);
+    }
+  }
+
+  const step = (label: string, next: Robots): void => change(record(store.getState(), label, next));
+
+  /** No step of the history: nothing was described, only chosen. */
+  const silently = (next: Robots): void => change({ ...commit(store.getState()), present: next });
+
+  const current = (): OwnRobot => currentOf(present());
+
+  return {
+    store,
+    current,
+    takeUpFor(board) {
+      if (current().robot.board === board) return;
+      const { own } = present();
+      const known = own.findLast(({ robot }) => robot.board === board);
+      if (known !== undefined) silently({ ...present(), currentId: known.id });
+      else silently(withRobot(present(), freshRobot(usualRobot(board), board)));
+    },
+    takeUp(id) {
+      if (present().own.some((one) => one.id === id)) silently({ ...present(), currentId: id });
+    },
+    add: (label, robot) => step(label, withRobot(present(), robot)),
+    edit(label, edit) {
+      const { id, robot } = current();
+      const next = edit(robot);
+      const flaw = flawOf(next);
+      if (flaw !== null) notices.tell('warning', words.robots.flaw(flaw));
+      else if (next !== robot) step(label, replaced(present(), id, next));
+      return flaw === null;
+    },
+    duplicate() {
+      const { robot } = current();
+      step(
+        words.robots.steps.duplicate,
+        withRobot(present(), { ...robot, name: words.robots.copyOf(robot.name) }),
+      );
+    },
+    remove(id) {
+      const own = present().own.filter((one) => one.id !== id);
+      const next = own.at(-1);
+      if (next === undefined) return;
+      const { currentId } = present();
+      step(words.robots.steps.remove, {
+        ...present(),
+        own,
+        currentId: currentId === id ? next.id : currentId,
+      });
+    },
+    undo: () => change(undo(store.getState())),
+    redo: () => change(redo(store.getState())),
+  };
+}
+
+export function currentOf({ own, currentId }: Robots): OwnRobot {
+  const found = own.find(({ id }) => id === currentId) ?? own[0];
+  if (found === undefined) throw new Error('there is always one robot');
+  return found;
+}
+
+export function freshRobot(id: ReadyRobotId, board: FamilyId): Robot {
+  return readyRobot(id, board, robotNames(id));
+}
+
+function withRobot(robots: Robots, robot: Robot): Robots {
+  const { own, nextId } = robots;
+  return { own: [...own, { id: nextId, robot }], currentId: nextId, nextId: nextId + 1 };
+}
+
+function replaced(robots: Robots, id: number, robot: Robot): Robots {
+  return { ...robots, own: robots.own.map((one) => (one.id === id ? { id, robot } : one)) };
+}
+
+function toText({ own, currentId }: Robots): string {
+  const files = own.map(({ id, robot }) => ({ id, file: robotToText(robot) }));
+  return JSON.stringify({ files, currentId });
+}
+
+function load(storage: TextStorage, notices: Notices): Robots {
+  const fresh: Robots = { own: [{ id: 1, robot: freshRobot('arm', 'doc') }], currentId: 1, nextId: 2 };
+  try {
+    const text = storage.getItem(KEY);
+    if (text === null) return fresh;
+    const robots = fromText(text);
+    if (robots !== null) return robots;
+    storage.setItem(ASIDE_KEY, text);
+    notices.tell('warning', words.robots.unreadable);
+  } catch {
+    notices.tell('warning', words.robots.notSaved);
+  }
+  return fresh;
+}
+
+/** null where any of it is not what this store wrote. */
+function fromText(text: string): Robots | null {
+  try {
+    const { files, currentId } = JSON.parse(text) as {
+      files: { id: number; file: string }[];
+      currentId: number;
+    };
+    const own = files.map(({ id, file }) => {
+      const read = robotFromText(file);
+      if (!Number.isSafeInteger(id) || 'problem' in read) throw new Error('not one of ours');
+      return { id, robot: read.robot };
+    });
+    if (own.length === 0 || !Number.isSafeInteger(currentId)) return null;
+    return { own, currentId, nextId: Math.max(...own.map(({ id }) => id)) + 1 };
+  } catch {
+    return null;
+  }
+}

@@ -1,0 +1,129 @@
+// Robots as data: the ready ones are sound on each of their boards, files come back as they went, limits and trims hold.
+
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import publishedFile from '../../../docs/robot.schema.json' with { type: 'json' };
+import { READY_ROBOTS, readyRobot, type ReadyRobotId, type RobotNames } from './readyRobots.ts';
+import {
+  degreesOf,
+  flawOf,
+  fromBoard,
+  mirrored,
+  onBoard,
+  positionOf,
+  refusedTarget,
+  servoOf,
+  type Robot,
+} from './robot.ts';
+import { publishedSchema, robotFromText, robotToText } from './robotText.ts';
+
+const NAMES: RobotNames = { robot: 'Mine', role: (role, servo) => `${role} ${servo}`, limb: (limb) => limb };
+const READY = Object.entries(READY_ROBOTS).flatMap(([id, { boards }]) =>
+  boards.map((board) => [id as ReadyRobotId, board] as const),
+);
+const ARM = readyRobot('arm', 'openarm-new', NAMES);
+
+const withServo = (change: Partial<Robot['servos'][number]>): Robot => ({
+  ...ARM,
+  servos: ARM.servos.map((servo) => (servo.servo === 4 ? { ...servo, name: 'Elbow', ...change } : servo)),
+});
+
+describe.each(READY)('the ready %s on %s', (id, board) => {
+  const robot = readyRobot(id, board, NAMES);
+
+  test('is sound, comes back from its file, and has a place for each servo', () => {
+    expect(flawOf(robot)).toBeNull();
+    expect(robotFromText(robotToText(robot))).toEqual({ robot });
+    const places = robot.servos.map(({ place }) => `${place.x} ${place.y}`);
+    expect(new Set(places).size).toBe(places.length);
+  });
+
+  test("a servo's mirror has it as its own mirror", () => {
+    const partnered = robot.servos.filter(({ mirror }) => mirror !== null);
+    const back = partnered.map(({ mirror }) => servoOf(robot, mirror ?? 0)?.mirror);
+    expect(back).toEqual(partnered.map(({ servo }) => servo));
+  });
+});
+
+describe('what is wrong with a robot', () => {
+  test.each([
+    [{ servo: 5 }, 'servo 5 is there twice'],
+    [{ min: 1500, max: 1500 }, 'Elbow (servo 4): its lowest position 1500 is not below its highest 1500'],
+    [{ home: 400 }, 'Elbow (servo 4): its home 400 is outside 500..2500'],
+    [{ trim: 20 }, 'Elbow (servo 4): with its trim it leaves what the board can do, 500..2500'],
+    [{ mirror: 9 }, 'Elbow (servo 4): its mirror, servo 9, is not there'],
+    [{ servo: 7 }, 'Elbow (servo 7): its board takes servos 1..6'],
+  ])('%j: %s', (change, flaw) => {
+    const robot = withServo(change);
+    expect(flawOf(robot)).toBe(flaw);
+    expect(robotFromText(robotToText(robot))).toEqual({ problem: flaw });
+  });
+
+  test.each([
+    ['', 'this is no robot file of Servodeck'],
+    ['[]', 'this is no robot file of Servodeck'],
+    [robotToText(withServo({ min: 1.5 })), /^robot\.servos\.3\.min: /],
+    [robotToText({ ...ARM, name: ' ' }), /^robot\.name: /],
+    [robotToText(ARM).replace('"version": 1', '"version": 2'), /^version: /],
+  ])('a file that is none says where', (text, problem) => {
+    const read = robotFromText(text);
+    expect('problem' in read && read.problem).toMatch(problem);
+  });
+});
+
+describe('limits and trims', () => {
+  const robot = withServo({ min: 700, max: 2300, home: 1400, trim: 25 });
+
+  test('a target outside is refused with its servo; inside, or of a servo nobody described, it is not', () => {
+    expect(
+      refusedTarget(robot, [
+        { servo: 4, position: 700 },
+        { servo: 9, position: 1 },
+      ]),
+    ).toBeNull();
+    expect(
+      refusedTarget(robot, [
+        { servo: 1, position: 600 },
+        { servo: 4, position: 2301 },
+      ]),
+    ).toMatchObject({
+      servo: { name: 'Elbow', min: 700, max: 2300 },
+      position: 2301,
+    });
+  });
+
+  test('the board gets the trim on top, and its word is read without', () => {
+    expect(onBoard(robot, [{ servo: 4, position: 1000 }])).toEqual([{ servo: 4, position: 1025 }]);
+    expect(fromBoard(robot, 4, 1025)).toBe(1000);
+  });
+
+  const anyServo = fc.record({
+    home: fc.integer({ min: 900, max: 2100 }),
+    isReversed: fc.boolean(),
+    degreesPerUnit: fc.constantFrom(0.09, 0.135, 0.24),
+  });
+
+  test('degrees and positions are two ways to say the same', () => {
+    fc.assert(
+      fc.property(anyServo, fc.integer({ min: 500, max: 2500 }), (change, at) => {
+        const servo = servoOf(withServo(change), 4)!;
+        expect(positionOf(servo, degreesOf(servo, at))).toBe(at);
+      }),
+    );
+  });
+
+  test('mirrored twice, a position is where it was, unless a limit stood in the way', () => {
+    fc.assert(
+      fc.property(anyServo, anyServo, fc.integer({ min: 500, max: 2500 }), (one, other, at) => {
+        const from = servoOf(withServo(one), 4)!;
+        const to = servoOf(withServo({ ...other, degreesPerUnit: one.degreesPerUnit }), 4)!;
+        const there = mirrored(from, to, at);
+        if (there > to.min && there < to.max) expect(mirrored(to, from, there)).toBe(at);
+      }),
+    );
+  });
+});
+
+test('the published schema is the one that files are read by', () => {
+  expect(publishedSchema()).toEqual(publishedFile);
+});

@@ -1,0 +1,130 @@
+// A robot as its owner describes it: which board, which servos with names, limits, home, direction and trim, where they sit on
+// the body, what feeds it. One immutable value, checked by one schema; knows no session and no storage.
+//
+// A servo's position is what the person means by it; the board gets it plus the servo's trim. Both in board units.
+
+import * as z from 'zod/mini';
+import type { ServoTarget } from '../protocol/commands.ts';
+import { FAMILIES, positionRange, type FamilyId, type Range } from '../protocol/families.ts';
+
+export const BODIES = ['arm', 'hand', 'humanoid', 'hexapod', 'plain'] as const;
+export type BodyKind = (typeof BODIES)[number];
+
+/** `adapter`: a mains adapter or USB, whose volts say nothing of a charge. */
+export const BATTERY_KINDS = ['adapter', '2s', '3s'] as const;
+export type BatteryKind = (typeof BATTERY_KINDS)[number];
+
+export const NAME_LENGTH = 64;
+/** As far as any board's own trim goes (L14). */
+const TRIM: Range = { min: -125, max: 125 };
+
+const name = z.string().check(z.trim(), z.minLength(1), z.maxLength(NAME_LENGTH));
+const whole = (range: Range) => z.number().check(z.int(), z.gte(range.min), z.lte(range.max));
+const position = whole({ min: 0, max: 2500 });
+const familyIds = Object.keys(FAMILIES) as [FamilyId, ...FamilyId[]];
+
+const servoSchema = z.strictObject({
+  servo: whole({ min: 1, max: 253 }),
+  name,
+  /** Limbs and the like, e.g. `Left leg`; empty for none. */
+  group: z.string().check(z.maxLength(NAME_LENGTH)),
+  min: position,
+  max: position,
+  /** Where it rests, and 0 degrees. */
+  home: position,
+  /** A growing position turns it the other way than the body's picture does. */
+  isReversed: z.boolean(),
+  trim: whole(TRIM),
+  degreesPerUnit: z.number().check(z.gt(0), z.lte(2)),
+  /** The servo that does the same on the other side of the body. */
+  mirror: z.nullable(whole({ min: 1, max: 253 })),
+  /** Its place on the body's picture, in percent of width and height. */
+  place: z.strictObject({ x: whole({ min: 0, max: 100 }), y: whole({ min: 0, max: 100 }) }),
+});
+
+export const robotSchema = z.strictObject({
+  name,
+  board: z.enum(familyIds),
+  body: z.enum(BODIES),
+  battery: z.enum(BATTERY_KINDS),
+  servos: z.array(servoSchema).check(z.minLength(1), z.maxLength(253)),
+});
+
+export type RobotServo = Readonly<z.infer<typeof servoSchema>>;
+export type Robot = Readonly<Omit<z.infer<typeof robotSchema>, 'servos'>> & {
+  readonly servos: readonly RobotServo[];
+};
+
+/** What is wrong with a robot, as a sentence for people with its field in front; null where nothing is. */
+export function flawOf(robot: Robot): string | null {
+  const numbers = robot.servos.map(({ servo }) => servo);
+  const twice = numbers.find((servo, index) => numbers.indexOf(servo) < index);
+  if (twice !== undefined) return `servo ${twice} is there twice`;
+  for (const servo of robot.servos) {
+    const flaw = flawOfServo(servo, robot);
+    if (flaw !== null) return `${servo.name} (servo ${servo.servo}): ${flaw}`;
+  }
+  return null;
+}
+
+function flawOfServo({ servo, min, max, home, trim, mirror }: RobotServo, robot: Robot): string | null {
+  const family = FAMILIES[robot.board];
+  const board = positionRange(family, servo);
+  if (servo < family.servo.min || servo > family.servo.max)
+    return `its board takes servos ${family.servo.min}..${family.servo.max}`;
+  if (min >= max) return `its lowest position ${min} is not below its highest ${max}`;
+  if (home < min || home > max) return `its home ${home} is outside ${min}..${max}`;
+  if (min + trim < board.min || max + trim > board.max)
+    return `with its trim it leaves what the board can do, ${board.min}..${board.max}`;
+  if (mirror !== null && !robot.servos.some((other) => other.servo === mirror))
+    return `its mirror, servo ${mirror}, is not there`;
+  return null;
+}
+
+export function servoOf(robot: Robot, servo: number): RobotServo | undefined {
+  return robot.servos.find((one) => one.servo === servo);
+}
+
+/** A target that the robot must not reach, with the servo it is for and what that may do. */
+export interface LimitRefusal {
+  readonly servo: RobotServo;
+  readonly position: number;
+}
+
+/** The first target outside its servo's limits. Servos that the robot does not have are the board's affair. */
+export function refusedTarget(robot: Robot, targets: readonly ServoTarget[]): LimitRefusal | null {
+  for (const { servo: number, position: wanted } of targets) {
+    const servo = servoOf(robot, number);
+    if (servo !== undefined && (wanted < servo.min || wanted > servo.max)) return { servo, position: wanted };
+  }
+  return null;
+}
+
+/** As the board must be told: with each servo's trim. */
+export function onBoard(robot: Robot, targets: readonly ServoTarget[]): readonly ServoTarget[] {
+  return targets.map(({ servo, position: wanted }) => ({
+    servo,
+    position: wanted + (servoOf(robot, servo)?.trim ?? 0),
+  }));
+}
+
+/** What the person means by a position of the board. */
+export function fromBoard(robot: Robot, servo: number, onBoardAt: number): number {
+  return onBoardAt - (servoOf(robot, servo)?.trim ?? 0);
+}
+
+/** Away from home, in the servo's own direction. */
+export function degreesOf({ home, degreesPerUnit, isReversed }: RobotServo, at: number): number {
+  return (at - home) * degreesPerUnit * (isReversed ? -1 : 1);
+}
+
+/** The nearest position in board units. */
+export function positionOf({ home, degreesPerUnit, isReversed }: RobotServo, degrees: number): number {
+  return Math.round(home + (degrees * (isReversed ? -1 : 1)) / degreesPerUnit);
+}
+
+/** The position that looks the same on the other side: as far from the partner's home, turned the same way by the body. */
+export function mirrored(from: RobotServo, to: RobotServo, at: number): number {
+  const wanted = positionOf(to, degreesOf(from, at));
+  return Math.min(to.max, Math.max(to.min, wanted));
+}

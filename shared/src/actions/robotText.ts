@@ -1,0 +1,49 @@
+// A robot as a file, and back: JSON that carries its version and follows the published schema, docs/robot.schema.json. Reading
+// trusts nothing and says what is wrong in a sentence. Knows no place to store anything.
+
+import * as z from 'zod/mini';
+import { flawOf, robotSchema, type Robot } from './robot.ts';
+
+const FORMAT = 'servodeck-robot';
+const VERSION = 1;
+
+const fileSchema = z.strictObject({
+  format: z.literal(FORMAT),
+  version: z.literal(VERSION),
+  robot: robotSchema,
+});
+
+export function robotToText(robot: Robot): string {
+  return `${JSON.stringify({ format: FORMAT, version: VERSION, robot }, null, 2)}\n`;
+}
+
+export type ReadRobot = { readonly robot: Robot } | { readonly problem: string };
+
+export function robotFromText(text: string): ReadRobot {
+  const parsed = fileSchema.safeParse(jsonIn(text));
+  if (!parsed.success) return { problem: problemOf(parsed.error.issues) };
+  const { robot } = parsed.data;
+  const flaw = flawOf(robot);
+  return flaw === null ? { robot } : { problem: flaw };
+}
+
+/** The schema that other programs may use. */
+export function publishedSchema(): object {
+  return z.toJSONSchema(fileSchema, { target: 'draft-2020-12' });
+}
+
+function jsonIn(text: string): unknown {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return undefined;
+  }
+}
+
+type Issues = readonly { readonly path: readonly PropertyKey[]; readonly message: string }[];
+
+function problemOf(issues: Issues): string {
+  const [first] = issues;
+  if (first === undefined || first.path.length === 0) return 'this is no robot file of Servodeck';
+  return `${first.path.join('.')}: ${first.message}`;
+}
