@@ -12,6 +12,8 @@ export interface Outbox extends Source {
   readonly take: () => Uint8Array;
 }
 
+const NOTHING = new Uint8Array(0);
+
 export function createOutbox(now: () => number): Outbox {
   let onTheWay: { readonly atMs: number; readonly byte: number }[] = [];
   let arrived: number[] = [];
@@ -22,6 +24,7 @@ export function createOutbox(now: () => number): Outbox {
   }
 
   function take(): Uint8Array {
+    if (arrived.length === 0) return NOTHING;
     const bytes = Uint8Array.from(arrived);
     arrived = [];
     return bytes;
