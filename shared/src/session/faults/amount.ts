@@ -6,19 +6,23 @@ const env = runner?.env ?? {};
 
 /** Set by hand to repeat one failing case. */
 const ONLY_SEED = env.FAULT_SEED;
-/** `npm run test:long` sets it for every property; faults take their largest amounts then, as does a repeated case. */
-export const isLong = Number(env.PROPERTY_RUNS ?? 0) > 0 || ONLY_SEED !== undefined;
+/** `npm run test:long` sets it for every property; ten times the cases are tried then. */
+export const TIMES = Number(env.PROPERTY_RUNS ?? 0) > 0 ? 10 : 1;
 
-/** The seeds to try: `count` of them, ten times that in a long run, or the one asked for. */
+/** The seeds to try, from 0: `count` of them, ten times that in a long run, or the one asked for. */
 export function seeds(count: number): readonly number[] {
   if (ONLY_SEED !== undefined) return [Number(ONLY_SEED)];
-  return Array.from({ length: isLong ? count * 10 : count }, (_, index) => index + 1);
+  return Array.from({ length: count * TIMES }, (_, index) => index);
 }
 
-/** Every case of a table by its number, from 0, or the one asked for. */
-export function cases(count: number): readonly number[] {
-  if (ONLY_SEED !== undefined) return [Number(ONLY_SEED)].filter((number) => number < count);
-  return Array.from({ length: count }, (_, index) => index);
+/** Where a table of `size` cases has several rounds: round 0 is the table itself, each later one varies it. */
+export function caseOf(seed: number, size: number): { readonly at: number; readonly round: number } {
+  return { at: seed % size, round: Math.floor(seed / size) };
+}
+
+/** The command that runs these seeds of a file again. */
+export function replay(file: string, seed: number): string {
+  return `FAULT_SEED=${seed} npx vitest run shared/src/session/faults/${file}`;
 }
 
 /** Runs `attempt` and puts the way to repeat it in front of whatever it throws. */
@@ -26,12 +30,12 @@ export async function named(
   file: string,
   seed: number,
   what: string,
-  attempt: () => Promise<void>,
+  attempt: () => Promise<void> | void,
 ): Promise<void> {
   try {
     await attempt();
   } catch (error) {
-    const replay = `FAULT_SEED=${seed} npx vitest run shared/src/session/faults/${file}`;
-    throw new Error(`${what}, seed ${seed}\nreplay: ${replay}\n${String(error)}`, { cause: error });
+    const text = `${what}, seed ${seed}\nreplay: ${replay(file, seed)}\n${String(error)}`;
+    throw new Error(text, { cause: error });
   }
 }

@@ -2,13 +2,13 @@
 
 import { expect, test } from 'vitest';
 import { wireMs } from '../../protocol/packet.ts';
+import { createRandom } from '../../simulator/random.ts';
 import { createRig, type Rig } from '../rig.ts';
-import { cases, named } from './amount.ts';
+import { caseOf, named, seeds } from './amount.ts';
 
 const FILE = 'truncated.test.ts';
 const SERVOS = 32;
 const REST = 1_500;
-const WANTED = 1_700;
 const HEAD_BYTES = 7;
 const ENTRY_BYTES = 3;
 
@@ -35,14 +35,37 @@ async function runningRig(): Promise<Rig> {
   return rig;
 }
 
+interface Circumstances {
+  readonly wanted: number;
+  readonly durationMs: number;
+  /** How much of the byte is over when the cable comes off. */
+  readonly partOfByte: number;
+  readonly pulledForMs: number;
+}
+
+function circumstancesOf(round: number): Circumstances {
+  if (round === 0) return { wanted: 1_700, durationMs: 1_000, partOfByte: 0.1, pulledForMs: 300 };
+  const random = createRandom(round);
+  return {
+    wanted: 500 + Math.floor(random() * 1_000),
+    durationMs: Math.floor(random() * 30_000),
+    partOfByte: 0.01 + random() * 0.98,
+    pulledForMs: 1 + random() * 2_000,
+  };
+}
+
 /** Byte `cut` of the move is the first that does not arrive; then the cable comes back. */
-async function cutAndReturn(rig: Rig, servoCount: number, cut: number): Promise<void> {
-  const { session, clock, transport } = rig;
-  const targets = Array.from({ length: servoCount }, (_, at) => ({ servo: at + 1, position: WANTED }));
-  session.move(targets, 1_000);
-  await clock.advance(wireMs(cut) + 0.1);
+async function cutAndReturn(
+  { session, clock, transport }: Rig,
+  servoCount: number,
+  cut: number,
+  { wanted, durationMs, partOfByte, pulledForMs }: Circumstances,
+): Promise<void> {
+  const targets = Array.from({ length: servoCount }, (_, at) => ({ servo: at + 1, position: wanted }));
+  session.move(targets, durationMs);
+  await clock.advance(wireMs(cut + partOfByte));
   transport.unplug();
-  await clock.advance(300);
+  await clock.advance(pulledForMs);
   transport.plugIn();
   await clock.advance(1);
   expect(session.state.link.status).toBe('ready');
@@ -50,21 +73,27 @@ async function cutAndReturn(rig: Rig, servoCount: number, cut: number): Promise<
 
 const arrivedWhole = (servo: number, cut: number): boolean => cut >= HEAD_BYTES + servo * ENTRY_BYTES;
 
+async function cutMove(servoCount: number, cut: number, circumstances: Circumstances): Promise<void> {
+  const rig = await runningRig();
+  await cutAndReturn(rig, servoCount, cut, circumstances);
+  await rig.clock.advance(600);
+  const { board } = rig.transport;
+  expect(board.runningSlot()).toBeNull();
+  for (let servo = 1; servo <= SERVOS; servo += 1)
+    if (servo > servoCount || !arrivedWhole(servo, cut)) expect(board.target(servo)).toBe(REST);
+  expect(rig.session.state.latch).toEqual({ reason: 'reconnected', stop: 'sent' });
+}
+
 test.each([1, 6, 16, 32])(
   'a move of %i servos cut at any byte does not swallow the stop',
+  { timeout: 60_000 },
   async (servoCount) => {
-    const lastByte = HEAD_BYTES + servoCount * ENTRY_BYTES;
-    for (const cut of cases(lastByte + 1)) {
-      await named(FILE, cut, `cut after byte ${cut}`, async () => {
-        const rig = await runningRig();
-        await cutAndReturn(rig, servoCount, cut);
-        await rig.clock.advance(600);
-        const { board } = rig.transport;
-        expect(board.runningSlot()).toBeNull();
-        for (let servo = 1; servo <= SERVOS; servo += 1)
-          if (servo > servoCount || !arrivedWhole(servo, cut)) expect(board.target(servo)).toBe(REST);
-        expect(rig.session.state.latch).toEqual({ reason: 'reconnected', stop: 'sent' });
-      });
+    const cuts = HEAD_BYTES + servoCount * ENTRY_BYTES + 1;
+    for (const seed of seeds(cuts)) {
+      const { at: cut, round } = caseOf(seed, cuts);
+      await named(FILE, seed, `cut after byte ${cut}`, () =>
+        cutMove(servoCount, cut, circumstancesOf(round)),
+      );
     }
   },
 );
