@@ -24,6 +24,7 @@ from servodeck.messages import (
     json_schema,
 )
 from servodeck.packets import FAMILIES
+from tests.amount import TIMES
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, MOVE, RUN, STOP
 from tests.virtual_time import in_virtual_time, now
@@ -99,7 +100,7 @@ messages = st.one_of(
 texts = st.one_of(st.text(max_size=200), messages.map(json.dumps))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200 * TIMES)
 @given(st.lists(texts, max_size=5))
 def test_no_text_harms_the_gateway_and_a_stopped_robot_stays_stopped(asked: list[str]) -> None:
     say_while_latched(asked)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from servodeck.errors import BusyError, ClosedError, GatewayError, LatchedError, PortLostError
 from servodeck.wire import QUEUE_PER_OWNER, Wire
+from tests.amount import TIMES
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, GAP_MS, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
 from tests.virtual_time import at, in_virtual_time, now
@@ -244,7 +245,7 @@ async def test_bytes_of_the_board_come_through() -> None:
 asks = st.lists(st.tuples(st.integers(0, 400), st.sampled_from(["move", "battery", "stop"])), max_size=30)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60 * TIMES)
 @given(asks)
 def test_whatever_is_asked_and_when_packets_keep_their_distance_and_stops_purge(
     asked: list[tuple[int, str]],

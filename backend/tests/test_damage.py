@@ -1,0 +1,186 @@
+"""What one damaged byte costs, what garbage does, how a stream may be cut: F2, F3 and F4 of the fault table.
+
+The same amounts and limits as in shared/src/session/faults, for the gateway's own decoder.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from random import Random
+
+import pytest
+
+from servodeck.decoder import COMMAND_SHAPES, REPORT_SHAPES, Decoder, DecoderEvent, PacketEvent, Shapes
+from servodeck.families import DOC
+from servodeck.packets import encode
+from servodeck.values import Command, Download, Erase, Frame, Move, ReadBattery, Run, ServoTarget, Stop
+from tests.amount import named, replay, seeds
+
+FILE = "test_damage.py"
+CASES = 20_000
+STREAMS = 1_000
+PACKETS_PER_STREAM = 5
+VARIETY = 2_000
+DAMAGED_AND_NEIGHBOUR = 2
+MOST_WRONG_SHARE = 0.01
+GARBAGE_CHUNKS, CHUNK_BYTES = 160, 64 * 1024
+MOST_UNTOLD_BYTES = 512
+
+Speaker = Callable[[Random], bytes]
+
+
+def battery(random: Random) -> bytes:
+    return bytes.fromhex("5555040f") + random.randint(5_000, 12_600).to_bytes(2, "little")
+
+
+def ordinary_report(random: Random) -> bytes:
+    """OpenArm and its relatives: either the battery or nothing but a number."""
+    return random.choice((battery(random), bytes((0x55, 0x55, 2, random.choice((6, 7, 8, 25))))))
+
+
+def naming_report(random: Random) -> bytes:
+    """LSC and bus boards name the group they speak of."""
+    group = bytes((random.randrange(230),)) + random.randrange(4).to_bytes(2, "little")
+    positions = b"".join(
+        bytes((servo,)) + random.randrange(1_001).to_bytes(2, "little") for servo in range(1, 7)
+    )
+    return random.choice(
+        (
+            battery(random),
+            bytes.fromhex("55550506") + group,
+            bytes.fromhex("55550508") + group,
+            bytes.fromhex("55550207"),
+            bytes.fromhex("5555151506") + positions,
+        )
+    )
+
+
+def command(random: Random) -> bytes:
+    targets = tuple(ServoTarget(n, random.randint(500, 2_500)) for n in range(1, random.randint(2, 7)))
+    frame = Frame(random.randrange(3_000), targets)
+    kinds: tuple[Command, ...] = (
+        Move(frame.duration_ms, targets),
+        Download(random.randrange(256), 20, random.randrange(20), frame),
+        Run(random.randrange(256), random.randrange(10)),
+        Stop(),
+        Erase(),
+        ReadBattery(),
+    )
+    return encode(random.choice(kinds), DOC)
+
+
+def pool(speaker: Speaker) -> Sequence[bytes]:
+    """Made once: encoding takes longer than decoding."""
+    random = Random(0)
+    return [speaker(random) for _ in range(VARIETY)]
+
+
+SPEAKERS: dict[str, tuple[Shapes, Sequence[bytes]]] = {
+    "ordinary reports": (REPORT_SHAPES, pool(ordinary_report)),
+    "naming reports": (REPORT_SHAPES, pool(naming_report)),
+    "commands": (COMMAND_SHAPES, pool(command)),
+}
+each_speaker = pytest.mark.parametrize(("shapes", "packets"), SPEAKERS.values(), ids=SPEAKERS)
+
+
+def drop(stream: bytes, at: int, _random: Random) -> bytes:
+    return stream[:at] + stream[at + 1 :]
+
+
+def double(stream: bytes, at: int, _random: Random) -> bytes:
+    return stream[: at + 1] + stream[at:]
+
+
+def insert(stream: bytes, at: int, random: Random) -> bytes:
+    return stream[:at] + bytes((random.randrange(256),)) + stream[at:]
+
+
+def flip(stream: bytes, at: int, random: Random) -> bytes:
+    return stream[:at] + bytes((stream[at] ^ random.randint(1, 255),)) + stream[at + 1 :]
+
+
+DAMAGES = (drop, double, insert, flip)
+
+
+def decode(pieces: Iterable[bytes], shapes: Shapes) -> list[DecoderEvent]:
+    events: list[DecoderEvent] = []
+    decoder = Decoder(events.append, shapes)
+    for piece in pieces:
+        decoder.push(piece)
+    decoder.idle()
+    return events
+
+
+def arrived(sent: Sequence[bytes], got: Sequence[bytes]) -> int:
+    """How many of the sent packets came, in order: the longest common subsequence."""
+    row = [0] * (len(got) + 1)
+    for packet in sent:
+        before, row = row, [0]
+        for at, other in enumerate(got):
+            row.append(before[at] + 1 if packet == other else max(before[at + 1], row[at]))
+    return row[-1]
+
+
+def cost_of(
+    packets: Sequence[bytes], shapes: Shapes, damage: Callable[[bytes, int, Random], bytes], seed: int
+) -> tuple[int, int]:
+    """Packets lost, the damaged one included, and packets believed that nobody sent."""
+    random = Random(seed)
+    sent = random.choices(packets, k=PACKETS_PER_STREAM)
+    stream = b"".join(sent)
+    events = decode([damage(stream, random.randrange(len(stream)), random)], shapes)
+    got = [event.bytes for event in events if isinstance(event, PacketEvent)]
+    good = arrived(sent, got)
+    return len(sent) - good, len(got) - good
+
+
+@each_speaker
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_byte_costs_one_good_neighbour_at_most(
+    shapes: Shapes, packets: Sequence[bytes], damage: Callable[[bytes, int, Random], bytes]
+) -> None:
+    wrong: list[int] = []
+    for seed in seeds(CASES):
+        with named(FILE, seed, damage.__name__):
+            lost, believed = cost_of(packets, shapes, damage, seed)
+            # Only a wrong packet that is believed may swallow more than one good one.
+            assert lost <= DAMAGED_AND_NEIGHBOUR or believed, f"{lost} packets lost"
+        # A changed value shows nowhere: there is no checksum.
+        if lost > DAMAGED_AND_NEIGHBOUR if damage is flip else believed:
+            wrong.append(seed)
+    assert len(wrong) <= MOST_WRONG_SHARE * len(seeds(CASES)), replay(FILE, wrong[0])
+
+
+def stream_of(packets: Sequence[bytes], seed: int) -> bytes:
+    """Every second one is damaged somewhere: whole packets alone are too easy to cut."""
+    random = Random(seed)
+    stream = b"".join(random.choices(packets, k=PACKETS_PER_STREAM))
+    return random.choice(DAMAGES)(stream, random.randrange(len(stream)), random) if seed % 2 else stream
+
+
+@each_speaker
+def test_a_stream_says_the_same_however_it_is_cut(shapes: Shapes, packets: Sequence[bytes]) -> None:
+    for seed in seeds(STREAMS):
+        with named(FILE, seed, "cut"):
+            stream = stream_of(packets, seed)
+            whole = decode([stream], shapes)
+            assert decode((stream[at : at + 1] for at in range(len(stream))), shapes) == whole
+            for at in range(1, len(stream)):
+                assert decode((stream[:at], stream[at:]), shapes) == whole, f"cut before byte {at}"
+
+
+@pytest.mark.parametrize("shapes", [REPORT_SHAPES, COMMAND_SHAPES], ids=["reports", "commands"])
+def test_ten_megabytes_of_garbage_are_told_again_and_none_of_it_is_kept(shapes: Shapes) -> None:
+    for seed in seeds(1):
+        with named(FILE, seed, "garbage"):
+            random = Random(seed)
+            told = 0
+
+            def count(event: DecoderEvent) -> None:
+                nonlocal told
+                told += len(event.bytes)
+
+            decoder = Decoder(count, shapes)
+            for fed in range(CHUNK_BYTES, (GARBAGE_CHUNKS + 1) * CHUNK_BYTES, CHUNK_BYTES):
+                decoder.push(random.randbytes(CHUNK_BYTES))
+                assert fed - told <= MOST_UNTOLD_BYTES
+            decoder.idle()
+            assert told == GARBAGE_CHUNKS * CHUNK_BYTES
