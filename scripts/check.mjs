@@ -15,7 +15,7 @@ await main(async () => {
   return conclude(
     await runTasks([
       all.unit({ long: false }),
-      all.gateway,
+      all.gateway({ long: false }),
       all.lint,
       all.types,
       all.pageTypes,

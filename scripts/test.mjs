@@ -1,5 +1,5 @@
-// `npm test`: sets everything up, a browser included, then every check and test there is. `-- --long` gives property
-// tests many more inputs.
+// `npm test`: sets everything up, a browser included, then every check and test there is. `-- --long` gives properties and
+// tables of faults at least ten times the inputs.
 
 import { browserForTests } from './browser.mjs';
 import * as all from './checks.mjs';
@@ -18,7 +18,7 @@ await main(async () => {
   const built = await runTasks([all.build]); // the page is part of what is tested below
   const still = runTasks([
     all.unit({ long }),
-    all.gateway,
+    all.gateway({ long }),
     all.lint,
     all.types,
     all.pageTypes,
