@@ -114,7 +114,10 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
     setAutoReconnect: reconnect.setEnabled,
     async send(packet) {
       const mine = generation;
-      if (!isOpen(mine)) throw new LinkError('closed', 'the link is not open');
+      if (!isOpen(mine))
+        throw isDown()
+          ? new LinkError('lost', 'the link is gone')
+          : new LinkError('closed', 'the link is not open');
       await transport.send(packet);
       // A transport may count the wire's time without looking at the cable.
       if (!isOpen(mine)) throw new LinkError('lost', 'the link went while the packet left');
