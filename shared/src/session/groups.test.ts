@@ -233,6 +233,21 @@ describe('erase', () => {
   });
 });
 
+describe('STOP while a run waits for the end of the group before it', () => {
+  test('keeps that run from leaving', async () => {
+    const rig = await createRig();
+    await stored(rig, 5);
+    void rig.session.run(5, 0);
+    await rig.clock.advance(200);
+    const second = rig.session.run(5, 2).catch((error: unknown) => error);
+    await rig.clock.advance(30);
+    void rig.session.halt();
+    await rig.clock.advance(2_000);
+    expect(await second).toMatchObject({ code: 'latched' });
+    expect(rig.ofKind('run')).toHaveLength(1);
+  });
+});
+
 describe('the battery', () => {
   test('is read in millivolts with the time of the reading', async () => {
     const rig = await createRig({ batteryMv: 7_500 });

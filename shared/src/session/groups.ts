@@ -77,7 +77,11 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
       throw new LinkError('slotBroken', `slot ${slot} holds half a group: download it again`);
     if (store.state.activity.kind === 'playing')
       throw new LinkError('busy', 'the page is playing: stop it first');
-    if (store.state.activity.kind === 'running') await stop();
+    if (store.state.activity.kind === 'running') {
+      await stop();
+      // Somebody may have pressed STOP meanwhile.
+      requireReleased(core);
+    }
     began(slot, times, 'requested');
     if (!family.answers.includes('run')) return exchange.tell(command);
     try {
