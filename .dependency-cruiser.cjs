@@ -2,7 +2,7 @@
 // Types count as imports. Say a change of this file in docs/adr/.
 
 // A rig or a board under test exists for tests and measurements.
-const testSupport = '(/rig|UnderTest)[.]ts$';
+const testSupport = '(/rig|/recordingRig|UnderTest)[.]ts$';
 const test = `[.]test[.]tsx?$|${testSupport}`;
 const page = '^frontend/src/';
 
@@ -71,6 +71,21 @@ module.exports = {
       'One file of the simulator fulfils what a session asks of a link; the board itself has never heard of it.',
       { path: '^shared/src/simulator/', pathNot: [test, '^shared/src/simulator/transport[.]ts$'] },
       { path: '^shared/src/session/' },
+    ),
+    forbid(
+      'recordings-stand-on-top',
+      'A recording is replayed with session and simulator; none of them has heard of it.',
+      { path: '^shared/src/(protocol|motion|session|actions|simulator)/' },
+      { path: '^shared/src/recording/' },
+    ),
+    forbid(
+      'the-page-only-writes-recordings',
+      'Replays are for the command line and tests; the page keeps and writes a log.',
+      { path: page },
+      {
+        path: '^shared/src/recording/',
+        pathNot: '^shared/src/recording/(recorder|recording|tape|text|line)[.]ts$',
+      },
     ),
 
     forbid(

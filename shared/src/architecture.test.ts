@@ -15,6 +15,7 @@ const mayKnow: Record<string, readonly string[]> = {
   'shared/session': ['shared/motion', 'shared/protocol', 'shared/clock'],
   'shared/actions': ['shared/motion', 'shared/protocol', 'shared/clock'],
   'shared/simulator': ['shared/protocol', 'shared/clock'],
+  'shared/recording': ['shared/session', 'shared/simulator', 'shared/protocol', 'shared/clock'],
   'frontend/words': ['shared'],
   'frontend/ui': ['frontend/words'],
   'frontend/transports': ['shared'],
@@ -25,7 +26,7 @@ const importStatement =
 const processEntry = 'shared/src/simulator/process.ts';
 /** The simulated board as a transport: the one file of the simulator that knows what a session asks of a link. */
 const simulatedTransport = 'shared/src/simulator/transport.ts';
-const forTestsOnly = /\.(test|generated|d)\.tsx?$|\/rig\.ts$|UnderTest\.ts$/;
+const forTestsOnly = /\.(test|generated|d)\.tsx?$|\/(rig|recordingRig)\.ts$|UnderTest\.ts$/;
 
 /** `shared/src/protocol/packet.ts` belongs to `shared/protocol`, `shared/src/clock.ts` to `shared/clock`. */
 function partOf(file: string): string {

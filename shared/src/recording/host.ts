@@ -1,0 +1,41 @@
+// Asks a session for what the host of a recording wanted. Knows the operations of a session; not where the wishes come from.
+
+import type { Session } from '../session/session.ts';
+import type { Intent } from './intents.ts';
+
+type Perform<K extends Intent['kind']> = (intent: Extract<Intent, { kind: K }>) => Promise<unknown>;
+
+/** `failed` hears of each wish that was refused or came to nothing. */
+export function createHost(
+  session: Session,
+  failed: (what: Intent['kind'], error: unknown) => void,
+): (intent: Intent) => void {
+  let downloading = { aborted: false };
+
+  const perform: { readonly [K in Intent['kind']]: Perform<K> } = {
+    async move({ targets, durationMs }) {
+      session.move(targets, durationMs);
+      await Promise.resolve();
+    },
+    run: ({ slot, times }) => session.run(slot, times),
+    stopGroup: () => session.stopGroup(),
+    halt: () => session.halt(),
+    resume: () => session.resume(),
+    close: () => session.close(),
+    erase: () => session.erase(),
+    readBattery: () => session.readBattery(),
+    download({ slot, frames }) {
+      downloading = { aborted: false };
+      return session.download(slot, frames, downloading);
+    },
+    async cancelDownload() {
+      downloading.aborted = true;
+      await Promise.resolve();
+    },
+  };
+
+  return (intent) => {
+    const work = perform[intent.kind] as Perform<typeof intent.kind>;
+    work(intent as never).catch((error: unknown) => failed(intent.kind, error));
+  };
+}
