@@ -30,6 +30,7 @@ export function frozenSession(
     erase: nothing,
     readBattery: () => Promise.resolve(0),
     download: nothing,
+    sendRaw: nothing,
     play: nothing,
     stopPlaying: () => undefined,
     motion: (servo) => motions[servo] ?? { target: null, estimated: null },

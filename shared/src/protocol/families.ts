@@ -56,6 +56,8 @@ export interface Family {
   readonly resyncFiller: number | null;
   /** Command numbers that must not go out, not even by hand: they write settings, move, or mean nobody knows what. */
   readonly neverSend: readonly number[];
+  /** Numbers it does not know do nothing at all there (S5); elsewhere nobody knows what they do. */
+  readonly ignoresUnknown: boolean;
   /** Pause the board needs between two packets, after the last byte has left the wire (S52, S54). */
   readonly serviceGapMs: number;
 }
@@ -106,7 +108,8 @@ const openFirmware = {
   emptySeven: 'runFinished', // S48
   queryKillsRun: false,
   resyncFiller: 0xfd, // S7
-  neverSend: [], // numbers it does not know are ignored (S5)
+  neverSend: [],
+  ignoresUnknown: true, // S5
   serviceGapMs: 10, // S54
 } as const;
 
@@ -143,6 +146,7 @@ const closedFirmware = {
   // Download and erase of the maker's program, whose steps nobody documented (X6), then what sources call now reading, now
   // writing of trims, and what hits every servo on the bus.
   neverSend: [5, 8, 12, 13, 14, 22, 23, 24, 26, 27, 28],
+  ignoresUnknown: false, // X2
   serviceGapMs: 10,
 } as const;
 
@@ -199,6 +203,7 @@ const leArm = {
   queryKillsRun: true,
   resyncFiller: null, // L3
   neverSend: [4, 9, 10, 11, 12], // moves by other means, writes trims to flash, goes to the reset pose
+  ignoresUnknown: false, // even these end a running group (L8)
   serviceGapMs: 10,
 } as const;
 
@@ -283,6 +288,7 @@ export const UNKNOWN_BOARD: Family = {
   answers: ['readBattery', 'readVersion', 'readPositions'],
   emptySeven: 'unknown',
   resyncFiller: null,
+  ignoresUnknown: false,
 };
 
 export function family(id: BoardId): Family {

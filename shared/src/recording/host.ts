@@ -24,6 +24,7 @@ export function createHost(
     close: () => session.close(),
     erase: () => session.erase(),
     readBattery: () => session.readBattery(),
+    raw: ({ bytes }) => session.sendRaw(bytes),
     download({ slot, frames }) {
       downloading = { aborted: false };
       return session.download(slot, frames, downloading);

@@ -2,6 +2,7 @@
 // the hold behind it, the frames of a download and their repeats). Pure; knows no clock and no session.
 
 import type { Command, Frame } from '../protocol/commands.ts';
+import { HEADER } from '../protocol/packet.ts';
 import { parseCommand } from '../protocol/parse.ts';
 import type { Entry } from './recording.ts';
 
@@ -11,6 +12,8 @@ type AskableCommand = Extract<Command, { kind: (typeof ASKABLE)[number] }>;
 
 export type Intent =
   | AskableCommand
+  /** Sent by hand, or a question by which boards are told apart. */
+  | { readonly kind: 'raw'; readonly bytes: Uint8Array }
   | { readonly kind: 'stopGroup' | 'cancelDownload' | 'halt' | 'resume' | 'close' }
   /** Frames that were never sent are the last one again; the host gave up before them. */
   | { readonly kind: 'download'; readonly slot: number; readonly frames: readonly Frame[] };
@@ -51,7 +54,9 @@ export function intentsOf(entries: readonly Entry[]): readonly (Intent | null)[]
     download = null;
     // Latched, a session sends nothing that moves but its own hold.
     if (command?.kind === 'move' && isLatched) return null;
-    return isAskable(command) ? command : null;
+    if (isAskable(command)) return command;
+    // What begins otherwise is the filler after a cut packet: the session sends it by itself.
+    return bytes[0] === HEADER ? { kind: 'raw', bytes } : null;
   }
 
   return entries.map((entry, index) => {

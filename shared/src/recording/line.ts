@@ -15,8 +15,8 @@ const EVENT_SIGN = '=';
 const MARKS: ReadonlyMap<string, ByteMark> = new Map(
   Object.entries(SIGNS).map(([mark, sign]) => [sign, mark as ByteMark]),
 );
-/** Longer than any noise is reported in one piece, and than any packet. */
-const MAX_BYTES = 255;
+/** Longer than any packet, any piece of noise and the filler after a cut packet. */
+const MAX_BYTES = 512;
 /** Time, sign, the rest. */
 const COLUMNS = /^(\S+)[ \t]+(\S+)(?:[ \t]+(.*))?$/u;
 const SECONDS = /^\d{1,9}(?:\.\d{1,3})?$/u;

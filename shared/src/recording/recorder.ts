@@ -14,13 +14,11 @@ export function entryOf(traffic: Traffic): PacketEntry {
   return { atMs, mark: traffic.direction === 'out' ? 'sent' : 'received', bytes };
 }
 
-/** Null where a board of this family knows no such command. */
-export function trafficOf({ atMs, mark, bytes }: PacketEntry, family: Family): Traffic | null {
+export function trafficOf({ atMs, mark, bytes }: PacketEntry, family: Family): Traffic {
   if (mark === 'garbage' || mark === 'truncated') return { atMs, direction: 'in', bytes, noise: mark };
   const packet = { command: bytes[3] ?? 0, params: bytes.subarray(4) };
   if (mark === 'received') return { atMs, direction: 'in', bytes, report: parseReport(packet, family) };
-  const command = parseCommand(packet);
-  return command && { atMs, direction: 'out', bytes, command };
+  return { atMs, direction: 'out', bytes, command: parseCommand(packet) };
 }
 
 const LINK_HAPPENINGS: Readonly<Partial<Record<SessionState['link']['status'], Happening>>> = {

@@ -36,6 +36,7 @@ const DEEDS: Readonly<Record<string, (session: Session) => void>> = {
   battery: (session) => void session.readBattery().catch(nothing),
   download: (session) => void session.download(5, frames(3)).catch(nothing),
   erase: (session) => void session.erase().catch(nothing),
+  raw: (session) => void session.sendRaw(Uint8Array.of(0x55, 0x55, 2, 0x63)).catch(nothing),
 };
 
 function doDeed(session: Session, deed: string): void {

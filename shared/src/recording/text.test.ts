@@ -16,7 +16,7 @@ const boards = [...Object.keys(FAMILIES), 'unknown'].filter(isBoardId);
 const moment = fc.oneof(
   fc.record({
     mark: fc.constantFrom('sent' as const, 'received' as const, 'garbage' as const, 'truncated' as const),
-    bytes: fc.uint8Array({ minLength: 1, maxLength: 255 }),
+    bytes: fc.uint8Array({ minLength: 1, maxLength: 300 }),
   }),
   fc.record({ mark: fc.constant('link' as const), happening: fc.constantFrom(...HAPPENINGS) }),
   fc.record({ mark: fc.constant('board' as const), board: fc.constantFrom(...boards) }),
@@ -102,7 +102,7 @@ describe('a log as text', () => {
     ['> 55 55 02 07', 'a line begins with its seconds, like 12.345, then a sign'],
     ['1.0 = away', '"away" is none of opened, lost, closed, stopped, latched, resumed, board NAME'],
     ['1.0 = board toaster', 'no board is called "toaster"'],
-    [`1.0 > ${'00 '.repeat(256)}`, 'more than 255 bytes in one line'],
+    [`1.0 > ${'00 '.repeat(513)}`, 'more than 512 bytes in one line'],
     ['colour: red', '"colour:" is none of servodeck-log, board, port, date, app, expect'],
     ['board: doc', '"board:" comes twice'],
     ['2.0 = lost\n1.0 = opened', 'time runs backwards here'],

@@ -9,6 +9,7 @@ import { createGroups, type Groups } from './groups.ts';
 import { createLive, type Live } from './live.ts';
 import type { LinkError } from './linkError.ts';
 import { createMoveBuffer } from './moveBuffer.ts';
+import { createRaw } from './raw.ts';
 import type { Replies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
 import type { SlotMemory } from './slotMemory.ts';
@@ -23,6 +24,7 @@ export interface Driver {
   readonly live: Live;
   readonly groups: Groups;
   readBattery(): Promise<number>;
+  sendRaw(packet: Uint8Array): Promise<void>;
   /** The newest move as a packet, or null when there is nothing to say. */
   takeMove(): Uint8Array | null;
   /** Ends what is under way here. What the board was asked and did not answer stays unknown. */
@@ -39,12 +41,14 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
   const moves = createMoveBuffer(family);
   const live = createLive(core, moves);
   const groups = createGroups(core, slotMemory);
+  const readBattery = createBatteryReader(core);
 
   return {
     core,
     live,
     groups,
-    readBattery: createBatteryReader(core),
+    readBattery,
+    sendRaw: createRaw(core, { run: groups.run, stop: groups.stop, readBattery }),
     takeMove() {
       const move = moves.take();
       return move && encodeOrRefuse(robot.softened(move), family);

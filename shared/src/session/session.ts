@@ -63,6 +63,8 @@ export interface Session {
   erase(): Promise<void>;
   /** Millivolts. */
   readBattery(): Promise<number>;
+  /** A packet written by hand, as it is. Rejects with what keeps this board from getting it: rawPacket.ts, raw.ts. */
+  sendRaw(packet: Uint8Array): Promise<void>;
   /** Stores `frames` in `slot`; progress is in `state.activity`. */
   download(slot: number, frames: readonly Frame[], signal?: CancelSignal): Promise<void>;
   /** Plays from the page. Resolves at the end or after `stopPlaying`. */
@@ -141,9 +143,10 @@ export function createSession(options: SessionOptions): Session {
 
   /** Into the log when it begins to leave, so that its answer comes after it. */
   function note(packet: Uint8Array): void {
-    const command = commandIn(packet);
-    if (command !== null)
-      store.emit('traffic', { atMs: clock.now(), direction: 'out', bytes: packet, command });
+    store.emit('traffic', {
+      ...{ atMs: clock.now(), direction: 'out', bytes: packet },
+      command: commandIn(packet),
+    });
   }
 
   /** Into the estimate when it has left: not before can the board act on it. */
@@ -220,6 +223,7 @@ export function createSession(options: SessionOptions): Session {
     resume: halt.resume,
     erase: () => driver.groups.erase(),
     readBattery: () => driver.readBattery(),
+    sendRaw: (packet) => driver.sendRaw(packet),
     download: (slot, frames, signal) => driver.groups.download(slot, frames, signal),
     play: (frames, playing) => driver.live.play(frames, playing?.times ?? 1),
     stopPlaying: () => driver.live.stopPlaying(),

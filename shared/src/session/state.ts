@@ -77,11 +77,13 @@ export interface ServoMotion {
   readonly estimated: number | null;
 }
 
-export type Traffic = { readonly atMs: number; readonly bytes: Uint8Array } & (
-  | { readonly direction: 'out'; readonly command: Command }
-  | { readonly direction: 'in'; readonly report: Report }
-  | { readonly direction: 'in'; readonly noise: 'garbage' | 'truncated' }
-);
+export type Traffic = { readonly atMs: number; readonly bytes: Uint8Array } &
+  /** Null where it is no command: filler after a cut packet, or a number that the board ignores, sent by hand. */
+  (
+    | { readonly direction: 'out'; readonly command: Command | null }
+    | { readonly direction: 'in'; readonly report: Report }
+    | { readonly direction: 'in'; readonly noise: 'garbage' | 'truncated' }
+  );
 
 export interface SessionEvents {
   state(state: SessionState): void;

@@ -1,0 +1,67 @@
+// Packets written by hand: sent as they are, by the road each would take anyway, or refused. Knows which of them need what; what
+// a packet says and whether the family may get it is rawPacket.ts.
+
+import type { Command, CommandKind } from '../protocol/commands.ts';
+import { judgeRaw } from '../protocol/rawPacket.ts';
+import { requireReady, requireReleased, type Core } from './core.ts';
+import { LinkError } from './linkError.ts';
+import { FIRST_MOVE_MS } from './timings.ts';
+
+/** Commands that are more than a packet: each keeps account of what it began. */
+export interface RawOperations {
+  run(slot: number, times: number): Promise<void>;
+  stop(): Promise<void>;
+  readBattery(): Promise<unknown>;
+}
+
+/** Neither moves anything nor changes what a group does. */
+const HARMLESS: readonly CommandKind[] = ['stop', 'readBattery', 'readPositions', 'readVersion'];
+
+export function isHarmless({ kind }: Command): boolean {
+  return HARMLESS.includes(kind);
+}
+
+/** Gives the operation: rejects with a LinkError, or resolves when the packet has left. */
+export function createRaw(core: Core, operations: RawOperations): (bytes: Uint8Array) => Promise<void> {
+  const { family, store, robot, lanes } = core;
+
+  async function send(bytes: Uint8Array): Promise<void> {
+    const verdict = judgeRaw(bytes, family);
+    if (verdict.kind === 'refused' || verdict.kind === 'incomplete') {
+      const why = verdict.kind === 'refused' ? verdict.reason.code : verdict.kind;
+      throw new LinkError('outOfRange', `packet by hand: ${why}`);
+    }
+    if (verdict.kind === 'command') return perform(verdict.command, bytes);
+    requireReleased(core);
+    return lanes.request(bytes);
+  }
+
+  async function perform(command: Command, bytes: Uint8Array): Promise<void> {
+    if (command.kind === 'stop') return operations.stop();
+    if (isHarmless(command)) requireAskable();
+    else requireReleased(core);
+    if (command.kind === 'run') return operations.run(command.slot, command.times);
+    if (command.kind === 'readBattery') {
+      await operations.readBattery();
+      return;
+    }
+    if (command.kind === 'move') requireGentle(command);
+    return lanes.request(bytes);
+  }
+
+  function requireAskable(): void {
+    requireReady(store);
+    if (family.queryKillsRun && store.state.activity.kind === 'running')
+      throw new LinkError('busy', 'a question would end the running group (L8)');
+  }
+
+  /** The bytes are not changed on the way, so what would be slowed down elsewhere is refused here. */
+  function requireGentle(move: Extract<Command, { kind: 'move' }>): void {
+    const { durationMs } = robot.softened(move);
+    if (durationMs === move.durationMs) return;
+    const reason = `the first move of a servo takes ${FIRST_MOVE_MS} ms, this one at least ${durationMs}`;
+    throw new LinkError('outOfRange', reason);
+  }
+
+  return send;
+}
