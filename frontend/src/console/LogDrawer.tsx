@@ -5,7 +5,7 @@ import { useStores, useView } from '../stores/stores.ts';
 import { Button as AriaButton } from 'react-aria-components/Button';
 import { Icon } from '../ui/Icon.tsx';
 import { words } from '../words/en.ts';
-import { bytesText, meaning } from './describe.ts';
+import { arrowOf, bytesText, meaning } from './describe.ts';
 import { LogPanel } from './LogPanel.tsx';
 import styles from './LogDrawer.module.css';
 
@@ -36,14 +36,15 @@ export function LogDrawer() {
 
 function Latest() {
   const { device } = useStores();
-  const entry = useStore(device.traffic.store, (entries) => entries.at(-1));
-  if (entry === undefined) return <span className={styles.latest}>{words.log.empty}</span>;
+  const { oldestId, nextId } = useStore(device.traffic.store);
+  if (nextId === oldestId) return <span className={styles.latest}>{words.log.empty}</span>;
+  const latest = device.traffic.at(nextId - 1);
   return (
     <>
       <span className={styles.latest}>
-        {entry.traffic.direction === 'out' ? '→' : '←'} {meaning(entry.traffic)}
+        {arrowOf(latest.entry)} {meaning(latest)}
       </span>
-      <code className={styles.bytes}>{bytesText(entry.traffic)}</code>
+      <code className={styles.bytes}>{bytesText(latest)}</code>
     </>
   );
 }

@@ -1,47 +1,95 @@
-// The packet log: what went over the link, in words and in bytes, newest last. It can be paused, cleared and thinned out by
-// kind; paused, packets go on being collected.
+// The packet log: what went over the link, in words and in bytes, newest last. It can be held, searched, thinned out by kind,
+// saved and cleared; held, packets go on being collected. Below it packets are sent by hand.
 
-import { useState } from 'react';
+import { useDeferredValue, useMemo, useState, useSyncExternalStore } from 'react';
 import { useStore } from 'zustand';
-import type { LogEntry } from '../stores/traffic.ts';
 import { useStores, useView } from '../stores/stores.ts';
+import type { LogEntry } from '../stores/traffic.ts';
 import type { LogKind } from '../stores/view.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { words } from '../words/en.ts';
 import { LogList } from './LogList.tsx';
-import { kindOf } from './describe.ts';
+import { RawSender } from './RawSender.tsx';
+import { kindOf, lineText } from './describe.ts';
+import { createLogView } from './logView.ts';
+import { logFile, saveFile } from './savedLog.ts';
+import { searchTest } from './search.ts';
 import styles from './LogPanel.module.css';
 
-const KINDS = ['move', 'group', 'battery', 'noise'] as const satisfies readonly LogKind[];
+const KINDS = ['move', 'group', 'battery', 'link', 'noise'] as const satisfies readonly LogKind[];
 
 export function LogPanel({ onFold }: { readonly onFold?: () => void }) {
-  const { device } = useStores();
-  const live = useStore(device.traffic.store);
-  const [frozen, setFrozen] = useState<readonly LogEntry[] | null>(null);
-  const kinds = useView((state) => state.logKinds);
-  const shown = (frozen ?? live).filter((entry) => kinds.includes(kindOf(entry.traffic)));
-  const missed = (live.at(-1)?.id ?? 0) - (frozen?.at(-1)?.id ?? 0);
+  const { device, notices } = useStores();
+  const { nextId } = useStore(device.traffic.store);
+  const [heldId, setHeldId] = useState<number | null>(null);
+  const [query, setQuery] = useState('');
+  const view = useLogView(useDeferredValue(query), heldId);
+
+  const save = (): void => {
+    const { family, way } = device.store.getState();
+    saveFile(logFile(device.traffic, family.id, way?.label ?? '', new Date()));
+  };
+  const copy = (entry: LogEntry): void => {
+    copyText(lineText(entry)).then(
+      () => notices.tell('info', words.log.copied),
+      () => notices.tell('warning', words.log.notCopied),
+    );
+  };
+
   return (
     <section className={styles.panel} aria-label={words.log.title} data-fills="">
       <header className={styles.header}>
         <h2 className={styles.title}>{words.log.title}</h2>
         <Filter />
-        <span className={styles.note}>{frozen === null ? '' : words.log.paused(missed)}</span>
+        <input
+          type="search"
+          className={styles.search}
+          aria-label={words.log.search}
+          placeholder={words.log.searchHint}
+          autoComplete="off"
+          spellCheck={false}
+          value={query}
+          onChange={(event) => setQuery(event.target.value)}
+        />
+        <span className={styles.note}>
+          {words.log.counted(view.passedCount, view.hiddenCount)}
+          {heldId !== null && ` · ${words.log.paused(nextId - heldId)}`}
+        </span>
         <Button
           tone="quiet"
-          icon={frozen === null ? 'pause' : 'play'}
-          onPress={() => setFrozen(frozen === null ? live : null)}
+          icon={heldId === null ? 'pause' : 'play'}
+          onPress={() => setHeldId(heldId === null ? nextId : null)}
         >
-          {frozen === null ? words.log.pause : words.log.goOn}
+          {heldId === null ? words.log.pause : words.log.goOn}
+        </Button>
+        <Button tone="quiet" icon="save" hint={words.log.saveHint} onPress={save}>
+          {words.log.save}
         </Button>
         <Button tone="quiet" icon="trash" onPress={() => device.traffic.clear()}>
           {words.log.clear}
         </Button>
         {onFold !== undefined && <IconButton icon="down" label={words.log.fold} onPress={onFold} />}
       </header>
-      <LogList entries={shown} />
+      <LogList entries={view.shown} hiddenCount={view.hiddenCount} onCopy={copy} />
+      <RawSender />
     </section>
   );
+}
+
+function useLogView(query: string, heldId: number | null) {
+  const { device } = useStores();
+  const kinds = useView((state) => state.logKinds);
+  const view = useMemo(() => {
+    const isFound = searchTest(query);
+    const passes = (entry: LogEntry): boolean => kinds.includes(kindOf(entry)) && isFound(entry);
+    return createLogView(device.traffic, passes, heldId ?? undefined);
+  }, [device, kinds, query, heldId]);
+  return useSyncExternalStore(view.subscribe, view.getSnapshot);
+}
+
+/** Rejects where the browser forbids it; on an insecure address it has no clipboard at all. */
+async function copyText(text: string): Promise<void> {
+  await navigator.clipboard.writeText(text);
 }
 
 function Filter() {

@@ -1,16 +1,25 @@
 // What a line of the log says and which kind it is counted under. Pure.
 
-import { toHex } from '#shared/protocol/hex.ts';
 import type { CommandKind } from '#shared/protocol/commands.ts';
+import { family } from '#shared/protocol/families.ts';
+import { toHex } from '#shared/protocol/hex.ts';
 import type { ReportKind } from '#shared/protocol/reports.ts';
+import { writeLine } from '#shared/recording/line.ts';
+import { trafficOf } from '#shared/recording/recorder.ts';
+import type { Entry } from '#shared/recording/recording.ts';
 import type { Traffic } from '#shared/session/state.ts';
+import type { LogEntry } from '../stores/traffic.ts';
 import type { LogKind } from '../stores/view.ts';
-import { commandWords, noiseWords, reportWords } from '../words/packets.ts';
+import { boardWords, commandWords, happeningWords, noiseWords, reportWords } from '../words/packets.ts';
 
-export function kindOf(traffic: Traffic): LogKind {
+type Described = Pick<LogEntry, 'board' | 'entry'>;
+
+export function kindOf(described: Described): LogKind {
+  const traffic = trafficIn(described);
+  if (traffic === null) return 'link';
   if ('noise' in traffic) return 'noise';
-  const { kind } = traffic.direction === 'in' ? traffic.report : traffic.command;
-  return KINDS[kind] ?? 'group';
+  const kind = traffic.direction === 'in' ? traffic.report.kind : traffic.command?.kind;
+  return (kind && KINDS[kind]) ?? 'group';
 }
 
 /** What is no affair of groups. */
@@ -23,9 +32,32 @@ const KINDS: Readonly<Partial<Record<CommandKind | ReportKind, LogKind>>> = {
   battery: 'battery',
 };
 
-export function meaning(traffic: Traffic): string {
+export function meaning(described: Described): string {
+  const { entry } = described;
+  if (entry.mark === 'link') return happeningWords(entry.happening);
+  if (entry.mark === 'board') return boardWords(family(entry.board).name);
+  const traffic = trafficOf(entry, family(described.board));
   if ('noise' in traffic) return noiseWords(traffic.noise, traffic.bytes.length);
-  return traffic.direction === 'out' ? commandWords(traffic.command) : reportWords(traffic.report);
+  return traffic.direction === 'out'
+    ? commandWords(traffic.command, traffic.bytes)
+    : reportWords(traffic.report);
 }
 
-export const bytesText = (traffic: Traffic): string => toHex(traffic.bytes);
+export function bytesText({ entry }: Pick<Described, 'entry'>): string {
+  return 'bytes' in entry ? toHex(entry.bytes) : '';
+}
+
+/** As it stands in a saved log. */
+export function lineText(described: Described): string {
+  return `${writeLine(described.entry)}  # ${meaning(described)}`;
+}
+
+/** To the board, from it, or neither. */
+export function arrowOf({ mark }: Entry): '→' | '←' | '·' {
+  if (mark === 'link' || mark === 'board') return '·';
+  return mark === 'sent' ? '→' : '←';
+}
+
+function trafficIn({ board, entry }: Described): Traffic | null {
+  return 'bytes' in entry ? trafficOf(entry, family(board)) : null;
+}

@@ -19,6 +19,7 @@ import { StoresContext, type Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
+import { RawSpecimens } from './RawSpecimens.tsx';
 import { frozenSession } from './frozen.ts';
 import { motionsOf, SPECIMENS, type Specimen } from './specimens.ts';
 import { SAMPLE_TRAFFIC } from './traffic.ts';
@@ -38,6 +39,7 @@ export function Gallery() {
         ))}
       </nav>
       {wanted === null && <ConnectSpecimens />}
+      {wanted === null && <RawSpecimens />}
       {shown.map((specimen) => (
         <Shown key={specimen.name} specimen={specimen} />
       ))}
@@ -80,7 +82,7 @@ function storesOf(specimen: Specimen): Stores {
   const motions = motionsOf(specimen);
   if (specimen.way !== null) device.attach(frozenSession(family, specimen.state, motions), specimen.way);
   device.refreshTargets();
-  if (specimen.pose !== 'unknown') for (const entry of SAMPLE_TRAFFIC) device.traffic.add(entry);
+  if (specimen.pose !== 'unknown') for (const entry of SAMPLE_TRAFFIC) device.traffic.add(entry, family.id);
   const document = createDocument(NO_STORAGE, notices);
   for (let number = 1; number <= specimen.frames; number++) {
     document.edit('frame', (group) =>

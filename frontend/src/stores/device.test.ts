@@ -176,16 +176,32 @@ describe('a device with a session', () => {
     expect(state().snapshot.latch).toMatchObject({ reason: 'reconnected' });
   });
 
-  test('logs each packet once, newest last, and at most five hundred', async () => {
-    const { device, draw } = await createDesk();
-    for (let count = 0; count < 520; count++) {
-      device.move([{ servo: 1, position: 1000 + count }], 0);
-      await draw(40);
-    }
-    const entries = device.traffic.store.getState();
-    expect(entries).toHaveLength(500);
-    expect(entries.at(-1)!.id - entries[0]!.id).toBe(499);
-    expect(entries.at(-1)!.traffic).toMatchObject({ direction: 'out', command: { kind: 'move' } });
+  test('logs each packet and what becomes of the link, once and in order', async () => {
+    const { device, draw, transport } = await createDesk();
+    device.move([{ servo: 1, position: 1700 }], 0);
+    await draw(200);
+    device.halt();
+    await draw(400);
+    device.resume();
+    await draw(100);
+    transport.unplug();
+    await draw(100);
+    await device.detach();
+    const { entries } = device.traffic.content('doc');
+    const marks = entries.map((entry) => (entry.mark === 'link' ? entry.happening : entry.mark));
+    const stop = ['stopped', 'sent', 'sent', 'sent'];
+    expect(marks).toEqual(['opened', 'sent', ...stop, 'resumed', 'lost', 'latched', 'closed']);
+    const { oldestId, nextId } = device.traffic.store.getState();
+    expect(nextId - oldestId).toBe(entries.length);
+  });
+
+  test('sends a packet by hand, or tells why not', async () => {
+    const { device, draw, ofKind, told } = await createDesk();
+    device.sendRaw(Uint8Array.of(0x55, 0x55, 2, 15));
+    device.sendRaw(Uint8Array.of(0x55, 0x55, 2, 6));
+    await draw(500);
+    expect(ofKind('readBattery')).toHaveLength(1);
+    expect(told()).toEqual([errorSentence('outOfRange', 'packet by hand: otherShape')]);
   });
 
   test('detached, it is as if nothing had ever been connected', async () => {

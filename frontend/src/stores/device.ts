@@ -57,6 +57,7 @@ export interface Device {
   stopGroup(): void;
   erase(): void;
   readBattery(): void;
+  sendRaw(packet: Uint8Array): void;
   download(slot: number, frames: readonly Frame[]): void;
   cancelDownload(): void;
   /** `finished` is called after the last frame, not after a pause, a stop or a failure. */
@@ -128,6 +129,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   function noteState(snapshot: SessionState): void {
     store.setState({ snapshot, family: snapshot.family });
     if (snapshot.family.id !== 'unknown') robots.takeUpFor(snapshot.family.id);
+    traffic.note(snapshot, clock.now(), snapshot.family.id);
     if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
   }
 
@@ -146,6 +148,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     unsubscribe();
     book.clear();
     store.setState({ way: null, snapshot: INITIAL_STATE, targets: {} });
+    traffic.note(INITIAL_STATE, clock.now(), store.getState().family.id);
     await former?.close();
   }
 
@@ -169,9 +172,13 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       void detach();
       session = next;
       session.setAutoReconnect(autoReconnect);
-      if (next.state.family.id !== 'unknown') robots.takeUpFor(next.state.family.id);
-      store.setState({ family: next.state.family, way, snapshot: next.state });
-      unsubscribe = next.subscribe({ state: noteState, traffic: traffic.add, problem: noteProblem });
+      store.setState({ way });
+      noteState(next.state);
+      unsubscribe = next.subscribe({
+        state: noteState,
+        traffic: (entry) => traffic.add(entry, next.state.family.id),
+        problem: noteProblem,
+      });
     },
     describe(described, way) {
       if (described === session) store.setState({ way });
@@ -207,6 +214,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       const onIt = allowedFrames(frames);
       if (onIt !== null) attempt((current) => downloadTo(current, slot, onIt));
     },
+    sendRaw: (packet) => attempt((current) => current.sendRaw(packet)),
     cancelDownload: () => downloading.abort(),
     play(frames, finished) {
       const onIt = allowedFrames(frames);

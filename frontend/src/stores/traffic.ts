@@ -1,30 +1,52 @@
-// The newest packets of the link, at most 500, each with a number of its own. Knows no session.
+// The log of the visit: packets and what became of the link, the newest 20,000, each with a number of its own. Knows what a
+// session tells; what it means to a person is said elsewhere.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Traffic } from '#shared/session/state.ts';
+import type { BoardId } from '#shared/protocol/families.ts';
+import { createHappeningsReader, entryOf } from '#shared/recording/recorder.ts';
+import { createTape, type Tape, type TapeEntry } from '#shared/recording/tape.ts';
+import type { SessionState, Traffic } from '#shared/session/state.ts';
 
-export interface LogEntry {
-  readonly id: number;
-  readonly traffic: Traffic;
+export type LogEntry = TapeEntry;
+
+export interface LogBounds {
+  /** The oldest entry that is kept. */
+  readonly oldestId: number;
+  /** What the next one will get. */
+  readonly nextId: number;
 }
 
-export interface TrafficLog {
-  readonly store: StoreApi<readonly LogEntry[]>;
-  add(traffic: Traffic): void;
+export interface TrafficLog extends Pick<Tape, 'at' | 'content'> {
+  readonly store: StoreApi<LogBounds>;
+  /** `board`: what the board was taken for when the packet passed. */
+  add(traffic: Traffic, board: BoardId): void;
+  /** Keeps what changed since the snapshot before. */
+  note(snapshot: Pick<SessionState, 'link' | 'latch'>, atMs: number, board: BoardId): void;
   clear(): void;
 }
 
-const CAPACITY = 500;
-
 export function createTrafficLog(): TrafficLog {
-  const store = createStore<readonly LogEntry[]>(() => []);
-  let nextId = 1;
+  const tape = createTape();
+  const bounds = (): LogBounds => ({ oldestId: tape.oldestId(), nextId: tape.nextId() });
+  const store = createStore<LogBounds>(bounds);
+  const happenings = createHappeningsReader();
+
   return {
     store,
-    add(traffic) {
-      const entry = { id: nextId++, traffic };
-      store.setState((entries) => [...entries.slice(1 - CAPACITY), entry], true);
+    at: tape.at,
+    content: tape.content,
+    add(traffic, board) {
+      tape.add(entryOf(traffic), board);
+      store.setState(bounds());
     },
-    clear: () => store.setState([], true),
+    note(snapshot, atMs, board) {
+      const happened = happenings(snapshot);
+      for (const happening of happened) tape.add({ atMs, mark: 'link', happening }, board);
+      if (happened.length > 0) store.setState(bounds());
+    },
+    clear() {
+      tape.clear();
+      store.setState(bounds());
+    },
   };
 }

@@ -7,7 +7,7 @@ import type { MoveTime } from './moveTime.ts';
 
 export type Tab = 'live' | 'actions' | 'board' | 'log';
 export type Theme = 'system' | 'light' | 'dark';
-export type LogKind = 'move' | 'group' | 'battery' | 'noise';
+export type LogKind = 'move' | 'group' | 'battery' | 'link' | 'noise';
 
 export interface ViewState {
   readonly tab: Tab;
@@ -37,7 +37,7 @@ export const INITIAL_VIEW: ViewState = {
   theme: 'system',
   connectOpen: false,
   logOpen: false,
-  logKinds: ['move', 'group', 'battery', 'noise'],
+  logKinds: ['move', 'group', 'battery', 'link', 'noise'],
   selectedFrame: null,
   selectedServo: null,
   playFrom: 0,

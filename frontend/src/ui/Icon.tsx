@@ -16,6 +16,7 @@ const PATHS = {
   up: 'M3 10l5-5 5 5',
   down: 'M3 6l5 5 5-5',
   download: 'M8 2.5v7.5M4.5 7L8 10.5 11.5 7M3 13.5h10',
+  save: 'M3 3h8l2 2v8H3zM5.5 3v3.5h4V3M5.5 13V9.5h5V13',
   refresh: 'M13 3v3.5H9.5M12.7 6.2A5 5 0 1 0 13 9',
   pose: 'M3 13h10M8 13V9L4.5 6.5 8 3.5l4 1.5',
   update: 'M3 3h10v10H3zM5.5 8l2 2 3.5-4',

@@ -279,10 +279,34 @@ export const words = {
     goOn: 'Continue log',
     paused: (count: number): string => `Held; ${formatCount(count)} new`,
     clear: 'Clear log',
+    save: 'Save log',
+    saveHint: 'A text file of this visit’s packets, for a bug report',
+    copy: 'Copy line',
+    copied: 'The line is copied.',
+    notCopied: 'The browser does not allow copying here. Select the line and copy it by hand.',
     filter: 'Show',
-    kinds: { move: 'Moves', group: 'Groups', battery: 'Battery', noise: 'Noise' },
+    kinds: { move: 'Moves', group: 'Groups', battery: 'Battery', link: 'Link', noise: 'Noise' },
+    search: 'Find in the log',
+    searchHint: 'Words or hex',
+    counted: (passed: number, hidden: number): string =>
+      hidden === 0
+        ? `${formatCount(passed)} ${passed === 1 ? 'line' : 'lines'}`
+        : `${formatCount(passed)} of ${formatCount(passed + hidden)} lines`,
+    nothingFound: 'No line is like that',
     sent: 'Sent',
     received: 'Received',
+    link: 'Link',
+  },
+
+  raw: {
+    title: 'Send by hand',
+    field: 'Packet in hex',
+    example: '55 55 02 0F',
+    hint: 'Type a packet to see what the board would make of it.',
+    notHex: 'Only whole bytes in hex: 0 to 9 and A to F.',
+    consent: 'I know what this does',
+    send: 'Send packet',
+    waits: 'Stopped. Resume before this can go.',
   },
 
   refused: (name: string, value: number, min: number, max: number): string =>

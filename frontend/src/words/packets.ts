@@ -1,13 +1,17 @@
-// Packets in plain words for the log. Knows the meaning of commands and reports, not their bytes.
+// Packets in plain words, for the log and for packets written by hand. Knows the meaning of commands and reports.
 
-import type { Command, ServoTarget } from '#shared/protocol/commands.ts';
+import type { Command, CommandKind, ServoTarget } from '#shared/protocol/commands.ts';
+import type { RawRefusal, RawVerdict } from '#shared/protocol/rawPacket.ts';
 import type { Report } from '#shared/protocol/reports.ts';
-import { formatMs, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
+import type { Happening } from '#shared/recording/recording.ts';
+import { formatCount, formatMs, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
 
 /** Targets named in one line of the log; the bytes beside it have the rest. */
 const TARGETS_SHOWN = 6;
 
-export function commandWords(command: Command): string {
+/** `command` null: what the family knows nothing of, by its bytes. */
+export function commandWords(command: Command | null, bytes: Uint8Array): string {
+  if (command === null) return unknownWords(bytes);
   switch (command.kind) {
     case 'move':
       return `Move ${targetWords(command.targets)} in ${formatMs(command.durationMs)}`;
@@ -30,6 +34,11 @@ export function commandWords(command: Command): string {
     case 'readVersion':
       return 'Ask for the version';
   }
+}
+
+function unknownWords(bytes: Uint8Array): string {
+  if (bytes[0] !== 0x55) return `Filler that frees the board from a cut packet, ${bytesWords(bytes.length)}`;
+  return `Command ${formatWhole(bytes[3] ?? 0)}, unknown to this board`;
 }
 
 export function reportWords(report: Report): string {
@@ -60,8 +69,77 @@ export function reportWords(report: Report): string {
 }
 
 export function noiseWords(noise: 'garbage' | 'truncated', byteCount: number): string {
-  const bytes = byteCount === 1 ? '1 byte' : `${formatWhole(byteCount)} bytes`;
+  const bytes = bytesWords(byteCount);
   return noise === 'garbage' ? `Noise, ${bytes}` : `Packet cut short, ${bytes}`;
+}
+
+const HAPPENINGS: Readonly<Record<Happening, string>> = {
+  opened: 'Link ready',
+  lost: 'Link lost',
+  closed: 'Link closed',
+  stopped: 'Stop was pressed',
+  latched: 'Motion waits for Resume',
+  resumed: 'Motion allowed again',
+};
+
+export const happeningWords = (happening: Happening): string => HAPPENINGS[happening];
+
+export const boardWords = (board: string): string => `From here on the board is ${board}`;
+
+const COMMANDS: Readonly<Record<CommandKind, string>> = {
+  move: 'Move',
+  run: 'Run',
+  stop: 'Stop',
+  erase: 'Erase',
+  readBattery: 'Ask for the battery',
+  download: 'Store frame',
+  setSpeed: 'Speed',
+  release: 'Release',
+  readPositions: 'Ask where servos stand',
+  readVersion: 'Ask for the version',
+};
+
+/** What the board would make of a packet written by hand, or why it does not get it. */
+export function rawWords(verdict: RawVerdict, bytes: Uint8Array, board: string): string {
+  switch (verdict.kind) {
+    case 'command':
+      return commandWords(verdict.command, bytes);
+    case 'ignored':
+      return `Command ${formatWhole(verdict.number)} is unknown to ${board}, which ignores it`;
+    case 'incomplete':
+      return verdict.missing === null
+        ? 'Goes on with 55 55, LEN and the command'
+        : `Not whole: ${bytesWords(verdict.missing)} missing for this LEN`;
+    case 'refused':
+      return `${refusalWords(verdict.reason, board)}.`;
+  }
+}
+
+function refusalWords(reason: RawRefusal, board: string): string {
+  switch (reason.code) {
+    case 'noHeader':
+      return 'A packet begins with 55 55';
+    case 'shortLength':
+      return `LEN ${formatWhole(reason.length)} is too small; it counts itself and the command, so it is 2 at least`;
+    case 'longLength':
+      return `LEN ${formatWhole(reason.length)} is too large; ${board} takes ${formatWhole(reason.limit)} at most`;
+    case 'tooLong':
+      return `Too long: ${bytesWords(reason.extra)} more than LEN says`;
+    case 'neverSend':
+      return `Command ${formatWhole(reason.number)} never goes to ${board}: it writes settings, moves, or nobody knows what it does`;
+    case 'unknownNumber':
+      return `Nobody knows what ${board} does with command ${formatWhole(reason.number)}, so it is not sent`;
+    case 'flash':
+      return 'This writes to the board’s memory and needs its answers: use the Board panel';
+    case 'otherShape':
+      return `“${COMMANDS[reason.command]}” does not look like this; the board would act on bytes of earlier packets`;
+    case 'limits':
+      return `The board cannot take this: ${reason.detail}`;
+  }
+}
+
+function bytesWords(count: number): string {
+  return count === 1 ? '1 byte' : `${formatCount(count)} bytes`;
 }
 
 export function timesWords(times: number): string {
