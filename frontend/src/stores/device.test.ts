@@ -195,6 +195,23 @@ describe('a device with a session', () => {
     expect(nextId - oldestId).toBe(entries.length);
   });
 
+  test('logs that the link is ready before what is sent because of it', async () => {
+    const { device, draw, session } = await createDesk();
+    await device.detach();
+    device.traffic.clear();
+    device.store.subscribe(({ snapshot }, before) => {
+      if (snapshot.link.status === 'ready' && before.snapshot.link.status !== 'ready') device.readBattery();
+    });
+    device.attach(session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
+    void session.open();
+    await draw(200);
+    expect(device.traffic.content('doc').entries.map(({ mark }) => mark)).toEqual([
+      'link',
+      'sent',
+      'received',
+    ]);
+  });
+
   test('sends a packet by hand, or tells why not', async () => {
     const { device, draw, ofKind, told } = await createDesk();
     device.sendRaw(Uint8Array.of(0x55, 0x55, 2, 15));

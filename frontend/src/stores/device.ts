@@ -6,6 +6,7 @@ import { fromBoard, onBoard, refusedTarget, type Robot } from '#shared/actions/r
 import type { Clock } from '#shared/clock.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
+import { parseCommand } from '#shared/protocol/parse.ts';
 import type { Session } from '#shared/session/session.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
@@ -103,6 +104,17 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     return null;
   }
 
+  /** A packet written by hand is in the board's own figures. */
+  function keepsLimits(packet: Uint8Array): boolean {
+    const command = parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
+    if (command?.kind !== 'move') return true;
+    const meant = command.targets.map(({ servo, position }) => ({
+      servo,
+      position: fromBoard(robot(), servo, position),
+    }));
+    return allowed(meant) !== null;
+  }
+
   function allowedFrames(frames: readonly Frame[]): readonly Frame[] | null {
     const kept: Frame[] = [];
     for (const { durationMs, targets } of frames) {
@@ -127,9 +139,10 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   function noteState(snapshot: SessionState): void {
-    store.setState({ snapshot, family: snapshot.family });
     if (snapshot.family.id !== 'unknown') robots.takeUpFor(snapshot.family.id);
+    // First into the log: whoever hears of the state may send something at once.
     traffic.note(snapshot, clock.now(), snapshot.family.id);
+    store.setState({ snapshot, family: snapshot.family });
     if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
   }
 
@@ -214,7 +227,9 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       const onIt = allowedFrames(frames);
       if (onIt !== null) attempt((current) => downloadTo(current, slot, onIt));
     },
-    sendRaw: (packet) => attempt((current) => current.sendRaw(packet)),
+    sendRaw(packet) {
+      if (keepsLimits(packet)) attempt((current) => current.sendRaw(packet));
+    },
     cancelDownload: () => downloading.abort(),
     play(frames, finished) {
       const onIt = allowedFrames(frames);
