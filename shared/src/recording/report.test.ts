@@ -48,6 +48,14 @@ describe('a replay', () => {
     expect(text).toContain('no simulated board is called learm-esp32-bus; name one');
   });
 
+  test('judges the last board of a log, whatever came before it', async () => {
+    const log =
+      'servodeck-log: 1\nboard: doc\n1 > 55 55 02 0F\n1.03 < 55 55 04 0F 4C 1D\n2 = board xarm\n3 = opened';
+    const { facts } = await replay(recordingOf(log));
+    expect(facts).toContain('session battery unread');
+    expect(facts).not.toContain('session battery 7500 mV');
+  });
+
   test('takes the board as another one from where the log says so', () => {
     const log = 'servodeck-log: 1\nboard: unknown\n1 > 55 55 02 0F\n2 = board xarm\n3 > 55 55 02 07';
     expect(partsOf(recordingOf(log))).toEqual([

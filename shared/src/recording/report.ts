@@ -11,6 +11,7 @@ import { replayToBoard } from './replayBoard.ts';
 import { replayToSession, type SessionReplay } from './replaySession.ts';
 
 export interface ReplayReport {
+  /** Of the last part: before it stands how the board was found, or another board. */
   readonly facts: readonly string[];
   /** Expectations of the recording that did not come true. */
   readonly failed: readonly string[];
@@ -24,11 +25,11 @@ interface Part {
 
 /** `profile` is the simulated board; without it, the one the recording names, if there is such a one. */
 export async function replay(recording: Recording, profile?: ProfileName): Promise<ReplayReport> {
-  const facts: string[] = [];
+  let facts: readonly string[] = [];
   const sections: string[] = [];
   for (const part of partsOf(recording)) {
     const told = await replayPart(part, profile ?? profileOf(part.board));
-    facts.push(...told.facts);
+    facts = told.facts;
     sections.push(...told.sections);
   }
   const { expectations } = recording.header;
