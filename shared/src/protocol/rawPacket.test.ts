@@ -77,6 +77,12 @@ describe('a packet by hand', () => {
     expect(judge('55 55 05 06 01 01 00', UNKNOWN_BOARD)).toEqual(refusal('unknownNumber'));
   });
 
+  test('what must never go is told so, also where unknown numbers may', () => {
+    const careful = { ...FAMILIES.doc, neverSend: [0x63] };
+    expect(judge('55 55 02 63', careful)).toEqual(refusal('neverSend'));
+    expect(judge('55 55 05 08', FAMILIES.xarm)).toEqual(refusal('neverSend'));
+  });
+
   test('what passes is what the family takes from the program too, byte by byte', () => {
     let passed = 0;
     fc.assert(
