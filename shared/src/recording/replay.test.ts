@@ -112,6 +112,20 @@ describe('replayed to the session', () => {
     expect(state).toMatchObject({ brokenSlots: [5], storedSlots: [] });
   });
 
+  test('a download that began again by itself is asked for once', async () => {
+    const { rig, entries } = await createRecordingRig({ faults: [{ name: 'lostAck', nth: 1 }] });
+    DEEDS.download!(rig.session);
+    await rig.clock.advance(6_000);
+    DEEDS.download!(rig.session);
+    await rig.clock.advance(6_000);
+    const firstFrames = packets(entries, 'sent').filter(({ bytes }) => bytes[6] === 0);
+    expect(firstFrames).toHaveLength(3);
+    const { failures, state } = await replayToSession(entries, 'doc');
+    expect(failures).toEqual([]);
+    expect(state.storedSlots).toEqual([5]);
+    expect((await sentAgain(entries)).rows.every(({ verdict }) => verdict === 'same')).toBe(true);
+  });
+
   test('a log that lost its beginning is replayed from where it starts', async () => {
     const { rig, entries } = await createRecordingRig();
     DEEDS.battery!(rig.session);
