@@ -17,6 +17,8 @@ export interface Core {
   readonly robot: RobotEstimate;
   readonly lanes: Lanes;
   readonly exchange: Exchange;
+  /** A move or a stop of ours is still to leave. */
+  unsettled(): boolean;
 }
 
 export function setActivity({ store }: Core, activity: Activity): void {
@@ -42,10 +44,13 @@ export function requireReleased(core: Core): void {
   if (core.store.state.latch !== null) throw new LinkError('latched', 'stopped: resume first');
 }
 
-/** Additionally the robot is at rest: flash work freezes the servos and then lets them jump (S29, S39). */
+/**
+ * Additionally the robot is at rest and stays so: flash work freezes the servos and then lets them jump (S29, S39), and a
+ * packet that comes meanwhile overwrites what is being stored (S11).
+ */
 export function requireRest(core: Core): void {
   requireReleased(core);
-  if (core.store.state.activity.kind !== 'idle' || core.robot.moving()) {
+  if (core.store.state.activity.kind !== 'idle' || core.robot.moving() || core.unsettled()) {
     throw new LinkError('busy', 'the robot is moving: wait or stop it first');
   }
 }

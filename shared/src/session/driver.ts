@@ -1,6 +1,7 @@
 // What a session does with one kind of board: everything that depends on the family, put together. Another board makes
 // another driver; the line, its queues and the snapshot stay. Knows no transport by name.
 
+import { COMMAND_NUMBER } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
 import { createBatteryReader } from './batteryReader.ts';
 import type { Core } from './core.ts';
@@ -37,6 +38,7 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
   const core: Core = {
     ...{ family, clock, store, robot, lanes },
     exchange: createExchange(family, clock, lanes, replies),
+    unsettled: () => !moves.isEmpty() || groups.isStopping() || isMotion(lanes.unfinished()),
   };
   const moves = createMoveBuffer(family);
   const live = createLive(core, moves);
@@ -61,4 +63,9 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
       store.update({ activity: { kind: 'idle' } });
     },
   };
+}
+
+function isMotion(packet: Uint8Array | null): boolean {
+  const command = packet?.[3];
+  return command === COMMAND_NUMBER.move || command === COMMAND_NUMBER.run;
 }

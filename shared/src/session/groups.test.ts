@@ -171,6 +171,42 @@ describe('download', () => {
   });
 });
 
+describe('flash work', () => {
+  const frames = [{ durationMs: 500, targets: [{ servo: 1, position: 1_600 }] }];
+  const refused = expect.objectContaining({ code: 'busy' }) as unknown;
+
+  test('does not begin while a move is on its way to the board (S29)', async () => {
+    const { session, clock } = await createRig();
+    session.move([{ servo: 1, position: 1_500 }], 0);
+    await expect(session.download(1, frames)).rejects.toEqual(refused);
+    await expect(session.erase()).rejects.toEqual(refused);
+    await clock.advance(5);
+    await expect(session.erase()).rejects.toEqual(refused);
+  });
+
+  test('does not begin while a move waits behind a question', async () => {
+    const { session, clock } = await createRig();
+    void session.readBattery();
+    session.move([{ servo: 1, position: 1_500 }], 0);
+    await expect(session.download(1, frames)).rejects.toEqual(refused);
+    await clock.advance(5_000);
+    expect(session.state.activity.kind).toBe('idle');
+  });
+
+  test('does not begin between the stops that end a group (S11)', async () => {
+    const { session, clock, ofKind } = await createRig();
+    void session.stopGroup();
+    await clock.advance(60);
+    expect(session.state.activity.kind).toBe('idle');
+    await expect(session.erase()).rejects.toEqual(refused);
+    await clock.advance(200);
+    const erased = session.erase();
+    await clock.advance(1_000);
+    await erased;
+    expect(ofKind('stop')).toHaveLength(3);
+  });
+});
+
 describe('run', () => {
   test('is requested, acknowledged, followed and ended by the board', async () => {
     const rig = await createRig();

@@ -6,7 +6,7 @@ import type { Report } from '../protocol/reports.ts';
 import { requireReady, requireReleased, requireRest, setActivity, type Core } from './core.ts';
 import { download, type CancelSignal } from './download.ts';
 import { encodeOrRefuse } from './exchange.ts';
-import { repeatStop } from './halt.ts';
+import { repeatStop, STOP_PACKET } from './halt.ts';
 import { LinkError } from './linkError.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import type { Activity } from './state.ts';
@@ -15,6 +15,8 @@ import { EDGE_FRAME_TIMEOUT_MS, ERASE_TIMEOUT_MS, RUN_END_GRACE_MS, RUN_TIMEOUT_
 export interface Groups {
   run(slot: number, times: number): Promise<void>;
   stop(): Promise<void>;
+  /** Its repeats are still to leave. */
+  isStopping(): boolean;
   erase(): Promise<void>;
   download(slot: number, frames: readonly Frame[], signal: CancelSignal | undefined): Promise<void>;
   heard(report: Report): void;
@@ -30,6 +32,7 @@ type Truth = Extract<Activity, { kind: 'running' }>['truth'];
 export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Groups {
   const { family, clock, store, robot, lanes, exchange } = core;
   const broken = new Set<number>();
+  let stopping = 0;
   let cancelEndTimer = (): void => undefined;
   /** Until then the board may acknowledge a frame that nobody waits for any more. */
   let owedUntilMs = 0;
@@ -65,7 +68,12 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
 
   async function stop(): Promise<void> {
     requireReady(core.store);
-    await repeatStop(clock, () => lanes.stop(encodeOrRefuse({ kind: 'stop' }, family)));
+    stopping += 1;
+    try {
+      await repeatStop(clock, () => lanes.stop(STOP_PACKET));
+    } finally {
+      stopping -= 1;
+    }
     ended();
   }
 
@@ -145,6 +153,7 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
   return {
     run,
     stop,
+    isStopping: () => stopping > 0,
     erase,
     download: storeGroup,
     heard(report) {

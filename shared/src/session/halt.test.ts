@@ -98,7 +98,7 @@ describe('STOP', () => {
   test('without a link says that it failed and stays latched', async () => {
     const rig = await createRig();
     rig.transport.unplug();
-    await expect(rig.session.halt()).rejects.toMatchObject({ code: 'closed' });
+    await expect(rig.session.halt()).rejects.toMatchObject({ code: 'lost' });
     expect(rig.session.state.latch).toEqual({ reason: 'pressed', stop: 'failed' });
   });
 });

@@ -56,6 +56,8 @@ export const STOP_PACKET = encodeCommand({ kind: 'stop' }, UNKNOWN_BOARD);
 export function createHalt(options: HaltOptions): Halt {
   const { clock, store, lanes, transport, holdPacket, dropAll, sentByOthers } = options;
 
+  let underWay: Promise<void> = Promise.resolve();
+
   function latch(value: Latch): void {
     store.update({ latch: value });
     dropAll(new LinkError('latched', 'stopped'));
@@ -93,8 +95,10 @@ export function createHalt(options: HaltOptions): Halt {
   }
 
   async function send(sequence: () => Promise<void>): Promise<void> {
+    const sending = sequence();
+    underWay = sending.catch(() => undefined);
     try {
-      await sequence();
+      await sending;
       note('sent');
     } catch (error) {
       note('failed');
@@ -114,6 +118,8 @@ export function createHalt(options: HaltOptions): Halt {
     },
     async resume() {
       requireReady(store);
+      // Its last hold would take back what is moved meanwhile.
+      await underWay;
       await transport.resume?.();
       store.update({ latch: null });
     },

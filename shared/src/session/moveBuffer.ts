@@ -11,6 +11,7 @@ export interface MoveBuffer {
   /** `durationMs` 0: as fast as the link allows. Merged wishes take the longest duration of any of them. */
   put(targets: readonly ServoTarget[], durationMs: number): void;
   take(): MoveCommand | null;
+  isEmpty(): boolean;
   clear(): void;
 }
 
@@ -37,6 +38,7 @@ export function createMoveBuffer(family: Family): MoveBuffer {
       if (wishes.size === 0) durationMs = 0;
       return move;
     },
+    isEmpty: () => wishes.size === 0,
     clear() {
       wishes.clear();
       durationMs = 0;
