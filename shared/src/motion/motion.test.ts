@@ -1,21 +1,69 @@
 import { describe, expect, test } from 'vitest';
-import { family } from '../protocol/families.ts';
+import type { Command, Frame } from '../protocol/commands.ts';
+import { family, type FamilyId } from '../protocol/families.ts';
+import type { Report } from '../protocol/reports.ts';
 import {
   advance,
-  afterMove,
-  afterRun,
-  afterStop,
+  afterCommand,
+  afterEnd,
+  afterReport,
+  forgotten,
   holdMove,
+  leewayAt,
+  passMs,
   positionAt,
+  remainingMs,
   targetOf,
+  unheldServos,
   UNKNOWN_MOTION,
+  type KnownBoard,
+  type Motion,
 } from './motion.ts';
 
-const doc = family('doc');
+type Groups = Readonly<Record<number, readonly Frame[]>>;
 
-/** Servo 1 known at `position`, at rest. */
-function resting(position: number, servo = 1): typeof UNKNOWN_MOTION {
-  return afterMove(UNKNOWN_MOTION, [{ servo, position }], 20, -1_000, doc);
+function frame(
+  durationMs: number,
+  ...targets: readonly (readonly [servo: number, position: number])[]
+): Frame {
+  return { durationMs, targets: targets.map(([servo, position]) => ({ servo, position })) };
+}
+
+function move(...of: Parameters<typeof frame>): Command {
+  return { kind: 'move', ...frame(...of) };
+}
+
+function run(slot: number, times = 1): Command {
+  return { kind: 'run', slot, times };
+}
+
+const STOP: Command = { kind: 'stop' };
+const END: Report = { kind: 'runFinished', slot: null };
+
+/** A board whose servos 1 and 2 rest at 1000 at time 0, and what comes to it. */
+function robot(id: FamilyId, groups: Groups = {}) {
+  const board: KnownBoard = { family: family(id), playedFrames: (slot) => groups[slot] ?? null };
+  let motion: Motion = UNKNOWN_MOTION;
+  const self = {
+    send(atMs: number, command: Command) {
+      motion = afterCommand(motion, command, atMs, board);
+      return self;
+    },
+    hear(atMs: number, report: Report) {
+      motion = report === END ? afterEnd(motion, atMs, board) : afterReport(motion, report, atMs, board);
+      return self;
+    },
+    forget(atMs: number) {
+      motion = forgotten(motion, atMs);
+      return self;
+    },
+    at: (nowMs: number, servo = 1) => positionAt(advance(motion, nowMs, board), servo, nowMs),
+    when: (nowMs: number) => advance(motion, nowMs, board),
+    leeway: (nowMs: number) => leewayAt(advance(motion, nowMs, board), 1, nowMs, board.family),
+    hold: (nowMs: number) => holdMove(advance(motion, nowMs, board), nowMs, board.family),
+    passMs: (frames: readonly Frame[]) => passMs(frames, board),
+  };
+  return self.send(-1_000, move(20, [1, 1_000], [2, 1_000]));
 }
 
 describe('a servo nobody commanded', () => {
@@ -25,75 +73,240 @@ describe('a servo nobody commanded', () => {
   });
 
   test('stays unknown through its first move and is known from its end on', () => {
-    const motion = afterMove(UNKNOWN_MOTION, [{ servo: 1, position: 2_000 }], 1_500, 0, doc);
-    expect(positionAt(motion, 1, 1_499)).toBeNull();
-    expect(positionAt(motion, 1, 1_500)).toBe(2_000);
+    const doc = robot('doc').send(0, move(1_500, [3, 2_000]));
+    expect([doc.at(1_499, 3), doc.at(1_500, 3)]).toEqual([null, 2_000]);
   });
 });
 
 describe('a move', () => {
   test('is linear in time', () => {
-    const motion = afterMove(resting(1_000), [{ servo: 1, position: 2_000 }], 1_000, 0, doc);
-    expect(positionAt(motion, 1, 250)).toBe(1_250);
-    expect(positionAt(motion, 1, 2_000)).toBe(2_000);
+    const doc = robot('doc').send(0, move(1_000, [1, 2_000]));
+    expect([doc.at(250), doc.at(2_000)]).toEqual([1_250, 2_000]);
   });
 
-  test('takes whole 20 ms ticks, at least one (S27)', () => {
-    const short = afterMove(resting(1_000), [{ servo: 1, position: 2_000 }], 50, 0, doc);
-    expect(positionAt(short, 1, 40)).toBe(2_000);
-    const none = afterMove(resting(1_000), [{ servo: 1, position: 2_000 }], 0, 0, doc);
-    expect(positionAt(none, 1, 10)).toBe(1_500);
-    expect(positionAt(none, 1, 20)).toBe(2_000);
+  test('takes whole ticks, at least 20 ms (S27, L5)', () => {
+    expect(
+      robot('doc')
+        .send(0, move(50, [1, 2_000]))
+        .at(40),
+    ).toBe(2_000);
+    expect(
+      robot('doc')
+        .send(0, move(0, [1, 2_000]))
+        .at(10),
+    ).toBe(1_500);
+    expect(
+      robot('learm-esp32')
+        .send(0, move(39, [2, 2_000]))
+        .at(30, 2),
+    ).toBe(2_000);
   });
 
-  test('of one servo re-times every other (S26)', () => {
-    const both = afterMove(resting(1_000), [{ servo: 1, position: 2_000 }], 5_000, 0, doc);
-    const jogged = afterMove(both, [{ servo: 2, position: 1_500 }], 50, 2_500, doc);
-    expect(positionAt(jogged, 1, 2_500)).toBe(1_500);
-    expect(positionAt(jogged, 1, 2_540)).toBe(2_000);
+  test('of one servo re-times every other where the board has one time for all (S26)', () => {
+    const both = (id: FamilyId) =>
+      robot(id)
+        .send(0, move(5_000, [1, 2_000]))
+        .send(2_500, move(50, [2, 1_500]));
+    expect(both('doc').at(2_540)).toBe(2_000);
+    expect(both('lsc-6').at(2_540)).toBe(1_508);
+  });
+
+  test('leaves a way of one tick open, and nothing once it has ended', () => {
+    const old = robot('openarm-old').send(0, move(1_000, [1, 2_000]));
+    expect([old.leeway(500), old.leeway(1_000)]).toEqual([20, 0]);
+    expect(old.send(500, move(10_000, [1, 2_000])).leeway(600)).toBeGreaterThan(20);
   });
 });
 
-describe('a group the board plays', () => {
-  const frames = [
-    { durationMs: 100, targets: [{ servo: 1, position: 2_000 }] },
-    { durationMs: 100, targets: [{ servo: 1, position: 1_000 }] },
-  ];
+describe('a group on deadlines', () => {
+  const groups = {
+    1: [frame(100, [1, 2_000]), frame(100, [1, 1_000])],
+    2: [frame(100, [1, 500])],
+    100: [frame(200, [1, 1_200])],
+    101: [frame(100, [1, 1_700])],
+  };
+  /** Says nothing before it runs a group. */
+  const old = () => robot('openarm-old', groups);
 
-  test('is followed frame by frame on its deadlines (S42)', () => {
-    const running = afterRun(resting(1_000), frames, 2, 0);
-    const at = (nowMs: number): number | null => positionAt(advance(running, nowMs, doc), 1, nowMs);
-    expect([50, 100, 150, 200, 250, 400, 900].map(at)).toEqual([
+  test('is followed frame by frame (S42)', () => {
+    const running = old().send(0, run(1, 2));
+    expect([50, 100, 150, 200, 250, 400, 900].map((nowMs) => running.at(nowMs))).toEqual([
       1_500, 2_000, 1_500, 1_000, 1_500, 1_000, 1_000,
     ]);
   });
 
-  test('ends after its frame in progress when stopped (S50)', () => {
-    const running = advance(afterRun(resting(1_000), frames, 0, 0), 50, doc);
-    const stopped = afterStop(running);
-    expect(positionAt(advance(stopped, 5_000, doc), 1, 5_000)).toBe(2_000);
+  test('begins when the board has said so (S18, X1)', () => {
+    expect(robot('openarm-new', groups).send(0, run(1)).at(4)).toBe(1_000);
+    expect(robot('openarm-new', groups).send(0, run(1)).at(54.2)).toBe(1_500);
+    expect(robot('lsc-6', groups).send(0, run(1)).at(57.3)).toBe(1_500);
   });
 
-  test('makes every servo unknown when its frames are not ours', () => {
-    expect(positionAt(afterRun(resting(1_000), null, 1, 0), 1, 10)).toBeNull();
+  test('ends after its frame in progress when stopped (S50)', () => {
+    expect(old().send(0, run(1, 0)).send(50, STOP).at(5_000)).toBe(2_000);
   });
+
+  test('changes its repeats when it is run again, without a restart (S45)', () => {
+    const again = old().send(0, run(1, 0)).send(150, run(1, 1));
+    expect([again.at(200), again.at(250)]).toEqual([1_000, 1_000]);
+  });
+
+  test('is cut short by a request for another one (S46)', () => {
+    expect(old().send(0, run(1, 0)).send(50, run(2)).at(150)).toBe(1_000 + 1_000 / 2 + 500);
+  });
+
+  test('makes way for group 0 (S47)', () => {
+    const both = robot('openarm-old', { ...groups, 0: [frame(1_000, [1, 500])] });
+    expect(both.send(0, run(1, 0)).send(100, run(0)).at(1_100)).toBe(500);
+  });
+
+  test('100 is followed by 101, where the board does so (S49)', () => {
+    expect(robot('openarm-new', groups).send(0, run(100)).at(400)).toBe(1_700);
+    expect(old().send(0, run(100)).at(400)).toBe(1_200);
+  });
+
+  test('101 is not ended by the word for the end of 100', () => {
+    const heard = robot('openarm-new', groups).send(0, run(100)).hear(215, END);
+    expect(heard.when(215).run).not.toBeNull();
+    expect(heard.hear(290, END).when(290).run).toBeNull();
+  });
+
+  test('makes every servo unknown when its frames are not ours, whatever is sent meanwhile', () => {
+    const unknown = old()
+      .send(0, run(9))
+      .send(500, move(20, [1, 1_500]));
+    expect([unknown.at(600), unknown.at(60_000)]).toEqual([null, null]);
+    expect(
+      unknown
+        .send(70_000, STOP)
+        .send(70_100, move(20, [1, 1_500]))
+        .at(70_120),
+    ).toBe(1_500);
+  });
+
+  test('of no time at all is played nobody knows how often', () => {
+    const timeless = robot('openarm-old', { 3: [frame(0, [1, 2_000]), frame(0, [1, 1_000])] });
+    expect(timeless.send(0, run(3, 0)).at(100)).toBeNull();
+  });
+
+  test('somebody else started makes all unknown until its end', () => {
+    const started = robot('lsc-6', groups).hear(0, { kind: 'runStarted', slot: 1, times: 1 });
+    expect(started.at(10)).toBeNull();
+    expect(
+      started
+        .hear(300, END)
+        .send(400, move(100, [1, 900]))
+        .at(500),
+    ).toBe(900);
+  });
+
+  test('of ours is not disturbed by the board saying so', () => {
+    const own = robot('lsc-6', groups).send(0, run(1)).hear(30, { kind: 'runStarted', slot: 1, times: 1 });
+    expect(own.at(57.3)).toBe(1_500);
+  });
+});
+
+describe("LeArm's groups", () => {
+  const groups = {
+    1: [frame(100, [1, 1_400], [6, 2_000]), frame(200, [1, 1_000])],
+    2: [frame(100, [1, 700])],
+  };
+  const learm = () => robot('learm-esp32', groups).send(-500, move(20, [1, 1_000], [6, 1_000]));
+
+  test('are known in the first frame, then where they end, and nowhere between (L7)', () => {
+    const running = learm().send(0, run(1));
+    expect([50, 100, 101, 400].map((nowMs) => running.at(nowMs))).toEqual([1_200, null, null, null]);
+    expect([running.at(1_000), running.at(1_000, 6)]).toEqual([1_000, 2_000]);
+  });
+
+  test('halt but for the base (L9)', () => {
+    const stopped = learm().send(0, run(1)).send(50, STOP);
+    expect([stopped.at(500), stopped.at(500, 6)]).toEqual([1_200, 2_000]);
+    expect(stopped.leeway(500)).toBeGreaterThan(0);
+  });
+
+  test('die of any other command (L8), and the next one leaves its first frame out (L11)', () => {
+    const killed = learm().send(0, run(1)).send(50, { kind: 'readBattery' });
+    expect(killed.at(5_000)).toBe(1_400);
+    expect(killed.send(6_000, run(1)).at(6_100)).toBe(1_200);
+  });
+
+  test('may have died or not where a command came about their end', () => {
+    const perhaps = learm().send(0, run(2)).send(120, { kind: 'readBattery' });
+    expect(perhaps.at(200)).toBe(700);
+    expect(perhaps.send(6_000, run(1)).at(6_050)).toBeNull();
+  });
+
+  test('take longer than their frames', () => {
+    expect(learm().passMs(groups[1])).toBeGreaterThanOrEqual(100 + 200 + 2 * 110);
+    expect(robot('doc').passMs(groups[1])).toBe(300);
+  });
+});
+
+describe('a board busy with its flash', () => {
+  const download: Command = {
+    ...{ kind: 'download', slot: 3, frameCount: 2, frameIndex: 0 },
+    frame: frame(100, [1, 2_000]),
+  };
+  const busy = () =>
+    robot('doc')
+      .send(0, move(1_000, [1, 2_000]))
+      .send(100, download);
+
+  test('freezes what is on its way and lets it jump (S29): unknown until it has arrived', () => {
+    expect([busy().at(200), busy().at(200, 2), busy().at(3_000)]).toEqual([null, 1_000, 2_000]);
+  });
+
+  test('may drop what comes meanwhile', () => {
+    const moved = busy().send(200, move(20, [2, 1_500]));
+    expect(moved.at(5_000, 2)).toBeNull();
+    expect(
+      busy()
+        .send(200, move(20, [2, 1_000]))
+        .at(300, 2),
+    ).toBe(1_000);
+  });
+
+  test('hears again when it has answered', () => {
+    const heard = busy()
+      .hear(300, { kind: 'frameStored' })
+      .send(310, move(20, [2, 1_500]));
+    expect(heard.at(330, 2)).toBe(1_500);
+  });
+
+  test('goes on with a group nobody knows how far', () => {
+    const running = robot('doc', { 1: [frame(100, [1, 2_000])] })
+      .send(0, run(1, 0))
+      .send(50, download);
+    expect(running.at(200)).toBeNull();
+  });
+});
+
+test('released servos are unknown, the others are not (X7)', () => {
+  const xarm = robot('xarm').send(0, { kind: 'release', servos: [1] });
+  expect([xarm.at(0), xarm.at(0, 2)]).toEqual([null, 1_000]);
+});
+
+test('nothing is known of a robot that was out of sight', () => {
+  expect(robot('doc').forget(0).at(0)).toBeNull();
 });
 
 describe('holding', () => {
   test('moves each known servo to where it is, in the shortest time', () => {
-    const motion = afterMove(resting(1_000), [{ servo: 1, position: 2_000 }], 1_000, 0, doc);
-    expect(holdMove(motion, 500, doc)).toEqual({ durationMs: 20, targets: [{ servo: 1, position: 1_500 }] });
+    const doc = robot('doc').send(0, move(1_000, [1, 2_000], [2, 2_000]));
+    expect(doc.hold(500)).toEqual(frame(20, [1, 1_500], [2, 1_500]));
   });
 
-  test('does not hurry a servo that is in its first move (S26)', () => {
-    const motion = afterMove(resting(1_000), [{ servo: 2, position: 2_000 }], 1_500, 0, doc);
-    expect(holdMove(motion, 500, doc)).toEqual({
-      durationMs: 1_000,
-      targets: [{ servo: 1, position: 1_000 }],
-    });
+  test.each([
+    ['doc', 1_000],
+    ['lsc-6', 20],
+  ] as const)('%s does not hurry a servo that is in its first move (S26)', (id, durationMs) => {
+    const moving = robot(id).send(0, move(1_500, [3, 2_000]));
+    expect(moving.hold(500)).toEqual(frame(durationMs, [1, 1_000], [2, 1_000]));
+    expect([unheldServos(moving.when(500), 500), unheldServos(moving.when(1_500), 1_500)]).toEqual([[3], []]);
   });
 
   test('is impossible while nothing is known', () => {
-    expect(holdMove(UNKNOWN_MOTION, 0, doc)).toBeNull();
+    expect(holdMove(UNKNOWN_MOTION, 0, family('doc'))).toBeNull();
+    expect(remainingMs(UNKNOWN_MOTION, 0)).toBe(0);
   });
 });

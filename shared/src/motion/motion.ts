@@ -1,116 +1,169 @@
-// Where each servo is now, given the commands that left the wire and when. One pure value and functions over it: no
-// clock, no link, no session. A servo that was never commanded is unknown, and stays unknown until its first move ends.
-// Model: the open firmware's engine (boards.md S24-S27, S42, S50): one global move time, linear, in 20 ms ticks.
+// Where each servo is now, given the commands that left the wire and when. One pure value and functions over it: no clock,
+// no link, no session. How a family moves is data (`Family.motion`), how it plays groups is deadlines.ts or polled.ts.
+//
+// Null means that nobody can know: before the end of a servo's first move, while a group runs whose frames are not ours,
+// behind the first frame of LeArm's groups (their times jitter, L7), after a release, in a move that flash work froze (S29,
+// S41), and after a command that came when the board may have been deaf. What nobody tells us we cannot know at all: a reset
+// of the board, a pad or key pressed on a board that does not report runs, a packet lost on the way. LSC, bus boards and
+// xArm are closed: their model is the simulated board's, a careful guess.
 
-import type { Frame, ServoTarget } from '../protocol/commands.ts';
+import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
+import type { Report, ReportKind } from '../protocol/reports.ts';
 import type { Family } from '../protocol/families.ts';
+import { deadlines } from './deadlines.ts';
+import { runningUnknown, UNKNOWN_MOTION, type KnownBoard, type Motion, type Playback } from './model.ts';
+import { polled } from './polled.ts';
+import { endMs, lastEndMs, leewayOf, LONGEST_MOVE_MS, only, positionOf, retarget, stands } from './tracks.ts';
 
-/** One servo on its way. `from` is null when nobody knows where it started. */
-interface Track {
-  readonly from: number | null;
-  readonly to: number;
+export { UNKNOWN_MOTION, type KnownBoard, type Motion };
+
+const PLAYBACKS: Readonly<Record<Family['motion']['groups'], Playback>> = { deadlines, polled };
+
+/** These keep the board from its servos and packets until it has answered: flash work, slow talk (S41, X7, L13). */
+const DEAFENING: ReadonlySet<Command['kind']> = new Set([
+  'download',
+  'erase',
+  'readPositions',
+  'readVersion',
+]);
+const ANSWERS: Readonly<Partial<Record<Command['kind'], ReportKind>>> = {
+  download: 'frameStored',
+  erase: 'erased',
+  readPositions: 'positions',
+  readVersion: 'version',
+  readBattery: 'battery',
+  run: 'runAccepted',
+};
+/** The worst of them: four sectors and the count table (S33, S34), with a margin. */
+const LONGEST_DEAFNESS_MS = 2_500;
+
+function answersTo(kind: Command['kind']): readonly ReportKind[] {
+  const answer = ANSWERS[kind];
+  return answer === undefined ? [] : [answer];
 }
 
-/** A group the board plays by itself. `nextAtMs` is the deadline of frame `next`; `loopsLeft` is null when endless. */
-interface GroupRun {
-  readonly frames: readonly Frame[];
-  readonly next: number;
-  readonly nextAtMs: number;
-  readonly loopsLeft: number | null;
+function playbackOf({ family }: KnownBoard): Playback {
+  return PLAYBACKS[family.motion.groups];
 }
 
-export interface Motion {
-  readonly tracks: ReadonlyMap<number, Track>;
-  readonly startMs: number;
-  readonly durationMs: number;
-  readonly run: GroupRun | null;
+/** The same motion with everything that was due by `nowMs` done. Call before reading it. */
+export function advance(motion: Motion, nowMs: number, board: KnownBoard): Motion {
+  return playbackOf(board).advance(motion, nowMs, board);
 }
 
-/** Nothing is known: after connecting, and after anything that may have moved the robot behind our back. */
-export const UNKNOWN_MOTION: Motion = { tracks: new Map(), startMs: 0, durationMs: 0, run: null };
-
-const TICK_MS = 20;
-
-/** The board's own duration: clamped, in whole ticks, at least one (S25, S27). */
-function boardDurationMs(durationMs: number, family: Family): number {
-  const clamped = Math.min(Math.max(durationMs, family.shortestMoveMs), family.durationMs.max);
-  return Math.max(1, Math.floor(clamped / TICK_MS)) * TICK_MS;
+/** After the last bit of `command` left the wire at `atMs`. */
+export function afterCommand(motion: Motion, command: Command, atMs: number, board: KnownBoard): Motion {
+  const current = advance(motion, atMs, board);
+  return atMs < current.deafUntilMs
+    ? afterUnheard(current, command, atMs, board)
+    : afterHeard(current, command, atMs, board);
 }
 
-function positionOf(motion: Motion, track: Track, nowMs: number): number | null {
-  const elapsed = nowMs - motion.startMs;
-  if (elapsed >= motion.durationMs) return track.to;
-  if (track.from === null) return null;
-  return track.from + (track.to - track.from) * (Math.max(0, elapsed) / motion.durationMs);
+function afterHeard(motion: Motion, command: Command, atMs: number, board: KnownBoard): Motion {
+  const playback = playbackOf(board);
+  if (command.kind === 'run') return playback.request(motion, command, atMs, board);
+  if (command.kind === 'stop') return playback.stop(motion, atMs, board);
+  const cut = playback.interrupt(motion, atMs);
+  if (command.kind === 'move') return moved(cut, command, atMs, board);
+  if (command.kind === 'release') return released(cut, command.servos);
+  return DEAFENING.has(command.kind) ? deafened(cut, command.kind, atMs) : cut;
 }
 
-/** After a move command took effect at `atMs`. Re-plans every servo over the new time, as the board does (S26). */
-export function afterMove(
+function moved(
   motion: Motion,
-  targets: readonly ServoTarget[],
-  durationMs: number,
+  { targets, durationMs }: { readonly targets: readonly ServoTarget[]; readonly durationMs: number },
   atMs: number,
-  family: Family,
+  { family }: KnownBoard,
 ): Motion {
-  if (targets.length === 0) return motion;
-  const tracks = new Map<number, Track>();
-  for (const [servo, track] of motion.tracks) {
-    tracks.set(servo, { from: positionOf(motion, track, atMs), to: track.to });
+  // A frame of that group may overrule it at any time.
+  if (motion.run?.kind === 'unknown') return motion;
+  return { ...motion, tracks: retarget(motion.tracks, targets, durationMs, atMs, family) };
+}
+
+/** It drops, who knows where to. */
+function released(motion: Motion, servos: readonly number[]): Motion {
+  return { ...motion, tracks: only(motion.tracks, (_, servo) => !servos.includes(servo)) };
+}
+
+/** Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group goes on, nobody knows when. */
+function deafened(motion: Motion, kind: Command['kind'], atMs: number): Motion {
+  const deafUntilMs = atMs + LONGEST_DEAFNESS_MS;
+  const deaf = { ...motion, deafUntilMs, answersOwed: answersTo(kind) };
+  if (motion.run !== null) return runningUnknown(deaf, null);
+  const tracks = new Map(motion.tracks);
+  for (const [servo, track] of tracks) {
+    const durationMs = Math.max(endMs(track), deafUntilMs) - track.startMs;
+    if (!stands(track, atMs)) tracks.set(servo, { ...track, from: null, durationMs });
   }
-  for (const { servo, position } of targets) {
-    tracks.set(servo, { from: tracks.get(servo)?.from ?? null, to: position });
-  }
-  return { ...motion, tracks, startMs: atMs, durationMs: boardDurationMs(durationMs, family) };
+  return { ...deaf, tracks };
 }
 
-/** After the board began to play `frames`, `times` over (0: until stopped). Unknown frames make every servo unknown. */
-export function afterRun(
-  motion: Motion,
-  frames: readonly Frame[] | null,
-  times: number,
-  atMs: number,
-): Motion {
-  if (frames === null) return UNKNOWN_MOTION;
-  if (frames.length === 0) return motion;
-  const loopsLeft = times === 0 ? null : times;
-  return { ...motion, run: { frames, next: 0, nextAtMs: atMs, loopsLeft } };
+/** It is dropped or comes late: what it may move is not known, and of what moved already only its end was. */
+function afterUnheard(motion: Motion, command: Command, atMs: number, { family }: KnownBoard): Motion {
+  const owed = family.answers.includes(command.kind) ? answersTo(command.kind) : [];
+  const deafUntilMs = owed.length > 0 ? atMs + LONGEST_DEAFNESS_MS : motion.deafUntilMs;
+  const later = { ...motion, deafUntilMs, answersOwed: [...motion.answersOwed, ...owed] };
+  if (command.kind === 'run') return runningUnknown(later, null);
+  const targets = new Map(
+    command.kind === 'move' ? command.targets.map(({ servo, position }) => [servo, position]) : [],
+  );
+  const freed = command.kind === 'release' ? command.servos : [];
+  const tracks = only(
+    motion.tracks,
+    (track, servo) =>
+      stands(track, atMs) && (targets.get(servo) ?? track.to) === track.to && !freed.includes(servo),
+  );
+  return { ...later, tracks, restlessUntilMs: deafUntilMs + LONGEST_MOVE_MS };
 }
 
-/** After a stop: no further frame begins, the one in progress goes on to its end (S50). */
-export function afterStop(motion: Motion): Motion {
-  return { ...motion, run: null };
+/** After the board said so at `atMs`; the end of a group is `afterEnd`. */
+export function afterReport(motion: Motion, report: Report, atMs: number, board: KnownBoard): Motion {
+  const current = advance(motion, atMs, board);
+  if (report.kind === 'runStarted') return afterStart(current, report.slot);
+  return afterAnswer(current, report.kind);
 }
 
-/** The same motion with every frame that was due by `nowMs` begun. Call before reading or changing it. */
-export function advance(motion: Motion, nowMs: number, family: Family): Motion {
-  let current = motion;
-  while (current.run !== null && current.run.nextAtMs <= nowMs)
-    current = beginFrame(current, current.run, family);
-  return current;
+/** What came while it was deaf it takes up only now, and may be deaf again. */
+function afterAnswer(motion: Motion, kind: ReportKind): Motion {
+  const index = motion.answersOwed.indexOf(kind);
+  if (index < 0) return motion;
+  const answersOwed = motion.answersOwed.toSpliced(index, 1);
+  return { ...motion, answersOwed, deafUntilMs: answersOwed.length === 0 ? -Infinity : motion.deafUntilMs };
 }
 
-function beginFrame(motion: Motion, run: GroupRun, family: Family): Motion {
-  const frame = run.frames[run.next];
-  if (frame === undefined) return wrapAround(motion, run);
-  const moved = afterMove(motion, frame.targets, frame.durationMs, run.nextAtMs, family);
-  return {
-    ...moved,
-    run: { ...run, next: run.next + 1, nextAtMs: run.nextAtMs + Math.max(1, frame.durationMs) },
-  };
+/** By our own command a moment ago; or somebody started it at the board, and how long ago nobody can tell to the tick. */
+function afterStart(motion: Motion, slot: number): Motion {
+  const { run } = motion;
+  const isOurs = run?.kind === 'deadlines' && run.slot === slot && run.next <= 1 && run.loopsDone === 0;
+  return isOurs ? motion : runningUnknown(motion, slot);
 }
 
-function wrapAround(motion: Motion, run: GroupRun): Motion {
-  if (run.loopsLeft === null) return { ...motion, run: { ...run, next: 0 } };
-  const loopsLeft = run.loopsLeft - 1;
-  return { ...motion, run: loopsLeft > 0 ? { ...run, next: 0, loopsLeft } : null };
+/** After a group has ended by itself, or was ended behind our back. */
+export function afterEnd(motion: Motion, atMs: number, board: KnownBoard): Motion {
+  return playbackOf(board).ended(advance(motion, atMs, board), board);
+}
+
+/** How long one pass of a group takes at most. */
+export function passMs(frames: readonly Frame[], board: KnownBoard): number {
+  return playbackOf(board).passMs(frames);
+}
+
+/** Nothing is known any more: the robot may have been moved or the board restarted. */
+export function forgotten({ deafUntilMs }: Motion, atMs: number): Motion {
+  return { ...UNKNOWN_MOTION, deafUntilMs, restlessUntilMs: atMs + LONGEST_MOVE_MS, skipsFirst: 'maybe' };
 }
 
 /** Present position of a servo in board units, or null while it is unknown. */
 export function positionAt(motion: Motion, servo: number, nowMs: number): number | null {
   const track = motion.tracks.get(servo);
-  if (track === undefined) return null;
-  const position = positionOf(motion, track, nowMs);
+  const position = track ? positionOf(track, nowMs) : null;
   return position === null ? null : Math.round(position);
+}
+
+/** How far off `positionAt` may be, in board units: the way of one tick, and more for a servo redirected on its way. */
+export function leewayAt(motion: Motion, servo: number, nowMs: number, family: Family): number {
+  const track = motion.tracks.get(servo);
+  return track ? leewayOf(track, nowMs, family) : Infinity;
 }
 
 /** Where a servo was last asked to be, or null when it never was. */
@@ -118,27 +171,47 @@ export function targetOf(motion: Motion, servo: number): number | null {
   return motion.tracks.get(servo)?.to ?? null;
 }
 
-/** Milliseconds until the move in progress ends; 0 at rest. */
+/** Milliseconds until the moves in progress end; 0 at rest. */
 export function remainingMs(motion: Motion, nowMs: number): number {
-  return Math.max(0, motion.startMs + motion.durationMs - nowMs);
+  return lastEndMs(motion.tracks, nowMs) - nowMs;
+}
+
+/** Servos on a way that nobody knows the start of: a hold cannot freeze them (docs/adr/0002). */
+export function unheldServos(motion: Motion, nowMs: number): readonly number[] {
+  return [...motion.tracks.keys()].filter((servo) => positionAt(motion, servo, nowMs) === null);
+}
+
+/** How long a move must take at least, so that no servo whose start is unknown snaps to its target. */
+export function gentleMs(
+  motion: Motion,
+  servos: readonly number[],
+  nowMs: number,
+  { motion: { timing } }: Family,
+): number {
+  const unheld = unheldServos(motion, nowMs).filter((servo) => timing === 'shared' || servos.includes(servo));
+  return Math.ceil(
+    lastEndMs(
+      only(motion.tracks, (_, servo) => unheld.includes(servo)),
+      nowMs,
+    ) - nowMs,
+  );
 }
 
 /**
  * The one move that freezes the robot where it is at `nowMs`, or null when no position is known. A servo in its first
- * move has no known position: it cannot be frozen, and because the board re-times every servo (S26) the hold then takes
- * as long as that move still needs, so that it does not snap to its target.
+ * move has no known position: it cannot be frozen, and where the board re-times every servo (S26) the hold takes as long
+ * as that move still needs, so that it does not snap to its target.
  */
 export function holdMove(
   motion: Motion,
   nowMs: number,
   family: Family,
 ): { readonly targets: readonly ServoTarget[]; readonly durationMs: number } | null {
-  const targets: ServoTarget[] = [];
-  let durationMs = family.shortestMoveMs;
-  for (const servo of motion.tracks.keys()) {
+  const targets = [...motion.tracks.keys()].flatMap((servo) => {
     const position = positionAt(motion, servo, nowMs);
-    if (position === null) durationMs = Math.max(durationMs, Math.ceil(remainingMs(motion, nowMs)));
-    else targets.push({ servo, position });
-  }
+    return position === null ? [] : [{ servo, position }];
+  });
+  const held = targets.map(({ servo }) => servo);
+  const durationMs = Math.max(family.shortestMoveMs, gentleMs(motion, held, nowMs, family));
   return targets.length === 0 ? null : { targets, durationMs };
 }

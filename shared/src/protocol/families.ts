@@ -60,6 +60,22 @@ export interface Family {
   readonly ignoresUnknown: boolean;
   /** Pause the board needs between two packets, after the last byte has left the wire (S52, S54). */
   readonly serviceGapMs: number;
+  readonly motion: MotionTraits;
+}
+
+/** How a board turns its servos and plays its groups: what the motion estimate has to know of it. */
+export interface MotionTraits {
+  readonly tickMs: number;
+  /** The longest it says without being deaf to us: its servos wait that long, and what came meanwhile is late (S21, S29). */
+  readonly talkMs: number;
+  /** `shared`: any new target re-times every servo (S26). `perServo`: one that starts leaves the others alone. */
+  readonly timing: 'shared' | 'perServo';
+  /** `deadlines`: a frame takes its time, to the millisecond (S42). `polled`: the next begins some time behind it (L7). */
+  readonly groups: 'deadlines' | 'polled';
+  /** A stop halts these where they are; the others go on to the end of their frame (S50, L9). */
+  readonly haltedByStop: readonly number[];
+  /** When the group in this slot ends by itself, the next one is played once (S49). */
+  readonly chainedSlot: number | null;
 }
 
 /** What may be asked of any board: it moves nothing, stores nothing and makes nothing drop. */
@@ -88,6 +104,15 @@ const AS_STORED: Range = { min: 100, max: 100 };
 /** The longest packet that fits one HID report, which is how most of these boards are reached (boards.md chapter 6). */
 const HID_LENGTH = 62;
 
+const SHARED_TIME: MotionTraits = {
+  tickMs: 20, // S27
+  talkMs: 0,
+  timing: 'shared', // S26
+  groups: 'deadlines', // S42
+  haltedByStop: [], // S50
+  chainedSlot: null,
+};
+
 /** The open firmware (boards.md chapter 3); what its rows share with the ideal board of the protocol document. */
 const openFirmware = {
   unit: 'us',
@@ -111,6 +136,7 @@ const openFirmware = {
   neverSend: [],
   ignoresUnknown: true, // S5
   serviceGapMs: 10, // S54
+  motion: { ...SHARED_TIME, talkMs: 4.2, chainedSlot: 100 }, // S21, S49
 } as const;
 
 /** The arm and hand with six outputs; its builds differ in what they report. */
@@ -148,6 +174,8 @@ const closedFirmware = {
   neverSend: [5, 8, 12, 13, 14, 22, 23, 24, 26, 27, 28],
   ignoresUnknown: false, // X2
   serviceGapMs: 10,
+  // Nobody has written down how it moves: bus servos time themselves, the rest is the open firmware's way.
+  motion: { ...SHARED_TIME, talkMs: 7.3, timing: 'perServo' },
 } as const;
 
 const pulseBoard = {
@@ -205,6 +233,14 @@ const leArm = {
   neverSend: [4, 9, 10, 11, 12], // moves by other means, writes trims to flash, goes to the reset pose
   ignoresUnknown: false, // even these end a running group (L8)
   serviceGapMs: 10,
+  motion: {
+    tickMs: 10, // L5
+    talkMs: 0,
+    timing: 'perServo', // L5
+    groups: 'polled', // L7
+    haltedByStop: [1, 2, 3, 4, 5], // the base goes on (L9)
+    chainedSlot: null,
+  },
 } as const;
 
 export const FAMILIES: Readonly<Record<FamilyId, Family>> = {
@@ -219,6 +255,7 @@ export const FAMILIES: Readonly<Record<FamilyId, Family>> = {
     servosPerFrame: 32,
     commands: ['move', 'run', 'stop', 'erase', 'readBattery', 'download'],
     answers: ['run', 'erase', 'readBattery', 'download'],
+    motion: { ...openFirmware.motion, talkMs: 6.3 },
   },
   'openarm-old': {
     ...openArm,
@@ -226,6 +263,7 @@ export const FAMILIES: Readonly<Record<FamilyId, Family>> = {
     name: 'uHand 2.0 / OpenArm, old build',
     answers: ['erase', 'download'], // S18
     emptySeven: 'unknown', // S48
+    motion: SHARED_TIME, // no chain (S49)
   },
   'openarm-new': {
     ...openArm,

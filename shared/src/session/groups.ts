@@ -157,6 +157,7 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
     erase,
     download: storeGroup,
     heard(report) {
+      robot.heard(report);
       if (report.kind === 'runStarted') began(report.slot, report.times, 'acknowledged');
       if (report.kind === 'runFinished' || report.kind === 'runStopped') ended();
     },

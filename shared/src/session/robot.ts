@@ -4,17 +4,23 @@
 import type { Clock } from '../clock.ts';
 import {
   advance,
-  afterMove,
-  afterRun,
-  afterStop,
+  afterCommand,
+  afterEnd,
+  afterReport,
+  forgotten,
+  gentleMs,
   holdMove,
+  passMs,
   positionAt,
   remainingMs,
   targetOf,
   UNKNOWN_MOTION,
+  type KnownBoard,
 } from '../motion/motion.ts';
-import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
+import type { Command, Frame } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
+import type { Report } from '../protocol/reports.ts';
+import { createGroupMemory } from './groupMemory.ts';
 import type { MoveCommand } from './moveBuffer.ts';
 import type { ServoMotion } from './state.ts';
 import { FIRST_MOVE_MS } from './timings.ts';
@@ -22,6 +28,8 @@ import { FIRST_MOVE_MS } from './timings.ts';
 export interface RobotEstimate {
   /** A command's last bit left the wire just now. */
   applied(command: Command): void;
+  /** The board said something just now; the end of a group is told by `groupEnded`. */
+  heard(report: Report): void;
   motion(servo: number): ServoMotion;
   /** The move with the duration its unknown servos need (safety.md: first move). */
   softened(move: MoveCommand): MoveCommand;
@@ -33,40 +41,37 @@ export interface RobotEstimate {
   /** What is in `slot` is no longer what we stored; without a slot, in all of them. */
   unstored(slot?: number): void;
   storedSlots(): readonly number[];
-  /** Milliseconds that one pass of the group takes, or null when its frames are unknown. */
+  /** Milliseconds that one pass of the group takes at most, or null when its frames are unknown. */
   groupMs(slot: number): number | null;
   /** Nothing is known any more: the board may have moved or restarted behind our back. */
   forget(): void;
 }
 
 export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate {
-  const groups = new Map<number, readonly Frame[]>();
+  const memory = createGroupMemory();
+  const board: KnownBoard = { family, playedFrames: memory.playedFrames };
   let motion = UNKNOWN_MOTION;
 
-  const now = (): typeof motion => (motion = advance(motion, clock.now(), family));
+  const now = (): typeof motion => (motion = advance(motion, clock.now(), board));
 
-  function apply(command: Command): void {
-    const current = now();
-    const atMs = clock.now();
-    if (command.kind === 'move')
-      motion = afterMove(current, command.targets, command.durationMs, atMs, family);
-    if (command.kind === 'run')
-      motion = afterRun(current, groups.get(command.slot) ?? null, command.times, atMs);
-    if (command.kind === 'stop') motion = afterStop(current);
-    if (command.kind === 'release') motion = UNKNOWN_MOTION; // it drops, who knows where to
+  /** A frame of a known group that is due was begun from what was stored until now. */
+  function changeMemory(change: () => void): void {
+    now();
+    change();
   }
 
-  const isUnknown = ({ servo }: ServoTarget): boolean => positionAt(now(), servo, clock.now()) === null;
-
   return {
-    applied: apply,
+    applied(command) {
+      motion = afterCommand(motion, command, clock.now(), board);
+      if (command.kind === 'setSpeed') changeMemory(() => memory.setSpeed(command.slot, command.percent));
+    },
+    heard: (report) => (motion = afterReport(motion, report, clock.now(), board)),
     motion: (servo) => ({ target: targetOf(now(), servo), estimated: positionAt(now(), servo, clock.now()) }),
     softened(move) {
-      const newcomer = move.targets.some(
-        (target) => isUnknown(target) && targetOf(now(), target.servo) === null,
-      );
-      const underWay = [...now().tracks.keys()].some((servo) => isUnknown({ servo, position: 0 }));
-      const needsMs = newcomer ? FIRST_MOVE_MS : underWay ? Math.ceil(remainingMs(now(), clock.now())) : 0;
+      const servos = move.targets.map(({ servo }) => servo);
+      const isNew = servos.some((servo) => targetOf(now(), servo) === null);
+      const gentle = isNew ? Infinity : gentleMs(now(), servos, clock.now(), family);
+      const needsMs = Math.min(FIRST_MOVE_MS, gentle);
       return move.durationMs >= needsMs ? move : { ...move, durationMs: needsMs };
     },
     hold() {
@@ -74,16 +79,17 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
       return hold && { kind: 'move', ...hold };
     },
     moving: () => now().run !== null || remainingMs(now(), clock.now()) > 0,
-    groupEnded: () => (motion = afterStop(now())),
-    stored: (slot, frames) => groups.set(slot, frames),
-    unstored(slot) {
-      if (slot === undefined) groups.clear();
-      else groups.delete(slot);
+    groupEnded: () => (motion = afterEnd(motion, clock.now(), board)),
+    stored: (slot, frames) => changeMemory(() => memory.store(slot, frames)),
+    unstored: (slot) => changeMemory(() => memory.clear(slot)),
+    storedSlots: memory.slots,
+    groupMs(slot) {
+      const frames = memory.playedFrames(slot);
+      return frames && passMs(frames, board);
     },
-    storedSlots: () => [...groups.keys()].sort((a, b) => a - b),
-    groupMs: (slot) => groups.get(slot)?.reduce((sum, frame) => sum + frame.durationMs, 0) ?? null,
     forget() {
-      motion = UNKNOWN_MOTION;
+      memory.forgetSpeeds();
+      motion = forgotten(motion, clock.now());
     },
   };
 }

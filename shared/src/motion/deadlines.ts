@@ -1,0 +1,129 @@
+// Groups on deadlines: a frame begins when the time of the one before it is over (S42-S50). The open firmware's way; of the
+// closed boards nobody knows, and the simulated ones do the same. Knows runs; no servo's way.
+
+import { wireMs } from '../protocol/packet.ts';
+import type { Family } from '../protocol/families.ts';
+import {
+  runningUnknown,
+  type DeadlineRun,
+  type KnownBoard,
+  type Motion,
+  type Playback,
+  type RunRequest,
+} from './model.ts';
+import { retarget } from './tracks.ts';
+
+/** Group 0 takes the place of any other (S47). */
+const PREEMPTIVE_SLOT = 0;
+const BARE_PACKET_MS = wireMs(4);
+const RUN_REPORT_MS = wireMs(7);
+
+/** What the board says before it looks for the group (S18, X1): it sends by busy-waiting (S21). */
+function announcementMs({ runReportsNameSlot, answers }: Family): number {
+  if (runReportsNameSlot) return RUN_REPORT_MS;
+  return answers.includes('run') ? BARE_PACKET_MS : 0;
+}
+
+/** A run that begins at `atMs`. */
+function begin(
+  motion: Motion,
+  { slot, times }: RunRequest,
+  atMs: number,
+  board: KnownBoard,
+  endsToHear = 1,
+): Motion {
+  const total = board.playedFrames(slot)?.length;
+  if (total === undefined) return runningUnknown(motion, slot, endsToHear);
+  const at = { nextAtMs: atMs, passAtMs: atMs };
+  return {
+    ...motion,
+    run: { kind: 'deadlines', slot, total, next: 0, ...at, times, loopsDone: 0, endsToHear },
+  };
+}
+
+/** While another group runs: its length is overwritten, whatever comes of the request (S45, S46). */
+function requestDuring(
+  motion: Motion,
+  run: DeadlineRun,
+  { slot, times }: RunRequest,
+  board: KnownBoard,
+): Motion {
+  const total = board.playedFrames(slot)?.length;
+  if (total === undefined) return runningUnknown(motion, null);
+  return { ...motion, run: { ...run, total, times: slot === run.slot ? times : run.times } };
+}
+
+function request(motion: Motion, wanted: RunRequest, atMs: number, board: KnownBoard): Motion {
+  const { run } = motion;
+  if (run !== null && run.kind !== 'deadlines') return runningUnknown(motion, null);
+  const preempts = wanted.slot === PREEMPTIVE_SLOT && run?.slot !== PREEMPTIVE_SLOT;
+  if (run !== null && !preempts) return requestDuring(motion, run, wanted, board);
+  return begin(motion, wanted, atMs + announcementMs(board.family), board);
+}
+
+/** What stands behind the last stored frame is erased flash: the run ends there, unsaid (S35, S46). */
+function beginFrame(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion {
+  const frames = board.playedFrames(run.slot);
+  if (frames === null) return runningUnknown(motion, run.slot, run.endsToHear);
+  const frame = frames[run.next];
+  if (frame === undefined) return { ...motion, run: null };
+  return {
+    ...motion,
+    tracks: retarget(motion.tracks, frame.targets, frame.durationMs, run.nextAtMs, board.family),
+    // The raw time, not the one the servos were given (S43).
+    run: { ...run, next: run.next + 1, nextAtMs: run.nextAtMs + frame.durationMs },
+  };
+}
+
+/** Loops done while endless are not counted (S45). */
+function endPass(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion {
+  const loopsDone = run.times === 0 ? run.loopsDone : run.loopsDone + 1;
+  if (run.times !== 0 && loopsDone >= run.times) return endRun(motion, run, board);
+  // Without any time it goes round as fast as the board's loop, and nobody knows how fast that is.
+  if (run.nextAtMs === run.passAtMs) return runningUnknown(motion, run.slot, run.endsToHear);
+  return { ...motion, run: { ...run, next: 0, passAtMs: run.nextAtMs, loopsDone } };
+}
+
+function endRun(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion {
+  const ended = { ...motion, run: null };
+  if (run.slot !== board.family.motion.chainedSlot) return ended;
+  // Its own end, still to be heard, and the next one's.
+  return begin(
+    ended,
+    { slot: run.slot + 1, times: 1 },
+    run.nextAtMs + BARE_PACKET_MS,
+    board,
+    run.endsToHear + 1,
+  );
+}
+
+function step(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion {
+  return run.next < run.total ? beginFrame(motion, run, board) : endPass(motion, run, board);
+}
+
+function advance(motion: Motion, nowMs: number, board: KnownBoard): Motion {
+  let current = motion;
+  while (current.run?.kind === 'deadlines' && current.run.nextAtMs <= nowMs)
+    current = step(current, current.run, board);
+  return current;
+}
+
+/** The board knows better than our clock; but each end it reports is only one of those it owes. */
+function ended(motion: Motion, board: KnownBoard): Motion {
+  const { run } = motion;
+  if (run === null || run.kind === 'polled') return motion;
+  if (run.endsToHear > 1) return { ...motion, run: { ...run, endsToHear: run.endsToHear - 1 } };
+  const { chainedSlot } = board.family.motion;
+  const isChained = chainedSlot !== null && (run.slot ?? chainedSlot) === chainedSlot;
+  return isChained ? runningUnknown(motion, chainedSlot + 1) : { ...motion, run: null };
+}
+
+export const deadlines: Playback = {
+  request,
+  advance,
+  // The frame in progress goes on to its end (S50).
+  stop: (motion) => ({ ...motion, run: null }),
+  interrupt: (motion) => motion,
+  ended,
+  passMs: (frames) => frames.reduce((sum, { durationMs }) => sum + durationMs, 0),
+};

@@ -1,0 +1,94 @@
+// The estimate as a value, and what a way of playing groups has to answer. Knows what can be known of a board's motion; no
+// rule of any board: those are tracks.ts, deadlines.ts and polled.ts.
+
+import type { Frame } from '../protocol/commands.ts';
+import type { Family } from '../protocol/families.ts';
+import type { ReportKind } from '../protocol/reports.ts';
+import type { Tracks } from './tracks.ts';
+
+/** A group that may move anything at any time: its frames are not ours, or its time cannot be computed. */
+interface UnknownRun {
+  readonly kind: 'unknown';
+  readonly slot: number | null;
+  /** How many ends the board will report until nothing runs any more (S49). */
+  readonly endsToHear: number;
+}
+
+/** `next` is the frame that begins at `nextAtMs`; `total` what the board takes for the group's length (S46). */
+export interface DeadlineRun {
+  readonly kind: 'deadlines';
+  readonly slot: number;
+  readonly total: number;
+  readonly next: number;
+  readonly nextAtMs: number;
+  readonly passAtMs: number;
+  /** 0: until stopped. */
+  readonly times: number;
+  readonly loopsDone: number;
+  readonly endsToHear: number;
+}
+
+/** Known until `restAtMs`; behind it `rest` is where the servos of the later frames end, somewhen before `endMs`. */
+export interface PolledRun {
+  readonly kind: 'polled';
+  readonly rest: ReadonlyMap<number, number>;
+  readonly restAtMs: number;
+  readonly surelyUntilMs: number;
+  readonly endMs: number;
+  /** `rest` stands in the tracks already. */
+  readonly isBlurred: boolean;
+}
+
+export interface Motion {
+  readonly tracks: Tracks;
+  readonly run: UnknownRun | DeadlineRun | PolledRun | null;
+  /** Until then the board may be busy with flash or servos, its servos frozen, packets waiting or dropped (S9, S41). */
+  readonly deafUntilMs: number;
+  /** When it has answered all that, it hears again sooner. */
+  readonly answersOwed: readonly ReportKind[];
+  /** Until then a servo we know nothing of may still be on its way. */
+  readonly restlessUntilMs: number;
+  /** The next run skips its first frame (L11). */
+  readonly skipsFirst: 'no' | 'maybe' | 'yes';
+}
+
+/** The board as far as it stays the same while it moves. */
+export interface KnownBoard {
+  readonly family: Family;
+  /** The group with the times it is played with (X3), or null where nobody knows it. */
+  playedFrames(slot: number): readonly Frame[] | null;
+}
+
+export interface RunRequest {
+  readonly slot: number;
+  readonly times: number;
+}
+
+/** One way of playing groups. Each function gets a motion that is advanced to the time it happens. */
+export interface Playback {
+  request(motion: Motion, request: RunRequest, atMs: number, board: KnownBoard): Motion;
+  /** Everything that was due by `nowMs` has happened. */
+  advance(motion: Motion, nowMs: number, board: KnownBoard): Motion;
+  stop(motion: Motion, atMs: number, board: KnownBoard): Motion;
+  /** Any other command came. */
+  interrupt(motion: Motion, atMs: number): Motion;
+  /** The board says that a group has ended. */
+  ended(motion: Motion, board: KnownBoard): Motion;
+  /** How long one pass of a group takes at most. */
+  passMs(frames: readonly Frame[]): number;
+}
+
+/** Nothing is known: after connecting, and after anything that may have moved the robot behind our back. */
+export const UNKNOWN_MOTION: Motion = {
+  tracks: new Map(),
+  run: null,
+  deafUntilMs: -Infinity,
+  answersOwed: [],
+  restlessUntilMs: -Infinity,
+  skipsFirst: 'no',
+};
+
+/** Nobody knows where anything is while that group may run, nor behind it. */
+export function runningUnknown(motion: Motion, slot: number | null, endsToHear = 1): Motion {
+  return { ...motion, tracks: new Map(), run: { kind: 'unknown', slot, endsToHear } };
+}

@@ -1,0 +1,157 @@
+// Groups without deadlines: LeArm looks now and then whether all servos have arrived, then begins the next frame (L6-L11).
+// When that is cannot be told within a tick, so of a group only the first frame is known, and where it ends. Knows runs; no
+// servo's way.
+
+import type { Frame } from '../protocol/commands.ts';
+import {
+  runningUnknown,
+  type KnownBoard,
+  type Motion,
+  type Playback,
+  type PolledRun,
+  type RunRequest,
+} from './model.ts';
+import { boardDurationMs, frozen, lastEndMs, LONGEST_MOVE_MS, only, retarget } from './tracks.ts';
+
+/** About, and jittering (L7). */
+const POLL_MS = 110;
+/** Bus servos are not asked: the board counts such steps of the frame's time, one a poll (L7). */
+const STEP_MS = 100;
+/** One until it looks, one for the jitter. */
+const SPARE_POLLS = 2;
+
+/** By then the next frame has begun; the first servo may not have moved before. */
+function latestMs(frame: Frame): number {
+  return (Math.ceil(frame.durationMs / STEP_MS) + SPARE_POLLS) * POLL_MS;
+}
+
+/** A frame that moves nothing is over at once. */
+function surelyMs(frame: Frame, board: KnownBoard): number {
+  return frame.targets.length === 0 ? 0 : boardDurationMs(frame.durationMs, board.family);
+}
+
+function sum(frames: readonly Frame[], timeOf: (frame: Frame) => number): number {
+  return frames.reduce((total, frame) => total + timeOf(frame), 0);
+}
+
+function lastTargets(frames: readonly Frame[]): ReadonlyMap<number, number> {
+  return new Map(frames.flatMap(({ targets }) => targets.map(({ servo, position }) => [servo, position])));
+}
+
+interface Order {
+  readonly first: Frame;
+  readonly behind: readonly Frame[];
+  readonly passesLeft: number;
+  readonly frames: readonly Frame[];
+}
+
+/** The frames of a request: the first, those behind it in its pass, and how many whole passes follow; null for none. */
+function orderOfPlay(frames: readonly Frame[], times: number, skipsFirst: boolean): Order | null {
+  // One byte, and 0 means once (L6).
+  const passes = times & 0xff || 1;
+  // Skipping the only frame skips a pass.
+  const index = skipsFirst ? 1 % frames.length : 0;
+  const passesLeft = passes - (skipsFirst && index === 0 ? 2 : 1);
+  const first = frames[index];
+  return first === undefined || passesLeft < 0
+    ? null
+    : { first, behind: frames.slice(index + 1), passesLeft, frames };
+}
+
+function request(motion: Motion, { slot, times }: RunRequest, atMs: number, board: KnownBoard): Motion {
+  const frames = board.playedFrames(slot);
+  const next = { ...motion, skipsFirst: 'no' } as const;
+  // What becomes of a run when the next one comes nobody has read.
+  if (frames === null || motion.run !== null || motion.skipsFirst === 'maybe')
+    return runningUnknown(next, slot);
+  const order = orderOfPlay(frames, times, motion.skipsFirst === 'yes');
+  return order === null ? next : begin(next, order, atMs, board);
+}
+
+/** Before the first frame, too, it may wait until all servos have arrived. */
+function begin(motion: Motion, order: Order, atMs: number, board: KnownBoard): Motion {
+  const { first } = order;
+  const restedMs = Math.max(lastEndMs(motion.tracks, atMs), motion.restlessUntilMs);
+  if (restedMs > atMs) return { ...motion, run: runOf(order, [first], atMs, restedMs, atMs, board) };
+  const tracks = retarget(motion.tracks, first.targets, first.durationMs, atMs, board.family);
+  const arrivedMs = lastEndMs(tracks, atMs);
+  return {
+    ...motion,
+    tracks,
+    run: runOf(order, [], arrivedMs, arrivedMs, atMs + surelyMs(first, board), board),
+  };
+}
+
+/** `ahead` and all behind it come somewhen after `restAtMs`, and no later than counted from `countedMs`. */
+function runOf(
+  { behind, frames, passesLeft }: Order,
+  ahead: readonly Frame[],
+  restAtMs: number,
+  countedMs: number,
+  surelyMsSoFar: number,
+  board: KnownBoard,
+): PolledRun {
+  const pass = [...ahead, ...behind];
+  const total = (timeOf: (frame: Frame) => number): number =>
+    sum(pass, timeOf) + passesLeft * sum(frames, timeOf);
+  return {
+    kind: 'polled',
+    rest: lastTargets(passesLeft > 0 ? [...pass, ...frames] : pass),
+    restAtMs,
+    surelyUntilMs: surelyMsSoFar + total((frame) => surelyMs(frame, board)),
+    endMs: countedMs + SPARE_POLLS * POLL_MS + total(latestMs),
+    isBlurred: false,
+  };
+}
+
+/** Behind the first frame each servo is somewhere until the run is over for sure. */
+function blur(motion: Motion, run: PolledRun): Motion {
+  const tracks = new Map(motion.tracks);
+  const way = { from: null, startMs: run.restAtMs, durationMs: run.endMs - run.restAtMs };
+  for (const [servo, to] of run.rest) tracks.set(servo, { ...way, to, fromLeeway: 0, toLeeway: 0 });
+  return { ...motion, tracks, run: { ...run, isBlurred: true } };
+}
+
+function advance(motion: Motion, nowMs: number): Motion {
+  const { run } = motion;
+  if (run?.kind !== 'polled' || nowMs < run.restAtMs) return motion;
+  const blurred = run.isBlurred ? motion : blur(motion, run);
+  return nowMs < run.endMs ? blurred : { ...blurred, run: null };
+}
+
+/** No further frame begins; which one is in progress is known of the first alone. */
+function cut(motion: Motion, atMs: number): Motion {
+  const { run } = motion;
+  if (run === null) return motion;
+  if (run.kind === 'polled' && (atMs < run.restAtMs || run.rest.size === 0)) return { ...motion, run: null };
+  const named = run.kind === 'polled' ? run.rest : motion.tracks;
+  return {
+    ...motion,
+    tracks: only(motion.tracks, (_, servo) => !named.has(servo)),
+    run: null,
+    restlessUntilMs: atMs + LONGEST_MOVE_MS,
+  };
+}
+
+/** The group dies, unsaid (L8), and leaves its place in the frames behind (L11). */
+function interrupt(motion: Motion, atMs: number): Motion {
+  const { run } = motion;
+  if (run === null) return motion;
+  const surely = run.kind === 'polled' && atMs < run.surelyUntilMs;
+  return { ...cut(motion, atMs), skipsFirst: surely ? 'yes' : 'maybe' };
+}
+
+function stop(motion: Motion, atMs: number, { family }: KnownBoard): Motion {
+  const { tracks, ...stopped } = cut(motion, atMs);
+  return { ...stopped, tracks: frozen(tracks, family, atMs) };
+}
+
+export const polled: Playback = {
+  request,
+  advance,
+  stop,
+  interrupt,
+  // It tells of no end (L6).
+  ended: (motion) => motion,
+  passMs: (frames) => sum(frames, latestMs),
+};

@@ -1,0 +1,115 @@
+// Where each servo is on its way: linear, in whole ticks of the board (S25-S27, L5). Knows targets and times; no group, no
+// command. The board's ticks fall where nobody can see them, so a servo under way may be one tick off, either way.
+
+import type { ServoTarget } from '../protocol/commands.ts';
+import type { Family } from '../protocol/families.ts';
+
+/** One servo's way. `from` is null when nobody knows where it started. */
+export interface Track {
+  readonly from: number | null;
+  readonly to: number;
+  readonly startMs: number;
+  readonly durationMs: number;
+  /** How far off the two ends may be: a servo whose way is changed or halted keeps what was open then. */
+  readonly fromLeeway: number;
+  readonly toLeeway: number;
+}
+
+export type Tracks = ReadonlyMap<number, Track>;
+
+/** Of every board: S25, L5; of the closed ones nobody knows better. */
+export const LONGEST_MOVE_MS = 30_000;
+
+/** The board's own duration: clamped, in whole ticks. */
+export function boardDurationMs(durationMs: number, { motion, shortestMoveMs }: Family): number {
+  const clamped = Math.min(Math.max(durationMs, shortestMoveMs), LONGEST_MOVE_MS);
+  return Math.floor(clamped / motion.tickMs) * motion.tickMs;
+}
+
+export function endMs(track: Track): number {
+  return track.startMs + track.durationMs;
+}
+
+/** It has arrived, or was there from the start. */
+export function stands(track: Track, nowMs: number): boolean {
+  return endMs(track) <= nowMs || (track.from === track.to && track.fromLeeway === 0);
+}
+
+/** When the last of them arrives; `atMs` where all have. */
+export function lastEndMs(tracks: Tracks, atMs: number): number {
+  return Math.max(atMs, ...[...tracks.values()].map(endMs));
+}
+
+function share(track: Track, nowMs: number): number {
+  return nowMs >= endMs(track) ? 1 : Math.max(0, nowMs - track.startMs) / track.durationMs;
+}
+
+/** Exact, not rounded; null while nobody knows. */
+export function positionOf(track: Track, nowMs: number): number | null {
+  const done = share(track, nowMs);
+  if (done === 1) return track.to;
+  return track.from === null ? null : track.from + (track.to - track.from) * done;
+}
+
+/** How far off that may be: its way of one tick, held up by what the board says, and what the ends leave open. */
+export function leewayOf(track: Track, nowMs: number, { motion, position }: Family): number {
+  const { from, to, durationMs, fromLeeway, toLeeway } = track;
+  if (nowMs >= endMs(track) + motion.talkMs) return toLeeway;
+  const way = from === null ? position.max - position.min : Math.abs(to - from);
+  const tick = Math.min(1, (motion.tickMs + motion.talkMs) / durationMs);
+  // What was open at its start the board may have left behind one tick later than we.
+  const left = Math.min(1, 1 - share(track, nowMs) + tick);
+  return way * tick + toLeeway + (fromLeeway - toLeeway) * left;
+}
+
+/** Its way from `atMs` on to `to`. */
+function redirected(
+  track: Track | undefined,
+  to: number,
+  atMs: number,
+  durationMs: number,
+  family: Family,
+): Track {
+  const from = track ? positionOf(track, atMs) : null;
+  const carried = track && from !== null ? leewayOf(track, atMs, family) : 0;
+  // Positions are whole numbers to the board, wherever it cuts a way short.
+  const fromLeeway = carried === 0 ? 0 : carried + 1;
+  return { from, to, startMs: atMs, durationMs, fromLeeway, toLeeway: 0 };
+}
+
+/** After new targets took effect at `atMs`. */
+export function retarget(
+  tracks: Tracks,
+  targets: readonly ServoTarget[],
+  requestedMs: number,
+  atMs: number,
+  family: Family,
+): Tracks {
+  if (targets.length === 0) return tracks;
+  const durationMs = boardDurationMs(requestedMs, family);
+  const next = new Map(tracks);
+  const aim = (servo: number, to: number): void =>
+    void next.set(servo, redirected(tracks.get(servo), to, atMs, durationMs, family));
+  if (family.motion.timing === 'shared') tracks.forEach((track, servo) => aim(servo, track.to));
+  for (const { servo, position } of targets) aim(servo, position);
+  return next;
+}
+
+/** After a stop: those that it halts are where they were. */
+export function frozen(tracks: Tracks, family: Family, atMs: number): Tracks {
+  const next = new Map(tracks);
+  for (const servo of family.motion.haltedByStop) {
+    const track = tracks.get(servo);
+    if (!track || endMs(track) <= atMs) continue;
+    const to = positionOf(track, atMs);
+    const toLeeway = leewayOf(track, atMs, family) + 1;
+    if (to === null) next.delete(servo);
+    else next.set(servo, { from: to, to, startMs: atMs, durationMs: 0, fromLeeway: toLeeway, toLeeway });
+  }
+  return next;
+}
+
+/** Those of the tracks that `keep` says. */
+export function only(tracks: Tracks, keep: (track: Track, servo: number) => boolean): Tracks {
+  return new Map([...tracks].filter(([servo, track]) => keep(track, servo)));
+}

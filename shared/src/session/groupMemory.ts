@@ -1,0 +1,54 @@
+// The groups this session stored on the board and how fast the board plays them. Knows slots; not what runs.
+
+import type { Frame } from '../protocol/commands.ts';
+
+export interface GroupMemory {
+  store(slot: number, frames: readonly Frame[]): void;
+  /** Without a slot, all of them. */
+  clear(slot?: number): void;
+  slots(): readonly number[];
+  /** Without a slot, of every group (X3). */
+  setSpeed(slot: number | null, percent: number): void;
+  /** The board may have lost its speeds with its power, or kept them. */
+  forgetSpeeds(): void;
+  /** With the times the board plays them in; null where the frames or the speed are unknown. */
+  playedFrames(slot: number): readonly Frame[] | null;
+}
+
+const AS_STORED = 100;
+
+export function createGroupMemory(): GroupMemory {
+  const groups = new Map<number, readonly Frame[]>();
+  const percents = new Map<number, number>();
+  let usualPercent: number | null = AS_STORED;
+
+  function playedFrames(slot: number): readonly Frame[] | null {
+    const frames = groups.get(slot);
+    const percent = percents.get(slot) ?? usualPercent;
+    if (frames === undefined || percent === null) return null;
+    if (percent === AS_STORED) return frames;
+    const scaled = (durationMs: number): number => Math.round((durationMs * AS_STORED) / percent);
+    return frames.map(({ durationMs, targets }) => ({ durationMs: scaled(durationMs), targets }));
+  }
+
+  return {
+    store: (slot, frames) => void groups.set(slot, frames),
+    clear(slot) {
+      if (slot === undefined) groups.clear();
+      else groups.delete(slot);
+    },
+    slots: () => [...groups.keys()].sort((a, b) => a - b),
+    setSpeed(slot, percent) {
+      if (slot !== null) percents.set(slot, percent);
+      else {
+        percents.clear();
+        usualPercent = percent;
+      }
+    },
+    forgetSpeeds() {
+      if (percents.size > 0 || usualPercent !== AS_STORED) usualPercent = null;
+      percents.clear();
+    },
+    playedFrames,
+  };
+}

@@ -1,0 +1,96 @@
+// What moves the robot behind our back: where the session is told of it, the estimate is right or says that it does not
+// know, and it knows again after a stop and a move. Where nobody tells (motion.ts) there is nothing to prove.
+
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import type { Family, Range } from '../protocol/families.ts';
+import { createEstimateUnderTest, isWrong, SIMULATED, type EstimateUnderTest } from './estimateUnderTest.ts';
+import { someMove, usualServos } from './stepsUnderTest.ts';
+
+const REPORTING = SIMULATED.filter(({ family }) => family.runReportsNameSlot);
+
+const { numRuns = 5 } = fc.readConfigureGlobal();
+const TIMEOUT_MS = 600_000;
+const BRIEF: Range = { min: 0, max: 400 };
+
+function moves(family: Family) {
+  return fc.array(fc.tuple(someMove(family, BRIEF), fc.nat(600)), { minLength: 1, maxLength: 5 });
+}
+
+/** Commanded by us and at rest, every usual servo is known, and is where it was sent. */
+async function expectKnownAgain(robot: EstimateUnderTest, family: Family): Promise<void> {
+  const targets = usualServos(family).map((servo) => ({ servo, position: family.centre - servo }));
+  await robot.send({ kind: 'stop' });
+  await robot.send({ kind: 'move', durationMs: 200, targets });
+  await robot.wait(300);
+  const last = robot.samples.slice(-family.usualServoCount);
+  expect(last.map(({ estimated }) => estimated)).toEqual(targets.map(({ position }) => position));
+  expect(last.filter(isWrong)).toEqual([]);
+}
+
+describe.each(REPORTING)('$profile', ({ family, profile }) => {
+  test(
+    'somebody starts a group at the board: unknown from its word on, known again after its end',
+    async () => {
+      await fc.assert(
+        fc.asyncProperty(
+          moves(family),
+          fc.constantFrom(0, 2, 8, 100),
+          fc.nat(1500),
+          async (steps, slot, afterMs) => {
+            const robot = createEstimateUnderTest({
+              ...{ family, profile, onForMs: 10_000 },
+              faults: [{ name: 'padRun', slot, afterMs }],
+            });
+            for (const [move, ms] of steps) {
+              await robot.send(move);
+              await robot.wait(ms);
+            }
+            await robot.wait(4_500);
+            await expectKnownAgain(robot, family);
+            expect(robot.reports.map(({ kind }) => kind)).toEqual(['runStarted', 'runFinished']);
+            const told = robot.samples.filter(({ atMs, reportsHeard }) => atMs < afterMs || reportsHeard > 0);
+            expect(told.filter(isWrong)).toEqual([]);
+          },
+        ),
+        { numRuns },
+      );
+    },
+    TIMEOUT_MS,
+  );
+});
+
+describe.each(SIMULATED)('$profile', ({ family, profile }) => {
+  test(
+    'the link is lost and comes back: unknown, and known again after stop and move',
+    async () => {
+      // A LeArm that restarts listens to its own app until somebody presses its key (L2).
+      const restarts = profile === 'learm-esp32' ? fc.constant(false) : fc.boolean();
+      await fc.assert(
+        fc.asyncProperty(moves(family), moves(family), restarts, async (before, after, restarted) => {
+          const robot = createEstimateUnderTest({ family, profile, onForMs: 10_000 });
+          for (const [move, ms] of before) {
+            await robot.send(move);
+            await robot.wait(ms);
+          }
+          robot.board.unplug();
+          robot.forget();
+          if (restarted) robot.board.reboot();
+          await robot.wait(1_000);
+          robot.board.plugIn();
+          const lostAt = robot.samples.length;
+          await robot.send({ kind: 'stop' });
+          expect(robot.samples.slice(lostAt).every(({ estimated }) => estimated === null)).toBe(true);
+          for (const [move, ms] of after) {
+            await robot.send(move);
+            await robot.wait(ms);
+          }
+          await expectKnownAgain(robot, family);
+          expect(robot.samples.filter(isWrong)).toEqual([]);
+        }),
+        { numRuns },
+      );
+    },
+    TIMEOUT_MS,
+  );
+});
