@@ -52,7 +52,7 @@ function Latched({ latch }: { readonly latch: Latch }) {
       <Said
         truth={latch.stop === 'confirmed' ? 'confirmed' : latch.stop === 'failed' ? 'danger' : 'warning'}
         text={words.stop.outcome[latch.stop]}
-        more={words.stop.reason[latch.reason]}
+        more={latch.unheld.length > 0 ? words.stop.unheld(latch.unheld) : words.stop.reason[latch.reason]}
       />
       <Button onPress={() => device.resume()} icon="play" hint={words.stop.resumeHint}>
         {words.stop.resume}

@@ -68,6 +68,8 @@ export const words = {
       elsewhere: 'Stopped on another screen',
       reconnected: 'The link came back; look at the robot first',
     },
+    unheld: (servos: readonly number[]): string =>
+      `Servo ${formatList(servos)} ends its slow first move: nobody knows where to hold it`,
     outcome: {
       sending: 'Stopping',
       sent: 'Stop sent; this board does not confirm',

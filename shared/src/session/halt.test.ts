@@ -23,7 +23,17 @@ describe('STOP', () => {
     expect(after[0]?.atMs).toBeLessThan(pressedMs + 5);
     expect(rig.transport.board.pulse(1)).toBeGreaterThan(1_400);
     expect(rig.transport.board.pulse(1)).toBeLessThan(1_550);
-    expect(rig.session.state.latch).toEqual({ reason: 'pressed', stop: 'sent' });
+    expect(rig.session.state.latch).toMatchObject({ reason: 'pressed', stop: 'sent' });
+  });
+
+  test('names the servos in their first move, which nobody can hold', async () => {
+    const rig = await createRig();
+    await knownAtRest(rig);
+    rig.session.move([{ servo: 3, position: 1_200 }], 0);
+    await rig.clock.advance(300);
+    void rig.session.halt();
+    expect(rig.session.state.latch).toMatchObject({ unheld: [3] });
+    await rig.clock.advance(3_000);
   });
 
   test('goes ahead of everything queued, and nothing else follows it', async () => {
@@ -99,6 +109,6 @@ describe('STOP', () => {
     const rig = await createRig();
     rig.transport.unplug();
     await expect(rig.session.halt()).rejects.toMatchObject({ code: 'lost' });
-    expect(rig.session.state.latch).toEqual({ reason: 'pressed', stop: 'failed' });
+    expect(rig.session.state.latch).toMatchObject({ reason: 'pressed', stop: 'failed' });
   });
 });

@@ -43,6 +43,8 @@ export interface HaltOptions {
   readonly transport: Transport;
   /** The move that freezes the robot where it is estimated to be, or null where nothing is known. */
   holdPacket(): Uint8Array | null;
+  /** Servos that it cannot freeze. */
+  unheld(): readonly number[];
   /** Somebody else held the robot: nobody here knows where. */
   forget(): void;
   dropAll(error: LinkError): void;
@@ -109,11 +111,11 @@ export function createHalt(options: HaltOptions): Halt {
   return {
     latchedElsewhere() {
       options.forget();
-      latch({ reason: 'elsewhere', stop: 'sent' });
+      latch({ reason: 'elsewhere', stop: 'sent', unheld: [] });
     },
-    latchedByLoss: () => latch({ reason: 'reconnected', stop: 'failed' }),
+    latchedByLoss: () => latch({ reason: 'reconnected', stop: 'failed', unheld: [] }),
     async halt() {
-      latch({ reason: 'pressed', stop: 'sending' });
+      latch({ reason: 'pressed', stop: 'sending', unheld: options.unheld() });
       await send(transport.halt ? haltSharedLink : haltOwnLink);
     },
     async resume() {

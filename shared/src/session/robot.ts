@@ -14,6 +14,7 @@ import {
   positionAt,
   remainingMs,
   targetOf,
+  unheldServos,
   UNKNOWN_MOTION,
   type KnownBoard,
 } from '../motion/motion.ts';
@@ -34,6 +35,8 @@ export interface RobotEstimate {
   /** The move with the duration its unknown servos need (safety.md: first move). */
   softened(move: MoveCommand): MoveCommand;
   hold(): MoveCommand | null;
+  /** Servos that a hold cannot freeze now. */
+  unheld(): readonly number[];
   moving(): boolean;
   /** The board played its group to the end. */
   groupEnded(): void;
@@ -78,6 +81,7 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
       const hold = holdMove(now(), clock.now(), family);
       return hold && { kind: 'move', ...hold };
     },
+    unheld: () => unheldServos(now(), clock.now()),
     moving: () => now().run !== null || remainingMs(now(), clock.now()) > 0,
     groupEnded: () => (motion = afterEnd(motion, clock.now(), board)),
     stored: (slot, frames) => changeMemory(() => memory.store(slot, frames)),

@@ -108,6 +108,7 @@ export function createSession(options: SessionOptions): Session {
       const hold = driver.core.robot.hold();
       return hold && encodeOrRefuse(hold, driver.core.family);
     },
+    unheld: () => driver.core.robot.unheld(),
     forget: () => driver.core.robot.forget(),
     sentByOthers(packet) {
       note(packet);

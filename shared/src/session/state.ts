@@ -26,6 +26,8 @@ export interface Latch {
   readonly reason: 'pressed' | 'elsewhere' | 'reconnected';
   /** `sending`: the stop packets are on their way. `sent`: they left the wire. `confirmed`: the board said so. */
   readonly stop: 'sending' | 'sent' | 'confirmed' | 'failed';
+  /** Servos in a first move when it was pressed: nobody knows where, so they end that slow move and are not held. */
+  readonly unheld: readonly number[];
 }
 
 export type Activity =

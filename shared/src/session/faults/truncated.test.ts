@@ -81,7 +81,7 @@ async function cutMove(servoCount: number, cut: number, circumstances: Circumsta
   expect(board.runningSlot()).toBeNull();
   for (let servo = 1; servo <= SERVOS; servo += 1)
     if (servo > servoCount || !arrivedWhole(servo, cut)) expect(board.target(servo)).toBe(REST);
-  expect(rig.session.state.latch).toEqual({ reason: 'reconnected', stop: 'sent' });
+  expect(rig.session.state.latch).toMatchObject({ reason: 'reconnected', stop: 'sent' });
 }
 
 test.each([1, 6, 16, 32])(
