@@ -11,7 +11,8 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from servodeck.errors import GatewayError
-from servodeck.ports import OpenPort, open_port
+from servodeck.ports import OpenPort, list_usb, open_port
+from servodeck.whereabouts import UsbDevice
 
 CLOSE_WAIT_S = 1.0
 T = TypeVar("T")
@@ -23,6 +24,9 @@ class BackgroundPorts:
     async def open(self, device: str) -> OpenPort:
         """Raises a PortError. A port that opens after the caller was cancelled is closed again."""
         return await in_thread(lambda: open_port(device), undo=lambda port: port.close())
+
+    async def list_usb(self) -> list[UsbDevice]:
+        return await in_thread(list_usb, undo=lambda _: None)
 
     async def close(self, port: OpenPort) -> None:
         # Not wait_for: Python 3.11's swallows a cancellation that meets the result, and the link lived on.

@@ -11,6 +11,7 @@ ErrorCode = Literal[
     "portMissing",
     "portBusy",
     "portDenied",
+    "otherDevice",
     "noAnswer",
     "notSupported",
     "latched",
@@ -57,6 +58,12 @@ class PortBusyError(PortError):
 
 class PortDeniedError(PortError):
     code: ClassVar[ErrorCode] = "portDenied"
+
+
+class OtherDeviceError(PortError):
+    """The name leads to another device now, or perhaps: a person must choose."""
+
+    code: ClassVar[ErrorCode] = "otherDevice"
 
 
 class ClosedError(GatewayError):

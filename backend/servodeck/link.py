@@ -1,8 +1,8 @@
 """Keeps one serial port open: opens it, waits for its loss, tries again with growing pauses, says how it
 stands.
 
-Knows ports and time, no packet and no client. It never changes the device by itself: a board that comes back
-under another name must be chosen by a person.
+Knows ports and time, no packet and no client. It never changes the device by itself: it follows the one
+that a person chose to another name, and leaves another one that took its name alone.
 """
 
 import asyncio
@@ -14,6 +14,7 @@ from typing import Protocol
 from servodeck.errors import CancelledError, ClosedError, PortError, PortLostError
 from servodeck.messages import PortState
 from servodeck.ports import OpenPort
+from servodeck.whereabouts import UsbDevice, Whereabouts
 from servodeck.wire import Wire, fail, settle
 
 FIRST_RETRY_S = 0.25  # a replugged adapter is there again after about that long
@@ -27,6 +28,9 @@ class Ports(Protocol):
     async def open(self, device: str) -> OpenPort: ...
 
     async def close(self, port: OpenPort) -> None: ...
+
+    async def list_usb(self) -> list[UsbDevice]:
+        """What is on the bus now. Never raises."""
 
 
 class LinkEvents(Protocol):
@@ -104,22 +108,23 @@ class Link:
 
     async def _keep_open(self, device: str, first: asyncio.Future[None]) -> None:
         back_off = BackOff()
+        whereabouts = Whereabouts(device)
         while True:
             try:
-                await self._serve(device, first, back_off)
+                await self._serve(whereabouts, first, back_off)
             except PortError as error:
-                self._show_lost(device, error, back_off)
+                self._show_lost(whereabouts.path, error, back_off)
                 fail(first, error)
                 await asyncio.sleep(back_off.take())
 
-    async def _serve(self, device: str, first: asyncio.Future[None], back_off: BackOff) -> None:
+    async def _serve(self, whereabouts: Whereabouts, first: asyncio.Future[None], back_off: BackOff) -> None:
         """One life of the port; ends by the PortError that ended it, or cancelled."""
-        port = await self._ports.open(device)
+        port = await self._open(whereabouts)
         opened_at = self._now()
         try:
             self._wire = self._make_wire(port)
             self._events.port_opened(self._wire)
-            self._show(PortState(device=device, status="open"))
+            self._show(PortState(device=whereabouts.path, status="open"))
             settle(first)
             await self._wire.run()
         except PortError as error:
@@ -127,11 +132,24 @@ class Link:
             if self._now() - opened_at >= STEADY_S:
                 back_off.next_s = FIRST_RETRY_S
             self._events.port_lost()
-            self._show_lost(device, error, back_off)  # before closing, which may take a while
+            # Before closing, which may take a while.
+            self._show_lost(whereabouts.path, error, back_off)
+            whereabouts.note_others(await self._ports.list_usb())
             raise
         finally:
             self._wire = None
             await self._ports.close(port)
+
+    async def _open(self, whereabouts: Whereabouts) -> OpenPort:
+        """The device itself, whatever it is called by now; nothing is sent to it before that is sure."""
+        path = whereabouts.find(await self._ports.list_usb() if whereabouts.is_known else ())
+        port = await self._ports.open(path)
+        try:
+            whereabouts.opened(path, await self._ports.list_usb())
+        except BaseException:
+            await self._ports.close(port)
+            raise
+        return port
 
     def _show_lost(self, device: str, error: PortError, back_off: BackOff) -> None:
         retry_in_ms = round(back_off.next_s * 1000)

@@ -16,6 +16,7 @@ import serial
 from serial.tools import list_ports
 
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
+from servodeck.whereabouts import UsbDevice
 
 BAUD = 9600
 POSIX = os.name == "posix"
@@ -167,6 +168,18 @@ def list_devices(*also: str | None) -> list[PortInfo]:
         if name and name not in known
     ]
     return extra + sorted(found, key=lambda port: (not port.likely, port.device))
+
+
+def list_usb() -> list[UsbDevice]:
+    """The ports on the USB bus, as far as the system tells them apart."""
+    return [usb_device(port) for port in list_ports.comports() if port.vid is not None]
+
+
+def usb_device(port: Any) -> UsbDevice:
+    """`port` as in `describe`."""
+    return UsbDevice(
+        str(port.device), port.vid, port.pid, serial=port.serial_number or "", location=port.location or ""
+    )
 
 
 def describe(port: Any) -> PortInfo:

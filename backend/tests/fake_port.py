@@ -2,9 +2,11 @@
 
 import asyncio
 import socket
+from collections.abc import Callable
 
-from servodeck.errors import PortError, PortLostError
+from servodeck.errors import PortError, PortLostError, PortMissingError
 from servodeck.ports import OpenPort
+from servodeck.whereabouts import UsbDevice
 
 
 class FakePort:
@@ -76,3 +78,40 @@ class FakePorts:
 
     async def close(self, port: OpenPort) -> None:
         port.close()
+
+    async def list_usb(self) -> list[UsbDevice]:
+        return []
+
+
+class FakeBus:
+    """Ports of devices that are plugged in and pulled, each under the name that it has at the moment."""
+
+    def __init__(self, *plugged: UsbDevice) -> None:
+        self.plugged = list(plugged)
+        self.opened: list[UsbDevice] = []
+        self.when_opened: Callable[[], object] = lambda: None
+        self._ports: list[FakePort] = []
+
+    async def open(self, device: str) -> FakePort:
+        found = next((one for one in self.plugged if one.path == device), None)
+        if found is None:
+            raise PortMissingError(f"There is no {device}.")
+        self.opened.append(found)
+        self._ports.append(FakePort())
+        self.when_opened()
+        return self._ports[-1]
+
+    async def close(self, port: OpenPort) -> None:
+        port.close()
+
+    async def list_usb(self) -> list[UsbDevice]:
+        return list(self.plugged)
+
+    def replug(self, *plugged: UsbDevice) -> None:
+        """Another set of devices; the port that was open is gone."""
+        self.plugged = list(plugged)
+        self._ports[-1].unplug()
+
+    @property
+    def open_ports(self) -> int:
+        return sum(port.is_open for port in self._ports)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import pytest
 
 from servodeck.errors import CancelledError, ClosedError, PortBusyError, PortLostError, PortMissingError
-from servodeck.link import Link
+from servodeck.link import Link, Ports
 from servodeck.messages import PortState
 from servodeck.ports import OpenPort
 from servodeck.wire import Wire
@@ -36,7 +36,7 @@ class Notes:
         self.happened.append(self.link.state.status)
 
 
-def link_to(ports: FakePorts) -> tuple[Link, Notes]:
+def link_to(ports: Ports) -> tuple[Link, Notes]:
     def make_wire(port: OpenPort) -> Wire:
         return Wire(port, gap_s=0.01, now=now, received=lambda _data: None)
 

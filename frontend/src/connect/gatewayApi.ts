@@ -21,8 +21,9 @@ export async function readGateway(): Promise<GatewayStatus | null> {
   try {
     const status: unknown = await ask('api/status');
     if (!isRecord(status) || !isRecord(status.port)) return null;
-    const { device } = status.port;
-    return { device: typeof device === 'string' ? device : null };
+    const { device, code } = status.port;
+    // Whatever has its name now is one to be chosen like any other.
+    return { device: typeof device === 'string' && code !== 'otherDevice' ? device : null };
   } catch {
     return null;
   }

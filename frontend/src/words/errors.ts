@@ -12,6 +12,8 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
   portBusy: () => 'Another program or tab holds this port. Close it there; Servodeck keeps trying.',
   portDenied: () =>
     'The system does not allow access to this port. On Linux add yourself to the group “dialout”, then log in again.',
+  otherDevice: () =>
+    'This port may lead to another device now, so Servodeck left it alone. Choose the robot’s port under Connect.',
   notChosen: () =>
     'No port was chosen. If the robot is not in the list, try another cable: some carry power only.',
   unsupported: () =>

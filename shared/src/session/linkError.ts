@@ -7,6 +7,7 @@ export const LINK_ERROR_CODES = [
   'portMissing', // no such device
   'portBusy', // another program or tab holds it
   'portDenied', // the operating system refuses access
+  'otherDevice', // another device may stand where ours was: a person must choose
   'notChosen', // the person closed the chooser
   'unsupported', // this browser has no such device API
   'insecureAddress', // the page's address is no secure context

@@ -1,0 +1,92 @@
+"""Where the device is that a person chose by its name: names of ports move from one device to another.
+
+Knows what the USB bus tells of devices, at most; no port that is open and no time. What the bus does not tell
+apart (a pty, a socket, a port of the mainboard) goes by its name alone.
+"""
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from servodeck.errors import OtherDeviceError, PortMissingError
+
+
+@dataclass(frozen=True, slots=True)
+class UsbDevice:
+    """A port on the USB bus. `serial` and `location` (the socket, `1-1.2:1.0`) may be empty."""
+
+    path: str
+    vendor: int
+    product: int
+    serial: str = ""
+    location: str = ""
+
+    @property
+    def kind(self) -> tuple[int, int, str, str]:
+        """All that it says of itself; one adapter may carry several ports, told apart behind the colon."""
+        return self.vendor, self.product, self.serial, self.location.partition(":")[2]
+
+    @property
+    def place(self) -> tuple[int, int, str, str]:
+        """With where it is: no two devices share that. Without a socket the name stands for it."""
+        return self.vendor, self.product, self.serial, self.location or self.path
+
+
+class Whereabouts:
+    def __init__(self, name: str) -> None:
+        self.path = name
+        """What to call it: the name it was chosen by while that is its own, else its present one."""
+        self._name = name
+        self._ours: UsbDevice | None = None
+        self._others: set[tuple[int, int, str, str]] = set()
+
+    @property
+    def is_known(self) -> bool:
+        """It was open, and the bus tells it from others."""
+        return self._ours is not None
+
+    def find(self, listed: Iterable[UsbDevice]) -> str:
+        """The path to open. Raises a PortError where it is not there, or where only a person can tell."""
+        ours = self._ours
+        if ours is None:
+            return self._name
+        devices = list(listed)
+        for device in devices:
+            if device.place == ours.place:
+                return self._called(device)
+        newcomers = [one for one in devices if one.kind == ours.kind and one.place not in self._others]
+        if ours.serial and len(newcomers) == 1:
+            return self._called(newcomers[0])
+        if newcomers:
+            raise OtherDeviceError(
+                f"{names(newcomers)} may be the one that was at {self.path}, or another of its kind."
+            )
+        if any(device.path == ours.path for device in devices):
+            raise OtherDeviceError(f"{ours.path} is the name of another device now.")
+        raise PortMissingError(
+            f"The device that was at {self.path} is gone. Is the cable plugged in and the board switched on?"
+        )
+
+    def opened(self, path: str, listed: Iterable[UsbDevice]) -> None:
+        """Raises where something else came in between: what was opened must be closed again."""
+        devices = list(listed)
+        real = os.path.realpath(path)
+        device = next((one for one in devices if one.path in (path, real)), None)
+        if self._ours and (device is None or device.kind != self._ours.kind):
+            raise OtherDeviceError(f"{path} became the name of another device just now.")
+        self._ours = device
+        self.path = path
+        self._others = set()
+        self.note_others(devices)
+
+    def note_others(self, listed: Iterable[UsbDevice]) -> None:
+        """What is there beside ours, or when ours has just gone, cannot be ours when it comes back."""
+        if self._ours:
+            self._others |= {device.place for device in listed} - {self._ours.place}
+
+    def _called(self, device: UsbDevice) -> str:
+        return self._name if os.path.realpath(self._name) == device.path else device.path
+
+
+def names(devices: Iterable[UsbDevice]) -> str:
+    return " or ".join(sorted(device.path for device in devices))
