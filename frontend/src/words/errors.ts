@@ -14,6 +14,8 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
     'The system does not allow access to this port. On Linux add yourself to the group “dialout”, then log in again.',
   otherDevice: () =>
     'This port may lead to another device now, so Servodeck left it alone. Choose the robot’s port under Connect.',
+  heldElsewhere: () => 'Another Servodeck tab drives this robot. Choose “Move it here”, or go on there.',
+  movedAway: () => 'Another tab has taken this robot over.',
   notChosen: () =>
     'No port was chosen. If the robot is not in the list, try another cable: some carry power only.',
   unsupported: () =>

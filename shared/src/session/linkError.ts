@@ -8,6 +8,8 @@ export const LINK_ERROR_CODES = [
   'portBusy', // another program or tab holds it
   'portDenied', // the operating system refuses access
   'otherDevice', // another device may stand where ours was: a person must choose
+  'heldElsewhere', // another tab of this browser drives it
+  'movedAway', // another tab asked for it and was given it
   'notChosen', // the person closed the chooser
   'unsupported', // this browser has no such device API
   'insecureAddress', // the page's address is no secure context

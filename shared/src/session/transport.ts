@@ -35,6 +35,15 @@ export interface Transport {
    */
   halt?(hold: Uint8Array | null): Promise<void>;
   resume?(): Promise<void>;
+  /**
+   * Only a link that nobody shares: the page is about to go. Hands the packet over before it returns, and the link is lost.
+   */
+  leave?(lastPacket: Uint8Array): void;
+  /**
+   * After `heldElsewhere` or `movedAway`: the other tab stops the robot and lets go, then `open` may be tried. Rejects with
+   * `heldElsewhere` when it does not.
+   */
+  takeOver?(): Promise<void>;
   /** Calls `notify` when a lost device may be back, sooner than the next attempt. Returns a function that ends it. */
   whenAvailable?(notify: () => void): () => void;
   /** Never rejects; closing twice is harmless. */

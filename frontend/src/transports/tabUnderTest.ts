@@ -1,0 +1,84 @@
+// Tabs of a browser for tests, each with a session over Web Serial: what a person sees of the link. Time is virtual.
+
+import { afterEach, beforeEach, expect, vi } from 'vitest';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import type { LinkErrorCode } from '#shared/session/linkError.ts';
+import { createSession, type Session } from '#shared/session/session.ts';
+import type { LinkState } from '#shared/session/state.ts';
+import type { Transport } from '#shared/session/transport.ts';
+import { browserClock } from './browserClock.ts';
+import { createBrowser, type FakeBrowser, type FakePort } from './serialUnderTest.ts';
+import { createWebSerialTransport } from './webSerial.ts';
+
+export const TOLD_WITHIN_MS = 500;
+export const BATTERY_REPORT = [0x55, 0x55, 0x04, 0x0f, 0x4c, 0x1d];
+
+/** A link's status, or the code of its error. */
+export type Outcome = LinkErrorCode | LinkState['status'];
+
+export interface Tab {
+  readonly session: Session;
+  readonly transport: Transport;
+  /** What became of the link, oldest first. */
+  readonly outcomes: Outcome[];
+  /** What the session could not read, in bytes. */
+  readonly noise: number[];
+}
+
+/** A new browser and virtual time for each test. */
+export function freshBrowser(): { readonly browser: FakeBrowser } {
+  let browser = createBrowser();
+  beforeEach(() => {
+    vi.useFakeTimers();
+    browser = createBrowser();
+    vi.stubGlobal('navigator', browser.navigator);
+    vi.stubGlobal('BroadcastChannel', browser.BroadcastChannel);
+  });
+  afterEach(() => {
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+  return {
+    get browser() {
+      return browser;
+    },
+  };
+}
+
+export function pass(ms = TOLD_WITHIN_MS): Promise<unknown> {
+  return vi.advanceTimersByTimeAsync(ms);
+}
+
+/** Opens the dashboard and chooses that port. */
+export function openTab({ port }: FakePort): Tab {
+  const transport = createWebSerialTransport(port, () => session.halt());
+  const session = createSession({ transport, family: FAMILIES.doc, clock: browserClock });
+  const tab: Tab = { session, transport, outcomes: [], noise: [] };
+  session.subscribe({
+    state: () => tab.outcomes.at(-1) !== outcome(tab) && tab.outcomes.push(outcome(tab)),
+    traffic: (entry) => 'noise' in entry && tab.noise.push(...entry.bytes),
+  });
+  session.open().catch(() => undefined);
+  return tab;
+}
+
+export async function openReady(chosen: FakePort): Promise<Tab> {
+  const tab = openTab(chosen);
+  await pass(50);
+  expect(outcome(tab)).toBe('ready');
+  return tab;
+}
+
+export function outcome({ session }: Tab): Outcome {
+  const { link } = session.state;
+  return 'error' in link ? link.error.code : link.status;
+}
+
+/** The board is asked and answers: the way there and the way back are whole. */
+export async function expectUse({ session }: Tab, port: FakePort): Promise<void> {
+  const answer = session.readBattery();
+  await pass(20);
+  port.deliver(...BATTERY_REPORT);
+  await pass(50);
+  await expect(answer).resolves.toBe(7500);
+}

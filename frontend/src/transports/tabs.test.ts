@@ -1,0 +1,162 @@
+// Several tabs at one port, and tabs that go: one drives, the robot is stopped before it changes hands, and nothing that
+// was asked for in a page reaches the robot after it was left.
+
+import { expect, test } from 'vitest';
+import { toHex } from '#shared/protocol/hex.ts';
+import type { FakePort } from './serialUnderTest.ts';
+import { expectUse, openReady, openTab, outcome, pass, freshBrowser, type Tab } from './tabUnderTest.ts';
+
+const STOP = Uint8Array.of(0x55, 0x55, 0x02, 0x07);
+const it = freshBrowser();
+
+const packets = ({ written }: FakePort): readonly string[] => written.map(toHex);
+const count = (port: FakePort, command: string): number =>
+  packets(port).filter((packet) => packet.slice(9, 11) === command).length;
+const stops = (port: FakePort): number => count(port, '07');
+const moves = (port: FakePort): number => count(port, '03');
+
+/** A packet leaves each 20 ms, as while a slider is dragged. */
+async function drag({ session }: Tab, packetCount: number): Promise<void> {
+  for (let index = 0; index < packetCount; index += 1) {
+    session.move([{ servo: 1, position: 1500 + index }], 20);
+    await pass(20);
+  }
+}
+
+test('a second tab is told who drives, and opens nothing', async () => {
+  const port = it.browser.plugIn();
+  const first = await openReady(port);
+  const second = openTab(port);
+  await pass();
+  expect(outcome(second)).toBe('heldElsewhere');
+  expect(second.session.state.link.status).toBe('refused');
+  expect(outcome(first)).toBe('ready');
+  await expectUse(first, port);
+});
+
+test('the tab that is asked stops the robot, tells that it was moved, and stays away', async () => {
+  const port = it.browser.plugIn();
+  const first = await openReady(port);
+  const second = openTab(port);
+  await pass();
+  await drag(first, 5);
+  const taking = second.transport.takeOver!();
+  await pass(1000);
+  await taking;
+  second.session.retryNow();
+  await pass(100);
+  expect([outcome(first), outcome(second)]).toEqual(['movedAway', 'ready']);
+  expect(stops(port)).toBe(3);
+  const movesSoFar = moves(port);
+  // A drag goes on until the pointer is let go.
+  expect(() => first.session.move([{ servo: 1, position: 900 }], 20)).toThrow();
+  it.browser.plugIn();
+  await pass(6000);
+  expect([outcome(first), outcome(second)]).toEqual(['movedAway', 'ready']);
+  expect(moves(port)).toBe(movesSoFar);
+  await expectUse(second, port);
+});
+
+test('and may take the robot back', async () => {
+  const port = it.browser.plugIn();
+  const first = await openReady(port);
+  const second = openTab(port);
+  await pass();
+  for (const [asking, asked] of [
+    [second, first],
+    [first, second],
+  ] as const) {
+    const taking = asking.transport.takeOver!();
+    await pass(1000);
+    await taking;
+    asking.session.retryNow();
+    await pass(200);
+    expect([outcome(asking), outcome(asked)]).toEqual(['ready', 'movedAway']);
+  }
+});
+
+test('a robot that cannot be stopped changes hands all the same, in bounded time', async () => {
+  const port = it.browser.plugIn();
+  const first = await openReady(port);
+  const second = openTab(port);
+  await pass();
+  first.session.halt = () => new Promise(() => undefined);
+  const taking = second.transport.takeOver!();
+  await pass(3000);
+  await expect(taking).resolves.toBeUndefined();
+  expect(outcome(first)).toBe('movedAway');
+});
+
+test('a tab that does not answer keeps the robot, and the other one is told', async () => {
+  const port = it.browser.plugIn();
+  void navigator.locks.request('servodeck port USB serial 1A86:7523', {}, () => new Promise(() => undefined));
+  const tab = openTab(port);
+  await pass();
+  const taking = tab.transport.takeOver!();
+  const told = expect(taking).rejects.toMatchObject({ code: 'heldElsewhere' });
+  await pass(3100);
+  await told;
+  expect(port.isOpen()).toBe(false);
+});
+
+test('a tab that closes its port leaves it to the next one at once', async () => {
+  const port = it.browser.plugIn();
+  const first = await openReady(port);
+  void first.session.close();
+  await openReady(port);
+});
+
+test('a port that is lost is free for the next tab', async () => {
+  const port = it.browser.plugIn();
+  const first = await openReady(port);
+  await openTabAfterLoss(first, port);
+});
+
+async function openTabAfterLoss(first: Tab, port: FakePort): Promise<void> {
+  port.unplug();
+  await pass(5);
+  expect(outcome(first)).toBe('lost');
+  const again = it.browser.plugIn();
+  await pass(100);
+  expect(outcome(first)).toBe('ready');
+  expect(again.isOpen()).toBe(true);
+}
+
+test('a page that is left hands the stop over at once, even behind a packet, and sends nothing after it', async () => {
+  const port = it.browser.plugIn();
+  const tab = await openReady(port);
+  await drag(tab, 3);
+  tab.session.move([{ servo: 1, position: 900 }], 20);
+  tab.session.move([{ servo: 2, position: 900 }], 20);
+  tab.transport.leave!(STOP);
+  expect(outcome(tab)).toBe('lost');
+  await pass(100);
+  expect(packets(port).at(-1)).toBe(toHex(STOP));
+  expect(port.isOpen()).toBe(false);
+});
+
+test('a page that was left and comes back finds its robot, stopped, and waits for a person', async () => {
+  const port = it.browser.plugIn();
+  const tab = await openReady(port);
+  tab.transport.leave!(STOP);
+  await pass(600);
+  expect(outcome(tab)).toBe('ready');
+  expect(tab.session.state.latch?.reason).toBe('reconnected');
+  expect(stops(port)).toBe(4);
+});
+
+test('a page that is left without a link does nothing', async () => {
+  const tab = openTab(it.browser.plugIn());
+  tab.transport.leave!(STOP);
+  await pass();
+  expect(outcome(tab)).toBe('ready');
+});
+
+test('a port that is closed while it is being opened is closed in the end', async () => {
+  const port = it.browser.plugIn();
+  const tab = openTab(port);
+  void tab.session.close();
+  await pass();
+  expect(port.isOpen()).toBe(false);
+  await openReady(port);
+});
