@@ -35,13 +35,13 @@ export function App({ page }: { readonly page: Page }) {
 function Dashboard({ page }: { readonly page: Page }) {
   const layout = useLayout();
   const said = useView((state) => state.said);
-  const { device, document: group } = useStores();
+  const { device, document: group, notices } = useStores();
   useTheme();
   useUndoKeys(group);
   useEachFrame(() => device.refreshTargets());
   return (
     <div className={styles.app} data-layout={layout}>
-      <TopBar />
+      <TopBar onMoveHere={() => void page.connector.moveHere().catch(notices.tellError)} />
       <StopButton />
       {layout === 'phone' ? <PhoneWork /> : <DeskWork />}
       <Messages />

@@ -3,7 +3,8 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { FAMILIES, UNKNOWN_BOARD, type FamilyId } from '#shared/protocol/families.ts';
-import { createSession } from '#shared/session/session.ts';
+import { STOP_PACKET } from '#shared/session/halt.ts';
+import { createSession, type Session } from '#shared/session/session.ts';
 import { isProfileName } from '#shared/simulator/profiles.ts';
 import type { Transport } from '#shared/session/transport.ts';
 import type { Boards } from '../stores/boards.ts';
@@ -62,6 +63,10 @@ export interface Connector {
   /** Opens the browser's chooser. Rejects with a LinkError. */
   chooseSerialPort(): Promise<void>;
   disconnect(): void;
+  /** After `heldElsewhere` or `movedAway`: the other tab stops the robot and lets go, then this one tries again. */
+  moveHere(): Promise<void>;
+  /** The page goes: the robot is told to stop, where nobody else drives it. */
+  leave(): void;
 }
 
 const GREETING_MS = 2000;
@@ -90,6 +95,11 @@ export function createConnector(options: ConnectorOptions): Connector {
     gatewayPorts: [],
   }));
 
+  let current: { readonly transport: Transport; readonly session: Session } | null = null;
+
+  const serialTransport = (port: SerialPort): Transport =>
+    createWebSerialTransport(port, () => current?.session.halt() ?? Promise.resolve());
+
   /** A board in the page is what it was made as; any other is asked, and taken for what it was the last time. */
   async function connect(transport: Transport): Promise<void> {
     const { board } = store.getState();
@@ -104,6 +114,7 @@ export function createConnector(options: ConnectorOptions): Connector {
       // The simulated robot in the page is a new one at each visit: nothing of it is worth remembering.
       slotMemory: isOwn ? undefined : rememberSlots(storage, transport),
     });
+    current = { transport, session };
     device.attach(session, wayOf(transport));
     // A first attempt that fails is in the link's state, with its sentence and its next try.
     await session.open().catch(() => undefined);
@@ -144,8 +155,7 @@ export function createConnector(options: ConnectorOptions): Connector {
       await connect(simulated());
       if (last === null) greet();
     } else if (!reconnects) return;
-    else if (last?.kind === 'webSerial' && port !== undefined)
-      await connect(createWebSerialTransport(port.port));
+    else if (last?.kind === 'webSerial' && port !== undefined) await connect(serialTransport(port.port));
     else if (typeof gateway === 'object') await connect(createGatewayTransport(gatewayUrl()));
     else await connect(simulated());
   }
@@ -179,11 +189,16 @@ export function createConnector(options: ConnectorOptions): Connector {
       await look();
       chosen(createGatewayTransport(gatewayUrl()));
     },
-    useSerialPort: (port) => chosen(createWebSerialTransport(port)),
+    useSerialPort: (port) => chosen(serialTransport(port)),
     async chooseSerialPort() {
-      chosen(createWebSerialTransport(await choosePort()));
+      chosen(serialTransport(await choosePort()));
     },
     disconnect: () => void device.detach().catch(notices.tellError),
+    async moveHere() {
+      await current?.transport.takeOver?.();
+      current?.session.retryNow();
+    },
+    leave: () => current?.transport.leave?.(STOP_PACKET),
   };
 }
 

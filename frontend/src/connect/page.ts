@@ -11,6 +11,7 @@ import { createRobots } from '../stores/robots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
 import { browserClock } from '../transports/browserClock.ts';
+import { watchLeaving } from './leaving.ts';
 import { createConnector, type Connector } from './connector.ts';
 
 /** The page's time, for whoever is no transport. */
@@ -34,6 +35,7 @@ export function openPage(): Page {
   };
   const connector = createConnector({ device, notices, boards, storage, isWatched });
   connector.start().catch(notices.tellError);
+  watchLeaving(window, { hidden: () => device.stopPlaying(), left: () => connector.leave() });
   pollBattery(device, isWatched);
   return { stores, connector };
 }

@@ -53,7 +53,7 @@ function Shown({ specimen }: { readonly specimen: Specimen }) {
     <StoresContext value={stores}>
       <article className={styles.specimen} aria-label={specimen.name}>
         <h2 className={styles.name}>{specimen.name}</h2>
-        <TopBar />
+        <TopBar onMoveHere={() => undefined} />
         <div className={styles.panels}>
           <LivePanel />
           <div className={styles.column}>

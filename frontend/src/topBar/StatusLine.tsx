@@ -12,14 +12,14 @@ import { words } from '../words/en.ts';
 import { errorSentence } from '../words/errors.ts';
 import styles from './StatusLine.module.css';
 
-export function StatusLine() {
+export function StatusLine({ onMoveHere }: { readonly onMoveHere: () => void }) {
   const link = useSnapshot((snapshot) => snapshot.link);
   const latch = useSnapshot((snapshot) => snapshot.latch);
   const activity = useSnapshot((snapshot) => snapshot.activity);
   return (
     <div className={cx(styles.line, (link.status === 'lost' || link.status === 'refused') && styles.lost)}>
       {link.status === 'lost' || link.status === 'refused' ? (
-        <Down link={link} />
+        <Down link={link} onMoveHere={onMoveHere} />
       ) : link.status === 'stale' ? (
         <Said truth="warning" text={errorSentence('boardSilent')} />
       ) : link.status === 'identifying' ? (
@@ -63,9 +63,11 @@ function Latched({ latch }: { readonly latch: Latch }) {
 
 const ANSWERED_ELSEWHERE: readonly LinkErrorCode[] = ['closed', 'boardUnknown', 'wrongBoard', 'echo'];
 
+const IN_ANOTHER_TAB: readonly LinkErrorCode[] = ['heldElsewhere', 'movedAway'];
+
 type DownState = Extract<LinkState, { status: 'lost' | 'refused' }>;
 
-function Down({ link }: { readonly link: DownState }) {
+function Down({ link, onMoveHere }: { readonly link: DownState; readonly onMoveHere: () => void }) {
   const { device } = useStores();
   const needsChoice = link.error.code === 'boardUnknown';
   const said = (
@@ -83,9 +85,13 @@ function Down({ link }: { readonly link: DownState }) {
       <span className={styles.countdown}>
         {retryAtMs === null ? words.link.needsYou : <Countdown untilMs={retryAtMs} />}
       </span>
-      <Button onPress={() => device.retryNow()} icon="refresh">
-        {words.link.retryNow}
-      </Button>
+      {IN_ANOTHER_TAB.includes(link.error.code) ? (
+        <Button onPress={onMoveHere}>{words.link.moveHere}</Button>
+      ) : (
+        <Button onPress={() => device.retryNow()} icon="refresh">
+          {words.link.retryNow}
+        </Button>
+      )}
     </>
   );
 }

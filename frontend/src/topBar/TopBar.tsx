@@ -12,7 +12,12 @@ import { LinkChip } from './LinkChip.tsx';
 import { StatusLine } from './StatusLine.tsx';
 import styles from './TopBar.module.css';
 
-export function TopBar() {
+export interface TopBarProps {
+  /** Has another tab let go of the robot. */
+  onMoveHere(): void;
+}
+
+export function TopBar({ onMoveHere }: TopBarProps) {
   return (
     <header className={styles.bar} aria-label={words.regions.top}>
       <h1 className={styles.product}>
@@ -20,7 +25,7 @@ export function TopBar() {
         <span className={styles.productName}>{words.product}</span>
       </h1>
       <Robot />
-      <StatusLine />
+      <StatusLine onMoveHere={onMoveHere} />
       <BatteryReadout />
       <ThemeButton />
     </header>

@@ -50,6 +50,7 @@ export const words = {
     change: 'Link',
     disconnect: 'Disconnect',
     retryNow: 'Try now',
+    moveHere: 'Move it here',
     retryIn: (ms: number): string => `Next try in ${formatWhole(Math.max(0, Math.ceil(ms / 1000)))} s`,
     needsYou: 'Waiting for you',
   },

@@ -1,0 +1,34 @@
+// Each way in which a page goes, as the browser tells it.
+
+import { expect, test } from 'vitest';
+import { watchLeaving } from './leaving.ts';
+
+function openPage(): { page: Window; told: string[]; show(state: DocumentVisibilityState): void } {
+  const document = Object.assign(new EventTarget(), {
+    visibilityState: 'visible',
+  });
+  const page = Object.assign(new EventTarget(), { document }) as unknown as Window;
+  const told: string[] = [];
+  watchLeaving(page, { hidden: () => told.push('hidden'), left: () => told.push('left') });
+  return {
+    ...{ page, told },
+    show(state) {
+      document.visibilityState = state;
+      document.dispatchEvent(new Event('visibilitychange'));
+    },
+  };
+}
+
+test('a page that is hidden is told so, one that is shown again is not', () => {
+  const { told, show } = openPage();
+  show('hidden');
+  show('visible');
+  expect(told).toEqual(['hidden']);
+});
+
+test('a page that is closed or frozen has been left', () => {
+  const { page, told } = openPage();
+  page.dispatchEvent(new Event('pagehide'));
+  page.document.dispatchEvent(new Event('freeze'));
+  expect(told).toEqual(['left', 'left']);
+});
