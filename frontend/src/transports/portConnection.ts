@@ -28,6 +28,7 @@ export interface PortConnection {
  * after it. And a line that stays disturbed (a board without power holds it low) does not keep the page busy.
  */
 const LINE_ERROR_PAUSE_MS = LINE_IDLE_MS + 10;
+const DRAIN_WITHIN_MS = 100;
 /** A port that does not let itself be closed is given up, so that another attempt can begin. */
 const CLOSE_WITHIN_MS = 250;
 
@@ -102,6 +103,8 @@ function connect(port: SerialPort, events: ConnectionEvents): PortConnection {
   }
 
   async function shut(): Promise<void> {
+    // Closing a port throws away what its driver still holds; closing the stream first lets it leave.
+    await Promise.race([settled(() => writer?.close()), sleep(browserClock, DRAIN_WITHIN_MS)]);
     await settled(() => reader?.cancel());
     if (reader !== null) letGo(reader);
     if (writer !== null) letGo(writer);

@@ -79,6 +79,7 @@ function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () 
   const written: Uint8Array[] = [];
   let isJammed = false;
   let isThere = true;
+  let isDrained = true;
   let isAlive = true;
   let isOpen = false;
   let source: ReadableStreamDefaultController<Uint8Array> | null = null;
@@ -106,7 +107,9 @@ function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () 
         trip('write');
         if (!isAlive) throw lost();
         written.push(bytes);
+        isDrained = false;
       },
+      close: () => void (isDrained = true),
     });
     const getWriter = stream.getWriter.bind(stream);
     return Object.assign(stream, { getWriter: () => guarded(trip, 'getWriter', getWriter) });
@@ -133,6 +136,8 @@ function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () 
         if (isJammed) return new Promise<void>(() => undefined);
         if (port.readable?.locked || port.writable?.locked) throw new TypeError('A stream is locked.');
         isOpen = false;
+        // As the browser does: what the driver still holds is thrown away.
+        if (!isDrained) written.pop();
         port.readable = port.writable = source = null;
         return trip('close');
       }),
