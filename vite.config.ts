@@ -25,6 +25,8 @@ export default defineConfig({
     reportCompressedSize: false,
     rolldownOptions: {
       input: ['frontend/index.html', 'frontend/gallery.html'],
+      // The packages change less often than the page: a browser keeps them.
+      output: { codeSplitting: { groups: [{ name: 'packages', test: /node_modules/ }] } },
     },
   },
 });
