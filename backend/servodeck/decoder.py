@@ -16,6 +16,7 @@ HEADER: Final = 0x55
 MAX_LENGTH: Final = 253
 # Two headers, LEN, CMD: a packet without parameters is no longer.
 HEAD_SIZE: Final = 4
+LENGTH_AT: Final = 2
 COMMAND_AT: Final = 3
 NOISE_SIZE: Final = 64
 # More than any robot of these families has.
@@ -91,7 +92,9 @@ COMMAND_SHAPES: Final[Shapes] = {
     (15, 2): None,
     **dict(growing(25, 8, 3, 3, range(82))),
     (1, 2): None,
+    (2, 2): None,
     (11, 5): None,
+    (13, 2): None,
     **dict(growing(20, 3, 1, 0, range(1, MOST_SERVOS + 1))),
     **dict(growing(21, 3, 1, 0, range(1, MOST_SERVOS + 1))),
 }
@@ -177,12 +180,13 @@ class Decoder:
     def _judge(self, data: Buffer, at: int) -> int:
         """The size of the packet at `at`, NO or WAIT.
 
-        An empty packet is believed at once; one with parameters when the next byte begins another packet:
-        one byte too few or too many inside it shows there, and only there. The answer never depends on bytes
-        beyond those that settle it, so it is the same however the bytes arrive.
+        An empty packet is believed at once, unless its number equals its LEN: that may be any packet whose
+        LEN was doubled. Such a one and a packet with parameters are believed when the next byte begins
+        another packet: one byte too few or too many inside it shows there, and only there. The answer never
+        depends on bytes beyond those that settle it, so it is the same however the bytes arrive.
         """
         size = self._size(data, at, len(data))
-        if size <= HEAD_SIZE:
+        if size < HEAD_SIZE or (size == HEAD_SIZE and data[at + COMMAND_AT] != data[at + LENGTH_AT]):
             return size
         following = at + size
         for seen in range(following + 1, len(data) + 1):

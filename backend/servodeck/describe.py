@@ -4,14 +4,23 @@ from typing import Literal, assert_never
 
 from servodeck.decoder import Packet
 from servodeck.limits import PacketError
-from servodeck.packets import parse_command, read_positions, read_word, whole_packet
+from servodeck.packets import (
+    parse_command,
+    read_offsets,
+    read_position_entries,
+    read_positions,
+    read_word,
+    whole_packet,
+)
 from servodeck.values import (
     Command,
     Download,
     Erase,
     Frame,
     Move,
+    ReadAllPositions,
     ReadBattery,
+    ReadOffsets,
     ReadPositions,
     ReadVersion,
     Release,
@@ -51,12 +60,14 @@ def describe_command(command: Command) -> str:
             return (
                 f"store frame {frame_index} (of {frame_count}, from 0) of group {slot}: {frame_words(frame)}"
             )
-        case SetSpeed() | Release() | ReadPositions() | ReadVersion():
+        case SetSpeed() | Release() | ReadPositions() | ReadVersion() | ReadAllPositions() | ReadOffsets():
             return describe_family_command(command)
     assert_never(command)
 
 
-def describe_family_command(command: SetSpeed | Release | ReadPositions | ReadVersion) -> str:
+def describe_family_command(
+    command: SetSpeed | Release | ReadPositions | ReadVersion | ReadAllPositions | ReadOffsets,
+) -> str:
     match command:
         case SetSpeed(slot, percent):
             groups = "all groups" if slot is None else f"group {slot}"
@@ -67,6 +78,10 @@ def describe_family_command(command: SetSpeed | Release | ReadPositions | ReadVe
             return f"ask for the position of {servo_words(servos)}"
         case ReadVersion():
             return "ask for the version"
+        case ReadAllPositions():
+            return "ask for the positions of all servos"
+        case ReadOffsets():
+            return "ask for the offsets"
     assert_never(command)
 
 
@@ -76,6 +91,10 @@ def frame_words(frame: Frame) -> str:
 
 def target_words(targets: tuple[ServoTarget, ...]) -> str:
     return ", ".join(f"servo {target.servo} to {target.position}" for target in targets)
+
+
+def position_words(positions: tuple[ServoTarget, ...]) -> str:
+    return ", ".join(f"servo {at.servo} is at {at.position}" for at in positions)
 
 
 def servo_words(servos: tuple[int, ...]) -> str:
@@ -104,11 +123,21 @@ def describe_report(packet: Packet) -> str:
             return f"battery {read_word(params, 0)} mV"
         case 25, 0:
             return "download frame handled"
+    return describe_family_report(packet) or f"no known report: {whole_words(packet)}"
+
+
+def describe_family_report(packet: Packet) -> str | None:
+    params = packet.params
+    match packet.command, len(params):
         case 1, 2:
             return f"version {params[1]}, {SERVOS.get(params[0], f'servos of type {params[0]}')}"
         case 21, _ if positions := read_positions(params):
-            return ", ".join(f"servo {at.servo} is at {at.position}" for at in positions)
-    return f"no known report: {whole_words(packet)}"
+            return position_words(positions)
+        case 13, 18:
+            return position_words(read_position_entries(params))
+        case 2, 12:
+            return ", ".join(f"servo {one.servo} has offset {one.offset}" for one in read_offsets(params))
+    return None
 
 
 def whole_words(packet: Packet) -> str:

@@ -19,6 +19,8 @@ CommandKind = Literal[
     "release",
     "readPositions",
     "readVersion",
+    "readAllPositions",
+    "readOffsets",
 ]
 
 
@@ -170,9 +172,18 @@ LEARM_ESP32 = Family(
     slot=Range(0, 254),
     run_times=Range(1, 255),
     max_length=62,
-    commands=("move", "run", "stop", "erase", "download", "readVersion"),
+    commands=(
+        "move",
+        "run",
+        "stop",
+        "erase",
+        "download",
+        "readVersion",
+        "readAllPositions",
+        "readOffsets",
+    ),
     erase_length=2,
-    answers=("erase", "download", "readVersion"),
+    answers=("erase", "download", "readVersion", "readAllPositions", "readOffsets"),
     run_reports_name_slot=False,
     empty_seven="unknown",
     service_gap_ms=10,

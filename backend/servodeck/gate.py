@@ -17,8 +17,9 @@ from servodeck.errors import (
 )
 from servodeck.packets import FAMILIES, PacketError, check_command
 
-MOVE, RUN, STOP, BATTERY, POSITIONS, VERSION = 3, 6, 7, 15, 21, 1
-PASS_WHILE_LATCHED = frozenset({STOP, BATTERY, POSITIONS, VERSION})
+MOVE, RUN, STOP = 3, 6, 7
+BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
+PASS_WHILE_LATCHED = frozenset({STOP, BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS})
 
 FORWARDING = frozenset(
     {b"forwarded", b"via", b"x-real-ip", b"x-client-ip", b"true-client-ip", b"cf-connecting-ip"}

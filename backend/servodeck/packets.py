@@ -20,6 +20,7 @@ from servodeck.decoder import (
 from servodeck.families import FAMILIES, CommandKind, Family, Range
 from servodeck.limits import PacketError, check, check_range
 from servodeck.values import (
+    AllPositions,
     Battery,
     Command,
     Download,
@@ -28,8 +29,11 @@ from servodeck.values import (
     Frame,
     FrameStored,
     Move,
+    Offsets,
     Positions,
+    ReadAllPositions,
     ReadBattery,
+    ReadOffsets,
     ReadPositions,
     ReadVersion,
     Release,
@@ -39,6 +43,7 @@ from servodeck.values import (
     RunFinished,
     RunStarted,
     RunStopped,
+    ServoOffset,
     ServoTarget,
     SetSpeed,
     Stop,
@@ -77,6 +82,8 @@ COMMAND_NUMBER: dict[CommandKind, int] = {
     "release": 20,
     "readPositions": 21,
     "readVersion": 1,
+    "readAllPositions": 13,
+    "readOffsets": 2,
 }
 # In place of a slot: every group.
 ALL_GROUPS = 0xFF
@@ -108,7 +115,7 @@ def params_of(command: Command, family: Family) -> bytes:
             return bytes((ALL_GROUPS if slot is None else slot,)) + word(percent)
         case Release(servos) | ReadPositions(servos):
             return bytes((len(servos), *servos))
-        case Stop() | ReadBattery() | ReadVersion():
+        case Stop() | ReadBattery() | ReadVersion() | ReadAllPositions() | ReadOffsets():
             return b""
         case Download(slot, frame_count, frame_index, frame):
             return bytes((slot, frame_count, frame_index)) + frame_bytes(frame)
@@ -176,6 +183,10 @@ def family_command(packet: Packet) -> Command | None:
             return ReadPositions(tuple(params[1:]))
         case 1, 0:
             return ReadVersion()
+        case 13, 0:
+            return ReadAllPositions()
+        case 2, 0:
+            return ReadOffsets()
     return None
 
 
@@ -235,14 +246,28 @@ def full_report(packet: Packet, family: Family) -> Report | None:
         case 21, _ if "readPositions" in family.answers:
             positions = read_positions(params)
             return Positions(positions) if positions else None
+        case 13, 18 if "readAllPositions" in family.answers:
+            return AllPositions(read_position_entries(params))
+        case 2, 12 if "readOffsets" in family.answers:
+            return Offsets(read_offsets(params))
         case 1, 2 if "readVersion" in family.answers and params[0] in SERVO_TYPES:
             return Version(SERVO_TYPES[params[0]], params[1])
     return None
 
 
 def read_positions(params: bytes) -> tuple[ServoTarget, ...]:
-    """Signed: turned by hand, a bus servo can stand a little below 0. Empty where the count is wrong."""
+    """Empty where the count is wrong."""
     if not params or len(params) != 1 + ENTRY * params[0]:
         return ()
-    entries = range(1, len(params), ENTRY)
-    return tuple(ServoTarget(params[at], read_word(params, at + 1, signed=True)) for at in entries)
+    return read_position_entries(params[1:])
+
+
+def read_position_entries(data: bytes) -> tuple[ServoTarget, ...]:
+    """Signed: turned by hand, a bus servo can stand a little below 0."""
+    entries = range(0, len(data), ENTRY)
+    return tuple(ServoTarget(data[at], read_word(data, at + 1, signed=True)) for at in entries)
+
+
+def read_offsets(params: bytes) -> tuple[ServoOffset, ...]:
+    entries = zip(params[::2], params[1::2], strict=True)
+    return tuple(ServoOffset(servo, int.from_bytes((byte,), signed=True)) for servo, byte in entries)

@@ -18,6 +18,14 @@ class ServoTarget:
 
 
 @dataclass(frozen=True, slots=True)
+class ServoOffset:
+    """A servo's trim, in the board's unit."""
+
+    servo: int
+    offset: int
+
+
+@dataclass(frozen=True, slots=True)
 class Frame:
     """Targets reached together after `duration_ms`. A frame without targets is a pause."""
 
@@ -99,8 +107,31 @@ class ReadVersion:
     kind: ClassVar[CommandKind] = "readVersion"
 
 
+@dataclass(frozen=True, slots=True)
+class ReadAllPositions:
+    kind: ClassVar[CommandKind] = "readAllPositions"
+
+
+@dataclass(frozen=True, slots=True)
+class ReadOffsets:
+    """The trims it keeps in flash."""
+
+    kind: ClassVar[CommandKind] = "readOffsets"
+
+
 Command = (
-    Move | Run | Stop | Erase | ReadBattery | Download | SetSpeed | Release | ReadPositions | ReadVersion
+    Move
+    | Run
+    | Stop
+    | Erase
+    | ReadBattery
+    | Download
+    | SetSpeed
+    | Release
+    | ReadPositions
+    | ReadVersion
+    | ReadAllPositions
+    | ReadOffsets
 )
 
 
@@ -150,6 +181,20 @@ class Positions:
 
 
 @dataclass(frozen=True, slots=True)
+class AllPositions:
+    """Where the board has its servos, all of them (LeArm)."""
+
+    positions: tuple[ServoTarget, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Offsets:
+    """What the board adds to the positions of its servos (LeArm)."""
+
+    offsets: tuple[ServoOffset, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Version:
     """Which servos the board drives, by the unit they count in, and its firmware."""
 
@@ -174,6 +219,8 @@ Report = (
     | Battery
     | FrameStored
     | Positions
+    | AllPositions
+    | Offsets
     | Version
     | UnknownReport
 )

@@ -184,6 +184,10 @@ def test_only_a_move_can_hold_a_pose() -> None:
         (BATTERY, True),
         (bytes.fromhex("555504150101"), True),  # positions
         (bytes.fromhex("55550201"), True),  # version
+        (bytes.fromhex("5555020d"), True),  # all positions
+        (bytes.fromhex("55550202"), True),  # offsets
+        (bytes.fromhex("5555040a0105"), False),  # setting an offset
+        (bytes.fromhex("5555020b"), False),  # saving them
     ],
 )
 def test_the_latch_lets_only_stop_and_questions_through(packet: bytes, passes: bool) -> None:

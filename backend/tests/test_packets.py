@@ -16,6 +16,7 @@ from servodeck.families import DOC, FAMILIES, Family, Range
 from servodeck.limits import PacketError
 from servodeck.packets import check_command, encode, parse_command, parse_report
 from servodeck.values import (
+    AllPositions,
     Battery,
     Command,
     Download,
@@ -24,8 +25,11 @@ from servodeck.values import (
     Frame,
     FrameStored,
     Move,
+    Offsets,
     Positions,
+    ReadAllPositions,
     ReadBattery,
+    ReadOffsets,
     ReadPositions,
     ReadVersion,
     Release,
@@ -35,6 +39,7 @@ from servodeck.values import (
     RunFinished,
     RunStarted,
     RunStopped,
+    ServoOffset,
     ServoTarget,
     SetSpeed,
     Stop,
@@ -75,8 +80,14 @@ def command_of(value: Any) -> Command:
         "erase": Erase(),
         "readBattery": ReadBattery(),
         "readVersion": ReadVersion(),
+        "readAllPositions": ReadAllPositions(),
+        "readOffsets": ReadOffsets(),
     }
     return plain[value["kind"]]
+
+
+def positions_of(value: Any) -> tuple[ServoTarget, ...]:
+    return tuple(ServoTarget(at["servo"], at["position"]) for at in value["positions"])
 
 
 def report_of(value: Any) -> Report:
@@ -88,7 +99,11 @@ def report_of(value: Any) -> Report:
         case "battery":
             return Battery(value["batteryMv"])
         case "positions":
-            return Positions(tuple(ServoTarget(at["servo"], at["position"]) for at in value["positions"]))
+            return Positions(positions_of(value))
+        case "allPositions":
+            return AllPositions(positions_of(value))
+        case "offsets":
+            return Offsets(tuple(ServoOffset(one["servo"], one["offset"]) for one in value["offsets"]))
         case "version":
             return Version(value["unit"], value["version"])
         case "unknown":
@@ -191,6 +206,8 @@ def commands(family: Family) -> st.SearchStrategy[Command]:
         "release": servos(family).map(Release),
         "readPositions": servos(family).map(ReadPositions),
         "readVersion": st.just(ReadVersion()),
+        "readAllPositions": st.just(ReadAllPositions()),
+        "readOffsets": st.just(ReadOffsets()),
     }
     return st.one_of([by_kind[kind] for kind in family.commands])
 
@@ -207,7 +224,7 @@ def test_every_command_of_a_family_comes_back_as_it_went_out(family: Family, dat
 # Right in header and LEN, so that many get past the shape.
 plausible = st.builds(
     lambda command, params: bytes((0x55, 0x55, len(params) + 2, command)) + params,
-    st.sampled_from([1, 3, 6, 7, 8, 11, 15, 20, 21, 25]),
+    st.sampled_from([1, 2, 3, 6, 7, 8, 11, 13, 15, 20, 21, 25]),
     st.one_of(st.binary(max_size=251), st.binary(max_size=12)),
 )
 
@@ -241,6 +258,8 @@ def test_any_bytes_are_either_refused_or_a_command_that_means_them(packet: bytes
         "55 55 04 14 02 01",
         "55 55 02 15",
         "55 55 03 01 00",
+        "55 55 03 0D 00",
+        "55 55 03 02 00",
         "55 55 02 03",
         "55 55 08 03 02 E8 03 01 D0 07",
         "55 55 0B 19 0A 01 00 02 E8 03 01 DC 05",
@@ -290,6 +309,8 @@ def test_an_empty_seven_stays_unknown_where_nobody_knows_what_it_means() -> None
         ("55 55 05 14 02 01 03", "take the torque off servo 1, servo 3"),
         ("55 55 04 15 01 06", "ask for the position of servo 6"),
         ("55 55 02 01", "ask for the version"),
+        ("55 55 02 0D", "ask for the positions of all servos"),
+        ("55 55 02 02", "ask for the offsets"),
         ("55 55 04 63 01 02", "no known command: CMD 99, parameters 01 02"),
     ],
 )
@@ -308,6 +329,16 @@ def test_a_command_in_words(packet: str, words: str) -> None:
         ("55 55 04 0F 4C 1D", "battery 7500 mV"),
         ("55 55 02 19", "download frame handled"),
         ("55 55 06 15 01 01 F4 01", "servo 1 is at 500"),
+        (
+            "55 55 14 0D 01 F4 01 02 FD FF 03 DC 05 04 DC 05 05 DC 05 06 DC 05",
+            "servo 1 is at 500, servo 2 is at -3, servo 3 is at 1500, servo 4 is at 1500, "
+            "servo 5 is at 1500, servo 6 is at 1500",
+        ),
+        (
+            "55 55 0E 02 01 00 02 FB 03 00 04 0A 05 00 06 FF",
+            "servo 1 has offset 0, servo 2 has offset -5, servo 3 has offset 0, servo 4 has offset 10, "
+            "servo 5 has offset 0, servo 6 has offset -1",
+        ),
         ("55 55 04 01 02 03", "version 3, bus servos"),
         ("55 55 04 01 09 03", "version 3, servos of type 9"),
         ("55 55 02 0B", "no known report: CMD 11, no parameters"),

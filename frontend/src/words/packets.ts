@@ -33,6 +33,10 @@ export function commandWords(command: Command | null, bytes: Uint8Array): string
       return `Ask where ${servoWords(command.servos)} ${command.servos.length === 1 ? 'stands' : 'stand'}`;
     case 'readVersion':
       return 'Ask for the version';
+    case 'readAllPositions':
+      return 'Ask where every servo stands';
+    case 'readOffsets':
+      return 'Ask for the offsets';
   }
 }
 
@@ -60,7 +64,10 @@ export function reportWords(report: Report): string {
     case 'frameStored':
       return 'Frame handled';
     case 'positions':
+    case 'allPositions':
       return `Positions ${targetWords(report.positions)}`;
+    case 'offsets':
+      return `Offsets ${listWords(report.offsets.map(({ servo, offset }) => `${servo} → ${formatWhole(offset)}`))}`;
     case 'version':
       return `Version ${formatWhole(report.version)}, servos in ${unitSymbol(report.unit)}`;
     case 'unknown':

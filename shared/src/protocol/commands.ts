@@ -37,7 +37,10 @@ export type Command =
   | { readonly kind: 'release'; readonly servos: readonly number[] }
   /** Up to 450 ms for six servos (X7). */
   | { readonly kind: 'readPositions'; readonly servos: readonly number[] }
-  | { readonly kind: 'readVersion' };
+  | { readonly kind: 'readVersion' }
+  | { readonly kind: 'readAllPositions' }
+  /** The trims it keeps in flash. */
+  | { readonly kind: 'readOffsets' };
 
 export type CommandKind = Command['kind'];
 
@@ -56,4 +59,6 @@ export const COMMAND_NUMBER: Readonly<Record<CommandKind, number>> = {
   release: 20,
   readPositions: 21,
   readVersion: 1,
+  readAllPositions: 13,
+  readOffsets: 2,
 };

@@ -56,8 +56,14 @@ function commandOf(row: Family): fc.Arbitrary<Command> {
     release: servosOf(row).map((servos) => ({ kind: 'release', servos })),
     readPositions: servosOf(row).map((servos) => ({ kind: 'readPositions', servos })),
     readVersion: fc.constant({ kind: 'readVersion' }),
+    readAllPositions: fc.constant({ kind: 'readAllPositions' }),
+    readOffsets: fc.constant({ kind: 'readOffsets' }),
   };
   return fc.oneof(...row.commands.map((kind) => byKind[kind]));
+}
+
+function sixOf<T>(entry: fc.Arbitrary<T>): fc.Arbitrary<T[]> {
+  return fc.array(entry, { minLength: 6, maxLength: 6 });
 }
 
 const byte = within({ min: 0, max: 0xff });
@@ -69,6 +75,14 @@ const positions: fc.Arbitrary<Report> = fc.record({
     minLength: 1,
     maxLength: 32,
   }),
+});
+const allPositions: fc.Arbitrary<Report> = fc.record({
+  kind: fc.constant('allPositions'),
+  positions: sixOf(fc.record({ servo: byte, position: within({ min: -0x8000, max: 0x7fff }) })),
+});
+const offsets: fc.Arbitrary<Report> = fc.record({
+  kind: fc.constant('offsets'),
+  offsets: sixOf(fc.record({ servo: byte, offset: within({ min: -0x80, max: 0x7f }) })),
 });
 const version: fc.Arbitrary<Report> = fc.record({
   kind: fc.constant('version'),
@@ -90,6 +104,8 @@ function reportOf({ answers, emptySeven, runReportsNameSlot }: Family): fc.Arbit
     kinds.push(fc.record({ kind: fc.constant('battery'), batteryMv: word }));
   if (answers.includes('readPositions')) kinds.push(positions);
   if (answers.includes('readVersion')) kinds.push(version);
+  if (answers.includes('readAllPositions')) kinds.push(allPositions);
+  if (answers.includes('readOffsets')) kinds.push(offsets);
   return fc.oneof(...kinds);
 }
 

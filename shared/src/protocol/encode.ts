@@ -5,13 +5,14 @@ import { ALL_GROUPS, COMMAND_NUMBER, type Command, type Frame, type ServoTarget 
 import type { Family } from './families.ts';
 import { checkCommand, checkRange } from './limits.ts';
 import { HEADER, MIN_LENGTH, packetBytes } from './packet.ts';
-import { SERVO_TYPES, type Report } from './reports.ts';
+import { SERVO_TYPES, type Report, type ServoOffset } from './reports.ts';
 
 /** What encoding throws, beside the functions that throw it. */
 export { RangeRefusal } from './limits.ts';
 
 const BYTE = { min: 0, max: 0xff };
 const WORD = { min: 0, max: 0xffff };
+const SIGNED_BYTE = { min: -0x80, max: 0x7f };
 const SIGNED_WORD = { min: -0x8000, max: 0x7fff };
 /** Bytes before the parameters: two headers, LEN, CMD. */
 const PREFIX = 4;
@@ -48,6 +49,8 @@ export function encodeCommand(command: Command, family: Family): Uint8Array {
     case 'erase': // its one byte is reserved and stays 0
     case 'readBattery':
     case 'readVersion':
+    case 'readAllPositions':
+    case 'readOffsets':
       break;
   }
   return packet;
@@ -70,6 +73,8 @@ function paramCount(command: Command, family: Family): number {
     case 'stop':
     case 'readBattery':
     case 'readVersion':
+    case 'readAllPositions':
+    case 'readOffsets':
       return 0;
   }
 }
@@ -123,6 +128,10 @@ export function encodeReport(report: Report): Uint8Array {
       return packetBytes(25, []);
     case 'positions':
       return packetBytes(21, [report.positions.length, ...report.positions.flatMap(positionBytes)]);
+    case 'allPositions':
+      return packetBytes(13, report.positions.flatMap(positionBytes));
+    case 'offsets':
+      return packetBytes(2, report.offsets.flatMap(offsetBytes));
     case 'version':
       checkRange('version', report.version, BYTE);
       return packetBytes(1, [SERVO_TYPES.indexOf(report.unit), report.version]);
@@ -135,6 +144,12 @@ function positionBytes({ servo, position }: ServoTarget): number[] {
   checkRange('servo', servo, BYTE);
   checkRange('position', position, SIGNED_WORD);
   return [servo, position & 0xff, (position >> 8) & 0xff];
+}
+
+function offsetBytes({ servo, offset }: ServoOffset): number[] {
+  checkRange('servo', servo, BYTE);
+  checkRange('offset', offset, SIGNED_BYTE);
+  return [servo, offset & 0xff];
 }
 
 function runReport(command: number, slot: number, times: number): Uint8Array {

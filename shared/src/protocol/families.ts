@@ -222,9 +222,9 @@ const leArm = {
   speedPercent: AS_STORED,
   zeroTimes: 'once', // L6
   maxLength: 62, // more overwrites its memory (L3)
-  commands: ['move', 'run', 'stop', 'erase', 'download', 'readVersion'],
+  commands: ['move', 'run', 'stop', 'erase', 'download', 'readVersion', 'readAllPositions', 'readOffsets'],
   eraseLength: 2,
-  answers: ['erase', 'download', 'readVersion'],
+  answers: ['erase', 'download', 'readVersion', 'readAllPositions', 'readOffsets'],
   certainAnswers: ['readVersion'],
   runReportsNameSlot: false,
   emptySeven: 'unknown', // neither start nor end is told (L6)

@@ -12,13 +12,14 @@ export const WAIT = 0;
 const HEAD_SIZE = 4;
 
 /**
- * The size of the packet at `at`, NO or WAIT. An empty packet is believed at once. A packet with parameters is believed
- * when the next byte begins another packet: one byte too few or too many inside it shows there, and only there.
+ * The size of the packet at `at`, NO or WAIT. An empty packet is believed at once, unless its number equals its LEN: that
+ * may be any packet whose LEN was doubled. Such a one and a packet with parameters are believed when the next byte begins
+ * another packet: one byte too few or too many inside it shows there, and only there.
  * The answer never depends on bytes beyond those that settle it, so it is the same however the bytes arrive.
  */
 export function judge(shape: ShapeRule, bytes: Uint8Array, at: number, end: number): number {
   const size = packetSize(shape, bytes, at, end);
-  if (size <= HEAD_SIZE) return size;
+  if (size < HEAD_SIZE || (size === HEAD_SIZE && bytes[at + 3] !== bytes[at + 2])) return size;
   return at + size > end ? WAIT : followed(shape, bytes, at, size, end);
 }
 

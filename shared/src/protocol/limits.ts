@@ -15,6 +15,7 @@ export type RefusedField =
   | 'frameCount'
   | 'frameIndex'
   | 'percent'
+  | 'offset'
   | 'length'
   | 'batteryMv'
   | 'version';
@@ -96,6 +97,8 @@ export function checkCommand(command: Command, family: Family): void {
     case 'erase':
     case 'readBattery':
     case 'readVersion':
+    case 'readAllPositions':
+    case 'readOffsets':
       return;
   }
 }

@@ -6,6 +6,9 @@ import type { Family } from './families.ts';
 import type { Packet } from './packet.ts';
 import { SERVO_TYPES, type Report } from './reports.ts';
 
+/** How many servos its answers are about; no count stands in them. */
+const LEARM_SERVOS = 6;
+
 /** The command, or null where the packet is not exactly a known one in shape. */
 export function parseCommand({ command, params }: Packet): Command | null {
   switch (command) {
@@ -43,6 +46,10 @@ function familyCommand(command: number, params: Uint8Array): Command | null {
     }
     case COMMAND_NUMBER.readVersion:
       return params.length === 0 ? { kind: 'readVersion' } : null;
+    case COMMAND_NUMBER.readAllPositions:
+      return params.length === 0 ? { kind: 'readAllPositions' } : null;
+    case COMMAND_NUMBER.readOffsets:
+      return params.length === 0 ? { kind: 'readOffsets' } : null;
     default:
       return null;
   }
@@ -87,6 +94,8 @@ function familyReport({ command, params }: Packet, family: Family): Report | nul
   }
   if (command === 21 && family.answers.includes('readPositions')) return readPositions(params);
   if (command === 1 && family.answers.includes('readVersion')) return readVersion(params);
+  if (command === 13 && family.answers.includes('readAllPositions')) return readAllPositions(params);
+  if (command === 2 && family.answers.includes('readOffsets')) return readOffsets(params);
   if (params.length !== 3 || !family.runReportsNameSlot) return null;
   if (command === 6) return { kind: 'runStarted', slot: byteAt(params, 0), times: wordAt(params, 1) };
   return command === 8 ? { kind: 'runFinished', slot: byteAt(params, 0) } : null;
@@ -94,11 +103,31 @@ function familyReport({ command, params }: Packet, family: Family): Report | nul
 
 function readPositions(params: Uint8Array): Report | null {
   if (params.length !== 1 + 3 * byteAt(params, 0)) return null;
-  const positions: ServoTarget[] = [];
-  for (let entry = 1; entry < params.length; entry += 3) {
-    positions.push({ servo: byteAt(params, entry), position: signed(wordAt(params, entry + 1)) });
-  }
-  return { kind: 'positions', positions };
+  return { kind: 'positions', positions: positionsIn(params.subarray(1)) };
+}
+
+function readAllPositions(params: Uint8Array): Report | null {
+  return params.length === 3 * LEARM_SERVOS ? { kind: 'allPositions', positions: positionsIn(params) } : null;
+}
+
+function positionsIn(entries: Uint8Array): ServoTarget[] {
+  return eachEntry(entries, 3, (at) => ({
+    servo: byteAt(entries, at),
+    position: signed(wordAt(entries, at + 1)),
+  }));
+}
+
+function readOffsets(params: Uint8Array): Report | null {
+  if (params.length !== 2 * LEARM_SERVOS) return null;
+  const offsets = eachEntry(params, 2, (at) => ({
+    servo: byteAt(params, at),
+    offset: signedByte(byteAt(params, at + 1)),
+  }));
+  return { kind: 'offsets', offsets };
+}
+
+function eachEntry<T>(entries: Uint8Array, size: number, read: (at: number) => T): T[] {
+  return Array.from({ length: entries.length / size }, (_, index) => read(index * size));
 }
 
 function readVersion(params: Uint8Array): Report | null {
@@ -107,6 +136,7 @@ function readVersion(params: Uint8Array): Report | null {
 }
 
 const signed = (word: number): number => (word << 16) >> 16;
+const signedByte = (byte: number): number => (byte << 24) >> 24;
 
 function emptyReport(command: number, family: Family): Report | null {
   const { answers, emptySeven } = family;

@@ -3,6 +3,12 @@
 
 import type { ServoTarget } from './commands.ts';
 
+/** One servo's trim, in the board's unit. */
+export interface ServoOffset {
+  readonly servo: number;
+  readonly offset: number;
+}
+
 export type Report =
   /** The board took a run command. Proves reception only: it comes before the slot is looked up (S18). */
   | { readonly kind: 'runAccepted' }
@@ -18,6 +24,10 @@ export type Report =
   | { readonly kind: 'frameStored' }
   /** Where bus servos stand; turned by hand, one can stand a little below 0. */
   | { readonly kind: 'positions'; readonly positions: readonly ServoTarget[] }
+  /** Where the board has its servos, all of them (LeArm). */
+  | { readonly kind: 'allPositions'; readonly positions: readonly ServoTarget[] }
+  /** What the board adds to the positions of its servos (LeArm). */
+  | { readonly kind: 'offsets'; readonly offsets: readonly ServoOffset[] }
   /** Which servos the board drives, by the unit they count in, and its firmware. */
   | { readonly kind: 'version'; readonly unit: 'us' | 'steps'; readonly version: number }
   /** Well-formed on the wire, but not a report this family is known to send. */

@@ -82,7 +82,9 @@ export const COMMAND_SHAPES: ShapeRule = compile([
   { command: 15, length: 2 },
   { command: 25, length: 8, perServo: { bytes: 3, countAt: 3, least: 0, most: 81 } },
   { command: 1, length: 2 }, // LeArm: version
+  { command: 2, length: 2 }, // LeArm: offsets
   { command: 11, length: 5 }, // LSC, bus: speed
+  { command: 13, length: 2 }, // LeArm: positions
   { command: 20, length: 3, perServo: { bytes: 1, countAt: 0, least: 1, most: MOST_SERVOS } }, // bus: release
   { command: 21, length: 3, perServo: { bytes: 1, countAt: 0, least: 1, most: MOST_SERVOS } }, // bus: positions
 ]);
