@@ -104,6 +104,8 @@ const COMMANDS: Readonly<Record<CommandKind, string>> = {
   release: 'Release',
   readPositions: 'Ask where servos stand',
   readVersion: 'Ask for the version',
+  readAllPositions: 'Ask where every servo stands',
+  readOffsets: 'Ask for the offsets',
 };
 
 /** What the board would make of a packet written by hand, or why it does not get it. */

@@ -38,7 +38,14 @@ export function requireLine(store: SessionStore): void {
   if (store.state.link.status !== 'stale') requireReady(store);
 }
 
-/** Additionally nobody has pressed STOP since the last Resume. */
+/** Additionally a question does no harm: on some boards any of them ends a running group, unsaid (L8). */
+export function requireQuestion({ family, store }: Core): void {
+  requireReady(store);
+  if (family.queryKillsRun && store.state.activity.kind === 'running')
+    throw new LinkError('busy', 'asking would end the running group: end it first');
+}
+
+/** The board is ready and nobody has pressed STOP since the last Resume. */
 export function requireReleased(core: Core): void {
   requireReady(core.store);
   if (core.store.state.latch !== null) throw new LinkError('latched', 'stopped: resume first');

@@ -1,7 +1,7 @@
 // What a session does with one kind of board: everything that depends on the family, put together. Another board makes
 // another driver; the line, its queues and the snapshot stay. Knows no transport by name.
 
-import { COMMAND_NUMBER } from '../protocol/commands.ts';
+import { COMMAND_NUMBER, type Command } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
 import { createBatteryReader } from './batteryReader.ts';
 import type { Core } from './core.ts';
@@ -11,9 +11,12 @@ import { createLive, type Live } from './live.ts';
 import type { LinkError } from './linkError.ts';
 import { createMoveBuffer } from './moveBuffer.ts';
 import { createRaw } from './raw.ts';
+import { createReadings, type Readings } from './readings.ts';
+import { release } from './release.ts';
 import type { Replies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
 import type { SlotMemory } from './slotMemory.ts';
+import { setSpeed } from './speed.ts';
 
 export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
   readonly replies: Replies;
@@ -24,8 +27,13 @@ export interface Driver {
   readonly core: Core;
   readonly live: Live;
   readonly groups: Groups;
+  readonly readings: Readings;
   readBattery(): Promise<number>;
   sendRaw(packet: Uint8Array): Promise<void>;
+  setSpeed(slot: number | null, percent: number): Promise<void>;
+  release(servos: readonly number[]): Promise<void>;
+  /** A command's last bit left the wire just now. */
+  applied(command: Command): void;
   /** The newest move as a packet, or null when there is nothing to say. */
   takeMove(): Uint8Array | null;
   /** Ends what is under way here. What the board was asked and did not answer stays unknown. */
@@ -44,13 +52,22 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
   const live = createLive(core, moves);
   const groups = createGroups(core, slotMemory);
   const readBattery = createBatteryReader(core);
+  const readings = createReadings(core);
+  const releaseServos = (servos: readonly number[]): Promise<void> => release(core, servos, moves.clear);
 
   return {
     core,
     live,
     groups,
+    readings,
     readBattery,
-    sendRaw: createRaw(core, { run: groups.run, stop: groups.stop, readBattery }),
+    setSpeed: (slot, percent) => setSpeed(core, slot, percent),
+    release: releaseServos,
+    sendRaw: createRaw(core, { run: groups.run, stop: groups.stop, release: releaseServos, readBattery }),
+    applied(command) {
+      robot.applied(command);
+      readings.applied(command);
+    },
     takeMove() {
       const move = moves.take();
       return move && encodeOrRefuse(robot.softened(move), family);

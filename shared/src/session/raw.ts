@@ -3,7 +3,7 @@
 
 import type { Command, CommandKind } from '../protocol/commands.ts';
 import { judgeRaw } from '../protocol/rawPacket.ts';
-import { requireReady, requireReleased, type Core } from './core.ts';
+import { requireQuestion, requireReleased, type Core } from './core.ts';
 import { LinkError } from './linkError.ts';
 import { FIRST_MOVE_MS } from './timings.ts';
 
@@ -11,11 +11,19 @@ import { FIRST_MOVE_MS } from './timings.ts';
 export interface RawOperations {
   run(slot: number, times: number): Promise<void>;
   stop(): Promise<void>;
+  release(servos: readonly number[]): Promise<void>;
   readBattery(): Promise<unknown>;
 }
 
 /** Neither moves anything nor changes what a group does. */
-const HARMLESS: readonly CommandKind[] = ['stop', 'readBattery', 'readPositions', 'readVersion'];
+const HARMLESS: readonly CommandKind[] = [
+  'stop',
+  'readBattery',
+  'readPositions',
+  'readAllPositions',
+  'readVersion',
+  'readOffsets',
+];
 
 export function isHarmless({ kind }: Command): boolean {
   return HARMLESS.includes(kind);
@@ -23,7 +31,7 @@ export function isHarmless({ kind }: Command): boolean {
 
 /** Gives the operation: rejects with a LinkError, or resolves when the packet has left. */
 export function createRaw(core: Core, operations: RawOperations): (bytes: Uint8Array) => Promise<void> {
-  const { family, store, robot, lanes } = core;
+  const { family, robot, lanes } = core;
 
   async function send(bytes: Uint8Array): Promise<void> {
     const verdict = judgeRaw(bytes, family);
@@ -38,21 +46,16 @@ export function createRaw(core: Core, operations: RawOperations): (bytes: Uint8A
 
   async function perform(command: Command, bytes: Uint8Array): Promise<void> {
     if (command.kind === 'stop') return operations.stop();
-    if (isHarmless(command)) requireAskable();
+    if (isHarmless(command)) requireQuestion(core);
     else requireReleased(core);
     if (command.kind === 'run') return operations.run(command.slot, command.times);
+    if (command.kind === 'release') return operations.release(command.servos);
     if (command.kind === 'readBattery') {
       await operations.readBattery();
       return;
     }
     if (command.kind === 'move') requireGentle(command);
     return lanes.request(bytes);
-  }
-
-  function requireAskable(): void {
-    requireReady(store);
-    if (family.queryKillsRun && store.state.activity.kind === 'running')
-      throw new LinkError('busy', 'a question would end the running group (L8)');
   }
 
   /** The bytes are not changed on the way, so what would be slowed down elsewhere is refused here. */

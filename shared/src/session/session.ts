@@ -19,7 +19,7 @@ import { createReplies } from './replies.ts';
 import { createResync } from './resync.ts';
 import type { LinkState, ServoMotion, SessionEvents, SessionState } from './state.ts';
 import type { SlotMemory } from './slotMemory.ts';
-import { createSessionStore } from './store.ts';
+import { createSessionStore, NOTHING_READ } from './store.ts';
 import type { Transport } from './transport.ts';
 
 export interface SessionOptions {
@@ -65,6 +65,16 @@ export interface Session {
   readBattery(): Promise<number>;
   /** A packet written by hand, as it is. Rejects with what keeps this board from getting it: rawPacket.ts, raw.ts. */
   sendRaw(packet: Uint8Array): Promise<void>;
+  /** Asks where these servos stand; the board's word is in `state.reported`. */
+  readPositions(servos: readonly number[]): Promise<void>;
+  /** Into `state.version`. */
+  readVersion(): Promise<void>;
+  /** Into `state.offsets`. */
+  readOffsets(): Promise<void>;
+  /** How fast the board plays the group in `slot`, null for every group, until it is switched off. */
+  setSpeed(slot: number | null, percent: number): Promise<void>;
+  /** Takes the torque off: what these servos carry drops. Only after a person was warned. */
+  release(servos: readonly number[]): Promise<void>;
   /** Stores `frames` in `slot`; progress is in `state.activity`. */
   download(slot: number, frames: readonly Frame[], signal?: CancelSignal): Promise<void>;
   /** Plays from the page. Resolves at the end or after `stopPlaying`. */
@@ -139,7 +149,10 @@ export function createSession(options: SessionOptions): Session {
     if (next === driver.core.family) return;
     driver.drop(new LinkError('cancelled', 'the board is taken for another one now'));
     driver = driverFor(next);
-    store.update({ family: next, battery: { kind: 'unread' }, brokenSlots: [], storedSlots: [] });
+    store.update({
+      ...{ family: next, battery: { kind: 'unread' }, brokenSlots: [], storedSlots: [] },
+      ...NOTHING_READ,
+    });
   }
 
   /** Into the log when it begins to leave, so that its answer comes after it. */
@@ -153,7 +166,7 @@ export function createSession(options: SessionOptions): Session {
   /** Into the estimate when it has left: not before can the board act on it. */
   function take(packet: Uint8Array): void {
     const command = commandIn(packet);
-    if (command !== null) driver.core.robot.applied(command);
+    if (command !== null) driver.applied(command);
   }
 
   function heard(report: Report, bytes: Uint8Array): void {
@@ -161,6 +174,7 @@ export function createSession(options: SessionOptions): Session {
     lanes.answered(bytes[3] ?? 0);
     replies.deliver(report);
     driver.groups.heard(report);
+    driver.readings.heard(report);
     if (report.kind === 'runStopped') halt.confirmed();
     identification.heard(report, bytes);
   }
@@ -199,6 +213,7 @@ export function createSession(options: SessionOptions): Session {
     if (!link.isOpen) receiver.reset();
     driver.core.robot.forget();
     driver.groups.unlinked();
+    store.update(NOTHING_READ);
     if (next.status === 'lost' || next.status === 'stale') halt.latchedByLoss();
     else driver.drop(new LinkError('closed', 'the link was closed'));
   }
@@ -225,6 +240,11 @@ export function createSession(options: SessionOptions): Session {
     erase: () => driver.groups.erase(),
     readBattery: () => driver.readBattery(),
     sendRaw: (packet) => driver.sendRaw(packet),
+    readPositions: (servos) => driver.readings.readPositions(servos),
+    readVersion: () => driver.readings.readVersion(),
+    readOffsets: () => driver.readings.readOffsets(),
+    setSpeed: (slot, percent) => driver.setSpeed(slot, percent),
+    release: (servos) => driver.release(servos),
     download: (slot, frames, signal) => driver.groups.download(slot, frames, signal),
     play: (frames, playing) => driver.live.play(frames, playing?.times ?? 1),
     stopPlaying: () => driver.live.stopPlaying(),

@@ -2,7 +2,7 @@
 // log. Knows no transport and no user interface. Every figure says how true it is: requested, estimated or confirmed.
 
 import type { Command } from '../protocol/commands.ts';
-import type { Report } from '../protocol/reports.ts';
+import type { Report, ServoOffset } from '../protocol/reports.ts';
 import type { Family } from '../protocol/families.ts';
 import type { Identity } from './identity.ts';
 import type { LinkError } from './linkError.ts';
@@ -58,6 +58,12 @@ export type Battery =
   /** Three questions in a row stayed unanswered. */
   | { readonly kind: 'silent'; readonly lastMv: number | null };
 
+/** What the board said of one servo, in its unit, and when, on the session's clock. */
+export interface Reading {
+  readonly position: number;
+  readonly atMs: number;
+}
+
 export interface SessionState {
   readonly link: LinkState;
   /** What the board is taken for; `UNKNOWN_BOARD` before somebody has said so. */
@@ -67,6 +73,11 @@ export interface SessionState {
   readonly latch: Latch | null;
   readonly activity: Activity;
   readonly battery: Battery;
+  /** Where servos stand by the board's own word, the newest one for each servo number. */
+  readonly reported: Readonly<Record<number, Reading>>;
+  /** The firmware's, or null before the board has told it. */
+  readonly version: number | null;
+  readonly offsets: readonly ServoOffset[] | null;
   /** Slots whose download was begun and not finished, here or in an earlier visit: broken on the board (S35). */
   readonly brokenSlots: readonly number[];
   /** What this session stored, by slot. */

@@ -11,6 +11,13 @@ export interface SessionStore {
   emit<K extends 'traffic' | 'problem'>(event: K, value: Parameters<SessionEvents[K]>[0]): void;
 }
 
+/** Before the board was asked anything about itself. */
+export const NOTHING_READ: Pick<SessionState, 'reported' | 'version' | 'offsets'> = {
+  reported: {},
+  version: null,
+  offsets: null,
+};
+
 export const INITIAL_STATE: SessionState = {
   link: { status: 'closed' },
   family: UNKNOWN_BOARD,
@@ -18,6 +25,7 @@ export const INITIAL_STATE: SessionState = {
   latch: null,
   activity: { kind: 'idle' },
   battery: { kind: 'unread' },
+  ...NOTHING_READ,
   brokenSlots: [],
   storedSlots: [],
 };

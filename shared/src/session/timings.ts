@@ -23,6 +23,13 @@ export const RUN_TIMEOUT_MS = 500;
 /** After this many silent questions in a row the board is taken to have no battery answer. */
 export const BATTERY_SILENT_LIMIT = 3;
 
+/** Up to 450 ms for six servos (X7). */
+export const POSITION_READ_MS = 75;
+/** For adapters that hold bytes back and a board that is busy for a moment. */
+export const POSITION_MARGIN_MS = 100;
+/** A LeArm takes up to 30 ms (L13); the rest is wire and margin. */
+export const DETAIL_TIMEOUT_MS = 300;
+
 /** A servo whose position nobody knows is moved at least this slowly (safety.md section 2). */
 export const FIRST_MOVE_MS = 1_500;
 
