@@ -11,6 +11,7 @@ import { Absent } from './Absent.tsx';
 import { DownloadControl } from './DownloadControl.tsx';
 import { EraseControl } from './EraseControl.tsx';
 import { RunControl } from './RunControl.tsx';
+import { SpeedControl } from './SpeedControl.tsx';
 import styles from './BoardPanel.module.css';
 
 export function BoardPanel() {
@@ -27,6 +28,11 @@ export function BoardPanel() {
           <Absent what={words.board.download} why={why.download} />
         )}
         {commands.includes('run') ? <RunControl /> : <Absent what={words.board.run} why={why.run} />}
+        {commands.includes('setSpeed') ? (
+          <SpeedControl />
+        ) : (
+          <Absent what={words.board.speed} why={why.speed} />
+        )}
         {!canErase && <Absent what={words.board.erase} why={why.erase} />}
       </div>
     </Panel>

@@ -9,6 +9,7 @@ import { BatteryPanel } from '../battery/BatteryPanel.tsx';
 import { BoardPanel } from '../board/BoardPanel.tsx';
 import { pageClock } from '../connect/page.ts';
 import { LogPanel } from '../console/LogPanel.tsx';
+import { ThisBoard } from '../identity/ThisBoard.tsx';
 import { LivePanel } from '../servos/LivePanel.tsx';
 import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
@@ -54,6 +55,7 @@ function Shown({ specimen }: { readonly specimen: Specimen }) {
       <article className={styles.specimen} aria-label={specimen.name}>
         <h2 className={styles.name}>{specimen.name}</h2>
         <TopBar onMoveHere={() => undefined} />
+        <ThisBoard />
         <div className={styles.panels}>
           <LivePanel />
           <div className={styles.column}>

@@ -78,6 +78,9 @@ const UNSURE: Readonly<Record<string, readonly Evidence[]>> = {
   'Which board, echo': [...SILENT_TO_ALL, { kind: 'echoed' }],
 };
 
+const reported = (positions: readonly number[]): SessionState['reported'] =>
+  Object.fromEntries(positions.map((position, index) => [index + 1, { position, atMs: 0 }]));
+
 const codeOf = (evidence: readonly Evidence[]): LinkError['code'] =>
   evidence.some(({ kind }) => kind === 'echoed') ? 'echo' : 'boardUnknown';
 
@@ -185,6 +188,29 @@ export const SPECIMENS: readonly Specimen[] = [
   { name: 'Sixteen servos', board: 'lsc-16', way: USB, state: READY, pose: 'moving', frames: 2 },
   { name: 'Old uHand', board: 'openarm-old', way: USB, state: NO_BATTERY, pose: 'still', frames: 3 },
   { name: 'LeArm', board: 'learm-esp32', way: USB, state: NO_BATTERY, pose: 'still', frames: 2 },
+  {
+    name: 'Positions read',
+    board: 'xarm',
+    way: USB,
+    state: { ...READY, reported: reported([498, 512, 700, 350, 0, -3]) },
+    pose: 'still',
+    frames: 2,
+  },
+  {
+    name: 'LeArm, asked',
+    board: 'learm-esp32',
+    way: USB,
+    nickname: 'Shelf arm',
+    state: {
+      ...NO_BATTERY,
+      identity: identityFrom(VERSION_TOLD),
+      reported: reported([770, 1500, 644, 511, 1255, 1500]),
+      version: 1,
+      offsets: [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, offset: servo === 2 ? -5 : 0 })),
+    },
+    pose: 'still',
+    frames: 2,
+  },
   { name: 'Bus servos', board: 'bus-ctrl', way: USB, state: READY, pose: 'moving', frames: 2 },
   {
     name: 'Nicknamed',

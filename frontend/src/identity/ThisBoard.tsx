@@ -5,6 +5,7 @@ import { nameOf, NICKNAME_LENGTH } from '../stores/boards.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/en.ts';
+import { BoardDetails } from './BoardDetails.tsx';
 import { EvidenceList } from './EvidenceList.tsx';
 import styles from './ThisBoard.module.css';
 
@@ -36,6 +37,7 @@ export function ThisBoard() {
       <div className={styles.family}>
         <p>{words.identity.takenFor(family.name)}</p>
         <EvidenceList evidence={evidence} />
+        <BoardDetails />
         {family.certainAnswers.length === 0 && <p className={styles.dim}>{words.identity.unproven}</p>}
       </div>
       <Button tone="quiet" icon="refresh" onPress={device.identify}>

@@ -4,7 +4,7 @@
 import { memo } from 'react';
 import type { RobotServo } from '#shared/actions/robot.ts';
 import { Dial } from '../body/Dial.tsx';
-import { motionHindrance } from '../stores/readiness.ts';
+import { motionHindrance, tellsPositions } from '../stores/readiness.ts';
 import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
@@ -12,6 +12,7 @@ import { words } from '../words/en.ts';
 import { Estimate } from './Estimate.tsx';
 import { PositionSlider } from './PositionSlider.tsx';
 import { positionStep } from './positionStep.ts';
+import { Reported } from './Reported.tsx';
 import styles from './ServoRow.module.css';
 
 export const ServoRow = memo(function ServoRow({ servo: own }: { readonly servo: RobotServo }) {
@@ -22,12 +23,13 @@ export const ServoRow = memo(function ServoRow({ servo: own }: { readonly servo:
   const moveTime = useView((state) => state.moveTime);
   const isSelected = useView((state) => state.selectedServo === servo);
   const blocked = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
+  const isTelling = tellsPositions(family);
   const name = words.servos.name(servo);
   const move = (position: number): void => device.move([{ servo, position }], moveTime);
 
   return (
     <li
-      className={cx(styles.row, isSelected && styles.selected)}
+      className={cx(styles.row, isTelling && styles.telling, isSelected && styles.selected)}
       onFocus={() => view.setState({ selectedServo: servo })}
     >
       <Dial servo={servo} family={family} />
@@ -49,7 +51,10 @@ export const ServoRow = memo(function ServoRow({ servo: own }: { readonly servo:
         onChange={move}
         onRefused={(value) => notices.tell('warning', words.refused(name, value, min, max))}
       />
-      <Estimate servo={servo} />
+      <div className={styles.readings}>
+        <Estimate servo={servo} />
+        {isTelling && <Reported servo={servo} />}
+      </div>
     </li>
   );
 });

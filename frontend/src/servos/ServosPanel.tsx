@@ -13,6 +13,7 @@ import { words } from '../words/en.ts';
 import { Legend } from './Legend.tsx';
 import { MoveTimeControl } from './MoveTimeControl.tsx';
 import { ServoRow } from './ServoRow.tsx';
+import { ServoTalk } from './ServoTalk.tsx';
 import styles from './ServosPanel.module.css';
 
 /** Rows that fit below the picture; more of them scroll. */
@@ -36,6 +37,7 @@ export function ServosPanel() {
         ))}
       </ol>
       <MoveTimeControl />
+      <ServoTalk />
     </Panel>
   );
 }

@@ -58,6 +58,11 @@ export interface Device {
   stopGroup(): void;
   erase(): void;
   readBattery(): void;
+  readPositions(servos: readonly number[]): void;
+  /** Firmware and trims, one question after the other. */
+  readDetails(): void;
+  setSpeed(slot: number | null, percent: number): void;
+  release(servos: readonly number[]): void;
   sendRaw(packet: Uint8Array): void;
   download(slot: number, frames: readonly Frame[]): void;
   cancelDownload(): void;
@@ -223,6 +228,15 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     stopGroup: () => attempt((current) => current.stopGroup()),
     erase: () => attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased))),
     readBattery: () => attempt((current) => current.readBattery()),
+    readPositions: (servos) => attempt((current) => current.readPositions(servos)),
+    readDetails: () => attempt((current) => current.readVersion().then(() => current.readOffsets())),
+    setSpeed: (slot, percent) =>
+      attempt((current) =>
+        current
+          .setSpeed(slot, percent)
+          .then(() => notices.tell('info', words.board.speedSent(slot, percent))),
+      ),
+    release: (servos) => attempt((current) => current.release(servos)),
     download(slot, frames) {
       const onIt = allowedFrames(frames);
       if (onIt !== null) attempt((current) => downloadTo(current, slot, onIt));

@@ -1,9 +1,21 @@
 // Whether something may move or be asked of the board now, judged from one snapshot, with the reason where it may not.
 // Pure; the session refuses by itself, this only lets the panels say so beforehand.
 
+import type { Family } from '#shared/protocol/families.ts';
 import type { SessionState } from '#shared/session/state.ts';
 
 export type Hindrance = 'closed' | 'identifying' | 'stale' | 'latched' | 'busy';
+
+/** Where its servos stand can be asked of such a board. */
+export function tellsPositions({ commands }: Family): boolean {
+  return commands.includes('readPositions') || commands.includes('readAllPositions');
+}
+
+/** A question moves nothing, so it may go out while stopped; on some boards it would end a running group. */
+export function mayAsk({ link, activity }: SessionState, { queryKillsRun }: Family): boolean {
+  if (link.status !== 'ready' || activity.kind === 'downloading' || activity.kind === 'erasing') return false;
+  return activity.kind !== 'running' || !queryKillsRun;
+}
 
 /** null: motion may begin. */
 export function motionHindrance({ link, latch, activity }: SessionState): Hindrance | null {

@@ -29,6 +29,7 @@ export const words = {
   truth: {
     commanded: 'Commanded',
     estimated: 'Estimated',
+    confirmed: 'Reported',
     unknown: 'Unknown',
     legend: 'What the marks mean',
   },
@@ -147,6 +148,16 @@ export const words = {
     timed: 'In a set time',
     moveTimeField: 'Move time in milliseconds',
     ms: 'ms',
+    reported: (position: number): string => formatWhole(position),
+    age: (ms: number): string => formatAge(ms),
+    readPositions: 'Read positions',
+    readHint: 'Asks the board where its servos stand. Moves nothing.',
+    release: 'Release',
+    releaseTitle: 'Release every servo?',
+    releaseText:
+      'The arm drops. Hold it. Then it can be turned by hand; its positions are unknown until they are read. Any move powers the servos again.',
+    releaseConfirm: 'Release every servo',
+    releaseKeep: 'Keep holding',
     centre: 'Centre all',
     centreHint: 'Moves every servo slowly to the middle',
     blocked: {
@@ -245,15 +256,25 @@ export const words = {
     downloaded: (slot: number): string => `Slot ${formatWhole(slot)} is downloaded.`,
     downloadCancelled: (slot: number): string =>
       `Download cancelled. Slot ${formatWhole(slot)} is broken until a whole group is downloaded.`,
+    speed: 'Speed',
+    speedField: 'Group speed in percent',
+    percent: '%',
+    everySlot: 'Every slot',
+    setSpeed: 'Set speed',
+    speedHint: 'Percent of the speed a group was stored with. Lasts until the board is switched off.',
+    speedSent: (slot: number | null, percent: number): string =>
+      `${slot === null ? 'Every slot' : `Slot ${formatWhole(slot)}`} was asked to play at ${formatWhole(percent)} %. The board does not confirm it.`,
     unsure: {
       download: 'Once it is clear which board this is.',
       run: 'Once it is clear which board this is.',
+      speed: 'Once it is clear which board this is.',
       erase: 'Once it is clear which board this is.',
     },
     absent: {
       download:
         'This board takes no groups from here. Play from this page, or fill its slots with the maker’s program.',
       run: 'This board runs no groups. Play from this page.',
+      speed: 'This board plays groups as they were stored.',
       erase: 'This board is erased only with the maker’s program.',
     },
   },

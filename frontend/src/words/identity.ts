@@ -1,6 +1,7 @@
 // Words about which board this is: the questions it was asked, what its answers mean, and each family in one line.
 
 import type { Family } from '#shared/protocol/families.ts';
+import type { ServoOffset } from '#shared/protocol/reports.ts';
 import type { Evidence } from '#shared/session/identity.ts';
 import { formatCount, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
 
@@ -25,6 +26,13 @@ export const identityWords = {
   takenFor: (name: string): string => `Taken for: ${name}`,
   thisBoard: 'The board at hand',
   notThis: 'Ask it again',
+  version: (version: number): string => `Firmware version ${formatWhole(version)}`,
+  offsets: (offsets: readonly ServoOffset[]): string => {
+    const set = offsets.filter(({ offset }) => offset !== 0);
+    const list = set.map(({ servo, offset }) => `servo ${formatWhole(servo)} ${formatWhole(offset)}`);
+    return set.length === 0 ? 'No servo has an offset' : `Offsets: ${list.join(', ')}`;
+  },
+  askDetails: 'Ask for version and offsets',
   unproven: 'Such boards answer no questions, so nothing proves it.',
 };
 

@@ -90,6 +90,15 @@ describe('a packet sent by hand', () => {
     expect(rig.ofKind('run')).toEqual([]);
   });
 
+  test('releases servos as the page does', async () => {
+    const rig = await createRig({ profile: 'xarm', family: family('xarm') });
+    expect(await send(rig, '55 55 08 03 01 B8 0B 01 90 01')).toBeNull();
+    expect(await send(rig, '55 55 04 14 01 01')).toBe('busy');
+    await rig.clock.advance(3_000);
+    expect(await send(rig, '55 55 04 14 01 01')).toBeNull();
+    expect(rig.ofKind('release')).toEqual([{ kind: 'release', servos: [1] }]);
+  });
+
   test('moves no board that nobody has named', async () => {
     const rig = await createRig({ profile: 'xarm', family: family('unknown') });
     expect(await send(rig, '55 55 08 03 01 DC 05 01 90 01')).toBe('outOfRange');

@@ -58,7 +58,18 @@ describe('reading positions', () => {
     const rig = await rigOf('bus-ctrl', { servoCount: 19 });
     const servos = Array.from({ length: 19 }, (_, index) => index + 1);
     expect(await outcome(rig, rig.session.readPositions(servos))).toBeNull();
-    expect(await outcome(rig, rig.session.readPositions([...servos, 20]))).toBe('outOfRange');
+    expect(rig.ofKind('readPositions')).toHaveLength(1);
+  });
+
+  test('servos that do not fit one packet take two', async () => {
+    const rig = await rigOf('bus-ctrl', { servoCount: 24 });
+    const servos = Array.from({ length: 24 }, (_, index) => index + 1);
+    expect(await outcome(rig, rig.session.readPositions(servos), 5_000)).toBeNull();
+    expect(Object.keys(rig.session.state.reported)).toHaveLength(24);
+    expect(await outcome(rig, rig.session.release(servos))).toBeNull();
+    expect(rig.ofKind('release').map((command) => command.servos.length)).toEqual([19, 5]);
+    expect(await outcome(rig, rig.session.release([...servos, 254]))).toBe('outOfRange');
+    expect(rig.ofKind('release')).toHaveLength(2);
   });
 
   test('a board that stays silent is given up: 75 ms a servo, the answer on the wire, and 100 ms', async () => {

@@ -5,6 +5,7 @@ import type { Command } from '../protocol/commands.ts';
 import { wireMs } from '../protocol/packet.ts';
 import type { Report } from '../protocol/reports.ts';
 import { requireQuestion, type Core } from './core.ts';
+import { portions } from './portions.ts';
 import type { Reading } from './state.ts';
 import { DETAIL_TIMEOUT_MS, POSITION_MARGIN_MS, POSITION_READ_MS } from './timings.ts';
 
@@ -23,10 +24,14 @@ export function createReadings(core: Core): Readings {
 
   async function readPositions(servos: readonly number[]): Promise<void> {
     requireQuestion(core);
-    const timeoutMs = positionsTimeoutMs(servos.length);
-    if (family.commands.includes('readAllPositions'))
-      await exchange.ask({ kind: 'readAllPositions' }, 'allPositions', timeoutMs);
-    else await exchange.ask({ kind: 'readPositions', servos }, 'positions', timeoutMs);
+    if (family.commands.includes('readAllPositions')) {
+      await exchange.ask({ kind: 'readAllPositions' }, 'allPositions', DETAIL_TIMEOUT_MS);
+      return;
+    }
+    for (const some of portions(servos, family.servosPerMove)) {
+      const command = { kind: 'readPositions', servos: some } as const;
+      await exchange.ask(command, 'positions', positionsTimeoutMs(some.length));
+    }
   }
 
   function keep(readings: readonly (readonly [servo: number, reading: Reading])[]): void {

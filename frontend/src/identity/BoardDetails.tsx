@@ -1,0 +1,24 @@
+// Firmware and trims of boards that can tell them, once a person has asked.
+
+import { mayAsk } from '../stores/readiness.ts';
+import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../words/en.ts';
+
+export function BoardDetails() {
+  const { device } = useStores();
+  const family = useDevice((state) => state.family);
+  const version = useSnapshot((snapshot) => snapshot.version);
+  const offsets = useSnapshot((snapshot) => snapshot.offsets);
+  const isAllowed = useSnapshot((snapshot) => mayAsk(snapshot, family));
+  if (!family.commands.includes('readOffsets')) return null;
+  return (
+    <>
+      {version !== null && <p>{words.identity.version(version)}</p>}
+      {offsets !== null && <p>{words.identity.offsets(offsets)}</p>}
+      <Button tone="quiet" isDisabled={!isAllowed} onPress={device.readDetails}>
+        {words.identity.askDetails}
+      </Button>
+    </>
+  );
+}

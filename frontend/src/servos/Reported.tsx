@@ -1,0 +1,24 @@
+// Where the board says that a servo stands, and how long ago it said so: the one figure here that nobody computed.
+
+import { fromBoard } from '#shared/actions/robot.ts';
+import { useRobot, useSnapshot, useStores } from '../stores/stores.ts';
+import { Chip } from '../ui/Chip.tsx';
+import { useNow } from '../ui/useNow.ts';
+import { words } from '../words/en.ts';
+import styles from './Reported.module.css';
+
+const AGE_REFRESH_MS = 1000;
+
+export function Reported({ servo }: { readonly servo: number }) {
+  const { device } = useStores();
+  const robot = useRobot();
+  const reading = useSnapshot((snapshot) => snapshot.reported[servo]);
+  const nowMs = useNow(device.clock.now, AGE_REFRESH_MS);
+  if (reading === undefined) return null;
+  return (
+    <>
+      <Chip truth="confirmed">{words.servos.reported(fromBoard(robot, servo, reading.position))}</Chip>
+      <span className={styles.age}>{words.servos.age(nowMs - reading.atMs)}</span>
+    </>
+  );
+}
