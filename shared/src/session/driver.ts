@@ -53,7 +53,7 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
   const groups = createGroups(core, slotMemory);
   const readBattery = createBatteryReader(core);
   const readings = createReadings(core);
-  const releaseServos = (servos: readonly number[]): Promise<void> => release(core, servos, moves.clear);
+  const releaseServos = (servos: readonly number[]): Promise<void> => release(core, servos);
 
   return {
     core,

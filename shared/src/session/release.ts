@@ -5,13 +5,12 @@ import { requireRest, type Core } from './core.ts';
 import { encodeOrRefuse } from './exchange.ts';
 import { portions } from './portions.ts';
 
-/** `clearMoves` drops what still waits for the wire: any move would power the servos again (X7). */
-export async function release(core: Core, servos: readonly number[], clearMoves: () => void): Promise<void> {
+/** At rest only: a move that goes on or still waits for the wire would power them again (X7). */
+export async function release(core: Core, servos: readonly number[]): Promise<void> {
   requireRest(core);
   const commands = portions(servos, core.family.servosPerMove).map(
     (some) => ({ kind: 'release', servos: some }) as const,
   );
   for (const command of commands) encodeOrRefuse(command, core.family);
-  clearMoves();
   for (const command of commands) await core.exchange.tell(command);
 }
