@@ -4,6 +4,7 @@
 import type { Frame } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
 import type { ReportKind } from '../protocol/reports.ts';
+import { onlyLetGo, type Told } from './told.ts';
 import type { Tracks } from './tracks.ts';
 
 /** A group that may move anything at any time: its frames are not ours, or its time cannot be computed. */
@@ -41,6 +42,8 @@ export interface PolledRun {
 
 export interface Motion {
   readonly tracks: Tracks;
+  /** Of servos without a track. */
+  readonly told: Told;
   readonly run: UnknownRun | DeadlineRun | PolledRun | null;
   /** Until then the board may be busy with flash or servos, its servos frozen, packets waiting or dropped (S9, S41). */
   readonly deafUntilMs: number;
@@ -81,6 +84,7 @@ export interface Playback {
 /** Nothing is known: after connecting, and after anything that may have moved the robot behind our back. */
 export const UNKNOWN_MOTION: Motion = {
   tracks: new Map(),
+  told: new Map(),
   run: null,
   deafUntilMs: -Infinity,
   answersOwed: [],
@@ -90,5 +94,6 @@ export const UNKNOWN_MOTION: Motion = {
 
 /** Nobody knows where anything is while that group may run, nor behind it. */
 export function runningUnknown(motion: Motion, slot: number | null, endsToHear = 1): Motion {
-  return { ...motion, tracks: new Map(), run: { kind: 'unknown', slot, endsToHear } };
+  const told = onlyLetGo(motion.told);
+  return { ...motion, tracks: new Map(), told, run: { kind: 'unknown', slot, endsToHear } };
 }

@@ -286,6 +286,56 @@ test('released servos are unknown, the others are not (X7)', () => {
   expect([xarm.at(0), xarm.at(0, 2)]).toEqual([null, 1_000]);
 });
 
+describe('what a board says of its servos', () => {
+  const says = (position: number): Report => ({ kind: 'positions', positions: [{ servo: 7, position }] });
+
+  test('makes one that nobody moved known, as a place and not as a wish', () => {
+    const xarm = robot('bus-ctrl').hear(500, says(300));
+    expect([xarm.at(600, 7), targetOf(xarm.when(600), 7)]).toEqual([300, null]);
+    xarm.send(1_000, move(1_000, [7, 700]));
+    expect([xarm.at(1_500, 7), xarm.at(2_000, 7)]).toEqual([500, 700]);
+  });
+
+  test('a hold leaves that one alone: it may have no torque', () => {
+    expect(
+      robot('bus-ctrl')
+        .hear(500, says(300))
+        .hold(600)
+        ?.targets.map(({ servo }) => servo),
+    ).toEqual([1, 2]);
+  });
+
+  test('does not last for one that was let go: a hand may turn it', () => {
+    const xarm = robot('bus-ctrl')
+      .send(0, { kind: 'release', servos: [7] })
+      .hear(500, says(300));
+    expect(xarm.at(600, 7)).toBeNull();
+    expect(xarm.forget(700).hear(60_000, says(300)).at(60_000, 7)).toBeNull();
+  });
+
+  test('says nothing while something may move it', () => {
+    const running = robot('bus-ctrl').send(0, run(9)).hear(500, says(300));
+    expect(running.at(600, 7)).toBeNull();
+    running.send(1_000, STOP).hear(2_000, says(300));
+    expect(running.at(2_100, 7)).toBeNull();
+    expect(running.hear(40_000, says(310)).at(40_000, 7)).toBe(310);
+  });
+
+  test('is no longer so behind a run, and forgotten with everything else', () => {
+    const xarm = robot('bus-ctrl', { 5: [frame(100, [1, 500])] });
+    expect(xarm.hear(500, says(300)).send(600, run(5)).at(5_000, 7)).toBeNull();
+    expect(robot('bus-ctrl').hear(500, says(300)).forget(600).at(700, 7)).toBeNull();
+  });
+
+  test('changes nothing of one that was moved', () => {
+    expect(
+      robot('bus-ctrl')
+        .hear(500, { kind: 'positions', positions: [{ servo: 1, position: 3 }] })
+        .at(600),
+    ).toBe(1_000);
+  });
+});
+
 test('nothing is known of a robot that was out of sight', () => {
   expect(robot('doc').forget(0).at(0)).toBeNull();
 });

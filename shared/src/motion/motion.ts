@@ -1,7 +1,7 @@
 // Where each servo is now, given the commands that left the wire and when. One pure value and functions over it: no clock,
 // no link, no session. How a family moves is data (`Family.motion`), how it plays groups is deadlines.ts or polled.ts.
 //
-// Null means that nobody can know: before the end of a servo's first move, while a group runs whose frames are not ours,
+// Null means that nobody can know: before the end of a servo's first move unless the board told where it stands (told.ts), while a group runs whose frames are not ours,
 // behind the first frame of LeArm's groups (their times jitter, L7), after a release, in a move that flash work froze (S29,
 // S41), and after a command that came when the board may have been deaf. What nobody tells us we cannot know at all: a reset
 // of the board, a pad or key pressed on a board that does not report runs, a packet lost on the way. LSC, bus boards and
@@ -13,7 +13,19 @@ import type { Family } from '../protocol/families.ts';
 import { deadlines } from './deadlines.ts';
 import { runningUnknown, UNKNOWN_MOTION, type KnownBoard, type Motion, type Playback } from './model.ts';
 import { polled } from './polled.ts';
-import { endMs, lastEndMs, leewayOf, LONGEST_MOVE_MS, only, positionOf, retarget, stands } from './tracks.ts';
+import { afterPositions, afterTelling, onlyLetGo } from './told.ts';
+import {
+  endMs,
+  lastEndMs,
+  leewayOf,
+  LONGEST_MOVE_MS,
+  only,
+  positionOf,
+  retarget,
+  standingAt,
+  stands,
+  type Tracks,
+} from './tracks.ts';
 
 export { UNKNOWN_MOTION, type KnownBoard, type Motion };
 
@@ -24,13 +36,17 @@ const DEAFENING: ReadonlySet<Command['kind']> = new Set([
   'download',
   'erase',
   'readPositions',
+  'readAllPositions',
   'readVersion',
+  'readOffsets',
 ]);
 const ANSWERS: Readonly<Partial<Record<Command['kind'], ReportKind>>> = {
   download: 'frameStored',
   erase: 'erased',
   readPositions: 'positions',
+  readAllPositions: 'allPositions',
   readVersion: 'version',
+  readOffsets: 'offsets',
   readBattery: 'battery',
   run: 'runAccepted',
 };
@@ -54,9 +70,17 @@ export function advance(motion: Motion, nowMs: number, board: KnownBoard): Motio
 /** After the last bit of `command` left the wire at `atMs`. */
 export function afterCommand(motion: Motion, command: Command, atMs: number, board: KnownBoard): Motion {
   const current = advance(motion, atMs, board);
-  return atMs < current.deafUntilMs
-    ? afterUnheard(current, command, atMs, board)
-    : afterHeard(current, command, atMs, board);
+  const after =
+    atMs < current.deafUntilMs
+      ? afterUnheard(current, command, atMs, board)
+      : restless(current, afterHeard(current, command, atMs, board), atMs);
+  return { ...after, told: afterTelling(after.told, command) };
+}
+
+/** Where a group nobody knows has ended, its last move may go on. */
+function restless(before: Motion, after: Motion, atMs: number): Motion {
+  if (before.run?.kind !== 'unknown' || after.run !== null) return after;
+  return { ...after, restlessUntilMs: atMs + LONGEST_MOVE_MS };
 }
 
 function afterHeard(motion: Motion, command: Command, atMs: number, board: KnownBoard): Motion {
@@ -77,7 +101,16 @@ function moved(
 ): Motion {
   // A frame of that group may overrule it at any time.
   if (motion.run?.kind === 'unknown') return motion;
-  return { ...motion, tracks: retarget(motion.tracks, targets, durationMs, atMs, family) };
+  return { ...motion, tracks: retarget(withStart(motion, targets), targets, durationMs, atMs, family) };
+}
+
+/** Those of the targets that stand where the board said begin there. */
+function withStart({ tracks, told }: Motion, targets: readonly ServoTarget[]): Tracks {
+  const standing = targets.flatMap(({ servo }) => {
+    const at = told.get(servo);
+    return at === undefined || at === null ? [] : [[servo, standingAt(at)] as const];
+  });
+  return new Map([...standing, ...tracks]);
 }
 
 /** It drops, who knows where to. */
@@ -120,7 +153,16 @@ function afterUnheard(motion: Motion, command: Command, atMs: number, { family }
 export function afterReport(motion: Motion, report: Report, atMs: number, board: KnownBoard): Motion {
   const current = advance(motion, atMs, board);
   if (report.kind === 'runStarted') return afterStart(current, report.slot);
-  return afterAnswer(current, report.kind);
+  const answered = afterAnswer(current, report.kind);
+  const isWord = report.kind === 'positions' || report.kind === 'allPositions';
+  return isWord ? afterWord(answered, report.positions, atMs) : answered;
+}
+
+/** It read them a while ago: what may have moved meanwhile it may have read on its way. */
+function afterWord(motion: Motion, positions: readonly ServoTarget[], atMs: number): Motion {
+  if (motion.run !== null || atMs < motion.restlessUntilMs + LONGEST_DEAFNESS_MS) return motion;
+  const standing = positions.filter(({ servo }) => !motion.tracks.has(servo));
+  return { ...motion, told: afterPositions(motion.told, standing) };
 }
 
 /** What came while it was deaf it takes up only now, and may be deaf again. */
@@ -140,7 +182,8 @@ function afterStart(motion: Motion, slot: number): Motion {
 
 /** After a group has ended by itself, or was ended behind our back. */
 export function afterEnd(motion: Motion, atMs: number, board: KnownBoard): Motion {
-  return playbackOf(board).ended(advance(motion, atMs, board), board);
+  const current = advance(motion, atMs, board);
+  return restless(current, playbackOf(board).ended(current, board), atMs);
 }
 
 /** How long one pass of a group takes at most. */
@@ -149,21 +192,28 @@ export function passMs(frames: readonly Frame[], board: KnownBoard): number {
 }
 
 /** Nothing is known any more: the robot may have been moved or the board restarted. */
-export function forgotten({ deafUntilMs }: Motion, atMs: number): Motion {
-  return { ...UNKNOWN_MOTION, deafUntilMs, restlessUntilMs: atMs + LONGEST_MOVE_MS, skipsFirst: 'maybe' };
+export function forgotten({ deafUntilMs, told }: Motion, atMs: number): Motion {
+  return {
+    ...UNKNOWN_MOTION,
+    told: onlyLetGo(told),
+    deafUntilMs,
+    restlessUntilMs: atMs + LONGEST_MOVE_MS,
+    skipsFirst: 'maybe',
+  };
 }
 
 /** Present position of a servo in board units, or null while it is unknown. */
 export function positionAt(motion: Motion, servo: number, nowMs: number): number | null {
   const track = motion.tracks.get(servo);
-  const position = track ? positionOf(track, nowMs) : null;
+  const position = track ? positionOf(track, nowMs) : (motion.told.get(servo) ?? null);
   return position === null ? null : Math.round(position);
 }
 
 /** How far off `positionAt` may be, in board units: the way of one tick, and more for a servo redirected on its way. */
 export function leewayAt(motion: Motion, servo: number, nowMs: number, family: Family): number {
   const track = motion.tracks.get(servo);
-  return track ? leewayOf(track, nowMs, family) : Infinity;
+  if (track) return leewayOf(track, nowMs, family);
+  return motion.told.get(servo) == null ? Infinity : 0;
 }
 
 /** Where a servo was last asked to be, or null when it never was. */

@@ -30,6 +30,11 @@ export function endMs(track: Track): number {
   return track.startMs + track.durationMs;
 }
 
+/** A servo that rests there. */
+export function standingAt(at: number): Track {
+  return { from: at, to: at, startMs: -Infinity, durationMs: 0, fromLeeway: 0, toLeeway: 0 };
+}
+
 /** It has arrived, or was there from the start. */
 export function stands(track: Track, nowMs: number): boolean {
   return endMs(track) <= nowMs || (track.from === track.to && track.fromLeeway === 0);

@@ -18,7 +18,9 @@ import {
 import {
   knownSlots,
   someFrames,
+  someLongWait,
   someMove,
+  someReading,
   someStep,
   STORED_SLOTS,
   TOLD_SLOTS,
@@ -113,6 +115,28 @@ describe.each(SIMULATED)('$profile', ({ family, profile }) => {
       );
       expect(counts.known / counts.all).toBeGreaterThan(LEAST_KNOWN[family.motion.groups]);
       expect(counts.sharp / counts.known).toBeGreaterThan(LEAST_SHARP);
+    },
+    TIMEOUT_MS,
+  );
+
+  test.runIf(family.answers.some((kind) => kind === 'readPositions' || kind === 'readAllPositions'))(
+    'is where the board said, as long as nothing can have moved it',
+    async () => {
+      const history = fc.array(fc.oneof(someStep(family), someReading(family), someLongWait), {
+        maxLength: 8,
+      });
+      let known = 0;
+      await fc.assert(
+        fc.asyncProperty(history, onForMs, async (steps, onMs) => {
+          const robot = createEstimateUnderTest({ family, profile, onForMs: onMs });
+          for (const step of steps) await take(robot, step);
+          await robot.wait(700);
+          expect(robot.samples.filter(isWrong)).toEqual([]);
+          known += robot.samples.filter(({ estimated }) => estimated !== null).length;
+        }),
+        { numRuns: longRuns ?? 30 },
+      );
+      expect(known).toBeGreaterThan(0);
     },
     TIMEOUT_MS,
   );

@@ -43,6 +43,18 @@ describe('reading positions', () => {
     expect(rig.heard).toEqual([]);
   });
 
+  test('the first move of a servo that the board told of need not be slow', async () => {
+    const rig = await rigOf('xarm');
+    await outcome(rig, rig.session.readPositions([1]));
+    const at = rig.transport.board.pulse(1);
+    expect(rig.session.motion(1)).toEqual({ target: null, estimated: at });
+    rig.session.move([{ servo: 1, position: at + 100 }], 200);
+    await rig.clock.advance(1_000);
+    rig.session.move([{ servo: 2, position: 500 }], 200);
+    await rig.clock.advance(200);
+    expect(rig.ofKind('move').map(({ durationMs }) => durationMs)).toEqual([200, 1_500]);
+  });
+
   test('a later reading takes the place of an earlier one of the same servo only', async () => {
     const rig = await rigOf('xarm');
     await outcome(rig, rig.session.readPositions(SIX));

@@ -63,6 +63,11 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     change();
   }
 
+  /** Nobody has moved it, and the board has not said where it stands. */
+  function isUnknown(servo: number): boolean {
+    return targetOf(now(), servo) === null && positionAt(now(), servo, clock.now()) === null;
+  }
+
   return {
     applied(command) {
       motion = afterCommand(motion, command, clock.now(), board);
@@ -72,7 +77,7 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     motion: (servo) => ({ target: targetOf(now(), servo), estimated: positionAt(now(), servo, clock.now()) }),
     softened(move) {
       const servos = move.targets.map(({ servo }) => servo);
-      const isNew = servos.some((servo) => targetOf(now(), servo) === null);
+      const isNew = servos.some((servo) => isUnknown(servo));
       const gentle = isNew ? Infinity : gentleMs(now(), servos, clock.now(), family);
       const needsMs = Math.min(FIRST_MOVE_MS, gentle);
       return move.durationMs >= needsMs ? move : { ...move, durationMs: needsMs };

@@ -84,7 +84,7 @@ export interface SessionState {
   readonly storedSlots: readonly number[];
 }
 
-/** Where a servo is asked to be and where it should be by now. Both null until it was commanded in this session. */
+/** Where a servo was asked to be in this session, null before, and where it should be by now, null while nobody knows. */
 export interface ServoMotion {
   readonly target: number | null;
   readonly estimated: number | null;

@@ -76,6 +76,17 @@ function some<K extends Step['kind']>(weight: number, kind: K, fields: Known<K>)
   return { kind, weight, arbitrary: fields.map((values) => ({ kind, ...values }) as unknown as Step) };
 }
 
+/** Long enough for any move to end. */
+export const someLongWait: fc.Arbitrary<Step> = fc.constant({ kind: 'wait', ms: 35_000 });
+
+/** Where every servo stands. */
+export function someReading(family: Family): fc.Arbitrary<Step> {
+  const asksAll = family.commands.includes('readAllPositions');
+  return fc.constant(
+    asksAll ? { kind: 'readAllPositions' } : { kind: 'readPositions', servos: usualServos(family) },
+  );
+}
+
 export function someStep(family: Family): fc.Arbitrary<Step> {
   const nothing = fc.constant({});
   const slot = someSlot(family);
@@ -92,7 +103,9 @@ export function someStep(family: Family): fc.Arbitrary<Step> {
     some(1, 'release', fc.record({ servos })),
     some(1, 'readBattery', nothing),
     some(1, 'readVersion', nothing),
-    some(1, 'readPositions', fc.record({ servos })),
+    some(2, 'readPositions', fc.record({ servos })),
+    some(2, 'readAllPositions', nothing),
+    some(1, 'readOffsets', nothing),
     some(2, 'store', fc.record({ slot: fc.constantFrom(...STORED_SLOTS), frames: someFrames(family) })),
   ];
   const asCommand = (kind: Step['kind']) => (kind === 'store' ? 'download' : kind);
