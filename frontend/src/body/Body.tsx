@@ -16,8 +16,12 @@ import { sameMotion } from './useMotion.ts';
 import styles from './Body.module.css';
 
 export function Body() {
-  const { body } = useRobot();
-  const unknown = useDevice((state) => Object.keys(state.targets).length === 0);
+  const { device } = useStores();
+  const { body, servos } = useRobot();
+  // Moved by nobody, and nothing told by the board: the motion changes with the store.
+  const unknown = useDevice(({ targets }) =>
+    servos.every(({ servo }) => targets[servo] === undefined && device.motion(servo).estimated === null),
+  );
   return (
     <div className={styles.body}>
       {body === 'arm' ? <Arm /> : <Dials />}

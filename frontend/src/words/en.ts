@@ -139,7 +139,7 @@ export const words = {
     position: (servo: number): string => `Servo ${formatWhole(servo)} position`,
     target: (servo: number): string => `Servo ${formatWhole(servo)} target`,
     valueText: (position: number, unit: PositionUnit): string => formatPosition(position, unit),
-    unknownValue: 'Unknown; the first move is slow',
+    unknownValue: 'Unknown; the first move may be slow',
     unknown: '?',
     estimated: (position: number): string => `≈ ${formatWhole(position)}`,
     unit: (unit: PositionUnit): string => unitSymbol(unit),
