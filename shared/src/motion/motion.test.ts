@@ -310,7 +310,9 @@ describe('what a board says of its servos', () => {
       .send(0, { kind: 'release', servos: [7] })
       .hear(500, says(300));
     expect(xarm.at(600, 7)).toBeNull();
-    expect(xarm.forget(700).hear(60_000, says(300)).at(60_000, 7)).toBeNull();
+    xarm.send(700, { kind: 'readPositions', servos: [7] }).send(800, move(100, [7, 500]));
+    expect(xarm.hear(900, says(300)).at(900, 7)).toBeNull();
+    expect(xarm.forget(1_000).hear(60_000, says(300)).at(60_000, 7)).toBeNull();
   });
 
   test('says nothing while something may move it', () => {

@@ -13,7 +13,7 @@ import type { Family } from '../protocol/families.ts';
 import { deadlines } from './deadlines.ts';
 import { runningUnknown, UNKNOWN_MOTION, type KnownBoard, type Motion, type Playback } from './model.ts';
 import { polled } from './polled.ts';
-import { afterPositions, afterTelling, onlyLetGo } from './told.ts';
+import { afterOrder, afterPositions, onlyLetGo } from './told.ts';
 import {
   endMs,
   lastEndMs,
@@ -70,11 +70,11 @@ export function advance(motion: Motion, nowMs: number, board: KnownBoard): Motio
 /** After the last bit of `command` left the wire at `atMs`. */
 export function afterCommand(motion: Motion, command: Command, atMs: number, board: KnownBoard): Motion {
   const current = advance(motion, atMs, board);
-  const after =
-    atMs < current.deafUntilMs
-      ? afterUnheard(current, command, atMs, board)
-      : restless(current, afterHeard(current, command, atMs, board), atMs);
-  return { ...after, told: afterTelling(after.told, command) };
+  const isHeard = atMs >= current.deafUntilMs;
+  const after = isHeard
+    ? restless(current, afterHeard(current, command, atMs, board), atMs)
+    : afterUnheard(current, command, atMs, board);
+  return { ...after, told: afterOrder(after.told, command, isHeard) };
 }
 
 /** Where a group nobody knows has ended, its last move may go on. */
@@ -213,7 +213,7 @@ export function positionAt(motion: Motion, servo: number, nowMs: number): number
 export function leewayAt(motion: Motion, servo: number, nowMs: number, family: Family): number {
   const track = motion.tracks.get(servo);
   if (track) return leewayOf(track, nowMs, family);
-  return motion.told.get(servo) == null ? Infinity : 0;
+  return (motion.told.get(servo) ?? null) === null ? Infinity : 0;
 }
 
 /** Where a servo was last asked to be, or null when it never was. */

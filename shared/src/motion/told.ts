@@ -12,14 +12,16 @@ export function afterPositions(told: Told, positions: readonly ServoTarget[]): T
   return next;
 }
 
-/** After the command left the wire, whether the board took it up or not. */
-export function afterTelling(told: Told, command: Command): Told {
+/** After the command left the wire; `isHeard` false where the board may not have taken it up. */
+export function afterOrder(told: Told, command: Command, isHeard: boolean): Told {
   if (command.kind === 'release')
     return new Map([...told, ...command.servos.map((servo) => [servo, null] as const)]);
   if (command.kind === 'run') return onlyLetGo(told);
   if (command.kind !== 'move') return told;
   const moved = command.targets.map(({ servo }) => servo);
-  return new Map([...told].filter(([servo]) => !moved.includes(servo)));
+  const stays = ([servo, position]: readonly [number, number | null]): boolean =>
+    !moved.includes(servo) || (position === null && !isHeard);
+  return new Map([...told].filter(stays));
 }
 
 /** What the board said before is no longer so. */
