@@ -1,10 +1,10 @@
 // Streams as the families send them and as a host does, and what can happen to one byte of them. Bytes are the letters of a
 // text here: quick to cut, to join and to compare. Knows packets and chance; no decoder.
 
-import { COMMAND_NUMBER, type Command, type CommandKind } from '../../protocol/commands.ts';
+import { COMMAND_NUMBER, type Command, type CommandKind, type ServoTarget } from '../../protocol/commands.ts';
 import { encodeCommand, encodeReport } from '../../protocol/encode.ts';
 import { FAMILIES, type Family } from '../../protocol/families.ts';
-import type { Report } from '../../protocol/reports.ts';
+import type { Report, ServoOffset } from '../../protocol/reports.ts';
 import { COMMAND_SHAPES, REPORT_SHAPES, type ShapeRule } from '../../protocol/shapes.ts';
 
 /** A whole number from 0, below the limit. */
@@ -23,6 +23,8 @@ export interface Source {
 
 /** Different packets of one source. Encoding each stream anew would take most of a test's time. */
 const VARIETY = 4_000;
+
+const SIX = [1, 2, 3, 4, 5, 6];
 
 /** What happens to the byte at that place. */
 type Damage = (stream: string, at: number, random: Random) => string;
@@ -69,6 +71,9 @@ function reportOf(
   if (emptySeven === 'runFinished') empty.push({ kind: 'runFinished', slot: null });
   if (answers.includes('readBattery') && random(2) === 0) return battery;
   if (answers.includes('readVersion')) empty.push({ kind: 'version', unit: 'us', version: random(4) });
+  if (answers.includes('readAllPositions'))
+    empty.push({ kind: 'allPositions', positions: sixPositions(random) });
+  if (answers.includes('readOffsets')) empty.push({ kind: 'offsets', offsets: sixOffsets(random) });
   return oneOf(empty, random);
 }
 
@@ -76,6 +81,14 @@ function oneOf<Item>(items: readonly Item[], random: Random): Item {
   const item = items[random(items.length)];
   if (item === undefined) throw new RangeError('nothing to choose from');
   return item;
+}
+
+function sixPositions(random: Random): readonly ServoTarget[] {
+  return SIX.map((servo) => ({ servo, position: 500 + random(2_001) }));
+}
+
+function sixOffsets(random: Random): readonly ServoOffset[] {
+  return SIX.map((servo) => ({ servo, offset: random(251) - 125 }));
 }
 
 function positionsOf(servoCount: number, random: Random): Report {
@@ -109,6 +122,8 @@ function commandOf({ position, servo }: Family, random: Random): Command {
       { kind: 'release', servos },
       { kind: 'readPositions', servos },
       { kind: 'readVersion' },
+      { kind: 'readAllPositions' },
+      { kind: 'readOffsets' },
     ],
     random,
   );
