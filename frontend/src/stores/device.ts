@@ -96,7 +96,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   function motion(servo: number): ServoMotion {
     if (session === null) return NO_MOTION;
     const { target, estimated } = session.motion(servo);
-    const meant = (at: number | null): number | null => at && fromBoard(robot(), servo, at);
+    const meant = (at: number | null): number | null => (at === null ? null : fromBoard(robot(), servo, at));
     return { target: meant(target), estimated: meant(estimated) };
   }
 
