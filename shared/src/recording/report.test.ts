@@ -44,8 +44,8 @@ describe('a replay', () => {
   });
 
   test('says so where no such board can be simulated', async () => {
-    const { text } = await replay(recordingOf(sample().replace('board: doc', 'board: learm-esp32-bus')));
-    expect(text).toContain('no simulated board is called learm-esp32-bus; name one');
+    const { text } = await replay(recordingOf(sample().replace('board: doc', 'board: unknown')));
+    expect(text).toContain('no simulated board is called unknown; name one');
   });
 
   test('judges the last board of a log, whatever came before it', async () => {

@@ -29,6 +29,7 @@ const ANSWERS_LIKE: readonly (readonly [ProfileName, readonly FamilyId[]])[] = [
   ['bus-ctrl', ['bus-ctrl', 'xarm']],
   ['xarm', ['bus-ctrl', 'xarm']],
   ['learm-esp32', ['learm-esp32']],
+  ['learm-esp32-bus', ['learm-esp32-bus']],
 ];
 
 describe('a board nobody knows', () => {

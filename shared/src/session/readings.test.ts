@@ -8,7 +8,7 @@ import { createRig, type Rig } from './rig.ts';
 const SIX = [1, 2, 3, 4, 5, 6];
 const IDS = Object.keys(FAMILIES) as FamilyId[];
 /** LeArm with bus servos speaks as the other one does; there is no simulated board of its own. */
-const profileOf = (id: FamilyId): ProfileName => (id === 'learm-esp32-bus' ? 'learm-esp32' : id);
+const profileOf = (id: FamilyId): ProfileName => id;
 const rigOf = (id: FamilyId, options: Parameters<typeof createRig>[0] = {}): Promise<Rig> =>
   createRig({ profile: profileOf(id), family: FAMILIES[id], ...options });
 const having = (command: 'release' | 'setSpeed' | 'readOffsets'): readonly (readonly [FamilyId, boolean])[] =>

@@ -4,6 +4,7 @@
 import { createClosedEngine, type ClosedTraits } from './closedEngine.ts';
 import type { CreateEngine } from './engine.ts';
 import { createLearmEngine } from './learm/engine.ts';
+import { BUS_LEARM, PWM_LEARM, type LearmTraits } from './learm/traits.ts';
 import { createOpenEngine, type OpenBuild } from './openEngine.ts';
 
 export interface BoardProfile {
@@ -41,6 +42,14 @@ function closedFirmware(traits: ClosedTraits, usualServoCount: number, maxServoC
   return { usualServoCount, maxServoCount, createEngine: (parts) => createClosedEngine(traits, parts) };
 }
 
+function leArm(traits: LearmTraits): BoardProfile {
+  return {
+    usualServoCount: 6,
+    maxServoCount: 6,
+    createEngine: (parts) => createLearmEngine(traits, parts),
+  };
+}
+
 export const PROFILES = {
   /** The ideal board of the protocol document: the open firmware that tells its battery, with any number of servos. */
   doc: openFirmware({ ...NEW_BUILD, answersBattery: true }, 32),
@@ -52,7 +61,8 @@ export const PROFILES = {
   'lsc-32': closedFirmware(LSC, 32, 32),
   'bus-ctrl': closedFirmware(BUS, 6, 32),
   xarm: closedFirmware(BUS, 6, 6),
-  'learm-esp32': { usualServoCount: 6, maxServoCount: 6, createEngine: createLearmEngine },
+  'learm-esp32': leArm(PWM_LEARM),
+  'learm-esp32-bus': leArm(BUS_LEARM),
 } as const satisfies Readonly<Record<string, BoardProfile>>;
 
 export type ProfileName = keyof typeof PROFILES;

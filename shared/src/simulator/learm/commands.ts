@@ -7,9 +7,11 @@ import type { GroupStore } from '../groupStore.ts';
 import type { OwnTimeServos } from '../ownTimeServos.ts';
 import { readUint16, uint16 } from '../storedFrame.ts';
 import type { Work } from '../work.ts';
+import type { LearmTraits } from './traits.ts';
 import type { LearmRunner } from './runner.ts';
 
 export interface LearmCommandParts {
+  readonly traits: LearmTraits;
   readonly servos: OwnTimeServos;
   readonly store: GroupStore;
   readonly runner: LearmRunner;
@@ -18,11 +20,8 @@ export interface LearmCommandParts {
 }
 
 export const LEARM_SERVOS: readonly number[] = [1, 2, 3, 4, 5, 6];
-/** Where the servos are at power-up and after a reset (L1). */
-export const RESET_POSE: readonly number[] = [770, 1500, 644, 511, 1255, 1500];
 
-/** PWM servos, first version (boards.md 2.3). */
-const VERSION: readonly number[] = [1, 1];
+const VERSION = 1;
 const RESET_MS = 1000;
 const OFFSET_LIMIT = 125;
 /** The loop of the stop command ends one servo too early (L9). */
@@ -37,7 +36,7 @@ const AT_ONCE: Iterable<number> = [];
 export function createLearmCommands(
   parts: LearmCommandParts,
 ): (command: number, params: Uint8Array) => Iterable<number> {
-  const { servos, store, runner, sectorMs, reply } = parts;
+  const { traits, servos, store, runner, sectorMs, reply } = parts;
   const offsets = new Map(LEARM_SERVOS.map((servo) => [servo, 0]));
 
   function answer(command: number, delayMs: number, params: () => readonly number[]): Handler {
@@ -87,7 +86,7 @@ export function createLearmCommands(
   }
 
   function resetPose(): Iterable<number> {
-    for (const servo of LEARM_SERVOS) servos.accept(servo, RESET_POSE[servo - 1] ?? 0, RESET_MS);
+    for (const servo of LEARM_SERVOS) servos.accept(servo, traits.resetPose[servo - 1] ?? 0, RESET_MS);
     return AT_ONCE;
   }
 
@@ -102,7 +101,7 @@ export function createLearmCommands(
   }
 
   const handlers = new Map<number, Handler>([
-    [1, answer(1, 30, () => VERSION)],
+    [1, answer(1, 30, () => [traits.servoType, VERSION])],
     [2, answer(2, 20, offsetList)],
     [COMMAND_NUMBER.move, move],
     [COMMAND_NUMBER.run, run],

@@ -1,4 +1,4 @@
-// LeArm AI with its ESP32 (boards.md chapter 4), PWM servos, without its cable: parser, mode, loop, servos and store put
+// LeArm AI with its ESP32 (boards.md chapter 4), PWM or bus servos, without its cable: parser, mode, loop, servos and store put
 // together. Knows no pacing and no clock.
 
 import type { Frame } from '../../protocol/commands.ts';
@@ -8,9 +8,10 @@ import { createOwnTimeServos } from '../ownTimeServos.ts';
 import { createProcessor } from '../processor.ts';
 import { decodeFrame } from '../storedFrame.ts';
 import type { Work } from '../work.ts';
-import { createLearmCommands, LEARM_SERVOS, RESET_POSE } from './commands.ts';
+import { createLearmCommands, LEARM_SERVOS } from './commands.ts';
 import { createLearmParser } from './parser.ts';
 import { createLearmRunner } from './runner.ts';
+import type { LearmTraits } from './traits.ts';
 import { createTicker, LEARM_TICK_MS } from './ticker.ts';
 
 /** 21 bytes a frame, 8 KiB a group, 255 groups (L12). */
@@ -19,17 +20,11 @@ const LAYOUT = { frameBytes: 21, groupBytes: 8192, groupCount: 255 };
 const MODES = ['app', 'pc', 'ps2', 'offline'] as const;
 const FIRST_LINE_MS = 500;
 const READY_MS = 2700;
-const MIN_US = 500;
-const MAX_US = 2500;
-/** The gripper would break itself (boards.md 2.1). */
+/** Of a frame's time, one a poll (L7). */
+const STEP_MS = 100;
 const GRIPPER = 1;
-const GRIPPER_MAX_US = 1500;
 
-function targetOf(servo: number, position: number): number {
-  return Math.min(Math.max(position, MIN_US), servo === GRIPPER ? GRIPPER_MAX_US : MAX_US);
-}
-
-export function createLearmEngine(parts: EngineParts): Engine {
+export function createLearmEngine(traits: LearmTraits, parts: EngineParts): Engine {
   const { now, reply, print, sectorMs } = parts;
   const packets: { readonly command: number; readonly params: Uint8Array }[] = [];
   // A board that has been on for a while: somebody has pressed the key already.
@@ -37,10 +32,15 @@ export function createLearmEngine(parts: EngineParts): Engine {
   let mode = MODES.indexOf(booted ? 'pc' : 'app');
   let jammed = false;
 
+  function targetOf(servo: number, position: number): number {
+    const { min, max } = servo === GRIPPER ? traits.gripper : traits.range;
+    return Math.min(Math.max(position, min), max);
+  }
+
   const servos = createOwnTimeServos(LEARM_SERVOS.length, {
     tickMs: LEARM_TICK_MS,
     targetOf,
-    startOf: (servo) => RESET_POSE[servo - 1] ?? null,
+    startOf: (servo) => traits.resetPose[servo - 1] ?? null,
     broadcast: null,
   });
   const store = createGroupStore(parts.chip, sectorMs, LAYOUT);
@@ -58,9 +58,10 @@ export function createLearmEngine(parts: EngineParts): Engine {
     frameCount: store.frameCount,
     frame: storedFrame,
     issue,
-    arrived: () => !servos.moving(),
+    isOver: ({ durationMs }, polls) =>
+      traits.endsFrames === 'arrived' ? !servos.moving() : polls * STEP_MS >= durationMs,
   });
-  const serve = createLearmCommands({ servos, store, runner, sectorMs, reply });
+  const serve = createLearmCommands({ traits, servos, store, runner, sectorMs, reply });
   const takeByte = createLearmParser({
     complete: (command, params) => packets.push({ command, params }),
     overrun: () => (jammed = true),
@@ -69,7 +70,7 @@ export function createLearmEngine(parts: EngineParts): Engine {
   /** Text on the same line (L1). */
   function* boot(): Work {
     yield FIRST_LINE_MS;
-    yield* print('pwm servo\r\n');
+    yield* print(`${traits.greeting}\r\n`);
     yield READY_MS - now();
     yield* print('begin\r\n');
     booted = true;

@@ -19,18 +19,23 @@ export interface LearmRunnerParts {
   /** Null where the frame cannot be played. */
   readonly frame: (slot: number, frameIndex: number) => Frame | null;
   readonly issue: (frame: Frame) => void;
-  readonly arrived: () => boolean;
+  /** Whether that frame has ended, so many polls after it began. */
+  readonly isOver: (frame: Frame, polls: number) => boolean;
 }
 
 /** About; the real one jitters (L7). */
 const POLL_MS = 110;
+/** Before the first frame only the servos can keep it waiting. */
+const STANDING: Frame = { durationMs: 0, targets: [] };
 
-export function createLearmRunner({ now, frameCount, frame, issue, arrived }: LearmRunnerParts): LearmRunner {
+export function createLearmRunner({ now, frameCount, frame, issue, isOver }: LearmRunnerParts): LearmRunner {
   let slot: number | null = null;
   let frameTotal = 0;
   let frameIndex = 0;
   let loopsLeft = 0;
   let pollMs = Infinity;
+  let playing: Frame | null = null;
+  let polls = 0;
   /** The next run takes the killed one's frame for its own and goes on behind it (L11). */
   let stale = false;
 
@@ -42,6 +47,7 @@ export function createLearmRunner({ now, frameCount, frame, issue, arrived }: Le
     frameIndex = stale ? 1 : 0;
     stale = false;
     pollMs = now();
+    playing = null;
   }
 
   function kill(): void {
@@ -62,13 +68,20 @@ export function createLearmRunner({ now, frameCount, frame, issue, arrived }: Le
     frameIndex += 1;
     // The run hangs until a stop (L10).
     if (next === null) pollMs = Infinity;
-    else issue(next);
+    else begin(next);
+  }
+
+  function begin(next: Frame): void {
+    issue(next);
+    playing = next;
+    polls = 0;
   }
 
   function step(): void {
     if (slot === null || now() < pollMs) return;
     pollMs += POLL_MS;
-    if (arrived()) advance(slot);
+    polls += 1;
+    if (playing === null ? isOver(STANDING, polls) : isOver(playing, polls)) advance(slot);
   }
 
   return {
