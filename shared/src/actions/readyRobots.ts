@@ -165,6 +165,7 @@ export function readyRobot(id: ReadyRobotId, board: FamilyId, names: RobotNames)
   return {
     name: names.robot,
     ...{ board, body, battery },
+    batteryCare: { policy: 'tell', thresholds: null },
     servos: joints.map((joint, index) => servoFor(joint, index + 1, family, names)),
   };
 }

@@ -59,6 +59,13 @@ describe('what is wrong with a robot', () => {
     expect(robotFromText(robotToText(robot))).toEqual({ problem: flaw });
   });
 
+  test('a battery alarm at or above its warning is no alarm', () => {
+    const at = (warnMv: number, alarmMv: number) =>
+      flawOf({ ...ARM, batteryCare: { policy: 'tell', thresholds: { warnMv, alarmMv } } });
+    expect(at(7000, 7000)).toBe('its battery alarm 7000 mV is not below its warning 7000 mV');
+    expect(at(7000, 6999)).toBeNull();
+  });
+
   test.each([
     ['', 'this is no robot file of Servodeck'],
     ['[]', 'this is no robot file of Servodeck'],

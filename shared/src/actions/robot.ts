@@ -14,9 +14,16 @@ export type BodyKind = (typeof BODIES)[number];
 export const BATTERY_KINDS = ['adapter', '2s', '3s'] as const;
 export type BatteryKind = (typeof BATTERY_KINDS)[number];
 
+/** What a battery at its alarm brings about, each with what is before it: the person is told; nothing new is run or played; the
+ * robot goes slowly to rest and is stopped. */
+export const BATTERY_POLICIES = ['tell', 'refuse', 'rest'] as const;
+export type BatteryPolicy = (typeof BATTERY_POLICIES)[number];
+
 export const NAME_LENGTH = 64;
 /** As far as any board's own trim goes (L14). */
 const TRIM: Range = { min: -125, max: 125 };
+/** From a USB port to a pack of three full cells. */
+export const BATTERY_MV: Range = { min: 4000, max: 13_000 };
 
 const name = z.string().check(z.trim(), z.minLength(1), z.maxLength(NAME_LENGTH));
 const whole = (range: Range) => z.number().check(z.int(), z.gte(range.min), z.lte(range.max));
@@ -42,11 +49,18 @@ const servoSchema = z.strictObject({
   place: z.strictObject({ x: whole({ min: 0, max: 100 }), y: whole({ min: 0, max: 100 }) }),
 });
 
+const batteryCareSchema = z.strictObject({
+  policy: z.enum(BATTERY_POLICIES),
+  /** In millivolts; null: as usual for what feeds it. */
+  thresholds: z.nullable(z.strictObject({ warnMv: whole(BATTERY_MV), alarmMv: whole(BATTERY_MV) })),
+});
+
 export const robotSchema = z.strictObject({
   name,
   board: z.enum(familyIds),
   body: z.enum(BODIES),
   battery: z.enum(BATTERY_KINDS),
+  batteryCare: batteryCareSchema,
   servos: z.array(servoSchema).check(z.minLength(1), z.maxLength(253)),
 });
 
@@ -60,6 +74,9 @@ export function flawOf(robot: Robot): string | null {
   const numbers = robot.servos.map(({ servo }) => servo);
   const twice = numbers.find((servo, index) => numbers.indexOf(servo) < index);
   if (twice !== undefined) return `servo ${twice} is there twice`;
+  const { thresholds } = robot.batteryCare;
+  if (thresholds !== null && thresholds.alarmMv >= thresholds.warnMv)
+    return `its battery alarm ${thresholds.alarmMv} mV is not below its warning ${thresholds.warnMv} mV`;
   for (const servo of robot.servos) {
     const flaw = flawOfServo(servo, robot);
     if (flaw !== null) return `${servo.name} (servo ${servo.servo}): ${flaw}`;

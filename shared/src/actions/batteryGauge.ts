@@ -1,0 +1,91 @@
+// What many readings say together: the rest voltage of what feeds the robot, and whether that is low. One reading may be bent by
+// a load, lost to noise or beyond what the board measures; nothing here trusts a single one. Pure; knows no clock.
+
+import type { Supply } from './batterySupply.ts';
+
+export interface Reading {
+  readonly atMs: number;
+  readonly batteryMv: number;
+  /** Nothing moved: the voltage is not bent by a load of our making. */
+  readonly isAtRest: boolean;
+}
+
+/** `zero`: the board has no sample yet (S59). `saturated`: more than it can measure (S60). */
+export type ReadingKind = 'plain' | 'zero' | 'saturated';
+export type Level = 'good' | 'warning' | 'danger';
+
+export interface Gauge {
+  readonly last: Reading | null;
+  /** The median at rest; of a pack it never rises while the pack stays the same. */
+  readonly restMv: number | null;
+  readonly level: Level | null;
+  /** Enough readings agree to act upon it. */
+  readonly isSettled: boolean;
+  /** Readings at rest that count now, oldest first. */
+  readonly window: readonly Reading[];
+}
+
+export const EMPTY_GAUGE: Gauge = { last: null, restMv: null, level: null, isSettled: false, window: [] };
+
+const WINDOW_MS = 30_000;
+/** Fewer, or closer together, are not yet sustained. */
+const SETTLED_COUNT = 3;
+const SETTLED_MS = 5000;
+/** A pack that recovers from a load rises less than that; more is another pack. */
+export const NEW_PACK_STEP_MV = 300;
+/** Back above a threshold by as much, or the level stays. */
+export const HYSTERESIS_MV = 150;
+/** An older reading says nothing of now. */
+const FRESH_MS = 60_000;
+
+export function readingKind(batteryMv: number, { ceilingMv }: Supply): ReadingKind {
+  if (batteryMv === 0) return 'zero';
+  return ceilingMv !== null && batteryMv > ceilingMv ? 'saturated' : 'plain';
+}
+
+export function gaugeAfter(gauge: Gauge, reading: Reading, supply: Supply): Gauge {
+  const isPlain = readingKind(reading.batteryMv, supply) === 'plain';
+  if (!isPlain || !reading.isAtRest) return { ...gauge, last: reading };
+  const since = reading.atMs - WINDOW_MS;
+  const window = [...gauge.window.filter(({ atMs }) => atMs > since), reading];
+  return judged({ ...gauge, last: reading, window }, supply);
+}
+
+export function gaugeOf(readings: readonly Reading[], supply: Supply): Gauge {
+  return readings.reduce((gauge, reading) => gaugeAfter(gauge, reading, supply), EMPTY_GAUGE);
+}
+
+/** Whether the newest reading is one to act upon. */
+export function isActionable({ last, isSettled }: Gauge, supply: Supply, nowMs: number): boolean {
+  if (last === null || !isSettled) return false;
+  return readingKind(last.batteryMv, supply) === 'plain' && nowMs - last.atMs <= FRESH_MS;
+}
+
+function judged(gauge: Gauge, supply: Supply): Gauge {
+  const isSustained = spans(gauge.window);
+  if (gauge.isSettled && !isSustained) return gauge;
+  const median = medianMv(gauge.window);
+  const before = gauge.isSettled ? gauge.restMv : null;
+  const isNewPack = before === null || median > before + NEW_PACK_STEP_MV;
+  const restMv = isNewPack || supply.cells === 0 ? median : Math.min(before, median);
+  const level = levelAfter(isNewPack ? null : gauge.level, restMv, supply);
+  return { ...gauge, restMv, level, isSettled: isSustained };
+}
+
+function spans(window: readonly Reading[]): boolean {
+  const first = window[0]?.atMs ?? 0;
+  const last = window.at(-1)?.atMs ?? 0;
+  return window.length >= SETTLED_COUNT && last - first >= SETTLED_MS;
+}
+
+/** Of an even number the higher middle: two readings of which one is low are no low battery. */
+function medianMv(window: readonly Reading[]): number {
+  const sorted = window.map(({ batteryMv }) => batteryMv).sort((one, other) => one - other);
+  return sorted[Math.floor(sorted.length / 2)] ?? 0;
+}
+
+function levelAfter(before: Level | null, restMv: number, { warnMv, alarmMv }: Supply): Level {
+  if (restMv <= alarmMv || (before === 'danger' && restMv < alarmMv + HYSTERESIS_MV)) return 'danger';
+  const wasLow = before === 'danger' || before === 'warning';
+  return restMv <= warnMv || (wasLow && restMv < warnMv + HYSTERESIS_MV) ? 'warning' : 'good';
+}
