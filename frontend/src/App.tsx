@@ -125,7 +125,7 @@ function Messages() {
     <Toasts
       label={words.regions.notices}
       dismissLabel={words.dismiss}
-      toasts={list.map(({ id, tone, text }) => ({ id, text, truth: tone === 'info' ? 'confirmed' : tone }))}
+      toasts={list.map(({ tone, ...notice }) => ({ ...notice, truth: tone === 'info' ? 'confirmed' : tone }))}
       onDismiss={notices.dismiss}
     />
   );

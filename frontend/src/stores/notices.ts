@@ -8,15 +8,22 @@ import { errorSentence } from '../words/errors.ts';
 
 export type NoticeTone = 'info' | 'warning' | 'danger';
 
+/** What the person may do about it, once. */
+export interface NoticeAction {
+  readonly label: string;
+  act(): void;
+}
+
 export interface Notice {
   readonly id: number;
   readonly tone: NoticeTone;
   readonly text: string;
+  readonly action?: NoticeAction | undefined;
 }
 
 export interface Notices {
   readonly store: StoreApi<readonly Notice[]>;
-  tell(tone: NoticeTone, text: string): void;
+  tell(tone: NoticeTone, text: string, action?: NoticeAction): void;
   /** The sentence of a failure. What the person called off is no failure. */
   tellError(error: unknown): void;
   dismiss(id: number): void;
@@ -29,10 +36,10 @@ export function createNotices(clock: Clock): Notices {
   const store = createStore<readonly Notice[]>(() => []);
   let nextId = 1;
 
-  function tell(tone: NoticeTone, text: string): void {
+  function tell(tone: NoticeTone, text: string, action?: NoticeAction): void {
     const id = nextId++;
     const others = store.getState().filter((notice) => notice.text !== text);
-    store.setState([...others, { id, tone, text }].slice(-MAX_SHOWN), true);
+    store.setState([...others, { id, tone, text, action }].slice(-MAX_SHOWN), true);
     if (tone === 'info') clock.after(INFO_STAYS_MS, () => dismiss(id));
   }
 
