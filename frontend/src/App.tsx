@@ -7,6 +7,7 @@ import { Tab, TabList, TabPanel, Tabs } from 'react-aria-components/Tabs';
 import { ActionsPanel } from './actions/ActionsPanel.tsx';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
 import { BatteryPanel } from './battery/BatteryPanel.tsx';
+import { useBatteryTab } from './battery/useBatteryTab.ts';
 import { BoardPanel } from './board/BoardPanel.tsx';
 import { ConnectDialog } from './connect/ConnectDialog.tsx';
 import type { Page } from './connect/page.ts';
@@ -37,6 +38,7 @@ function Dashboard({ page }: { readonly page: Page }) {
   const said = useView((state) => state.said);
   const { device, document: group, notices } = useStores();
   useTheme();
+  useBatteryTab();
   useUndoKeys(group);
   useEachFrame(() => device.refreshTargets());
   return (

@@ -1,72 +1,111 @@
-// The battery in full: volts on a gauge, what they mean, how old the reading is, and a way to ask again.
+// The battery in full: volts on a gauge, what is left, what that means, how old the reading is, how it went in this visit.
 
+import { useState } from 'react';
+import { isPlain, readingKind } from '#shared/actions/batteryGauge.ts';
+import { percentOf } from '#shared/actions/batterySupply.ts';
 import { canReadBattery } from '../stores/batteryPoll.ts';
-import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
+import { useBattery, useDevice, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/en.ts';
-import { gaugeFraction, levelOf, supplyOf, type Supply } from './levels.ts';
-import { lastMv, LEVEL_TRUTH } from './readings.ts';
+import { BatteryPlot } from './BatteryPlot.tsx';
+import { BatterySettings } from './BatterySettings.tsx';
+import { lastMv, levelWord, LEVEL_TRUTH, voltsText } from './readings.ts';
+import { VoltMeter } from './VoltMeter.tsx';
 import styles from './BatteryPanel.module.css';
 
 export function BatteryPanel() {
-  const { device } = useStores();
-  const battery = useSnapshot((snapshot) => snapshot.battery);
+  const { battery: kind } = useRobot();
   const canTell = useDevice(canReadBattery);
-  const mayAsk = useDevice(
-    ({ snapshot }) => snapshot.link.status === 'ready' && !isBusy(snapshot.activity.kind),
-  );
-  const supply = useDevice((state) => supplyOf(state.family));
-  const batteryMv = lastMv(battery);
+  const batteryMv = useSnapshot(({ battery }) => lastMv(battery));
+  const supply = useBattery((state) => state.supply);
+  const isUnread = useSnapshot(({ battery }) => battery.kind === 'unread');
+  const hasVolts = useBattery(({ readings, supply }) => readings.some((one) => isPlain(one, supply)));
+  const showsPlot = canTell && (isUnread || hasVolts);
   return (
-    <Panel
-      title={words.battery.title}
-      tools={
-        canTell && (
-          <IconButton
-            icon="refresh"
-            label={words.battery.refresh}
-            isDisabled={!mayAsk}
-            onPress={() => device.readBattery()}
-          />
-        )
-      }
-    >
+    <Panel title={words.battery.title} tools={<Tools />}>
       <div className={styles.reading}>
-        <p className={styles.volts}>
-          {batteryMv === null ? words.battery.noVolts : words.battery.volts(batteryMv)}
-        </p>
-        {canTell && <Gauge batteryMv={batteryMv} supply={supply} />}
-        <p className={styles.about}>
-          <About batteryMv={batteryMv} supply={supply} />
-        </p>
+        <div className={styles.figures}>
+          <p className={styles.volts}>{voltsText(batteryMv, supply)}</p>
+          <p className={styles.kind}>
+            <Share />
+            {words.battery.kind[kind]}
+          </p>
+        </div>
+        {canTell && <VoltMeter batteryMv={batteryMv} supply={supply} />}
+        <div className={styles.about}>
+          <About />
+        </div>
+        {showsPlot && <BatteryPlot />}
       </div>
     </Panel>
   );
 }
 
-const isBusy = (activity: string): boolean => activity === 'downloading' || activity === 'erasing';
-
-function About({ batteryMv, supply }: { readonly batteryMv: number | null; readonly supply: Supply }) {
-  const battery = useSnapshot((snapshot) => snapshot.battery);
+function Tools() {
+  const { device } = useStores();
   const canTell = useDevice(canReadBattery);
-  if (!canTell || battery.kind === 'silent') {
-    return (
-      <>
-        <Chip truth="unknown">{words.battery.silent}</Chip>
-        <span>{canTell ? words.battery.silentHint : words.battery.absentHint}</span>
-      </>
-    );
-  }
-  if (batteryMv === null || battery.kind !== 'read')
-    return <Chip truth="unknown">{words.battery.unread}</Chip>;
-  const level = levelOf(batteryMv, supply);
+  const mayAsk = useDevice(
+    ({ snapshot }) => snapshot.link.status === 'ready' && !isBusy(snapshot.activity.kind),
+  );
+  const [isOpen, setOpen] = useState(false);
   return (
     <>
-      <Chip truth={LEVEL_TRUTH[level]}>{words.battery.level[level]}</Chip>
+      {canTell && (
+        <IconButton
+          icon="refresh"
+          label={words.battery.refresh}
+          isDisabled={!mayAsk}
+          onPress={() => device.readBattery()}
+        />
+      )}
+      <IconButton icon="tune" label={words.battery.settings} onPress={() => setOpen(true)} />
+      <BatterySettings isOpen={isOpen} onClose={() => setOpen(false)} />
+    </>
+  );
+}
+
+const isBusy = (activity: string): boolean => activity === 'downloading' || activity === 'erasing';
+
+/** What is left of a pack, once enough readings agree. */
+function Share() {
+  const { gauge, supply } = useBattery((state) => state);
+  const share = gauge.isSettled && gauge.restMv !== null ? percentOf(gauge.restMv, supply) : null;
+  return share !== null && <span className={styles.share}>{words.battery.percent(share)}</span>;
+}
+
+function About() {
+  const battery = useSnapshot((snapshot) => snapshot.battery);
+  const canTell = useDevice(canReadBattery);
+  const { gauge, supply } = useBattery((state) => state);
+  if (!canTell || battery.kind === 'silent') {
+    const hint = canTell ? words.battery.silentHint : words.battery.absentHint;
+    return <Unknown word={words.battery.silent} hint={hint} />;
+  }
+  if (battery.kind !== 'read') return <Chip truth="unknown">{words.battery.unread}</Chip>;
+  const kind = readingKind(battery.batteryMv, supply);
+  if (kind === 'zero') return <Unknown word={words.battery.zero} hint={words.battery.zeroHint} />;
+  if (kind === 'saturated')
+    return <Unknown word={words.battery.saturated} hint={words.battery.saturatedHint} />;
+  return (
+    <>
+      {gauge.level === null ? (
+        <Chip truth="unknown">{words.battery.moving}</Chip>
+      ) : (
+        <Chip truth={LEVEL_TRUTH[gauge.level]}>{levelWord(gauge.level, supply)}</Chip>
+      )}
       <Age atMs={battery.atMs} />
+    </>
+  );
+}
+
+function Unknown({ word, hint }: { readonly word: string; readonly hint: string }) {
+  return (
+    <>
+      <Chip truth="unknown">{word}</Chip>
+      <span>{hint}</span>
     </>
   );
 }
@@ -75,26 +114,4 @@ function Age({ atMs }: { readonly atMs: number }) {
   const { device } = useStores();
   const nowMs = useNow(device.clock.now, 1000);
   return <span className={styles.age}>{words.battery.age(nowMs - atMs)}</span>;
-}
-
-function Gauge({ batteryMv, supply }: { readonly batteryMv: number | null; readonly supply: Supply }) {
-  const mark = (mv: number): number => gaugeFraction(mv, supply) * 200;
-  return (
-    <svg
-      className={styles.gauge}
-      viewBox="0 0 200 20"
-      preserveAspectRatio="none"
-      role="meter"
-      aria-label={words.battery.gauge}
-      aria-valuemin={supply.lowMv / 1000}
-      aria-valuemax={supply.highMv / 1000}
-      aria-valuenow={(batteryMv ?? supply.lowMv) / 1000}
-      aria-valuetext={batteryMv === null ? words.battery.unread : words.battery.volts(batteryMv)}
-    >
-      <rect className={styles.scale} y="6" width="200" height="8" />
-      {batteryMv !== null && <rect className={styles.charge} y="6" width={mark(batteryMv)} height="8" />}
-      <rect className={styles.alarm} x={mark(supply.alarmMv)} width="2" height="20" />
-      <rect className={styles.warn} x={mark(supply.warnMv)} width="2" height="20" />
-    </svg>
-  );
 }

@@ -1,38 +1,45 @@
-// The battery in the top bar: volts with a small gauge, or a word where there are none.
+// The battery in the top bar: volts with a small picture of what feeds the robot, or a word where there are none.
 
-import { useDevice, useSnapshot } from '../stores/stores.ts';
-import { Mark } from '../ui/Chip.tsx';
-import { words } from '../words/en.ts';
-import { gaugeFraction, levelOf, supplyOf, type Supply } from './levels.ts';
-import { lastMv, LEVEL_TRUTH } from './readings.ts';
+import { readingKind } from '#shared/actions/batteryGauge.ts';
+import { percentOf, type Supply } from '#shared/actions/batterySupply.ts';
+import { useBattery, useSnapshot } from '../stores/stores.ts';
+import { Mark, type Truth } from '../ui/Chip.tsx';
+import { lastMv, LEVEL_TRUTH, voltsText } from './readings.ts';
 import styles from './BatteryReadout.module.css';
 
 export function BatteryReadout() {
-  const battery = useSnapshot((snapshot) => snapshot.battery);
-  const family = useDevice((state) => state.family);
-  const supply = supplyOf(family);
-  const batteryMv = lastMv(battery);
-  const level = batteryMv === null ? null : levelOf(batteryMv, supply);
+  const batteryMv = useSnapshot(({ battery }) => lastMv(battery));
+  const { gauge, supply } = useBattery((state) => state);
+  const isCurrent = useSnapshot(({ battery }) => battery.kind === 'read');
+  const isPlain = batteryMv !== null && readingKind(batteryMv, supply) === 'plain';
+  const truth: Truth = isCurrent && isPlain && gauge.level !== null ? LEVEL_TRUTH[gauge.level] : 'unknown';
   return (
     <div className={styles.readout}>
-      {level !== null && level !== 'good' && <Mark truth={LEVEL_TRUTH[level]} />}
-      <Cell batteryMv={batteryMv} supply={supply} />
-      <span className={styles.volts}>
-        {batteryMv === null ? words.battery.noVolts : words.battery.volts(batteryMv)}
-      </span>
+      {batteryMv !== null && truth !== 'confirmed' && <Mark truth={truth} />}
+      {supply.cells === 0 ? <Plug /> : <Cell restMv={isPlain ? gauge.restMv : null} supply={supply} />}
+      <span className={styles.volts}>{voltsText(batteryMv, supply)}</span>
     </div>
   );
 }
 
-function Cell({ batteryMv, supply }: { readonly batteryMv: number | null; readonly supply: Supply }) {
-  const width = batteryMv === null ? 0 : gaugeFraction(batteryMv, supply) * 20;
+/** Nothing that could run out. */
+function Plug() {
+  return (
+    <svg className={styles.cell} viewBox="0 0 30 16" aria-hidden="true" focusable="false">
+      <path className={styles.case} d="M4 5h4M4 11h4M8 2.5h5a5.5 5.5 0 0 1 0 11H8zM18.5 8H27" />
+    </svg>
+  );
+}
+
+function Cell({ restMv, supply }: { readonly restMv: number | null; readonly supply: Supply }) {
+  const width = restMv === null ? 0 : (percentOf(restMv, supply) ?? 0) / 5;
   return (
     <svg className={styles.cell} viewBox="0 0 30 16" aria-hidden="true" focusable="false">
       <path className={styles.case} d="M2.5 1.5h22v13h-22zM26.5 5.5v5" />
-      {batteryMv === null ? (
+      {restMv === null ? (
         <path className={styles.none} d="M6 13L16 3M12 13L22 3" />
       ) : (
-        <rect className={styles.charge} x="4" y="3" width={width} height="10" />
+        <rect className={styles.charge} x="3.5" y="3" width={width} height="10" />
       )}
     </svg>
   );

@@ -1,8 +1,10 @@
-// How a battery reading is shown: the truth mark of its level and the last known voltage. Pure.
+// How a battery is shown: the truth mark of its level, the last known voltage, the words for both. Pure.
 
+import { readingKind, type Level } from '#shared/actions/batteryGauge.ts';
+import type { Supply } from '#shared/actions/batterySupply.ts';
 import type { Battery } from '#shared/session/state.ts';
 import type { Truth } from '../ui/Chip.tsx';
-import type { Level } from './levels.ts';
+import { words } from '../words/en.ts';
 
 export const LEVEL_TRUTH: Readonly<Record<Level, Truth>> = {
   good: 'confirmed',
@@ -12,4 +14,17 @@ export const LEVEL_TRUTH: Readonly<Record<Level, Truth>> = {
 
 export function lastMv(battery: Battery): number | null {
   return battery.kind === 'read' ? battery.batteryMv : battery.kind === 'silent' ? battery.lastMv : null;
+}
+
+/** `7.50 V`, `> 9.80 V` where the board can measure no more, a dash where nothing is known. */
+export function voltsText(batteryMv: number | null, supply: Supply): string {
+  if (batteryMv === null) return words.battery.noVolts;
+  const { ceilingMv } = supply;
+  if (ceilingMv !== null && readingKind(batteryMv, supply) === 'saturated')
+    return words.battery.above(words.battery.volts(ceilingMv));
+  return words.battery.volts(batteryMv);
+}
+
+export function levelWord(level: Level, { cells }: Supply): string {
+  return words.battery.level[cells === 0 ? 'adapter' : 'pack'][level];
 }

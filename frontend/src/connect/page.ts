@@ -2,6 +2,8 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
+import { createBattery } from '../stores/battery.ts';
+import { applyBatteryPolicy } from '../stores/batteryPolicy.ts';
 import { pollBattery } from '../stores/batteryPoll.ts';
 import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
@@ -28,14 +30,16 @@ export function openPage(): Page {
   const robots = createRobots(storage, notices);
   const device = createDevice({ family: FAMILIES.doc, clock: pageClock, notices, robots });
   const boards = createBoards(storage);
+  const battery = createBattery(device, robots);
   const stores = {
-    ...{ device, notices, boards, robots },
+    ...{ device, notices, boards, robots, battery },
     document: createDocument(storage, notices),
     view: createView(storage),
   };
   const connector = createConnector({ device, notices, boards, storage, isWatched });
   connector.start().catch(notices.tellError);
   watchLeaving(window, { hidden: () => device.stopPlaying(), left: () => connector.leave() });
+  applyBatteryPolicy({ device, battery, robots, notices });
   pollBattery(device, isWatched);
   return { stores, connector };
 }

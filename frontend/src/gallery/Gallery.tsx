@@ -3,6 +3,8 @@
 
 import { useState } from 'react';
 import { insertFrame } from '#shared/actions/edits.ts';
+import { gaugeOf, type Reading } from '#shared/actions/batteryGauge.ts';
+import { fedBy } from '#shared/actions/batterySupply.ts';
 import { FAMILIES, UNKNOWN_BOARD, type Family } from '#shared/protocol/families.ts';
 import { ActionsPanel } from '../actions/ActionsPanel.tsx';
 import { BatteryPanel } from '../battery/BatteryPanel.tsx';
@@ -11,18 +13,19 @@ import { pageClock } from '../connect/page.ts';
 import { LogPanel } from '../console/LogPanel.tsx';
 import { ThisBoard } from '../identity/ThisBoard.tsx';
 import { LivePanel } from '../servos/LivePanel.tsx';
+import { createBattery, type BatteryStore } from '../stores/battery.ts';
 import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import { createNotices } from '../stores/notices.ts';
-import { createRobots } from '../stores/robots.ts';
+import { createRobots, type RobotStore } from '../stores/robots.ts';
 import { StoresContext, type Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
 import { RawSpecimens } from './RawSpecimens.tsx';
 import { frozenSession } from './frozen.ts';
-import { motionsOf, SPECIMENS, type Specimen } from './specimens.ts';
+import { motionsOf, SPECIMENS, type BatteryFeed, type Specimen } from './specimens.ts';
 import { SAMPLE_TRAFFIC } from './traffic.ts';
 import styles from './Gallery.module.css';
 
@@ -81,9 +84,11 @@ function storesOf(specimen: Specimen): Stores {
   const notices = createNotices(pageClock);
   const robots = createRobots(NO_STORAGE, notices);
   const device = createDevice({ family, clock: pageClock, notices, robots });
+  const battery = createBattery(device, robots);
   const motions = motionsOf(specimen);
   if (specimen.way !== null) device.attach(frozenSession(family, specimen.state, motions), specimen.way);
   device.refreshTargets();
+  if (specimen.feed !== undefined) feed(specimen.feed, robots, battery);
   if (specimen.pose !== 'unknown') for (const entry of SAMPLE_TRAFFIC) device.traffic.add(entry, family.id);
   const document = createDocument(NO_STORAGE, notices);
   for (let number = 1; number <= specimen.frames; number++) {
@@ -98,7 +103,25 @@ function storesOf(specimen: Specimen): Stores {
     boards.remember(specimen.way, specimen.board ?? 'doc');
     boards.rename(specimen.way, specimen.nickname);
   }
-  return { device, document, view, notices, boards, robots };
+  return { device, document, view, notices, boards, robots, battery };
+}
+
+const READ_EVERY_MS = 5000;
+
+function feed({ kind, volts }: BatteryFeed, robots: RobotStore, battery: BatteryStore): void {
+  robots.edit('feed', (robot) => fedBy(robot, kind));
+  const sinceMs = pageClock.now() - volts.length * READ_EVERY_MS;
+  const readings = volts.map((batteryMv, index) => ({
+    ...{ atMs: sinceMs + index * READ_EVERY_MS, batteryMv, isAtRest: true },
+  }));
+  const runs = [
+    { fromMs: sinceMs + 300_000, toMs: sinceMs + 420_000 },
+    { fromMs: sinceMs + 900_000, toMs: sinceMs + 1_200_000 },
+  ];
+  const isRunning = ({ atMs }: Reading): boolean =>
+    runs.some(({ fromMs, toMs }) => atMs > fromMs && atMs < toMs);
+  const read = readings.filter((reading) => !isRunning(reading));
+  battery.setState(({ supply }) => ({ readings: read, runs, gauge: gaugeOf(read, supply) }));
 }
 
 function sampleFrame(number: number, { position, usualServoCount }: Family) {

@@ -2,6 +2,7 @@
 
 import { LINK_ERROR_CODES, LinkError } from '#shared/session/linkError.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import type { BatteryKind } from '#shared/actions/robot.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { Way } from '../stores/device.ts';
 import { identityFrom, type Evidence } from '#shared/session/identity.ts';
@@ -18,6 +19,13 @@ export interface Specimen {
   readonly pose: 'unknown' | 'still' | 'moving';
   readonly frames: number;
   readonly selectedFrame?: number;
+  readonly feed?: BatteryFeed;
+}
+
+/** What feeds the robot, and what was read until now, one reading every five seconds. */
+export interface BatteryFeed {
+  readonly kind: BatteryKind;
+  readonly volts: readonly number[];
 }
 
 const SIMULATED: Way = { kind: 'simulated', label: 'Simulated board', isSimulated: true };
@@ -97,6 +105,23 @@ const DOWNLOADING: SessionState = {
   },
 };
 
+/** Half an hour of a pack that is used. */
+const sinking = (fromMv: number, toMv: number): readonly number[] =>
+  Array.from({ length: 360 }, (_, index) => {
+    const share = index / 359;
+    return Math.round(fromMv + (toMv - fromMv) * share ** 1.5 + 25 * Math.sin(index * 1.7));
+  });
+
+const FEEDS: Readonly<Record<string, BatteryFeed>> = {
+  'Battery, 2S': { kind: '2s', volts: sinking(8280, 7520) },
+  'Battery, 3S': { kind: '3s', volts: sinking(9780, 9700) },
+  'Battery low': { kind: '2s', volts: sinking(7600, 6880) },
+  'Battery empty': { kind: '2s', volts: sinking(7200, 6480) },
+  'Battery, weak adapter': { kind: 'adapter', volts: sinking(7500, 6350) },
+  'Battery, zero': { kind: '2s', volts: [0, 0, 0] },
+  'Battery, saturated': { kind: '3s', volts: [9900, 9900, 9900] },
+};
+
 export const SPECIMENS: readonly Specimen[] = [
   { name: 'Disconnected', way: null, state: INITIAL_STATE, pose: 'unknown', frames: 0 },
   {
@@ -162,20 +187,14 @@ export const SPECIMENS: readonly Specimen[] = [
     frames: 3,
   },
   { name: 'Lost with countdown', way: USB, state: lost('lost', 3_600_000), pose: 'unknown', frames: 3 },
-  {
-    name: 'Battery low',
+  ...Object.entries(FEEDS).map(([name, feed]): Specimen => ({
+    name,
     way: USB,
-    state: { ...READY, battery: { kind: 'read', batteryMv: 6900, atMs: 0 } },
+    state: { ...READY, battery: { kind: 'read', batteryMv: feed.volts.at(-1) ?? 0, atMs: 0 } },
     pose: 'still',
     frames: 1,
-  },
-  {
-    name: 'Battery empty',
-    way: USB,
-    state: { ...READY, battery: { kind: 'read', batteryMv: 6480, atMs: 0 } },
-    pose: 'still',
-    frames: 1,
-  },
+    feed,
+  })),
   {
     name: 'Battery silent',
     way: USB,

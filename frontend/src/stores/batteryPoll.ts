@@ -1,5 +1,5 @@
-// Asks for the battery when a link becomes ready and every five seconds while nothing else goes on: on some boards any packet disturbs what runs, and
-// under load the voltage sags anyway. A board that stayed silent is asked again only by a person.
+// Asks for the battery when a link becomes ready and every five seconds while nothing moves: on some boards any packet
+// disturbs what runs, and under load the voltage sags anyway. A board that stayed silent is asked again only by a person.
 
 import type { Device, DeviceState } from './device.ts';
 
@@ -11,7 +11,7 @@ export function pollBattery(device: Device, visible: () => boolean): () => void 
   const tick = (): void => {
     cancelTimer();
     cancelTimer = device.clock.after(INTERVAL_MS, tick);
-    if (visible() && mayAsk(device.store.getState())) device.readBattery();
+    if (visible() && mayAsk(device.store.getState()) && device.isAtRest()) device.readBattery();
   };
   tick();
   const unsubscribe = device.store.subscribe((state, before) => {
@@ -29,8 +29,6 @@ export function canReadBattery({ family }: Pick<DeviceState, 'family'>): boolean
 }
 
 function mayAsk(state: DeviceState): boolean {
-  const { link, activity, battery } = state.snapshot;
-  return (
-    canReadBattery(state) && link.status === 'ready' && activity.kind === 'idle' && battery.kind !== 'silent'
-  );
+  const { link, battery } = state.snapshot;
+  return canReadBattery(state) && link.status === 'ready' && battery.kind !== 'silent';
 }

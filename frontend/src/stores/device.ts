@@ -44,6 +44,10 @@ export interface Device {
   describe(session: Session, way: Way): void;
   detach(): Promise<void>;
   motion(servo: number): ServoMotion;
+  /** Nothing moves and nothing is under way, so far as anybody can know. */
+  isAtRest(): boolean;
+  /** From now on each run and each playing asks first; `anyway` begins what was refused, once. */
+  guardRuns(mayBegin: RunGuard): void;
   /** Takes the session's targets over; to be called while the page is drawn, once a frame. */
   refreshTargets(): void;
   move(targets: readonly ServoTarget[], time: MoveTime): void;
@@ -71,6 +75,9 @@ export interface Device {
   stopPlaying(): void;
 }
 
+/** Whether something may begin to run now. Where not, it tells the person and may offer to begin it anyway. */
+export type RunGuard = (anyway: () => void) => boolean;
+
 const NO_MOTION: ServoMotion = { target: null, estimated: null };
 
 export interface DeviceOptions {
@@ -90,7 +97,9 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   let downloading = new AbortController();
   let paused = false;
   let autoReconnect = true;
+  let mayBegin: RunGuard = () => true;
 
+  const setPaused = (on: boolean): boolean => (paused = on);
   const robot = (): Robot => robots.current().robot;
 
   function motion(servo: number): ServoMotion {
@@ -98,6 +107,14 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     const { target, estimated } = session.motion(servo);
     const meant = (at: number | null): number | null => (at === null ? null : fromBoard(robot(), servo, at));
     return { target: meant(target), estimated: meant(estimated) };
+  }
+
+  function isAtRest(): boolean {
+    if (store.getState().snapshot.activity.kind !== 'idle') return false;
+    return robot().servos.every(({ servo }) => {
+      const { target, estimated } = motion(servo);
+      return target === estimated;
+    });
   }
 
   /** What the board is told, or null where a limit of the robot forbids it; then the person is told which. */
@@ -160,6 +177,15 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     if (session !== null) work(session).catch(notices.tellError);
   }
 
+  /** As `attempt`, where nothing forbids that something runs. */
+  function attemptRun(work: (session: Session) => Promise<unknown>): void {
+    const asked = session;
+    const anyway = (): void => {
+      if (session === asked) attempt(work);
+    };
+    if (session !== null && mayBegin(anyway)) attempt(work);
+  }
+
   async function detach(): Promise<void> {
     const former = session;
     session = null;
@@ -203,6 +229,8 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     },
     detach,
     motion,
+    isAtRest,
+    guardRuns: (guard) => (mayBegin = guard),
     refreshTargets,
     move(targets, time) {
       const onIt = session && allowed(targets);
@@ -224,7 +252,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     },
     identify: () => attempt((current) => current.identify()),
     choose: (chosen) => attempt((current) => current.choose(chosen)),
-    run: (slot, times) => attempt((current) => current.run(slot, times)),
+    run: (slot, times) => attemptRun((current) => current.run(slot, times)),
     stopGroup: () => attempt((current) => current.stopGroup()),
     erase: () => attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased))),
     readBattery: () => attempt((current) => current.readBattery()),
@@ -248,14 +276,14 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     play(frames, finished) {
       const onIt = allowedFrames(frames);
       if (onIt === null) return;
-      paused = false;
-      attempt(async (current) => {
+      attemptRun(async (current) => {
+        setPaused(false);
         await current.play(onIt);
         if (!paused) finished();
       });
     },
     stopPlaying() {
-      paused = true;
+      setPaused(true);
       session?.stopPlaying();
     },
   };

@@ -5,6 +5,7 @@ import { createContext, use } from 'react';
 import { useStore } from 'zustand';
 import type { Robot } from '#shared/actions/robot.ts';
 import type { ActionGroup } from '#shared/actions/group.ts';
+import type { BatteryState, BatteryStore } from './battery.ts';
 import type { Boards } from './boards.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { Document, DocumentState } from './document.ts';
@@ -19,6 +20,7 @@ export interface Stores {
   readonly notices: Notices;
   readonly boards: Boards;
   readonly robots: RobotStore;
+  readonly battery: BatteryStore;
 }
 
 export const StoresContext = createContext<Stores | null>(null);
@@ -48,6 +50,10 @@ export function useGroup(): ActionGroup {
 /** The robot at hand. */
 export function useRobot(): Robot {
   return useStore(useStores().robots.store, ({ present }) => currentOf(present).robot);
+}
+
+export function useBattery<T>(select: (state: BatteryState) => T): T {
+  return useStore(useStores().battery, select);
 }
 
 export function useView<T>(select: (state: ViewState) => T): T {

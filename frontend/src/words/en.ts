@@ -9,11 +9,11 @@ import {
   formatMs,
   formatPosition,
   formatSeconds,
-  formatVolts,
   formatWhole,
   unitSymbol,
   type PositionUnit,
 } from './numbers.ts';
+import { batteryWords } from './battery.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { robotWords } from './robots.ts';
@@ -279,19 +279,7 @@ export const words = {
     },
   },
 
-  battery: {
-    title: 'Battery',
-    gauge: 'Battery voltage',
-    noVolts: '– V',
-    unread: 'Not read yet',
-    silent: 'This board cannot tell',
-    absentHint: 'It has no command for that. Watch the battery itself.',
-    silentHint: 'Three questions stayed unanswered. Refresh asks again.',
-    refresh: 'Refresh',
-    age: (ms: number): string => formatAge(ms),
-    level: { good: 'Good', warning: 'Low', danger: 'Charge now' },
-    volts: (millivolts: number): string => formatVolts(millivolts),
-  },
+  battery: batteryWords,
 
   log: {
     title: 'Log',

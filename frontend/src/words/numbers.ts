@@ -3,6 +3,8 @@
 const language = 'en';
 const whole = new Intl.NumberFormat(language, { useGrouping: false });
 const volts = new Intl.NumberFormat(language, { minimumFractionDigits: 2, maximumFractionDigits: 2 });
+const tickVolts = new Intl.NumberFormat(language, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
+const timeOfDay = new Intl.DateTimeFormat(language, { hour: '2-digit', minute: '2-digit', hourCycle: 'h23' });
 const seconds = new Intl.NumberFormat(language, {
   style: 'unit',
   unit: 'second',
@@ -30,6 +32,10 @@ export const formatPosition = (position: number, unit: PositionUnit): string =>
   `${whole.format(position)} ${unitSymbol(unit)}`;
 /** Volts are no unit of Intl's list, so the symbol is written here. */
 export const formatVolts = (millivolts: number): string => `${volts.format(millivolts / 1000)}\u00a0V`;
+/** On an axis: volts without their symbol. */
+export const formatTick = (volts: number): string => tickVolts.format(volts);
+/** `14:05`, from milliseconds since 1970. */
+export const formatTimeOfDay = (epochMs: number): string => timeOfDay.format(epochMs);
 export const formatSeconds = (ms: number): string => seconds.format(ms / 1000);
 export const formatMs = (ms: number): string => `${whole.format(ms)} ms`;
 

@@ -43,9 +43,12 @@ export function readingKind(batteryMv: number, { ceilingMv }: Supply): ReadingKi
   return ceilingMv !== null && batteryMv > ceilingMv ? 'saturated' : 'plain';
 }
 
+export function isPlain({ batteryMv }: Reading, supply: Supply): boolean {
+  return readingKind(batteryMv, supply) === 'plain';
+}
+
 export function gaugeAfter(gauge: Gauge, reading: Reading, supply: Supply): Gauge {
-  const isPlain = readingKind(reading.batteryMv, supply) === 'plain';
-  if (!isPlain || !reading.isAtRest) return { ...gauge, last: reading };
+  if (!isPlain(reading, supply) || !reading.isAtRest) return { ...gauge, last: reading };
   const since = reading.atMs - WINDOW_MS;
   const window = [...gauge.window.filter(({ atMs }) => atMs > since), reading];
   return judged({ ...gauge, last: reading, window }, supply);
@@ -58,7 +61,7 @@ export function gaugeOf(readings: readonly Reading[], supply: Supply): Gauge {
 /** Whether the newest reading is one to act upon. */
 export function isActionable({ last, isSettled }: Gauge, supply: Supply, nowMs: number): boolean {
   if (last === null || !isSettled) return false;
-  return readingKind(last.batteryMv, supply) === 'plain' && nowMs - last.atMs <= FRESH_MS;
+  return isPlain(last, supply) && nowMs - last.atMs <= FRESH_MS;
 }
 
 function judged(gauge: Gauge, supply: Supply): Gauge {
