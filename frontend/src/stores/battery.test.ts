@@ -105,6 +105,19 @@ describe('a low battery', () => {
     expect(told().at(-1)).toBe(words.battery.alarmed(words.battery.volts(6900)));
   });
 
+  test('is told of another robot too', async () => {
+    const { clock, device, notices, told } = await createDesk(6900);
+    await clock.advance(SETTLED_MS);
+    notices.dismiss(notices.store.getState()[0]!.id);
+    const other = await createRig({ batteryMv: 6900 });
+    device.attach(other.session, { ...WAY, label: 'Another' });
+    for (let second = 0; second < 15; second++) {
+      await clock.advance(1000);
+      await other.clock.advance(1000);
+    }
+    expect(told()).toEqual([words.battery.warned(words.battery.volts(6900))]);
+  });
+
   test('refuses nothing where the person only wants to know', async () => {
     const { clock, device, ofKind } = await createDesk(6500, 'tell');
     await clock.advance(SETTLED_MS);

@@ -41,6 +41,20 @@ describe('the battery poll', () => {
     expect(asked()).toBe(before);
   });
 
+  test('asks nothing while a servo moves, and soon after a playing has ended', async () => {
+    const { clock, asked, device } = await createDesk();
+    await clock.advance(1000);
+    device.move([{ servo: 1, position: 1600 }], 12_000);
+    await clock.advance(11_000);
+    expect(asked()).toBe(1);
+    await clock.advance(9500);
+    const before = asked();
+    device.play([{ durationMs: 2000, targets: [{ servo: 1, position: 1700 }] }], () => undefined);
+    await clock.advance(3000);
+    expect(device.store.getState().snapshot.activity.kind).toBe('idle');
+    expect(asked()).toBe(before + 1);
+  });
+
   test('asks nothing while the page is hidden, and nothing after its end', async () => {
     let visible = false;
     const { clock, asked, end } = await createDesk(() => visible);
