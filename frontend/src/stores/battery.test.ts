@@ -16,12 +16,17 @@ import { createRobots } from './robots.ts';
 const WAY: Way = { kind: 'simulated', label: 'Simulated board', isSimulated: true };
 const FRAMES = [{ durationMs: 4000, targets: [{ servo: 1, position: 1600 }] }];
 
-async function createDesk(batteryMv: number, policy: BatteryPolicy = 'tell') {
-  const rig = await createRig({ batteryMv });
+async function createDesk(
+  batteryMv: number,
+  policy: BatteryPolicy = 'tell',
+  board: 'doc' | 'bus-ctrl' = 'doc',
+) {
+  const rig = await createRig({ batteryMv, profile: board, family: FAMILIES[board] });
   const notices = createNotices(rig.clock);
   const robots = createRobots({ getItem: () => null, setItem: () => undefined }, notices);
+  robots.takeUpFor(board);
   robots.edit('a pack', (robot) => fedBy({ ...robot, batteryCare: { policy, thresholds: null } }, '2s'));
-  const device = createDevice({ family: FAMILIES.doc, clock: rig.clock, notices, robots });
+  const device = createDevice({ family: FAMILIES[board], clock: rig.clock, notices, robots });
   const battery = createBattery(device, robots);
   applyBatteryPolicy({ device, battery, robots, notices });
   let isWatched = true;
@@ -51,6 +56,18 @@ describe('the readings of a visit', () => {
     device.readBattery();
     await clock.advance(500);
     expect(battery.getState().readings.map(({ isAtRest }) => isAtRest)).toEqual([true, false]);
+  });
+
+  test('count beside servos that only the board knows of', async () => {
+    const { clock, device, battery } = await createDesk(7600, 'tell', 'bus-ctrl');
+    await clock.advance(200);
+    device.readPositions([1, 2, 3]);
+    await clock.advance(2000);
+    expect(device.motion(1)).toEqual({ target: null, estimated: 400 });
+    device.readBattery();
+    await clock.advance(500);
+    expect(battery.getState().readings.at(-1)?.atMs).toBeGreaterThan(2000);
+    expect(battery.getState().readings.map(({ isAtRest }) => isAtRest)).toEqual([true, true]);
   });
 
   test('stand beside the runs', async () => {

@@ -113,7 +113,8 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     if (store.getState().snapshot.activity.kind !== 'idle') return false;
     return robot().servos.every(({ servo }) => {
       const { target, estimated } = motion(servo);
-      return target === estimated;
+      // Without a target we moved it nowhere, even where the board told of it.
+      return target === null || target === estimated;
     });
   }
 
