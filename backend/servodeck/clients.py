@@ -18,6 +18,8 @@ from servodeck.gate import judge_hold
 from servodeck.hub import Seat
 from servodeck.messages import (
     BoardMessage,
+    CalibrateMessage,
+    LimitsMessage,
     RefusedMessage,
     ResumeMessage,
     SendMessage,
@@ -95,6 +97,10 @@ def take(text: str, seat: Seat, control: Control) -> None:
         case BoardMessage():
             with refusing(seat, None):
                 control.take_for(message.board)
+        case LimitsMessage():
+            control.limits.set(message.servos)
+        case CalibrateMessage():
+            control.limits.calibrate(seat, message.servo)
 
 
 def take_send(message: SendMessage, seat: Seat, control: Control) -> None:

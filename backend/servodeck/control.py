@@ -35,6 +35,7 @@ from servodeck.messages import (
 )
 from servodeck.packets import FAMILIES, Battery, DecoderEvent, PacketEvent, parse_report
 from servodeck.ports import OpenPort
+from servodeck.robot import RobotLimits
 from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire
 
 BATTERY_PACKET = "5555020f"
@@ -67,6 +68,7 @@ class Control:
         self.now = now
         self.latch = False
         self.battery: BatteryReading | None = None
+        self.limits = RobotLimits()
         self.hub = Hub()
         self.link = Link(ports, self._make_wire, self, now)
         self._group_may_run = False
@@ -92,6 +94,7 @@ class Control:
     def leave(self, seat: Seat) -> None:
         with contextlib.suppress(GatewayError):
             self.link.wire().purge(lambda job: job.owner is seat, CancelledError("The client has left."))
+        self.limits.forget(seat)
         self.hub.leave(seat)
         self._tell_state()
         if len(self.hub) == 0:
@@ -100,6 +103,7 @@ class Control:
     def send(self, owner: Owner, packet_hex: str) -> Left:
         """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving."""
         packet = judge_packet(packet_hex, self.board)
+        self.limits.judge(packet, owner)
         wire = self.link.wire()
         judge_latch(packet, self.latch)
         command = packet[COMMAND_AT]
@@ -136,6 +140,7 @@ class Control:
             raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
         if board != self.board:
             self.board = board
+            self.limits.clear()
             self.battery = None
             with contextlib.suppress(GatewayError):
                 self.link.wire().purge(is_no_stop, CancelledError("The board is taken for another one now."))
@@ -150,11 +155,13 @@ class Control:
 
     async def use_port(self, device: str, board: str | None = None) -> None:
         await self._quiet()
+        self.limits.clear()
         self.board = board or self.board
         await self.link.use(device)
 
     async def close_port(self) -> None:
         await self._quiet()
+        self.limits.clear()
         await self.link.close()
 
     async def shut_down(self) -> None:

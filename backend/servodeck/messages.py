@@ -81,9 +81,36 @@ class BoardMessage(Message):
     board: Annotated[str, Field(max_length=64)]
 
 
-ClientMessage = Annotated[
-    SendMessage | StopMessage | ResumeMessage | BoardMessage, Field(discriminator="type")
-]
+ServoNumber = Annotated[int, Field(ge=1, le=253)]
+
+
+class ServoLimits(Message):
+    """How far a servo may be turned, in its board's unit, and what people call it."""
+
+    servo: ServoNumber
+    name: Annotated[str, Field(min_length=1, max_length=64)]
+    min: Annotated[int, Field(ge=0, le=65535)]
+    max: Annotated[int, Field(ge=0, le=65535)]
+
+
+class LimitsMessage(Message):
+    """The robot's limits, for every client and in place of those before; gone with the board."""
+
+    type: Literal["limits"]
+    servos: Annotated[list[ServoLimits], Field(max_length=253)]
+
+
+class CalibrateMessage(Message):
+    """This client looks for the limits of `servo` and may pass the present ones with it, until `null` or the
+    end of its connection.
+    """
+
+    type: Literal["calibrate"]
+    servo: ServoNumber | None
+
+
+AnyClientMessage = SendMessage | StopMessage | ResumeMessage | BoardMessage | LimitsMessage | CalibrateMessage
+ClientMessage = Annotated[AnyClientMessage, Field(discriminator="type")]
 
 
 class WelcomeMessage(Message):
@@ -154,9 +181,7 @@ GatewayMessage = Annotated[
     Field(discriminator="type"),
 ]
 
-client_message: TypeAdapter[SendMessage | StopMessage | ResumeMessage | BoardMessage] = TypeAdapter(
-    ClientMessage
-)
+client_message: TypeAdapter[AnyClientMessage] = TypeAdapter(ClientMessage)
 gateway_message: TypeAdapter[Any] = TypeAdapter(GatewayMessage)
 
 

@@ -1,7 +1,8 @@
 // Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change backend/servodeck/messages.py instead.
 
 export type Message = ClientMessage | GatewayMessage;
-export type ClientMessage = SendMessage | StopMessage | ResumeMessage | BoardMessage;
+export type ClientMessage =
+  SendMessage | StopMessage | ResumeMessage | BoardMessage | LimitsMessage | CalibrateMessage;
 export type GatewayMessage =
   | WelcomeMessage
   | SentMessage
@@ -45,6 +46,33 @@ export interface ResumeMessage {
 export interface BoardMessage {
   type: 'board';
   board: string;
+}
+/**
+ * The robot's limits, for every client and in place of those before; gone with the board.
+ */
+export interface LimitsMessage {
+  type: 'limits';
+  /**
+   * @maxItems 253
+   */
+  servos: ServoLimits[];
+}
+/**
+ * How far a servo may be turned, in its board's unit, and what people call it.
+ */
+export interface ServoLimits {
+  servo: number;
+  name: string;
+  min: number;
+  max: number;
+}
+/**
+ * This client looks for the limits of `servo` and may pass the present ones with it, until `null` or the
+ * end of its connection.
+ */
+export interface CalibrateMessage {
+  type: 'calibrate';
+  servo: number | null;
 }
 /**
  * The first message on each connection.

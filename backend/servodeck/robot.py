@@ -1,0 +1,60 @@
+"""How far this robot's servos may be turned, as its owner has described it: less than its board could do.
+
+Knows packets and who sends them; no port and no client's socket. The page refuses the same things before they
+come here; this holds for every program that moves the robot.
+"""
+
+from collections.abc import Iterable
+
+from servodeck.errors import OutOfRangeError
+from servodeck.messages import ServoLimits
+from servodeck.packets import parse_command
+from servodeck.values import Command, Download, Move, ServoTarget
+from servodeck.wire import Owner
+
+
+class RobotLimits:
+    def __init__(self) -> None:
+        self._limits: dict[int, ServoLimits] = {}
+        self._calibrating: dict[Owner, int] = {}
+
+    def set(self, servos: Iterable[ServoLimits]) -> None:
+        """In place of all that was set before."""
+        self._limits = {limits.servo: limits for limits in servos}
+
+    def calibrate(self, owner: Owner, servo: int | None) -> None:
+        """Whoever looks for the limits of a servo may pass the old ones, with that servo alone and until
+        `forget`.
+        """
+        if servo is None:
+            self.forget(owner)
+        else:
+            self._calibrating[owner] = servo
+
+    def forget(self, owner: Owner) -> None:
+        self._calibrating.pop(owner, None)
+
+    def clear(self) -> None:
+        """It is another board's robot now."""
+        self._limits.clear()
+        self._calibrating.clear()
+
+    def judge(self, packet: bytes, owner: Owner) -> None:
+        """Raises OutOfRangeError that names the servo and its range."""
+        free = self._calibrating.get(owner)
+        for target in targets_of(parse_command(packet)):
+            limits = self._limits.get(target.servo)
+            if limits and target.servo != free and not limits.min <= target.position <= limits.max:
+                raise OutOfRangeError(
+                    f"{limits.name} (servo {target.servo}): position is {target.position}, "
+                    f"allowed {limits.min}..{limits.max}"
+                )
+
+
+def targets_of(command: Command | None) -> tuple[ServoTarget, ...]:
+    match command:
+        case Move(_, targets):
+            return targets
+        case Download(_, _, _, frame):
+            return frame.targets
+    return ()

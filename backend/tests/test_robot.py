@@ -1,0 +1,106 @@
+"""The robot's limits hold for every client, and nothing keeps a stop from holding the robot where it is."""
+
+import json
+
+import pytest
+
+from servodeck.clients import take
+from servodeck.control import Control
+from servodeck.errors import OutOfRangeError
+from servodeck.hub import Seat
+from servodeck.messages import ServoLimits
+from tests.fake_port import FakePort
+from tests.samples import DOWNLOAD, MOVE, MOVE_ELSEWHERE, RUN, STOP
+from tests.test_control import gateway_on, heard, seated
+from tests.virtual_time import in_virtual_time
+
+# MOVE takes servo 1 to 2000, DOWNLOAD and MOVE_ELSEWHERE to 1500.
+ELBOW = ServoLimits(servo=1, name="Elbow", min=600, max=1800)
+REFUSAL = "Elbow (servo 1): position is 2000, allowed 600..1800"
+
+
+def say(control: Control, seat: Seat, **message: object) -> None:
+    take(json.dumps(message), seat, control)
+
+
+@in_virtual_time
+async def test_a_limit_that_one_client_tells_holds_for_all_even_after_it_left() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna, bert = seated(control), seated(control)
+        say(control, anna, type="limits", servos=[ELBOW.model_dump()])
+        await heard(bert)
+        for owner in (anna, "script"):
+            with pytest.raises(OutOfRangeError, match=r"^Elbow \(servo 1\): position is 2000, allowed 600"):
+                control.send(owner, MOVE.hex())
+        control.leave(anna)
+        await heard(bert)
+        say(control, bert, type="send", id=7, packet=MOVE.hex())
+        assert await heard(bert) == [{"type": "refused", "id": 7, "code": "outOfRange", "detail": REFUSAL}]
+        await control.send(bert, MOVE_ELSEWHERE.hex())
+        await control.send(bert, RUN.hex())
+        assert port.packets() == [STOP, MOVE_ELSEWHERE, RUN]
+
+
+@pytest.mark.parametrize(("position", "passes"), [(1500, True), (1400, True), (1399, False), (1501, False)])
+@in_virtual_time
+async def test_both_ends_are_within_and_downloads_are_judged_as_moves_are(
+    position: int, passes: bool
+) -> None:
+    async with gateway_on() as control:
+        control.limits.set([ServoLimits(servo=1, name="Elbow", min=1400, max=1500)])
+        packet = DOWNLOAD[:-2] + position.to_bytes(2, "little")
+        if passes:
+            await control.send("script", packet.hex())
+        else:
+            with pytest.raises(OutOfRangeError):
+                control.send("script", packet.hex())
+
+
+@in_virtual_time
+async def test_a_stop_holds_the_robot_wherever_it_is() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        control.limits.set([ELBOW])
+        await control.stop(MOVE)
+        assert port.packets()[-1] == MOVE
+
+
+@in_virtual_time
+async def test_who_calibrates_a_servo_may_pass_its_limits_alone_and_until_the_end() -> None:
+    wrist = ServoLimits(servo=2, name="Wrist", min=600, max=1800)
+    other_servo = MOVE[:7] + b"\x02" + MOVE[8:]
+    async with gateway_on() as control:
+        anna, bert = seated(control), seated(control)
+        control.limits.set([ELBOW, wrist])
+        say(control, anna, type="calibrate", servo=1)
+        await control.send(anna, MOVE.hex())
+        for owner, packet in ((bert, MOVE), (anna, other_servo)):
+            with pytest.raises(OutOfRangeError):
+                control.send(owner, packet.hex())
+        say(control, anna, type="calibrate", servo=None)
+        with pytest.raises(OutOfRangeError):
+            control.send(anna, MOVE.hex())
+        say(control, anna, type="calibrate", servo=1)
+        control.leave(anna)
+        with pytest.raises(OutOfRangeError):
+            control.send(anna, MOVE.hex())
+
+
+@in_virtual_time
+async def test_limits_end_with_their_board_or_by_word() -> None:
+    async with gateway_on(FakePort(), FakePort()) as control:
+        anna = seated(control)
+        control.limits.set([ELBOW])
+        control.take_for("doc")  # nothing new
+        with pytest.raises(OutOfRangeError):
+            control.send(anna, MOVE.hex())
+        control.take_for("lsc-6")
+        await control.send(anna, MOVE.hex())
+        control.limits.set([ELBOW])
+        await control.use_port("/dev/other")
+        await heard(anna)
+        await control.send(anna, MOVE.hex())
+        control.limits.set([ELBOW])
+        say(control, anna, type="limits", servos=[])
+        await control.send(anna, MOVE.hex())
