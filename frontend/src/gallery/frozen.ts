@@ -20,6 +20,8 @@ export function frozenSession(
     setAutoReconnect: () => undefined,
     identify: nothing,
     choose: nothing,
+    setLimits: () => undefined,
+    calibrate: () => undefined,
     move: () => {
       throw new LinkError('latched', 'the gallery moves nothing');
     },

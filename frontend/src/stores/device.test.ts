@@ -112,6 +112,25 @@ describe('a device with a session', () => {
       expect(device.motion(4)).toEqual({ target: 1000, estimated: 1000 });
     });
 
+    test('only the servo that is calibrated creeps past its limits, as far as the board goes', async () => {
+      const { device, told, draw, ofKind, state } = await createElbowDesk();
+      device.creep(2400, 100);
+      device.calibrate(4);
+      device.creep(2400, 100);
+      await draw(2000);
+      device.move([{ servo: 4, position: 2400 }], 0);
+      device.creep(2480, 100);
+      device.calibrate(null);
+      device.creep(2410, 100);
+      await draw(2000);
+      expect(ofKind('move').map(({ targets }) => targets)).toEqual([[{ servo: 4, position: 2440 }]]);
+      expect(state().targets).toEqual({ 4: 2400 });
+      expect(told()).toEqual([
+        expect.stringContaining('Elbow: 2400 is out of range'),
+        expect.stringContaining('2520'),
+      ]);
+    });
+
     test('a group with one pose outside is neither played nor downloaded', async () => {
       const { device, told, draw, heard } = await createElbowDesk();
       const frames = [900, 2400].map((position) => ({ durationMs: 300, targets: [{ servo: 4, position }] }));

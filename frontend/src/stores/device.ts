@@ -2,7 +2,7 @@
 // intents of the panels into calls whose failures become notices. Live, never undoable; knows no transport and no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { fromBoard, onBoard, refusedTarget, type Robot } from '#shared/actions/robot.ts';
+import { fromBoard, limitsOnBoard, onBoard, refusedTarget, type Robot } from '#shared/actions/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
@@ -14,6 +14,7 @@ import type { Transport } from '#shared/session/transport.ts';
 import { words } from '../words/en.ts';
 import { moveDurationMs, type MoveTime } from './moveTime.ts';
 import type { Notices } from './notices.ts';
+import { followRobot } from './robotOfLink.ts';
 import type { RobotStore } from './robots.ts';
 import { createTargetBook } from './targetBook.ts';
 import { createTrafficLog, type TrafficLog } from './traffic.ts';
@@ -51,6 +52,10 @@ export interface Device {
   /** Takes the session's targets over; to be called while the page is drawn, once a frame. */
   refreshTargets(): void;
   move(targets: readonly ServoTarget[], time: MoveTime): void;
+  /** This servo's limits are looked for: `creep` moves it, past the present ones too. null: no longer. */
+  calibrate(servo: number | null): void;
+  /** Moves the servo that is calibrated, as far as its board can. */
+  creep(position: number, durationMs: number): void;
   halt(): void;
   resume(): void;
   retryNow(): void;
@@ -98,9 +103,15 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   let paused = false;
   let autoReconnect = true;
   let mayBegin: RunGuard = () => true;
+  let calibrated: number | null = null;
 
   const setPaused = (on: boolean): boolean => (paused = on);
   const robot = (): Robot => robots.current().robot;
+
+  const noteRobot = followRobot(robots, (described) => {
+    session?.setLimits(limitsOnBoard(described));
+    if (calibrated !== null) session?.calibrate(calibrated);
+  });
 
   function motion(servo: number): ServoMotion {
     if (session === null) return NO_MOTION;
@@ -162,7 +173,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   function noteState(snapshot: SessionState): void {
-    if (snapshot.family.id !== 'unknown') robots.takeUpFor(snapshot.family.id);
+    noteRobot(snapshot);
     // First into the log: whoever hears of the state may send something at once.
     traffic.note(snapshot, clock.now(), snapshot.family.id);
     store.setState({ snapshot, family: snapshot.family });
@@ -172,6 +183,17 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   function noteProblem(error: unknown): void {
     forgetWishes();
     notices.tellError(error);
+  }
+
+  function send(targets: readonly ServoTarget[], time: MoveTime): void {
+    if (session === null) return;
+    try {
+      session.move(onBoard(robot(), targets), moveDurationMs(time, targets, session.state.family, motion));
+      book.wish(targets);
+      refreshTargets();
+    } catch (error) {
+      notices.tellError(error);
+    }
   }
 
   function attempt(work: (session: Session) => Promise<unknown>): void {
@@ -192,6 +214,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     session = null;
     unsubscribe();
     book.clear();
+    noteRobot(INITIAL_STATE);
     store.setState({ way: null, snapshot: INITIAL_STATE, targets: {} });
     traffic.note(INITIAL_STATE, clock.now(), store.getState().family.id);
     await former?.close();
@@ -234,15 +257,14 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     guardRuns: (guard) => (mayBegin = guard),
     refreshTargets,
     move(targets, time) {
-      const onIt = session && allowed(targets);
-      if (session === null || onIt === null) return;
-      try {
-        session.move(onIt, moveDurationMs(time, targets, session.state.family, motion));
-        book.wish(targets);
-        refreshTargets();
-      } catch (error) {
-        notices.tellError(error);
-      }
+      if (session !== null && allowed(targets) !== null) send(targets, time);
+    },
+    calibrate(servo) {
+      calibrated = servo;
+      session?.calibrate(servo);
+    },
+    creep(position, durationMs) {
+      if (calibrated !== null) send([{ servo: calibrated, position }], durationMs);
     },
     halt: () => attempt((current) => current.halt()),
     resume: () => attempt((current) => current.resume()),

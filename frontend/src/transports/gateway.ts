@@ -119,6 +119,11 @@ export function createGatewayTransport(url: string): Transport {
     await nextState();
   }
 
+  /** What is said to a gateway that is gone need not reach it: it is said again once the link is ready. */
+  function postIfOpen(message: ClientMessage): void {
+    if (socket?.readyState === WebSocket.OPEN) post(message);
+  }
+
   const nextState = (): Promise<void> =>
     new Promise((resolve, reject) => stateWaiters.add({ resolve: () => resolve(), reject }));
 
@@ -136,6 +141,8 @@ export function createGatewayTransport(url: string): Transport {
         naming.add({ resolve, reject });
       });
     },
+    setLimits: (limits) => postIfOpen({ type: 'limits', servos: [...limits] }),
+    calibrate: (servo) => postIfOpen({ type: 'calibrate', servo }),
     get label() {
       return port?.device ?? 'Gateway';
     },

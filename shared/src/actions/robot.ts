@@ -125,6 +125,20 @@ export function onBoard(robot: Robot, targets: readonly ServoTarget[]): readonly
   }));
 }
 
+/** Each servo's limits as the board counts. */
+export function limitsOnBoard(robot: Robot): readonly NamedLimits[] {
+  return robot.servos.map(({ servo, name: called, min, max, trim }) => ({
+    ...{ servo, name: called },
+    min: min + trim,
+    max: max + trim,
+  }));
+}
+
+interface NamedLimits extends Range {
+  readonly servo: number;
+  readonly name: string;
+}
+
 /** What the person means by a position of the board. */
 export function fromBoard(robot: Robot, servo: number, onBoardAt: number): number {
   return onBoardAt - (servoOf(robot, servo)?.trim ?? 0);

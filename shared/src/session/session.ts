@@ -20,7 +20,7 @@ import { createResync } from './resync.ts';
 import type { LinkState, ServoMotion, SessionEvents, SessionState } from './state.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { createSessionStore, NOTHING_READ } from './store.ts';
-import type { Transport } from './transport.ts';
+import type { ServoLimits, Transport } from './transport.ts';
 
 export interface SessionOptions {
   readonly transport: Transport;
@@ -49,6 +49,10 @@ export interface Session {
   identify(): Promise<void>;
   /** A person says which board this is. Refused in the link's state where its answers say otherwise. */
   choose(family: Family): Promise<void>;
+  /** What others on a shared link are held to; the session itself knows no robot. */
+  setLimits(limits: readonly ServoLimits[]): void;
+  /** On a shared link: moves of this servo may pass those limits; null ends it, and so does the end of the link. */
+  calibrate(servo: number | null): void;
   /** Newest wins per servo. Positions in the family's unit; `durationMs` 0 is as fast as the link allows. */
   move(targets: readonly ServoTarget[], durationMs: number): void;
   /** `times` 0 repeats until stopped. A group that runs already is stopped first (S45, S46). */
@@ -232,6 +236,8 @@ export function createSession(options: SessionOptions): Session {
     setAutoReconnect: link.setAutoReconnect,
     identify: identification.again,
     choose: (chosen) => identification.choose(chosen),
+    setLimits: (limits) => transport.setLimits?.(limits),
+    calibrate: (servo) => transport.calibrate?.(servo),
     move: (targets, durationMs) => driver.live.move(targets, durationMs),
     run: (slot, times) => driver.groups.run(slot, times),
     stopGroup: () => driver.groups.stop(),

@@ -15,6 +15,14 @@ export interface TransportEvents {
   identified?(board: BoardId): void;
 }
 
+/** How far a servo may be turned, in the board's unit, and what people call it. */
+export interface ServoLimits {
+  readonly servo: number;
+  readonly name: string;
+  readonly min: number;
+  readonly max: number;
+}
+
 export interface Transport {
   readonly kind: 'webSerial' | 'gateway' | 'simulated';
   /** Names the device for people, e.g. `/dev/ttyUSB0`. */
@@ -25,6 +33,10 @@ export interface Transport {
   readonly knownBoard?: BoardId;
   /** Says so to everybody; `identified` follows. */
   setBoard?(board: BoardId): Promise<void>;
+  /** Only a shared link: what it shall hold everybody to who moves this robot, in place of what was said before. */
+  setLimits?(limits: readonly ServoLimits[]): void;
+  /** Only a shared link: this end looks for that servo's limits and may pass the present ones; null: no longer. */
+  calibrate?(servo: number | null): void;
   /** Rejects with a LinkError. May be called again after `lost` or `close`. */
   open(events: TransportEvents): Promise<void>;
   /** Resolves when the packet's last bit has left the wire. One packet at a time: the caller waits for it. */
