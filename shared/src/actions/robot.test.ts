@@ -78,6 +78,28 @@ describe('what is wrong with a robot', () => {
   });
 });
 
+test('whatever is not called a flaw comes back from its file', () => {
+  const change = fc.record(
+    {
+      name: fc.constantFrom('Elbow', '', ' '),
+      min: fc.integer({ min: -50, max: 1500 }),
+      max: fc.integer({ min: 1500, max: 2700 }),
+      trim: fc.integer({ min: -200, max: 200 }),
+      degreesPerUnit: fc.constantFrom(0, 0.09, 2, 3),
+    },
+    { requiredKeys: [] },
+  );
+  fc.assert(
+    fc.property(change, (wanted) => {
+      const robot = withServo(wanted);
+      expect('robot' in robotFromText(robotToText(robot))).toBe(flawOf(robot) === null);
+    }),
+  );
+  expect(flawOf(withServo({ min: 900, max: 2000, trim: 126 }))).toBe(
+    'Elbow (servo 4): its trim 126 is outside -125..125',
+  );
+});
+
 describe('limits and trims', () => {
   const robot = withServo({ min: 700, max: 2300, home: 1400, trim: 25 });
 

@@ -21,7 +21,7 @@ export type BatteryPolicy = (typeof BATTERY_POLICIES)[number];
 
 export const NAME_LENGTH = 64;
 /** As far as any board's own trim goes (L14). */
-const TRIM: Range = { min: -125, max: 125 };
+export const TRIM: Range = { min: -125, max: 125 };
 /** From a USB port to a pack of three full cells. */
 export const BATTERY_MV: Range = { min: 4000, max: 13_000 };
 
@@ -81,7 +81,13 @@ export function flawOf(robot: Robot): string | null {
     const flaw = flawOfServo(servo, robot);
     if (flaw !== null) return `${servo.name} (servo ${servo.servo}): ${flaw}`;
   }
-  return null;
+  const { error } = robotSchema.safeParse(robot);
+  return error === undefined ? null : shapeProblem(error);
+}
+
+/** Where the shape is not that of a robot, and why. */
+export function shapeProblem({ issues: [first] }: z.core.$ZodError): string {
+  return first === undefined ? 'it is no robot' : `${first.path.join('.')}: ${first.message}`;
 }
 
 function flawOfServo({ servo, min, max, home, trim, mirror }: RobotServo, robot: Robot): string | null {
@@ -91,6 +97,7 @@ function flawOfServo({ servo, min, max, home, trim, mirror }: RobotServo, robot:
     return `its board takes servos ${family.servo.min}..${family.servo.max}`;
   if (min >= max) return `its lowest position ${min} is not below its highest ${max}`;
   if (home < min || home > max) return `its home ${home} is outside ${min}..${max}`;
+  if (trim < TRIM.min || trim > TRIM.max) return `its trim ${trim} is outside ${TRIM.min}..${TRIM.max}`;
   if (min + trim < board.min || max + trim > board.max)
     return `with its trim it leaves what the board can do, ${board.min}..${board.max}`;
   if (mirror !== null && !robot.servos.some((other) => other.servo === mirror))

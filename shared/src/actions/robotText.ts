@@ -2,7 +2,7 @@
 // trusts nothing and says what is wrong in a sentence. Knows no place to store anything.
 
 import * as z from 'zod/mini';
-import { flawOf, robotSchema, type Robot } from './robot.ts';
+import { flawOf, robotSchema, shapeProblem, type Robot } from './robot.ts';
 
 const FORMAT = 'servodeck-robot';
 const VERSION = 1;
@@ -21,7 +21,7 @@ export type ReadRobot = { readonly robot: Robot } | { readonly problem: string }
 
 export function robotFromText(text: string): ReadRobot {
   const parsed = fileSchema.safeParse(jsonIn(text));
-  if (!parsed.success) return { problem: problemOf(parsed.error.issues) };
+  if (!parsed.success) return { problem: problemOf(parsed.error) };
   const { robot } = parsed.data;
   const flaw = flawOf(robot);
   return flaw === null ? { robot } : { problem: flaw };
@@ -40,10 +40,7 @@ function jsonIn(text: string): unknown {
   }
 }
 
-type Issues = readonly { readonly path: readonly PropertyKey[]; readonly message: string }[];
-
-function problemOf(issues: Issues): string {
-  const [first] = issues;
-  if (first === undefined || first.path.length === 0) return 'this is no robot file of Servodeck';
-  return `${first.path.join('.')}: ${first.message}`;
+function problemOf(error: z.core.$ZodError): string {
+  const isOther = error.issues[0]?.path.length === 0;
+  return isOther ? 'this is no robot file of Servodeck' : shapeProblem(error);
 }
