@@ -1,0 +1,58 @@
+import { describe, expect, test } from 'vitest';
+import { readyRobot, type ReadyRobotId } from './readyRobots.ts';
+import {
+  beginCalibration,
+  isServoDone,
+  partnerDone,
+  settled,
+  stepDone,
+  stepsOf,
+  type Calibration,
+} from './robotCalibration.ts';
+import { removeServo } from './robotEdits.ts';
+import type { Robot } from './robot.ts';
+
+const ready = (id: ReadyRobotId, board: Robot['board']): Robot =>
+  readyRobot(id, board, { robot: 'Mine', role: (role, servo) => `${role} ${servo}`, limb: (limb) => limb });
+const ARM = ready('arm', 'doc');
+const HUMANOID = ready('humanoid16', 'lsc-16');
+
+const after = (robot: Robot, steps: number, from = beginCalibration(robot, null)): Calibration =>
+  Array.from({ length: steps }).reduce<Calibration>((calibration) => stepDone(robot, calibration), from);
+
+describe('a calibration', () => {
+  test('goes through a servo step by step, then to the next one', () => {
+    expect(after(ARM, 0)).toMatchObject({ servo: 1, step: 'min' });
+    expect(after(ARM, 2)).toMatchObject({ servo: 1, step: 'home' });
+    expect(after(ARM, 5)).toMatchObject({ servo: 2, step: 'min' });
+    expect(isServoDone(after(ARM, 4), ARM.servos[0]!)).toBe(false);
+    expect(isServoDone(after(ARM, 5), ARM.servos[0]!)).toBe(true);
+  });
+
+  test('begun in the middle it comes round to what was left out, and ends with nothing left', () => {
+    const begun = beginCalibration(ARM, 5);
+    expect(after(ARM, 10, begun)).toMatchObject({ servo: 1, step: 'min' });
+    const ended = after(ARM, 30, begun);
+    expect(ARM.servos.every((servo) => isServoDone(ended, servo))).toBe(true);
+    expect(stepDone(ARM, ended)).toMatchObject({ servo: ended.servo, step: ended.step });
+  });
+
+  test('a partner that takes over has only its trim left', () => {
+    expect(stepsOf(HUMANOID.servos[2]!)).toContain('partner');
+    const atPartner: Calibration = { servo: 3, step: 'partner', done: [] };
+    const taken = partnerDone(HUMANOID, atPartner, 11);
+    expect(taken).toMatchObject({ servo: 3, step: 'trim' });
+    const left = stepsOf(HUMANOID.servos[10]!).filter(
+      (step) => !taken.done.some((one) => one.servo === 11 && one.step === step),
+    );
+    expect(left).toEqual(['trim']);
+  });
+
+  test('finds a place when its servo or its step is gone', () => {
+    const partnerless = removeServo(HUMANOID, 11);
+    expect(settled(partnerless, { servo: 3, step: 'partner', done: [] })).toMatchObject({ step: 'trim' });
+    expect(settled(partnerless, { servo: 11, step: 'home', done: [] })).toMatchObject({ servo: 1 });
+    const kept: Calibration = { servo: 3, step: 'home', done: [] };
+    expect(settled(partnerless, kept)).toBe(kept);
+  });
+});
