@@ -13,6 +13,7 @@ import { ConnectDialog } from './connect/ConnectDialog.tsx';
 import type { Page } from './connect/page.ts';
 import { LogDrawer } from './console/LogDrawer.tsx';
 import { LogPanel } from './console/LogPanel.tsx';
+import { RobotDialog } from './robots/RobotDialog.tsx';
 import { LivePanel } from './servos/LivePanel.tsx';
 import { StopButton } from './stop/StopButton.tsx';
 import { StoresContext, useStores, useView } from './stores/stores.ts';
@@ -51,6 +52,7 @@ function Dashboard({ page }: { readonly page: Page }) {
         {said}
       </p>
       <ConnectDialog connector={page.connector} />
+      <RobotDialog />
     </div>
   );
 }

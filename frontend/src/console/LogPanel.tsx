@@ -12,7 +12,8 @@ import { LogList } from './LogList.tsx';
 import { RawSender } from './RawSender.tsx';
 import { kindOf, lineText } from './describe.ts';
 import { createLogView } from './logView.ts';
-import { logFile, saveFile } from './savedLog.ts';
+import { saveFile } from '../ui/saveFile.ts';
+import { logFile } from './savedLog.ts';
 import { searchTest } from './search.ts';
 import styles from './LogPanel.module.css';
 

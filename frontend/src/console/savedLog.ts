@@ -1,19 +1,15 @@
-// The log as a file: its text, its name, and the browser's way to save it. Knows no panel.
+// The log as a file: its text and its name. Knows no panel.
 
 import { family, type BoardId } from '#shared/protocol/families.ts';
 import { writeRecording } from '#shared/recording/text.ts';
 import type { Entry } from '#shared/recording/recording.ts';
 import type { TrafficLog } from '../stores/traffic.ts';
+import type { TextFile } from '../ui/saveFile.ts';
 import { version } from '../../../package.json';
 import { meaning } from './describe.ts';
 
-export interface SavedLog {
-  readonly name: string;
-  readonly text: string;
-}
-
 /** `board` and `port` of the link at hand. */
-export function logFile(log: TrafficLog, board: BoardId, port: string, date: Date): SavedLog {
+export function logFile(log: TrafficLog, board: BoardId, port: string, date: Date): TextFile {
   const content = log.content(board);
   let current = content.board;
   function noteOf(entry: Entry): string {
@@ -26,13 +22,4 @@ export function logFile(log: TrafficLog, board: BoardId, port: string, date: Dat
     name: `servodeck-${family(board).id}-${day}.txt`,
     text: writeRecording({ header, entries: content.entries }, noteOf),
   };
-}
-
-export function saveFile({ name, text }: SavedLog): void {
-  const url = URL.createObjectURL(new Blob([text], { type: 'text/plain' }));
-  const link = document.createElement('a');
-  link.href = url;
-  link.download = name;
-  link.click();
-  URL.revokeObjectURL(url);
 }

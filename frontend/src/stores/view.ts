@@ -2,6 +2,7 @@
 // remembered. Knows no link.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { Calibration } from '#shared/actions/robotCalibration.ts';
 import type { TextStorage } from './document.ts';
 import type { MoveTime } from './moveTime.ts';
 
@@ -13,6 +14,10 @@ export interface ViewState {
   readonly tab: Tab;
   readonly theme: Theme;
   readonly connectOpen: boolean;
+  /** What of the robots is open; null: nothing. */
+  readonly robotView: 'list' | 'edit' | 'calibrate' | null;
+  /** How far the calibration of one robot, by its id, has come. */
+  readonly calibration: { readonly robotId: number; readonly progress: Calibration } | null;
   readonly logOpen: boolean;
   readonly logKinds: readonly LogKind[];
   readonly selectedFrame: number | null;
@@ -36,6 +41,8 @@ export const INITIAL_VIEW: ViewState = {
   tab: 'live',
   theme: 'system',
   connectOpen: false,
+  robotView: null,
+  calibration: null,
   logOpen: false,
   logKinds: ['move', 'group', 'battery', 'link', 'noise'],
   selectedFrame: null,

@@ -4,6 +4,7 @@ import { useStore } from 'zustand';
 import { nameOf } from '../stores/boards.ts';
 import { useDevice, useStores, useView } from '../stores/stores.ts';
 import type { Theme } from '../stores/view.ts';
+import { RobotButton } from '../robots/RobotButton.tsx';
 import { BatteryReadout } from '../battery/BatteryReadout.tsx';
 import { IconButton } from '../ui/Button.tsx';
 import type { IconName } from '../ui/Icon.tsx';
@@ -53,6 +54,7 @@ function Robot() {
   const name = way === null ? words.link.noBoard : way.isSimulated ? '' : nickname || family.name;
   return (
     <div className={styles.robot}>
+      <RobotButton />
       {name !== '' && <span className={styles.robotName}>{name}</span>}
       <LinkChip />
     </div>

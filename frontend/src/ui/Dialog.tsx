@@ -14,6 +14,8 @@ export interface DialogProps {
   readonly isOpen: boolean;
   readonly role?: 'dialog' | 'alertdialog';
   readonly wide?: boolean;
+  /** As wide as the window allows, for work rather than a decision. */
+  readonly full?: boolean;
   readonly children: ReactNode;
   onClose(): void;
 }
@@ -24,6 +26,7 @@ export function Dialog({
   isOpen,
   role = 'dialog',
   wide = false,
+  full = false,
   children,
   onClose,
 }: DialogProps) {
@@ -36,7 +39,7 @@ export function Dialog({
         if (!open) onClose();
       }}
     >
-      <Modal className={cx(styles.modal, wide && styles.wide)}>
+      <Modal className={cx(styles.modal, wide && styles.wide, full && styles.full)}>
         <AriaDialog className={styles.dialog ?? ''} role={role}>
           <div className={styles.header}>
             <Heading slot="title" level={2} className={styles.title ?? ''}>

@@ -4,6 +4,7 @@ import styles from './Icon.module.css';
 
 const PATHS = {
   plus: 'M8 3v10M3 8h10',
+  minus: 'M3 8h10',
   close: 'M4 4l8 8M12 4l-8 8',
   play: 'M5 3.5v9l7.5-4.5z',
   pause: 'M5.5 3.5v9M10.5 3.5v9',
@@ -32,6 +33,9 @@ const PATHS = {
   moon: 'M12.8 9.6A5.4 5.4 0 0 1 6.4 3.2a5.4 5.4 0 1 0 6.4 6.4z',
   end: 'M4.5 4.5h7v7h-7z',
   tune: 'M2.5 5h11M2.5 11h11M6 3v4M10.5 9v4',
+  edit: 'M3 13l.6-2.8L10.8 3l2.2 2.2-7.2 7.2zM9 4.8l2.2 2.2',
+  upload: 'M8 11V3M4.5 6.5L8 3l3.5 3.5M3 13.5h10',
+  dial: 'M3.5 12a6 6 0 1 1 9 0M8 9.5L11 5.5',
   erase: 'M2.5 13.5h11M5 11l-2-2 6-6 4 4-4 4z',
 } as const;
 

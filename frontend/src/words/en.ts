@@ -14,8 +14,10 @@ import {
   type PositionUnit,
 } from './numbers.ts';
 import { batteryWords } from './battery.ts';
+import { calibrationWords } from './calibration.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
+import { robotEditorWords } from './robotEditor.ts';
 import { robotWords } from './robots.ts';
 import { timesWords } from './packets.ts';
 
@@ -59,6 +61,8 @@ export const words = {
   identity: identityWords,
   guide: guideWords,
   robots: robotWords,
+  robotEditor: robotEditorWords,
+  calibration: calibrationWords,
 
   stop: {
     button: 'Stop',

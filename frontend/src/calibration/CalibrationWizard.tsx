@@ -1,0 +1,149 @@
+// Calibration, a servo at a time: its ends and its home are crept to, its direction is looked at, its mirror filled in, its trim
+// worked out. It can be left anywhere: what was set is in the robot, and the place is kept.
+
+import { useEffect, useRef, type RefObject } from 'react';
+import type { CalibrationStep } from '#shared/actions/robotCalibration.ts';
+import { isDone, isServoDone, stepsOf } from '#shared/actions/robotCalibration.ts';
+import { RobotHead } from '../robots/RobotHead.tsx';
+import { useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { Mark } from '../ui/Chip.tsx';
+import { cx } from '../ui/cx.ts';
+import { words } from '../words/en.ts';
+import { DirectionStep } from './DirectionStep.tsx';
+import { EndStep } from './EndStep.tsx';
+import { MotionGate } from './MotionGate.tsx';
+import { PartnerStep } from './PartnerStep.tsx';
+import { TrimStep } from './TrimStep.tsx';
+import { useCalibration, type CalibrationAtHand } from './useCalibration.ts';
+import styles from './CalibrationWizard.module.css';
+
+export function CalibrationWizard() {
+  const at = useCalibration();
+  const wizard = useRef<HTMLDivElement>(null);
+  const title = useRef<HTMLHeadingElement>(null);
+  useFocusKept(wizard, title, `${at.servo.servo} ${at.progress.step}`);
+  return (
+    <>
+      <RobotHead />
+      <div ref={wizard} className={styles.wizard}>
+        <Servos at={at} />
+        <section className={styles.work} aria-labelledby="calibrated-servo">
+          <h3 ref={title} id="calibrated-servo" className={styles.title} tabIndex={-1}>
+            {at.servo.name}
+          </h3>
+          <Steps at={at} />
+          <div key={`${at.servo.servo} ${at.progress.step}`} className={styles.step}>
+            {contentOf(at)}
+          </div>
+          <p className={styles.problem} role="alert">
+            {at.problem}
+          </p>
+          <Finished at={at} />
+        </section>
+      </div>
+    </>
+  );
+}
+
+/** A step that ends takes its button away: the focus goes to what is asked next instead of nowhere. */
+function useFocusKept(
+  within: RefObject<HTMLElement | null>,
+  otherwise: RefObject<HTMLElement | null>,
+  step: string,
+): void {
+  useEffect(() => {
+    if (within.current?.contains(document.activeElement) === false) otherwise.current?.focus();
+  }, [within, otherwise, step]);
+}
+
+function contentOf(at: CalibrationAtHand) {
+  const { step } = at.progress;
+  switch (step) {
+    case 'min':
+    case 'max':
+    case 'home':
+      return (
+        <MotionGate servo={at.servo} robot={at.robot}>
+          <EndStep at={at} end={step} />
+        </MotionGate>
+      );
+    case 'direction':
+      return (
+        <MotionGate servo={at.servo} robot={at.robot}>
+          <DirectionStep at={at} />
+        </MotionGate>
+      );
+    case 'partner':
+      return <PartnerStep at={at} />;
+    case 'trim':
+      return <TrimStep at={at} />;
+  }
+}
+
+interface At {
+  readonly at: CalibrationAtHand;
+}
+
+function Servos({ at: { robot, servo, progress, go } }: At) {
+  return (
+    <ol className={styles.servos} aria-label={words.calibration.servos}>
+      {robot.servos.map((one) => {
+        const steps = stepsOf(one);
+        const doneCount = steps.filter((step) => isDone(progress, one.servo, step)).length;
+        return (
+          <li key={one.servo}>
+            <button
+              type="button"
+              className={cx(styles.servo, one === servo && styles.selected)}
+              aria-label={words.calibration.servo(one.name, doneCount, steps.length)}
+              aria-current={one === servo ? 'step' : undefined}
+              onClick={() => go(one.servo, steps.find((step) => !isDone(progress, one.servo, step)) ?? 'min')}
+            >
+              <Mark truth={doneCount === steps.length ? 'confirmed' : 'neutral'} />
+              <span>{one.name}</span>
+            </button>
+          </li>
+        );
+      })}
+    </ol>
+  );
+}
+
+function Steps({ at: { servo, progress, go } }: At) {
+  const named = (step: CalibrationStep): string => words.calibration.stepNames[step];
+  return (
+    <ol className={styles.steps} aria-label={words.calibration.steps}>
+      {stepsOf(servo).map((step) => {
+        const done = isDone(progress, servo.servo, step);
+        return (
+          <li key={step}>
+            <button
+              type="button"
+              className={cx(styles.stepName, step === progress.step && styles.selected)}
+              aria-label={done ? words.calibration.isDone(named(step)) : named(step)}
+              aria-current={step === progress.step ? 'step' : undefined}
+              onClick={() => go(servo.servo, step)}
+            >
+              {done && <Mark truth="confirmed" />}
+              {named(step)}
+            </button>
+          </li>
+        );
+      })}
+    </ol>
+  );
+}
+
+function Finished({ at: { robot, progress } }: At) {
+  const { view } = useStores();
+  if (!robot.servos.every((servo) => isServoDone(progress, servo))) return null;
+  return (
+    <div className={styles.actions} role="status">
+      <p>{words.calibration.finished}</p>
+      <Button tone="primary" onPress={() => view.setState({ robotView: null })}>
+        {words.calibration.done}
+      </Button>
+    </div>
+  );
+}

@@ -1,0 +1,49 @@
+// Stands before every step that moves a servo: says why it may not move now, and brings a servo that nobody knows the place of
+// to its middle, slowly and only when told to.
+
+import type { ReactNode } from 'react';
+import type { Robot, RobotServo } from '#shared/actions/robot.ts';
+import { reachOf } from '#shared/actions/robotEdits.ts';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { motionHindrance } from '../stores/readiness.ts';
+import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../words/en.ts';
+
+export interface MotionGateProps {
+  readonly robot: Robot;
+  readonly servo: RobotServo;
+  readonly children: ReactNode;
+}
+
+export function MotionGate({ robot, servo, children }: MotionGateProps) {
+  const { device } = useStores();
+  const hindrance = useSnapshot(motionHindrance);
+  const isKnown = useDevice(({ targets }) => targets[servo.servo] !== undefined);
+  if (hindrance === 'latched') {
+    return (
+      <>
+        <p>{words.calibration.stopped}</p>
+        <Button tone="primary" onPress={device.resume}>
+          {words.stop.resume}
+        </Button>
+      </>
+    );
+  }
+  if (hindrance !== null) return <p>{words.servos.blocked[hindrance]}</p>;
+  if (isKnown) return children;
+  return (
+    <>
+      <p>{words.calibration.unknown}</p>
+      <Button tone="primary" onPress={() => device.creep(middleOf(robot, servo), GENTLE_MOVE_MS)}>
+        {words.calibration.goHome}
+      </Button>
+    </>
+  );
+}
+
+function middleOf(robot: Robot, servo: RobotServo): number {
+  const { min, max } = reachOf(robot, servo);
+  return Math.min(max, Math.max(min, FAMILIES[robot.board].centre - servo.trim));
+}

@@ -1,0 +1,36 @@
+// Offers the servo on the other side the mirror image of what was set.
+
+import { flawOf, servoOf } from '#shared/actions/robot.ts';
+import { changeServo, fromPartner } from '#shared/actions/robotEdits.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../words/en.ts';
+import type { CalibrationAtHand } from './useCalibration.ts';
+import styles from './CalibrationWizard.module.css';
+
+export function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly at: CalibrationAtHand }) {
+  const partner = servo.mirror === null ? undefined : servoOf(robot, servo.mirror);
+  if (partner === undefined) return null;
+  const change = fromPartner(robot, servo);
+  const { min, home, max } = { ...partner, ...change };
+  const fits = flawOf(changeServo(robot, partner.servo, change)) === null;
+  return (
+    <>
+      <p>{words.calibration.partner(partner.name)}</p>
+      <p className={styles.figures}>
+        {fits ? words.calibration.partnerFigures(min, home, max) : words.calibration.partnerNot}
+      </p>
+      <div className={styles.actions}>
+        <Button
+          tone="primary"
+          isDisabled={!fits}
+          onPress={() => accept((all) => changeServo(all, partner.servo, change), partner.servo)}
+        >
+          {words.calibration.takeOver(partner.name)}
+        </Button>
+        <Button tone="quiet" onPress={keep}>
+          {words.calibration.leaveAsIs}
+        </Button>
+      </div>
+    </>
+  );
+}

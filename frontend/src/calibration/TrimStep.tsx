@@ -1,0 +1,35 @@
+// Gives home the figure that it has on every robot of this build, and the trim what it is off by.
+
+import { changeServo, homeAtCentre } from '#shared/actions/robotEdits.ts';
+import type { Robot, RobotServo } from '#shared/actions/robot.ts';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../words/en.ts';
+import type { CalibrationAtHand } from './useCalibration.ts';
+import styles from './CalibrationWizard.module.css';
+
+export function TrimStep({ at: { robot, servo, accept, keep } }: { readonly at: CalibrationAtHand }) {
+  const { centre } = FAMILIES[robot.board];
+  const change = servo.home === centre ? null : homeAtCentre(robot, servo);
+  return (
+    <>
+      <p>{sentence(robot, servo, change)}</p>
+      <div className={styles.actions}>
+        {change !== null && (
+          <Button tone="primary" onPress={() => accept((all) => changeServo(all, servo.servo, change))}>
+            {words.calibration.trimSet(centre)}
+          </Button>
+        )}
+        <Button tone={change === null ? 'primary' : 'quiet'} onPress={keep}>
+          {change === null ? words.calibration.goOn : words.calibration.leaveAsIs}
+        </Button>
+      </div>
+    </>
+  );
+}
+
+function sentence({ board }: Robot, { home }: RobotServo, change: Partial<RobotServo> | null): string {
+  const { centre } = FAMILIES[board];
+  if (home === centre) return words.calibration.trimNone;
+  return change === null ? words.calibration.trimFar : words.calibration.trim(home, centre, change.trim ?? 0);
+}

@@ -1,0 +1,55 @@
+// Robot files come in by choosing or dropping them. One that cannot be read changes nothing and says why.
+
+import { useState } from 'react';
+import { FileTrigger } from 'react-aria-components/FileTrigger';
+import { robotFromText } from '#shared/actions/robotText.ts';
+import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../words/en.ts';
+import styles from './RobotList.module.css';
+
+export function ImportRobot({ connected }: { readonly connected: FamilyId | null }) {
+  const { robots } = useStores();
+  const [outcomes, setOutcomes] = useState<readonly string[]>([]);
+
+  async function take(files: readonly File[]): Promise<void> {
+    const read = await Promise.all(files.map(async (file) => ({ file: file.name, text: await file.text() })));
+    setOutcomes(read.map(({ file, text }) => imported(file, text)));
+  }
+
+  function imported(file: string, text: string): string {
+    const found = robotFromText(text);
+    if ('problem' in found) return words.robots.notImported(file, found.problem);
+    const { name, board } = found.robot;
+    robots.add(words.robots.steps.import, found.robot);
+    return connected === null || board === connected
+      ? words.robots.imported(name)
+      : words.robots.importedElsewhere(name, FAMILIES[board].name);
+  }
+
+  return (
+    <div
+      className={styles.import}
+      onDragOver={(event) => event.preventDefault()}
+      onDrop={(event) => {
+        event.preventDefault();
+        void take([...event.dataTransfer.files]);
+      }}
+    >
+      <FileTrigger
+        acceptedFileTypes={['.json', 'application/json']}
+        allowsMultiple
+        onSelect={(files) => void take([...(files ?? [])])}
+      >
+        <Button icon="upload">{words.robots.import}</Button>
+      </FileTrigger>
+      <span className={styles.dim}>{words.robots.importHint}</span>
+      <ul className={styles.outcomes} aria-live="polite">
+        {outcomes.map((outcome) => (
+          <li key={outcome}>{outcome}</li>
+        ))}
+      </ul>
+    </div>
+  );
+}

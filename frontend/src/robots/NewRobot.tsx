@@ -1,0 +1,39 @@
+// The ready robots that can be built on a board, each with its picture. Adding one takes it up.
+
+import { Button } from 'react-aria-components/Button';
+import { READY_ROBOTS, type ReadyRobotId } from '#shared/actions/readyRobots.ts';
+import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { freshRobot } from '../stores/robots.ts';
+import { useStores } from '../stores/stores.ts';
+import { words } from '../words/en.ts';
+import { RobotPicture } from './RobotPicture.tsx';
+import styles from './RobotList.module.css';
+
+export function NewRobot({ board }: { readonly board: FamilyId }) {
+  const { robots } = useStores();
+  return (
+    <section aria-labelledby="new-robot">
+      <h3 id="new-robot">{words.robots.fresh}</h3>
+      <p className={styles.dim}>{words.robots.freshHint(FAMILIES[board].name)}</p>
+      <ul className={styles.ready}>
+        {fitting(board).map((id) => (
+          <li key={id}>
+            <Button
+              className={styles.card ?? ''}
+              aria-label={words.robots.add(words.robots.ready[id])}
+              onPress={() => robots.add(words.robots.steps.add, freshRobot(id, board))}
+            >
+              <RobotPicture robot={freshRobot(id, board)} />
+              {words.robots.ready[id]}
+            </Button>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+function fitting(board: FamilyId): readonly ReadyRobotId[] {
+  const ids = Object.keys(READY_ROBOTS) as ReadyRobotId[];
+  return ids.filter((id) => (READY_ROBOTS[id].boards as readonly FamilyId[]).includes(board));
+}

@@ -1,0 +1,30 @@
+// A servo's limits within what its board can do, and its home between them.
+
+import type { RobotServo } from '#shared/actions/robot.ts';
+import type { Range } from '#shared/protocol/families.ts';
+import type { PositionUnit } from '../words/numbers.ts';
+import { words } from '../words/en.ts';
+import styles from './ReachBar.module.css';
+
+export interface ReachBarProps {
+  readonly servo: Pick<RobotServo, 'min' | 'max' | 'home'>;
+  readonly reach: Range;
+  readonly unit: PositionUnit;
+}
+
+export function ReachBar({ servo: { min, max, home }, reach, unit }: ReachBarProps) {
+  const share = (at: number): number => ((at - reach.min) / (reach.max - reach.min)) * 100;
+  return (
+    <svg
+      className={styles.bar}
+      viewBox="0 0 100 8"
+      preserveAspectRatio="none"
+      role="img"
+      aria-label={words.robotEditor.reach(reach.min, reach.max, unit)}
+    >
+      <rect className={styles.reach} x={0} y={3} width={100} height={2} />
+      <rect className={styles.allowed} x={share(min)} y={2} width={share(max) - share(min)} height={4} />
+      <path className={styles.home} d={`M${share(home)} 0V8`} />
+    </svg>
+  );
+}

@@ -1,0 +1,19 @@
+// The way back to all robots, and undo: above the description and above the calibration.
+
+import { useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../words/en.ts';
+import { UndoTools } from './UndoTools.tsx';
+import styles from './RobotEditor.module.css';
+
+export function RobotHead() {
+  const { view } = useStores();
+  return (
+    <div className={styles.head}>
+      <Button tone="quiet" icon="earlier" onPress={() => view.setState({ robotView: 'list' })}>
+        {words.robots.back}
+      </Button>
+      <UndoTools />
+    </div>
+  );
+}

@@ -1,0 +1,85 @@
+// The robots a person has, those of the connected board first, the ready ones to begin with, and files. What is done here is
+// taken back by Undo above.
+
+import { useStore } from 'zustand';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { currentOf, type OwnRobot } from '../stores/robots.ts';
+import { useDevice, useStores } from '../stores/stores.ts';
+import { Button, IconButton } from '../ui/Button.tsx';
+import { Chip } from '../ui/Chip.tsx';
+import { words } from '../words/en.ts';
+import { ImportRobot } from './ImportRobot.tsx';
+import { NewRobot } from './NewRobot.tsx';
+import { RobotPicture } from './RobotPicture.tsx';
+import { RobotTools } from './RobotTools.tsx';
+import { UndoTools } from './UndoTools.tsx';
+import styles from './RobotList.module.css';
+
+export function RobotList() {
+  const { robots } = useStores();
+  const { own, currentId } = useStore(robots.store, ({ present }) => present);
+  const current = currentOf({ own, currentId, nextId: 0 });
+  const connected = useDevice(({ snapshot: { family } }) => (family.id === 'unknown' ? null : family.id));
+  const others = own.filter((one) => one !== current);
+  const fits = ({ robot: { board } }: OwnRobot): boolean => connected === null || board === connected;
+  const isLast = others.length === 0;
+  return (
+    <>
+      <section aria-labelledby="own-robots">
+        <div className={styles.heading}>
+          <h3 id="own-robots">{words.robots.own}</h3>
+          <UndoTools />
+        </div>
+        <ul className={styles.own}>
+          <li className={styles.current}>
+            <Described {...current} />
+            <Chip truth="confirmed">{words.robots.atHand}</Chip>
+            <RobotTools {...current} isLast={isLast} />
+          </li>
+          {others
+            .toSorted((one, other) => Number(fits(other)) - Number(fits(one)))
+            .map((one) => (
+              <Other key={one.id} {...one} fits={fits(one)} />
+            ))}
+        </ul>
+      </section>
+      <NewRobot board={connected ?? current.robot.board} />
+      <ImportRobot connected={connected} />
+    </>
+  );
+}
+
+function Described({ robot }: OwnRobot) {
+  return (
+    <div className={styles.described}>
+      <RobotPicture robot={robot} />
+      <div className={styles.words}>
+        <span className={styles.name}>{robot.name}</span>
+        <span className={styles.dim}>
+          {FAMILIES[robot.board].name} · {words.robots.count(robot.servos.length)}
+        </span>
+      </div>
+    </div>
+  );
+}
+
+function Other({ id, robot, fits }: OwnRobot & { readonly fits: boolean }) {
+  const { robots } = useStores();
+  return (
+    <li className={styles.other}>
+      <Described id={id} robot={robot} />
+      {fits ? (
+        <Button aria-label={words.robots.use(robot.name)} onPress={() => robots.takeUp(id)}>
+          {words.robots.useVerb}
+        </Button>
+      ) : (
+        <span className={styles.dim}>{words.robots.otherBoard(FAMILIES[robot.board].name)}</span>
+      )}
+      <IconButton
+        icon="trash"
+        label={words.robots.removeNamed(robot.name)}
+        onPress={() => robots.remove(id)}
+      />
+    </li>
+  );
+}
