@@ -4,6 +4,7 @@
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { dashboardOf } from '../fixtures/dashboard.ts';
+import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import { expect, test } from '../fixtures/test.ts';
 
 const SIZES = [
@@ -47,6 +48,23 @@ async function expectSoundEverywhere(look: Look, state: string): Promise<void> {
   }
 }
 
+async function expectRobotsSound(look: Look): Promise<void> {
+  const robots = robotDialogOf(dashboardOf(look.page));
+  await robots.opener.click();
+  await expectSound(look, 'robots');
+  await robots.button('Edit').click();
+  await robots.cell('Lowest', 'Elbow').fill('2600');
+  await robots.cell('Lowest', 'Elbow').press('Enter');
+  await expectSound(look, 'servos of a robot');
+  await robots.button('All robots').click();
+  await robots.button('Calibrate').click();
+  await expectSound(look, 'calibration');
+  await robots.button('Direction').click();
+  await expectSound(look, 'direction');
+  await robots.button('Close').click();
+  await expect(robots.dialog).toBeHidden();
+}
+
 for (const colorScheme of ['light', 'dark'] as const) {
   for (const viewport of SIZES) {
     test.describe(`${viewport.width} px, ${colorScheme}`, () => {
@@ -58,6 +76,8 @@ for (const colorScheme of ['light', 'dark'] as const) {
         await page.goto((await servers.files()).url);
         await expect(dashboard.link).toContainText('Ready');
         await expectSoundEverywhere(look, 'ready');
+
+        await expectRobotsSound(look);
 
         await page.keyboard.press('Escape');
         await expect(dashboard.resume).toBeVisible();

@@ -28,8 +28,10 @@ export function CellField(props: CellFieldProps) {
 
   function key(event: KeyboardEvent<HTMLInputElement>): void {
     if (event.key === 'Enter') {
-      leave();
-      neighbourOf(event.currentTarget, event.shiftKey ? -1 : 1)?.focus();
+      // Leaving the field takes it; at the end of the column there is nowhere to go.
+      const neighbour = neighbourOf(event.currentTarget, event.shiftKey ? -1 : 1);
+      if (neighbour === undefined) leave();
+      else neighbour.focus();
     }
     // What is being typed has the browser's own undo.
     if (draft !== null && undoActionOf(event) !== null) event.stopPropagation();

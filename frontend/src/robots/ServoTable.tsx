@@ -51,7 +51,8 @@ function ServoLine({ servo, titles }: ServoLineProps) {
     robots.edit(words.robotEditor.step(what, servo.name), edit);
 
   function take(column: Column, text: string): boolean {
-    const edited = column.edit(robot, servo, text);
+    const isSame = text === column.show(servo);
+    const edited = isSame ? { robot } : column.edit(robot, servo, text);
     const problem = problemOf(edited);
     setProblems(({ [column.id]: _, ...others }) =>
       problem === null ? others : { ...others, [column.id]: problem },

@@ -69,6 +69,8 @@ describe('what is wrong with a robot', () => {
   test.each([
     ['', 'this is no robot file of Servodeck'],
     ['[]', 'this is no robot file of Servodeck'],
+    ['{}', 'this is no robot file of Servodeck'],
+    ['{"format":"servodeck-group","version":1}', 'this is no robot file of Servodeck'],
     [robotToText(withServo({ min: 1.5 })), /^robot\.servos\.3\.min: /],
     [robotToText({ ...ARM, name: ' ' }), /^robot\.name: /],
     [robotToText(ARM).replace('"version": 1', '"version": 2'), /^version: /],

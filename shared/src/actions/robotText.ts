@@ -41,6 +41,6 @@ function jsonIn(text: string): unknown {
 }
 
 function problemOf(error: z.core.$ZodError): string {
-  const isOther = error.issues[0]?.path.length === 0;
-  return isOther ? 'this is no robot file of Servodeck' : shapeProblem(error);
+  const [field = 'format'] = error.issues[0]?.path ?? [];
+  return field === 'format' ? 'this is no robot file of Servodeck' : shapeProblem(error);
 }

@@ -1,0 +1,49 @@
+// One robot, two screens with a description of it each: the limits told last hold for both, and only the screen that
+// calibrates a servo may pass them.
+
+import type { Browser } from '@playwright/test';
+import { lastTarget } from '../fixtures/bus.ts';
+import { dashboardOf, type Dashboard } from '../fixtures/dashboard.ts';
+import { robotDialogOf } from '../fixtures/robotDialog.ts';
+import type { Robot } from '../fixtures/robot.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+
+/** Of another person: nothing of the first one's browser is in it. */
+async function otherScreen(browser: Browser, robot: Robot): Promise<Dashboard> {
+  const page = await (await browser.newContext()).newPage();
+  const dashboard = dashboardOf(page);
+  await robot.open(page);
+  await expect(dashboard.link).toHaveText(/^Ready/);
+  return dashboard;
+}
+
+test('limits set on one screen hold on the other, while it calibrates too', async ({
+  dashboard,
+  robot,
+  browser,
+}) => {
+  const other = await otherScreen(browser, robot);
+  const robots = robotDialogOf(dashboard);
+  await robots.opener.click();
+  await robots.button('Edit').click();
+  await robots.cell('Lowest', 'Elbow').fill('1000');
+  await robots.cell('Lowest', 'Elbow').press('Enter');
+
+  await other.type(other.target(4), 900);
+  await expect(other.notices).toContainText('Elbow (servo 4): position is 900, allowed 1000..2500');
+  await other.type(other.target(4), 1010);
+  await poll(() => lastTarget(robot.bus, 4)).toBe(1010);
+
+  await robots.button('All robots').click();
+  await robots.button('Calibrate').click();
+  await robots.button(/^Elbow, /).click();
+  await robots.button('Go slowly to the middle').click();
+  await poll(() => lastTarget(robot.bus, 4)).toBe(1500);
+  await expect(robots.dialog.getByText('≈ 1500')).toBeVisible();
+  await robots.creepUntil('lower', () =>
+    poll(async () => (await lastTarget(robot.bus, 4)) ?? 9999).toBeLessThan(980),
+  );
+  await other.type(other.target(4), 950);
+  await expect(other.notices).toContainText('position is 950');
+  await other.page.context().close();
+});
