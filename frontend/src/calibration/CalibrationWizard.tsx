@@ -1,7 +1,7 @@
 // Calibration, a servo at a time: its ends and its home are crept to, its direction is looked at, its mirror filled in, its trim
 // worked out. It can be left anywhere: what was set is in the robot, and the place is kept.
 
-import { useEffect, useRef, type RefObject } from 'react';
+import { useEffect, useId, useRef, type RefObject } from 'react';
 import type { CalibrationStep } from '#shared/actions/robotCalibration.ts';
 import { isDone, isServoDone, stepsOf } from '#shared/actions/robotCalibration.ts';
 import { RobotHead } from '../robots/RobotHead.tsx';
@@ -22,15 +22,16 @@ export function CalibrationWizard() {
   const at = useCalibration();
   const wizard = useRef<HTMLDivElement>(null);
   const title = useRef<HTMLHeadingElement>(null);
+  const titleId = useId();
   useFocusKept(wizard, title, `${at.servo.servo} ${at.progress.step}`);
   return (
     <>
       <RobotHead />
       <div ref={wizard} className={styles.wizard}>
         <Servos at={at} />
-        <section className={styles.work} aria-labelledby="calibrated-servo">
-          <h3 ref={title} id="calibrated-servo" className={styles.title} tabIndex={-1}>
-            {at.servo.name}
+        <section className={styles.work} aria-labelledby={titleId}>
+          <h3 ref={title} id={titleId} className={styles.title} tabIndex={-1}>
+            {words.robots.called(at.servo)}
           </h3>
           <Steps at={at} />
           <div key={`${at.servo.servo} ${at.progress.step}`} className={styles.step}>
@@ -96,12 +97,15 @@ function Servos({ at: { robot, servo, progress, go } }: At) {
             <button
               type="button"
               className={cx(styles.servo, one === servo && styles.selected)}
-              aria-label={words.calibration.servo(one.name, doneCount, steps.length)}
+              aria-label={words.calibration.servo(words.robots.called(one), doneCount, steps.length)}
               aria-current={one === servo ? 'step' : undefined}
               onClick={() => go(one.servo, steps.find((step) => !isDone(progress, one.servo, step)) ?? 'min')}
             >
               <Mark truth={doneCount === steps.length ? 'confirmed' : 'neutral'} />
-              <span>{one.name}</span>
+              <span className={styles.called}>
+                {one.name}
+                <span className={styles.dim}>{one.group}</span>
+              </span>
             </button>
           </li>
         );

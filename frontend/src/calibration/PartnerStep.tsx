@@ -15,7 +15,7 @@ export function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly a
   const fits = flawOf(changeServo(robot, partner.servo, change)) === null;
   return (
     <>
-      <p>{words.calibration.partner(partner.name)}</p>
+      <p>{words.calibration.partner(words.robots.called(partner))}</p>
       <p className={styles.figures}>
         {fits ? words.calibration.partnerFigures(min, home, max) : words.calibration.partnerNot}
       </p>
@@ -25,7 +25,7 @@ export function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly a
           isDisabled={!fits}
           onPress={() => accept((all) => changeServo(all, partner.servo, change), partner.servo)}
         >
-          {words.calibration.takeOver(partner.name)}
+          {words.calibration.takeOver(words.robots.called(partner))}
         </Button>
         <Button tone="quiet" onPress={keep}>
           {words.calibration.leaveAsIs}

@@ -54,7 +54,7 @@ export function useCalibration(): CalibrationAtHand {
         setProblem(words.robots.flaw(flaw));
         return;
       }
-      robots.edit(words.calibration.stepLabel(stepName, servo.name), edit);
+      robots.edit(words.calibration.stepLabel(stepName, words.robots.called(servo)), edit);
       put(partner === undefined ? stepDone(robot, begun) : partnerDone(robot, begun, partner));
     },
     keep: () => put(stepDone(robot, begun)),

@@ -5,6 +5,7 @@ import { useState } from 'react';
 import { insertFrame } from '#shared/actions/edits.ts';
 import { gaugeOf, type Reading } from '#shared/actions/batteryGauge.ts';
 import { fedBy } from '#shared/actions/batterySupply.ts';
+import { INITIAL_STATE } from '#shared/session/store.ts';
 import { FAMILIES, UNKNOWN_BOARD, type Family } from '#shared/protocol/families.ts';
 import { ActionsPanel } from '../actions/ActionsPanel.tsx';
 import { BatteryPanel } from '../battery/BatteryPanel.tsx';
@@ -23,6 +24,7 @@ import { StoresContext, type Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
+import { RobotSpecimens } from './RobotSpecimens.tsx';
 import { RawSpecimens } from './RawSpecimens.tsx';
 import { frozenSession } from './frozen.ts';
 import { motionsOf, SPECIMENS, type BatteryFeed, type Specimen } from './specimens.ts';
@@ -31,6 +33,7 @@ import styles from './Gallery.module.css';
 
 export function Gallery() {
   const wanted = new URLSearchParams(location.search).get('state');
+  const [blank] = useState(() => storesOf(BLANK));
   const shown = SPECIMENS.filter((specimen) => wanted === null || specimen.name === wanted);
   return (
     <main className={styles.gallery}>
@@ -42,8 +45,13 @@ export function Gallery() {
           </a>
         ))}
       </nav>
-      {wanted === null && <ConnectSpecimens />}
-      {wanted === null && <RawSpecimens />}
+      {wanted === null && (
+        <StoresContext value={blank}>
+          <ConnectSpecimens />
+          <RawSpecimens />
+          <RobotSpecimens newStores={() => storesOf(BLANK)} />
+        </StoresContext>
+      )}
       {shown.map((specimen) => (
         <Shown key={specimen.name} specimen={specimen} />
       ))}
@@ -77,6 +85,8 @@ function Shown({ specimen }: { readonly specimen: Specimen }) {
   );
 }
 
+/** As before anything is connected. */
+const BLANK: Specimen = { name: '', way: null, state: INITIAL_STATE, pose: 'unknown', frames: 0 };
 const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined };
 
 function storesOf(specimen: Specimen): Stores {

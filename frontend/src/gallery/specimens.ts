@@ -277,7 +277,10 @@ export const SPECIMENS: readonly Specimen[] = [
 ];
 
 /** Positions of the specimen's servos, spread over the range so that every row differs. */
-export function motionsOf({ pose, board = 'doc' }: Specimen): Readonly<Record<number, ServoMotion>> {
+export function motionsOf({
+  pose,
+  board = 'doc',
+}: Pick<Specimen, 'pose' | 'board'>): Readonly<Record<number, ServoMotion>> {
   if (pose === 'unknown') return {};
   const { position, usualServoCount } = FAMILIES[board];
   const at = (share: number): number => Math.round(position.min + share * (position.max - position.min));

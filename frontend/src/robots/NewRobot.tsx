@@ -1,5 +1,6 @@
 // The ready robots that can be built on a board, each with its picture. Adding one takes it up.
 
+import { useId } from 'react';
 import { Button } from 'react-aria-components/Button';
 import { READY_ROBOTS, type ReadyRobotId } from '#shared/actions/readyRobots.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
@@ -11,9 +12,10 @@ import styles from './RobotList.module.css';
 
 export function NewRobot({ board }: { readonly board: FamilyId }) {
   const { robots } = useStores();
+  const headingId = useId();
   return (
-    <section aria-labelledby="new-robot">
-      <h3 id="new-robot">{words.robots.fresh}</h3>
+    <section aria-labelledby={headingId}>
+      <h3 id={headingId}>{words.robots.fresh}</h3>
       <p className={styles.dim}>{words.robots.freshHint(FAMILIES[board].name)}</p>
       <ul className={styles.ready}>
         {fitting(board).map((id) => (

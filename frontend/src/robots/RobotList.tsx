@@ -1,6 +1,7 @@
 // The robots a person has, those of the connected board first, the ready ones to begin with, and files. What is done here is
 // taken back by Undo above.
 
+import { useId } from 'react';
 import { useStore } from 'zustand';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { currentOf, type OwnRobot } from '../stores/robots.ts';
@@ -20,14 +21,15 @@ export function RobotList() {
   const { own, currentId } = useStore(robots.store, ({ present }) => present);
   const current = currentOf({ own, currentId, nextId: 0 });
   const connected = useDevice(({ snapshot: { family } }) => (family.id === 'unknown' ? null : family.id));
+  const headingId = useId();
   const others = own.filter((one) => one !== current);
   const fits = ({ robot: { board } }: OwnRobot): boolean => connected === null || board === connected;
   const isLast = others.length === 0;
   return (
     <>
-      <section aria-labelledby="own-robots">
+      <section aria-labelledby={headingId}>
         <div className={styles.heading}>
-          <h3 id="own-robots">{words.robots.own}</h3>
+          <h3 id={headingId}>{words.robots.own}</h3>
           <UndoTools />
         </div>
         <ul className={styles.own}>

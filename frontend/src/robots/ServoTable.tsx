@@ -44,11 +44,12 @@ interface ServoLineProps {
 function ServoLine({ servo, titles }: ServoLineProps) {
   const robot = useRobot();
   const { robots } = useStores();
+  const called = words.robots.called(servo);
   const [problems, setProblems] = useState<Partial<Record<ColumnId, string>>>({});
   const problemId = useId();
 
   const change = (what: string, edit: (robot: Robot) => Robot): boolean =>
-    robots.edit(words.robotEditor.step(what, servo.name), edit);
+    robots.edit(words.robotEditor.step(what, called), edit);
 
   function take(column: Column, text: string): boolean {
     const isSame = text === column.show(servo);
@@ -61,12 +62,12 @@ function ServoLine({ servo, titles }: ServoLineProps) {
   }
 
   return (
-    <li className={styles.line} aria-label={words.robotEditor.row(servo.servo, servo.name)}>
+    <li className={styles.line} aria-label={words.robotEditor.row(servo.servo, called)}>
       {COLUMNS.map((column) => (
         <label key={column.id} className={styles.cell} data-cell={column.id}>
           <span className={styles.title}>{titles[column.id]}</span>
           <CellField
-            label={words.robotEditor.cell(titles[column.id], servo.name)}
+            label={words.robotEditor.cell(titles[column.id], called)}
             value={column.show(servo)}
             isNumber={column.isNumber}
             column={column.id}
@@ -79,7 +80,7 @@ function ServoLine({ servo, titles }: ServoLineProps) {
         <span className={styles.title}>{words.robotEditor.reversed}</span>
         <input
           type="checkbox"
-          aria-label={words.robotEditor.cell(words.robotEditor.reversed, servo.name)}
+          aria-label={words.robotEditor.cell(words.robotEditor.reversed, called)}
           checked={servo.isReversed}
           onChange={(event) => {
             const isReversed = event.target.checked;
@@ -87,7 +88,7 @@ function ServoLine({ servo, titles }: ServoLineProps) {
           }}
         />
       </label>
-      <label className={styles.cell}>
+      <label className={styles.cell} data-cell="mirror">
         <span className={styles.title}>{words.robotEditor.mirror}</span>
         <Mirror
           servo={servo}
@@ -97,10 +98,10 @@ function ServoLine({ servo, titles }: ServoLineProps) {
       </label>
       <IconButton
         icon="trash"
-        label={words.robotEditor.remove(servo.name)}
+        label={words.robotEditor.remove(called)}
         isDisabled={robot.servos.length === 1}
         onPress={() =>
-          robots.edit(words.robotEditor.removeStep(servo.name), (all) => removeServo(all, servo.servo))
+          robots.edit(words.robotEditor.removeStep(called), (all) => removeServo(all, servo.servo))
         }
       />
       <ReachBar servo={servo} reach={reachOf(robot, servo)} unit={FAMILIES[robot.board].unit} />
@@ -123,11 +124,11 @@ interface MirrorProps {
   onChange(partner: number | null): void;
 }
 
-function Mirror({ servo: { servo, name, mirror }, others, onChange }: MirrorProps) {
+function Mirror({ servo: { servo, name, group, mirror }, others, onChange }: MirrorProps) {
   return (
     <select
       className={styles.input}
-      aria-label={words.robotEditor.cell(words.robotEditor.mirror, name)}
+      aria-label={words.robotEditor.cell(words.robotEditor.mirror, words.robots.called({ name, group }))}
       value={mirror ?? ''}
       onChange={({ target: { value } }) => onChange(value === '' ? null : Number(value))}
     >
@@ -136,7 +137,7 @@ function Mirror({ servo: { servo, name, mirror }, others, onChange }: MirrorProp
         .filter((other) => other.servo !== servo)
         .map((other) => (
           <option key={other.servo} value={other.servo}>
-            {words.robotEditor.row(other.servo, other.name)}
+            {words.robotEditor.row(other.servo, words.robots.called(other))}
           </option>
         ))}
     </select>

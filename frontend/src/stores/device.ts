@@ -134,7 +134,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     const refused = refusedTarget(robot(), targets);
     if (refused === null) return onBoard(robot(), targets);
     const { servo, position } = refused;
-    notices.tell('warning', words.refused(servo.name, position, servo.min, servo.max));
+    notices.tell('warning', words.refused(words.robots.called(servo), position, servo.min, servo.max));
     return null;
   }
 

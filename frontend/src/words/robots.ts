@@ -65,6 +65,9 @@ export const robotWords = {
     add: 'new robot',
     import: 'import robot',
   },
+  /** Both knees of a body are called Knee. */
+  called: ({ name, group }: { readonly name: string; readonly group: string }): string =>
+    group === '' ? name : `${name}, ${group}`,
   title: 'Robots',
   button: (name: string): string => `Robot: ${name}`,
   own: 'Yours',
