@@ -15,11 +15,11 @@ test('a slider stepped by key moves the servo, slowly at first, and the estimate
 }) => {
   await expect(dashboard.estimate(3)).toBeHidden();
   await dashboard.slider(3).press('ArrowRight');
-  await expect(dashboard.slider(3)).toHaveAttribute('aria-valuetext', '1510 µs');
-  await poll(() => lastTarget(robot.bus, 3)).toBe(1510);
+  await expect(dashboard.slider(3)).toHaveAttribute('aria-valuetext', '1501 µs');
+  await poll(() => lastTarget(robot.bus, 3)).toBe(1501);
   const [first] = ofKind(await robot.bus(), 'move');
   expect(first?.durationMs).toBeGreaterThanOrEqual(1500);
-  await expect(dashboard.estimate(3)).toHaveText('≈ 1510');
+  await expect(dashboard.estimate(3)).toHaveText('≈ 1501');
 });
 
 test('a dragged slider takes the servo along to where it is let go', async ({ dashboard, robot }) => {
@@ -36,7 +36,7 @@ test('a number typed is where the servo goes; one out of range is refused with t
   robot,
 }) => {
   await dashboard.type(dashboard.target(2), 2600);
-  await expect(dashboard.notices).toContainText('Servo 2: 2600 is out of range; it takes 500 to 2500.');
+  await expect(dashboard.notices).toContainText('Wrist roll: 2600 is out of range; it takes 500 to 2500.');
   await expect(dashboard.target(2)).toHaveValue('');
   await dashboard.type(dashboard.target(2), 2500);
   await poll(() => lastTarget(robot.bus, 2)).toBe(2500);
@@ -46,11 +46,11 @@ test('a number typed is where the servo goes; one out of range is refused with t
 
 test('in a set time the move takes that time', async ({ dashboard, robot, page }) => {
   await dashboard.slider(4).press('ArrowLeft');
-  await expect(dashboard.estimate(4)).toHaveText('≈ 1490');
+  await expect(dashboard.estimate(4)).toHaveText('≈ 1499');
   await page.getByRole('radio', { name: 'In a set time' }).check();
   await dashboard.type(dashboard.field('Move time in milliseconds'), 700);
   await dashboard.slider(4).press('Shift+ArrowRight');
-  await poll(() => lastTarget(robot.bus, 4)).toBe(1590);
+  await poll(() => lastTarget(robot.bus, 4)).toBe(1509);
   expect(ofKind(await robot.bus(), 'move').at(-1)?.durationMs).toBe(700);
 });
 

@@ -3,7 +3,8 @@
 
 import { useRef } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
-import { useDevice, useRobot, useStores, useView } from '../stores/stores.ts';
+import { select } from '../stores/servoView.ts';
+import { editServoView, useDevice, useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { words } from '../words/en.ts';
@@ -32,17 +33,17 @@ export function Body() {
 
 /** A robot whose body nobody described: its dials, large enough to read across the room. */
 function Dials() {
-  const { view } = useStores();
+  const stores = useStores();
   const family = useDevice((state) => state.family);
-  const selected = useView((state) => state.selectedServo);
+  const selected = useServoView((view) => view.selected);
   const { servos } = useRobot();
   return (
     <ol className={styles.dials}>
       {servos.map(({ servo }) => (
         <li
           key={servo}
-          className={cx(styles.dial, servo === selected && styles.selected)}
-          onPointerDown={() => view.setState({ selectedServo: servo })}
+          className={cx(styles.dial, selected.includes(servo) && styles.selected)}
+          onPointerDown={() => editServoView(stores, (view) => select(view, [servo]))}
         >
           <Dial servo={servo} family={family} />
           {formatWhole(servo)}

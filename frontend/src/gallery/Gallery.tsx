@@ -20,7 +20,7 @@ import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import { createNotices } from '../stores/notices.ts';
 import { createRobots, type RobotStore } from '../stores/robots.ts';
-import { StoresContext, type Stores } from '../stores/stores.ts';
+import { editServoView, StoresContext, type Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
@@ -95,6 +95,7 @@ function storesOf(specimen: Specimen): Stores {
   const robots = createRobots(NO_STORAGE, notices);
   const device = createDevice({ family, clock: pageClock, notices, robots });
   const battery = createBattery(device, robots);
+  if (specimen.robot !== undefined) robots.add('', specimen.robot.robot);
   const motions = motionsOf(specimen);
   if (specimen.way !== null) device.attach(frozenSession(family, specimen.state, motions), specimen.way);
   device.refreshTargets();
@@ -107,7 +108,8 @@ function storesOf(specimen: Specimen): Stores {
     );
   }
   const view = createView(NO_STORAGE);
-  view.setState({ selectedFrame: specimen.selectedFrame ?? null });
+  view.setState({ selectedFrame: specimen.selectedFrame ?? null, ...specimen.robot?.view });
+  editServoView({ view, robots }, (servos) => ({ ...servos, ...specimen.robot?.servos }));
   const boards = createBoards(NO_STORAGE);
   if (specimen.way !== null && specimen.nickname !== undefined) {
     boards.remember(specimen.way, specimen.board ?? 'doc');

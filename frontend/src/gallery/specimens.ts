@@ -7,8 +7,11 @@ import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { Way } from '../stores/device.ts';
 import { identityFrom, type Evidence } from '#shared/session/identity.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
+import { SERVO_SPECIMENS, type ServoSpecimen } from './servoSpecimens.ts';
 
 export interface Specimen {
+  /** Another robot than the usual one of the board. */
+  readonly robot?: ServoSpecimen;
   readonly name: string;
   readonly board?: FamilyId;
   /** Nobody has said which board it is. */
@@ -205,6 +208,10 @@ export const SPECIMENS: readonly Specimen[] = [
   { name: 'Broken slot', way: USB, state: { ...READY, brokenSlots: [0] }, pose: 'still', frames: 3 },
   { name: 'Stored slot', way: USB, state: { ...READY, storedSlots: [0] }, pose: 'still', frames: 3 },
   { name: 'Sixteen servos', board: 'lsc-16', way: USB, state: READY, pose: 'moving', frames: 2 },
+  ...SERVO_SPECIMENS.map((specimen): Specimen => ({
+    ...{ way: USB, state: READY, pose: 'moving', frames: 3 },
+    ...specimen,
+  })),
   { name: 'Old uHand', board: 'openarm-old', way: USB, state: NO_BATTERY, pose: 'still', frames: 3 },
   { name: 'LeArm', board: 'learm-esp32', way: USB, state: NO_BATTERY, pose: 'still', frames: 2 },
   {

@@ -1,21 +1,37 @@
-// The marks of a position in words, once, where they are used most.
+// The marks of a position in words, once, where they are used most, and the unit positions are shown in.
 
 import { tellsPositions } from '../stores/readiness.ts';
-import { useDevice } from '../stores/stores.ts';
+import { useDevice, useStores, useView } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
+import { Choice } from '../ui/Toggle.tsx';
 import { words } from '../words/en.ts';
+import { unitSymbol } from '../words/numbers.ts';
 import styles from './Legend.module.css';
 
 export function Legend() {
+  const { view } = useStores();
   const isTelling = useDevice((state) => tellsPositions(state.family));
+  const unit = useDevice((state) => state.family.unit);
+  const positionsIn = useView((state) => state.positionsIn);
   return (
-    <ul className={styles.legend} aria-label={words.truth.legend}>
-      {(isTelling ? ALL : COMPUTED).map((truth) => (
-        <li key={truth}>
-          <Chip truth={truth}>{words.truth[truth]}</Chip>
-        </li>
-      ))}
-    </ul>
+    <div className={styles.line}>
+      <ul className={styles.legend} aria-label={words.truth.legend}>
+        {(isTelling ? ALL : COMPUTED).map((truth) => (
+          <li key={truth}>
+            <Chip truth={truth}>{words.truth[truth]}</Chip>
+          </li>
+        ))}
+      </ul>
+      <Choice
+        label={words.servoPanel.positionsIn}
+        value={positionsIn}
+        options={[
+          { value: 'board', label: unitSymbol(unit) },
+          { value: 'degrees', label: words.servoPanel.degrees },
+        ]}
+        onChange={(wanted) => view.setState({ positionsIn: wanted })}
+      />
+    </div>
   );
 }
 

@@ -5,6 +5,7 @@ import { useDevice, useStores, useView } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Choice } from '../ui/Toggle.tsx';
 import { words } from '../words/en.ts';
+import { SendRate } from './SendRate.tsx';
 import styles from './MoveTimeControl.module.css';
 
 const USUAL_MS = 1000;
@@ -23,6 +24,7 @@ export function MoveTimeControl() {
     <div className={styles.control}>
       <span className={styles.label} aria-hidden="true">
         {words.servos.moveTime}
+        <SendRate />
       </span>
       <Choice
         label={words.servos.moveTime}

@@ -1,25 +1,36 @@
-// A native range input over a scale with two marks: the thumb is the target, the bar below it the estimate. The input is
-// uncontrolled so that a finger on it is never pushed about by what the session says meanwhile.
+// A native range input between the servo's limits, on a track as wide as the board allows, with two marks: the thumb is the
+// target, the bar below it the estimate. The input is uncontrolled so that a finger on it is never pushed about by what
+// the session says meanwhile.
 
-import { useEffect, useRef, type KeyboardEvent, type RefObject } from 'react';
+import { useEffect, useRef, type CSSProperties, type KeyboardEvent, type RefObject } from 'react';
 import { fraction } from '../body/pose.ts';
 import { useMotion } from '../body/useMotion.ts';
 import type { RobotServo } from '#shared/actions/robot.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { Family, Range } from '#shared/protocol/families.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/en.ts';
-import { positionStep } from './positionStep.ts';
+import { stepped, type Scale } from './scale.ts';
 import styles from './PositionSlider.module.css';
 
 export interface PositionSliderProps {
   readonly servo: RobotServo;
   readonly family: Family;
+  readonly scale: Scale;
   readonly target: number | null;
   readonly blocked: boolean;
   onMove(position: number): void;
+  onHome(): void;
 }
 
-export function PositionSlider({ servo, family, target, blocked, onMove }: PositionSliderProps) {
+export function PositionSlider({
+  servo,
+  family,
+  scale,
+  target,
+  blocked,
+  onMove,
+  onHome,
+}: PositionSliderProps) {
   const input = useRef<HTMLInputElement>(null);
   const held = useRef(false);
   const { min, max, home } = servo;
@@ -36,24 +47,23 @@ export function PositionSlider({ servo, family, target, blocked, onMove }: Posit
   }
 
   function stepByKey(event: KeyboardEvent<HTMLInputElement>): void {
-    const change = keyStep(event, positionStep(family));
+    const change = keyStep(event, scale);
     if (change === 0) return;
     event.preventDefault();
-    if (!blocked) onMove(Math.min(max, Math.max(min, shown + change)));
+    if (!blocked) onMove(stepped(scale, shown, change));
   }
 
   return (
     <div className={cx(styles.slider, blocked && styles.blocked, target === null && styles.unknown)}>
-      <div className={styles.track} aria-hidden="true" />
-      <EstimateMark servo={servo} />
+      <Track servo={servo} range={family.position} scale={scale} />
+      <EstimateMark servo={servo.servo} range={family.position} />
       <input
         ref={input}
         type="range"
         className={styles.input}
+        style={between(servo, family.position)}
         aria-label={words.servos.position(servo.servo)}
-        aria-valuetext={
-          target === null ? words.servos.unknownValue : words.servos.valueText(target, family.unit)
-        }
+        aria-valuetext={target === null ? words.servos.unknownValue : scale.text(target)}
         aria-disabled={blocked}
         min={min}
         max={max}
@@ -61,6 +71,7 @@ export function PositionSlider({ servo, family, target, blocked, onMove }: Posit
         defaultValue={shown}
         onInput={(event) => moved(event.currentTarget)}
         onKeyDown={stepByKey}
+        onDoubleClick={() => blocked || onHome()}
         onPointerDown={() => (held.current = true)}
         onPointerUp={() => release(held, input.current, shown)}
         onPointerCancel={() => release(held, input.current, shown)}
@@ -74,25 +85,60 @@ function release(held: RefObject<boolean>, input: HTMLInputElement | null, shown
   if (input !== null) input.value = String(shown);
 }
 
-function EstimateMark({ servo }: { readonly servo: RobotServo }) {
+/** The way between the limits; beyond them hatched, with the limits in figures. */
+function Track({ servo, range, scale }: { servo: RobotServo; range: Range; scale: Scale }) {
+  const isNarrow = servo.min > range.min || servo.max < range.max;
+  return (
+    <div
+      className={cx(styles.lane, isNarrow && styles.narrow)}
+      style={between(servo, range)}
+      aria-hidden="true"
+    >
+      <div className={styles.track} />
+      <div className={styles.home} style={{ insetInlineStart: percent(fraction(servo.home, servo)) }} />
+      {isNarrow && (
+        <>
+          <span className={styles.lowest}>{scale.digits(servo.min)}</span>
+          <span className={styles.highest}>{scale.digits(servo.max)}</span>
+        </>
+      )}
+    </div>
+  );
+}
+
+function EstimateMark({ servo, range }: { readonly servo: number; readonly range: Range }) {
   const mark = useRef<HTMLDivElement>(null);
-  useMotion(servo.servo, ({ estimated }) => {
+  useMotion(servo, ({ estimated }) => {
     if (mark.current === null) return;
     mark.current.hidden = estimated === null;
-    if (estimated !== null)
-      mark.current.style.translate = `${(fraction(estimated, servo) * 100).toFixed(2)}% 0`;
+    if (estimated !== null) mark.current.style.translate = `${percent(fraction(estimated, range))} 0`;
   });
   return (
-    <div className={styles.lane} aria-hidden="true">
+    <div className={styles.whole} aria-hidden="true">
       <div ref={mark} className={styles.estimate} hidden />
     </div>
   );
 }
 
-/** Arrows step by `step`, with Shift ten times as far, with Alt by one; Page keys ten steps. */
-function keyStep({ key, shiftKey, altKey }: KeyboardEvent, step: number): number {
-  const direction =
-    { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1, PageUp: 10, PageDown: -10 }[key] ?? 0;
-  if (altKey) return Math.sign(direction);
-  return direction * step * (shiftKey ? 10 : 1);
+/** From where to where the limits lie on the track, as shares of it. */
+const between = ({ min, max }: Range, range: Range): CSSProperties => ({
+  ['--from' as string]: Math.max(0, fraction(min, range)).toFixed(4),
+  ['--to' as string]: Math.min(1, fraction(max, range)).toFixed(4),
+});
+
+const percent = (share: number): string => `${(share * 100).toFixed(2)}%`;
+
+/** Arrows by one, with Shift by ten; right and up are the right end of the slider. */
+function keyStep({ key, shiftKey }: KeyboardEvent, { page, direction }: Scale): number {
+  const arrow = shiftKey ? 10 : 1;
+  const towards =
+    {
+      ArrowUp: arrow,
+      ArrowRight: arrow,
+      ArrowDown: -arrow,
+      ArrowLeft: -arrow,
+      PageUp: page,
+      PageDown: -page,
+    }[key] ?? 0;
+  return towards * direction;
 }

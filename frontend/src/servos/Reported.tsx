@@ -5,11 +5,12 @@ import { useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/en.ts';
+import type { Scale } from './scale.ts';
 import styles from './Reported.module.css';
 
 const AGE_REFRESH_MS = 1000;
 
-export function Reported({ servo }: { readonly servo: number }) {
+export function Reported({ servo, scale }: { readonly servo: number; readonly scale: Scale }) {
   const { device } = useStores();
   const robot = useRobot();
   const reading = useSnapshot((snapshot) => snapshot.reported[servo]);
@@ -17,7 +18,7 @@ export function Reported({ servo }: { readonly servo: number }) {
   if (reading === undefined) return null;
   return (
     <>
-      <Chip truth="confirmed">{words.servos.reported(fromBoard(robot, servo, reading.position))}</Chip>
+      <Chip truth="confirmed">{scale.digits(fromBoard(robot, servo, reading.position))}</Chip>
       <span className={styles.age}>{words.servos.age(nowMs - reading.atMs)}</span>
     </>
   );

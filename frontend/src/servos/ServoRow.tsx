@@ -1,60 +1,88 @@
 // One servo: dial, name, slider, value. The target comes from the row's own number in the device store; the estimate is
 // drawn once a frame past React, so that a moving servo costs nothing elsewhere.
 
-import { memo } from 'react';
+import { memo, useRef } from 'react';
 import type { RobotServo } from '#shared/actions/robot.ts';
-import { Dial } from '../body/Dial.tsx';
 import { motionHindrance, tellsPositions } from '../stores/readiness.ts';
-import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { isHeld } from '../stores/servoView.ts';
+import { useDevice, useServoView, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { words } from '../words/en.ts';
 import { Estimate } from './Estimate.tsx';
 import { PositionSlider } from './PositionSlider.tsx';
-import { positionStep } from './positionStep.ts';
 import { Reported } from './Reported.tsx';
+import { scaleOf, stepped } from './scale.ts';
+import { ServoName } from './ServoName.tsx';
+import { useHand } from './useHand.ts';
+import { useWheelSteps } from './useWheelSteps.ts';
 import styles from './ServoRow.module.css';
 
-export const ServoRow = memo(function ServoRow({ servo: own }: { readonly servo: RobotServo }) {
-  const { servo, name: joint, min, max } = own;
-  const { device, view, notices } = useStores();
-  const family = useDevice((state) => state.family);
-  const target = useDevice((state) => state.targets[servo] ?? null);
-  const moveTime = useView((state) => state.moveTime);
-  const isSelected = useView((state) => state.selectedServo === servo);
-  const blocked = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
-  const isTelling = tellsPositions(family);
-  const name = words.servos.name(servo);
-  const move = (position: number): void => device.move([{ servo, position }], moveTime);
+export interface ServoRowProps {
+  readonly servo: RobotServo;
+  /** All servos of the list from top to bottom, for selecting a stretch of it. */
+  readonly order: readonly number[];
+}
 
+export const ServoRow = memo(function ServoRow({ servo: own, order }: ServoRowProps) {
+  const { servo } = own;
+  const isSelected = useServoView(({ selected }) => selected.includes(servo));
   return (
-    <li
-      className={cx(styles.row, isTelling && styles.telling, isSelected && styles.selected)}
-      onFocus={() => view.setState({ selectedServo: servo })}
-    >
-      <Dial servo={servo} family={family} />
-      <span className={styles.name}>
-        {name}
-        <span className={styles.joint}>{joint === name ? '' : joint}</span>
-      </span>
-      <PositionSlider servo={own} family={family} target={target} blocked={blocked} onMove={move} />
-      <NumberField
-        label={words.servos.target(servo)}
-        size="large"
-        value={target}
-        min={min}
-        max={max}
-        step={positionStep(family)}
-        unit={words.servos.unit(family.unit)}
-        placeholder={words.servos.unknown}
-        isReadOnly={blocked}
-        onChange={move}
-        onRefused={(value) => notices.tell('warning', words.refused(name, value, min, max))}
-      />
-      <div className={styles.readings}>
-        <Estimate servo={servo} />
-        {isTelling && <Reported servo={servo} />}
-      </div>
+    <li className={cx(styles.row, isSelected && styles.selected)}>
+      <ServoName servo={own} order={order} />
+      <ServoControls servo={own} />
     </li>
   );
 });
+
+export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
+  const { servo } = own;
+  const { notices } = useStores();
+  const hand = useHand();
+  const family = useDevice((state) => state.family);
+  const target = useDevice((state) => state.targets[servo] ?? null);
+  const scale = scaleOf(
+    own,
+    family,
+    useView((state) => state.positionsIn),
+  );
+  const cannotMove = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
+  const isLocked = useServoView((view) => isHeld(view, servo));
+  const isTelling = tellsPositions(family);
+  const blocked = cannotMove || isLocked;
+  const move = (position: number): void => hand.move(servo, position);
+
+  const area = useRef<HTMLDivElement>(null);
+  useWheelSteps(area, (change, isFar) => {
+    if (!blocked) move(stepped(scale, target ?? own.home, change * (isFar ? 10 : 1)));
+  });
+
+  return (
+    <div ref={area} className={cx(styles.controls, isTelling && styles.telling)}>
+      <PositionSlider
+        {...{ servo: own, family, scale, target, blocked }}
+        onMove={move}
+        onHome={() => hand.home([servo])}
+      />
+      <NumberField
+        label={words.servos.target(servo)}
+        size="large"
+        value={target === null ? null : scale.shown(target)}
+        {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals }}
+        placeholder={words.servos.unknown}
+        isReadOnly={blocked}
+        onChange={(shown) => move(scale.position(shown))}
+        onRefused={(shown) => notices.tell('warning', refusal(own, shown, scale))}
+      />
+      <div className={styles.readings}>
+        <Estimate servo={servo} scale={scale} />
+        {isTelling && <Reported servo={servo} scale={scale} />}
+      </div>
+    </div>
+  );
+}
+
+function refusal({ servo, name }: RobotServo, shown: number, { min, max, unit }: ReturnType<typeof scaleOf>) {
+  const text = (value: number): string => (unit === '°' ? `${value}°` : `${value}`);
+  return words.servoPanel.refused(name || words.servos.name(servo), text(shown), text(min), text(max));
+}

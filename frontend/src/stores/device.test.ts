@@ -43,6 +43,17 @@ describe('a device with a session', () => {
     }
   });
 
+  test('counts the servos whose newest target has not left yet', async () => {
+    const { device, draw } = await createDesk();
+    device.move(
+      [1, 2].map((servo) => ({ servo, position: 1600 })),
+      300,
+    );
+    expect(device.waiting()).toBe(2);
+    await draw(200);
+    expect(device.waiting()).toBe(0);
+  });
+
   test('knows nothing of a servo that nobody moved', async () => {
     const { device, state } = await createDesk();
     expect(state().targets).toEqual({});

@@ -51,6 +51,8 @@ export interface Device {
   guardRuns(mayBegin: RunGuard): void;
   /** Takes the session's targets over; to be called while the page is drawn, once a frame. */
   refreshTargets(): void;
+  /** Servos whose newest target has not left yet. */
+  waiting(): number;
   move(targets: readonly ServoTarget[], time: MoveTime): void;
   /** This servo's limits are looked for: `creep` moves it, past the present ones too. null: no longer. */
   calibrate(servo: number | null): void;
@@ -256,6 +258,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     isAtRest,
     guardRuns: (guard) => (mayBegin = guard),
     refreshTargets,
+    waiting: book.waiting,
     move(targets, time) {
       if (session !== null && allowed(targets) !== null) send(targets, time);
     },

@@ -11,6 +11,7 @@ import type { Device, DeviceState } from './device.ts';
 import type { Document, DocumentState } from './document.ts';
 import { currentOf, type RobotStore } from './robots.ts';
 import type { Notices } from './notices.ts';
+import { servoViewFor, type ServoView } from './servoView.ts';
 import type { View, ViewState } from './view.ts';
 
 export interface Stores {
@@ -58,4 +59,22 @@ export function useBattery<T>(select: (state: BatteryState) => T): T {
 
 export function useView<T>(select: (state: ViewState) => T): T {
   return useStore(useStores().view, select);
+}
+
+/** How the servos of the robot at hand are shown. */
+export function useServoView<T>(select: (view: ServoView) => T): T {
+  const robotId = useStore(useStores().robots.store, ({ present }) => currentOf(present).id);
+  return useView(({ servos }) => select(servoViewFor(servos, robotId)));
+}
+
+export function servoViewOf({ view, robots }: Pick<Stores, 'view' | 'robots'>): ServoView {
+  return servoViewFor(view.getState().servos, robots.current().id);
+}
+
+export function editServoView(
+  stores: Pick<Stores, 'view' | 'robots'>,
+  change: (view: ServoView) => ServoView,
+): void {
+  const { id } = stores.robots.current();
+  stores.view.setState({ servos: { ...change(servoViewOf(stores)), robotId: id } });
 }

@@ -10,6 +10,8 @@ export type Targets = Readonly<Record<number, number>>;
 export interface TargetBook {
   wish(targets: readonly ServoTarget[]): void;
   clear(): void;
+  /** How many servos were asked for something, at the last reading, that has not left yet. */
+  waiting(): number;
   /** Targets of these servos; the very same object where nothing changed. */
   read(servos: readonly number[], motion: (servo: number) => ServoMotion, before: Targets): Targets;
 }
@@ -33,6 +35,7 @@ export function createTargetBook(clock: Clock): TargetBook {
       for (const { servo, position } of targets) wishes.set(servo, { position, untilMs });
     },
     clear: () => wishes.clear(),
+    waiting: () => wishes.size,
     read(servos, motion, before) {
       const next: Record<number, number> = {};
       for (const servo of servos) {

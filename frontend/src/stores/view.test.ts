@@ -17,6 +17,12 @@ test('the theme is remembered, other words in its place are not taken', () => {
   expect(createView(storageWith('<script>')).getState().theme).toBe('system');
 });
 
+test('so are the unit of positions and how servos are laid out', () => {
+  const storage = storageWith(null);
+  createView(storage).setState({ positionsIn: 'degrees', servoLayout: 'body' });
+  expect(createView(storage).getState()).toMatchObject({ positionsIn: 'degrees', servoLayout: 'body' });
+});
+
 test('what else is open or selected begins anew', () => {
   const storage = storageWith(null);
   createView(storage).setState({ tab: 'log', slot: 7 });

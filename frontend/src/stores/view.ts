@@ -1,13 +1,18 @@
-// What is selected, open and set on this screen: neither the robot's state nor the document's. The theme is
-// remembered. Knows no link.
+// What is selected, open and set on this screen: neither the robot's state nor the document's. How things look is
+// remembered, nothing else. Knows no link.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Calibration } from '#shared/actions/robotCalibration.ts';
 import type { TextStorage } from './document.ts';
 import type { MoveTime } from './moveTime.ts';
+import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
 
 export type Tab = 'live' | 'actions' | 'board' | 'log';
 export type Theme = 'system' | 'light' | 'dark';
+/** `board`: the units of the board, microseconds or steps. */
+export type PositionsIn = 'board' | 'degrees';
+/** Servos one below the other, or where they sit on the body. */
+export type ServoLayout = 'list' | 'body';
 export type LogKind = 'move' | 'group' | 'battery' | 'link' | 'noise';
 
 export interface ViewState {
@@ -21,7 +26,9 @@ export interface ViewState {
   readonly logOpen: boolean;
   readonly logKinds: readonly LogKind[];
   readonly selectedFrame: number | null;
-  readonly selectedServo: number | null;
+  readonly servos: ServoView;
+  readonly positionsIn: PositionsIn;
+  readonly servoLayout: ServoLayout;
   /** The frame to play from, as an index: where the last playing was paused. */
   readonly playFrom: number;
   readonly moveTime: MoveTime;
@@ -34,8 +41,15 @@ export interface ViewState {
 
 export type View = StoreApi<ViewState>;
 
-const KEY = 'servodeck.view';
-const THEMES: readonly string[] = ['system', 'light', 'dark'] satisfies Theme[];
+/** Where each remembered choice is stored, and what it may be. */
+const REMEMBERED = {
+  theme: { key: 'servodeck.view', values: ['system', 'light', 'dark'] },
+  positionsIn: { key: 'servodeck.positionsIn', values: ['board', 'degrees'] },
+  servoLayout: { key: 'servodeck.servoLayout', values: ['list', 'body'] },
+} as const satisfies { readonly [K in keyof ViewState]?: { key: string; values: readonly ViewState[K][] } };
+
+type Remembered = keyof typeof REMEMBERED;
+const NAMES = Object.keys(REMEMBERED) as Remembered[];
 
 export const INITIAL_VIEW: ViewState = {
   tab: 'live',
@@ -46,7 +60,9 @@ export const INITIAL_VIEW: ViewState = {
   logOpen: false,
   logKinds: ['move', 'group', 'battery', 'link', 'noise'],
   selectedFrame: null,
-  selectedServo: null,
+  servos: INITIAL_SERVO_VIEW,
+  positionsIn: 'board',
+  servoLayout: 'list',
   playFrom: 0,
   moveTime: 'hand',
   slot: 0,
@@ -56,25 +72,28 @@ export const INITIAL_VIEW: ViewState = {
 };
 
 export function createView(storage: TextStorage): View {
-  const view = createStore<ViewState>(() => ({ ...INITIAL_VIEW, theme: loadTheme(storage) }));
-  view.subscribe(({ theme }, before) => {
-    if (theme !== before.theme) saveTheme(storage, theme);
+  const view = createStore<ViewState>(() => ({ ...INITIAL_VIEW, ...load(storage) }));
+  view.subscribe((state, before) => {
+    for (const name of NAMES) if (state[name] !== before[name]) save(storage, name, state[name]);
   });
   return view;
 }
 
-function loadTheme(storage: TextStorage): Theme {
+function load(storage: TextStorage): Partial<ViewState> {
   try {
-    const theme = storage.getItem(KEY);
-    return theme !== null && THEMES.includes(theme) ? (theme as Theme) : 'system';
+    const known = NAMES.map((name) => [name, storage.getItem(REMEMBERED[name].key)] as const);
+    return Object.fromEntries(known.filter(([name, text]) => isOneOf(REMEMBERED[name].values, text)));
   } catch {
-    return 'system';
+    return {};
   }
 }
 
-function saveTheme(storage: TextStorage, theme: Theme): void {
+const isOneOf = (values: readonly string[], text: string | null): boolean =>
+  text !== null && values.includes(text);
+
+function save(storage: TextStorage, name: Remembered, text: string): void {
   try {
-    storage.setItem(KEY, theme);
+    storage.setItem(REMEMBERED[name].key, text);
   } catch {
     // Storage is forbidden here: the choice lasts as long as the page, and that is all it is worth.
   }

@@ -13,6 +13,7 @@ export interface NumberFieldProps {
   readonly min: number;
   readonly max: number;
   readonly step?: number;
+  readonly decimals?: 0 | 1;
   readonly unit?: string;
   readonly placeholder?: string;
   readonly size?: 'plain' | 'large' | 'small';
@@ -57,7 +58,7 @@ export function NumberField(props: NumberFieldProps) {
         isReadOnly={isReadOnly}
         isWheelDisabled
         commitBehavior="validate"
-        formatOptions={PLAIN_DIGITS}
+        formatOptions={DIGITS[props.decimals ?? 0] ?? {}}
       >
         <Input
           className={styles.input ?? ''}
@@ -74,7 +75,12 @@ export function NumberField(props: NumberFieldProps) {
   );
 }
 
-const PLAIN_DIGITS: Intl.NumberFormatOptions = { useGrouping: false, maximumFractionDigits: 0 };
+/** By decimals. */
+const DIGITS = [0, 1].map((digits): Intl.NumberFormatOptions => ({
+  useGrouping: false,
+  minimumFractionDigits: digits,
+  maximumFractionDigits: digits,
+}));
 
 /** How far the key steps, 0 for other keys. */
 export function stepOf(event: Pick<KeyboardEvent, 'key' | 'shiftKey' | 'altKey'>, step: number): number {

@@ -7,7 +7,6 @@ import {
   formatCount,
   formatList,
   formatMs,
-  formatPosition,
   formatSeconds,
   formatWhole,
   unitSymbol,
@@ -19,6 +18,7 @@ import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { robotEditorWords } from './robotEditor.ts';
 import { robotWords } from './robots.ts';
+import { servoPanelWords } from './servoPanel.ts';
 import { timesWords } from './packets.ts';
 
 export const words = {
@@ -63,6 +63,7 @@ export const words = {
   robots: robotWords,
   robotEditor: robotEditorWords,
   calibration: calibrationWords,
+  servoPanel: servoPanelWords,
 
   stop: {
     button: 'Stop',
@@ -142,17 +143,13 @@ export const words = {
     name: (servo: number): string => `Servo ${formatWhole(servo)}`,
     position: (servo: number): string => `Servo ${formatWhole(servo)} position`,
     target: (servo: number): string => `Servo ${formatWhole(servo)} target`,
-    valueText: (position: number, unit: PositionUnit): string => formatPosition(position, unit),
     unknownValue: 'Unknown; the first move may be slow',
     unknown: '?',
-    estimated: (position: number): string => `≈ ${formatWhole(position)}`,
-    unit: (unit: PositionUnit): string => unitSymbol(unit),
     moveTime: 'Move time',
     hand: 'As fast as my hand',
     timed: 'In a set time',
     moveTimeField: 'Move time in milliseconds',
     ms: 'ms',
-    reported: (position: number): string => formatWhole(position),
     age: (ms: number): string => formatAge(ms),
     readPositions: 'Read positions',
     readHint: 'Asks the board where its servos stand. Moves nothing.',
@@ -163,7 +160,7 @@ export const words = {
     releaseConfirm: 'Release every servo',
     releaseKeep: 'Keep holding',
     centre: 'Centre all',
-    centreHint: 'Moves every servo slowly to the middle',
+    centreHint: 'Moves every servo that is not locked slowly to its home',
     blocked: {
       closed: 'No link to a robot.',
       identifying: 'The board is being asked who it is.',

@@ -2,6 +2,15 @@
 
 const language = 'en';
 const whole = new Intl.NumberFormat(language, { useGrouping: false });
+const degrees = [0, 1].map(
+  (digits) =>
+    new Intl.NumberFormat(language, {
+      useGrouping: false,
+      minimumFractionDigits: digits,
+      maximumFractionDigits: digits,
+      signDisplay: 'negative',
+    }),
+);
 const volts = new Intl.NumberFormat(language, { minimumFractionDigits: 2, maximumFractionDigits: 2 });
 const tickVolts = new Intl.NumberFormat(language, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
 const timeOfDay = new Intl.DateTimeFormat(language, { hour: '2-digit', minute: '2-digit', hourCycle: 'h23' });
@@ -30,6 +39,8 @@ export const formatList = (values: readonly number[]): string => list.format(val
 export const unitSymbol = (unit: PositionUnit): string => (unit === 'us' ? 'µs' : 'steps');
 export const formatPosition = (position: number, unit: PositionUnit): string =>
   `${whole.format(position)} ${unitSymbol(unit)}`;
+export const formatDegrees = (value: number, decimals: 0 | 1): string =>
+  `${degrees[decimals]?.format(value)}°`;
 /** Volts are no unit of Intl's list, so the symbol is written here. */
 export const formatVolts = (millivolts: number): string => `${volts.format(millivolts / 1000)}\u00a0V`;
 /** On an axis: volts without their symbol. */

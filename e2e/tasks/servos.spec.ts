@@ -1,0 +1,80 @@
+// The servo panel beyond one slider: servos that move together, degrees, the wheel, locking and hiding.
+
+import { lastTarget, ofKind } from '../fixtures/bus.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+
+test('servos selected together turn together, the other way when mirrored @everyWay', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  await dashboard.servoName(3).click();
+  await dashboard.servoName(5).click({ modifiers: ['ControlOrMeta'] });
+  await page.getByRole('radio', { name: 'Mirrored' }).check();
+  await dashboard.type(dashboard.target(3), 1700);
+  await poll(() => lastTarget(robot.bus, 5)).toBe(1300);
+  const moves = ofKind(await robot.bus(), 'move');
+  expect(moves.map(({ targets }) => targets.length)).toEqual([2]);
+
+  await dashboard.button('Unbind all').click();
+  await dashboard.type(dashboard.target(3), 1600);
+  await poll(() => lastTarget(robot.bus, 3)).toBe(1600);
+  expect(await lastTarget(robot.bus, 5)).toBe(1300);
+});
+
+test('weighted, each turns by its share, and all stop where the first meets its limit', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  await dashboard.servoName(1).click();
+  await dashboard.servoName(2).click({ modifiers: ['Shift'] });
+  await page.getByRole('radio', { name: 'Weighted' }).check();
+  await dashboard.type(dashboard.field('Share of servo 2 in percent'), 200);
+  await dashboard.type(dashboard.target(1), 2300);
+  await poll(() => lastTarget(robot.bus, 2)).toBe(2500);
+  expect(await lastTarget(robot.bus, 1)).toBe(2000);
+});
+
+test('positions are shown and typed in degrees from home', async ({ dashboard, robot, page }) => {
+  await page.getByRole('group', { name: 'Positions in' }).getByRole('radio', { name: '°' }).check();
+  await dashboard.type(dashboard.target(4), 45);
+  await poll(() => lastTarget(robot.bus, 4)).toBe(2000);
+  await expect(dashboard.slider(4)).toHaveAttribute('aria-valuetext', '45.0°');
+  await dashboard.type(dashboard.target(4), 91);
+  await expect(dashboard.notices).toContainText('Elbow: 91° is out of range; it takes -90° to 90°.');
+});
+
+test('the wheel steps what has the focus and nothing else; a double click sends home', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  await dashboard.slider(2).hover();
+  await page.mouse.wheel(0, -120);
+  await dashboard.slider(2).focus();
+  await page.mouse.wheel(0, -120);
+  await poll(() => lastTarget(robot.bus, 2)).toBe(1501);
+  await dashboard.type(dashboard.target(2), 1800);
+  await poll(() => lastTarget(robot.bus, 2)).toBe(1800);
+  await dashboard.slider(2).dblclick();
+  await poll(() => lastTarget(robot.bus, 2)).toBe(1500);
+});
+
+test('a locked servo stays, a hidden one is out of sight and can be brought back', async ({
+  dashboard,
+  robot,
+}) => {
+  await dashboard.servoName(6).click();
+  await dashboard.button('Lock').click();
+  await expect(dashboard.slider(6)).toHaveAttribute('aria-disabled', 'true');
+  await dashboard.button('Centre all').click();
+  await poll(async () => ofKind(await robot.bus(), 'move')).toHaveLength(1);
+  const [move] = ofKind(await robot.bus(), 'move');
+  expect(move?.targets.map(({ servo }) => servo)).toEqual([1, 2, 3, 4, 5]);
+
+  await dashboard.button('Hide').click();
+  await expect(dashboard.slider(6)).toBeHidden();
+  await dashboard.button('Show 1 hidden').click();
+  await expect(dashboard.slider(6)).toBeVisible();
+});

@@ -1,0 +1,53 @@
+// The servo panel with robots of each body, and with servos selected, locked and described otherwise.
+
+import type { Robot } from '#shared/actions/robot.ts';
+import type { FamilyId } from '#shared/protocol/families.ts';
+import { freshRobot } from '../stores/robots.ts';
+import type { ServoView } from '../stores/servoView.ts';
+import type { ViewState } from '../stores/view.ts';
+
+export interface ServoSpecimen {
+  readonly robot: Robot;
+  readonly servos?: Partial<ServoView>;
+  readonly view?: Partial<ViewState>;
+}
+
+/** With limits, another home and a servo that turns the other way. */
+function describedArm(): Robot {
+  const arm = freshRobot('arm', 'doc');
+  return {
+    ...arm,
+    servos: arm.servos.map((servo) =>
+      servo.servo % 2 === 0 ? { ...servo, min: 800, max: 2200, home: 1400, isReversed: true } : servo,
+    ),
+  };
+}
+
+interface Named {
+  readonly name: string;
+  readonly board?: FamilyId;
+  readonly robot: ServoSpecimen;
+}
+
+export const SERVO_SPECIMENS: readonly Named[] = [
+  { name: 'Limits, degrees', robot: { robot: describedArm(), view: { positionsIn: 'degrees' } } },
+  {
+    name: 'Together, weighted',
+    robot: {
+      robot: describedArm(),
+      servos: { selected: [3, 4], locked: [6], hidden: [1], together: 'weighted', weights: { 4: -50 } },
+    },
+  },
+  ...(['hand', 'humanoid18', 'hexapod18'] as const).map((id): Named => {
+    const board: FamilyId = id === 'hand' ? 'doc' : 'lsc-24';
+    return { name: `List of ${id}`, board, robot: { robot: freshRobot(id, board) } };
+  }),
+  ...(['arm', 'hand', 'humanoid18', 'hexapod18', 'plain16'] as const).map((id): Named => {
+    const board: FamilyId = id === 'arm' || id === 'hand' ? 'doc' : 'lsc-24';
+    return {
+      name: `Body of ${id}`,
+      board,
+      robot: { robot: freshRobot(id, board), servos: { selected: [3] }, view: { servoLayout: 'body' } },
+    };
+  }),
+];

@@ -1,0 +1,159 @@
+// What is selected, how it moves together, and what can be done with it. Keeps its height when nothing is.
+
+import { motionHindrance } from '../stores/readiness.ts';
+import { isHeld, select, toggled, TOGETHER, type ServoView } from '../stores/servoView.ts';
+import { editServoView, useRobot, useServoView, useSnapshot, useStores } from '../stores/stores.ts';
+import { Button, IconButton } from '../ui/Button.tsx';
+import { NumberField } from '../ui/NumberField.tsx';
+import { Choice } from '../ui/Toggle.tsx';
+import { words } from '../words/en.ts';
+import { useHand } from './useHand.ts';
+import styles from './SelectionBar.module.css';
+
+/** A servo may turn up to twice as far as the others, to either side. */
+const MOST_PERCENT = 200;
+
+export function SelectionBar() {
+  const selected = useServoView((view) => view.selected);
+  const isWeighted = useServoView((view) => view.together === 'weighted');
+  return (
+    <div className={styles.bar} role="group" aria-label={words.servoPanel.selection}>
+      {selected.length === 0 ? <NothingSelected /> : <Selected selected={selected} />}
+      {selected.length > 1 && isWeighted && <Weights selected={selected} />}
+    </div>
+  );
+}
+
+function NothingSelected() {
+  const stores = useStores();
+  const { servos } = useRobot();
+  const hidden = useServoView((view) => view.hidden);
+  const isSomeHeld = useServoView(({ locked, solo }) => locked.length + solo.length > 0);
+  const edit = (change: Partial<ServoView>): void =>
+    editServoView(stores, (view) => ({ ...view, ...change }));
+  const shown = servos.map(({ servo }) => servo).filter((servo) => !hidden.includes(servo));
+  return (
+    <div className={styles.line}>
+      <Button tone="quiet" onPress={() => editServoView(stores, (view) => select(view, shown))}>
+        {words.servoPanel.selectAll}
+      </Button>
+      {isSomeHeld && (
+        <Button tone="quiet" icon="lock" onPress={() => edit({ locked: [], solo: [] })}>
+          {words.servoPanel.unlockAll}
+        </Button>
+      )}
+      {hidden.length > 0 && (
+        <Button tone="quiet" onPress={() => edit({ hidden: [] })}>
+          {words.servoPanel.showHidden(hidden.length)}
+        </Button>
+      )}
+      {!isSomeHeld && hidden.length === 0 && (
+        <span className={styles.hint}>{words.servoPanel.selectHint}</span>
+      )}
+    </div>
+  );
+}
+
+interface SelectedProps {
+  readonly selected: readonly number[];
+}
+
+function Selected({ selected }: SelectedProps) {
+  const stores = useStores();
+  const hand = useHand();
+  const cannotMove = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
+  const together = useServoView((view) => view.together);
+  const isLocked = useServoView((view) => selected.every((servo) => isHeld(view, servo)));
+  const edit = (change: (view: ServoView) => ServoView): void => editServoView(stores, change);
+  const isGang = selected.length > 1;
+  return (
+    <div className={styles.line}>
+      <Button tone="quiet" icon="close" onPress={() => edit((view) => select(view, []))}>
+        {isGang ? words.servoPanel.unbind : words.servoPanel.clear}
+      </Button>
+      {isGang ? (
+        <Choice
+          label={words.servoPanel.together}
+          value={together}
+          options={WAYS}
+          onChange={(way) => edit((view) => ({ ...view, together: way, gang: null }))}
+        />
+      ) : (
+        <span className={styles.hint}>{words.servoPanel.selected(selected)}</span>
+      )}
+      <span className={styles.acts}>
+        <IconButton
+          icon="home"
+          label={words.servoPanel.home}
+          isDisabled={cannotMove}
+          onPress={() => hand.home(selected)}
+        />
+        <IconButton
+          icon="lock"
+          label={isLocked ? words.servoPanel.unlock : words.servoPanel.lock}
+          onPress={() => edit((view) => (isLocked ? unlocked(view, selected) : locked(view, selected)))}
+        />
+        <IconButton
+          icon="solo"
+          label={words.servoPanel.solo}
+          onPress={() => edit((view) => ({ ...view, solo: selected, locked: [] }))}
+        />
+        <IconButton
+          icon="hide"
+          label={words.servoPanel.hide}
+          onPress={() => edit((view) => select({ ...view, hidden: toggled(view.hidden, selected) }, []))}
+        />
+      </span>
+    </div>
+  );
+}
+
+const locked = (view: ServoView, servos: readonly number[]): ServoView => ({
+  ...view,
+  locked: [...new Set([...view.locked, ...servos])],
+  solo: view.solo.filter((one) => !servos.includes(one)),
+});
+
+const unlocked = (view: ServoView, servos: readonly number[]): ServoView => ({
+  ...view,
+  locked: view.locked.filter((one) => !servos.includes(one)),
+  solo: view.solo.length === 0 ? [] : [...new Set([...view.solo, ...servos])],
+});
+
+const WAYS = TOGETHER.map((value) => ({ value, label: words.servoPanel.ways[value] }));
+
+function Weights({ selected }: SelectedProps) {
+  const stores = useStores();
+  const { notices } = stores;
+  const weights = useServoView((view) => view.weights);
+  const set = (servo: number, percent: number): void =>
+    editServoView(stores, (view) => ({
+      ...view,
+      weights: { ...view.weights, [servo]: percent },
+      gang: null,
+    }));
+  return (
+    <ul className={styles.weights}>
+      {selected.map((servo) => (
+        <li key={servo} className={styles.weight}>
+          <span aria-hidden="true">{words.servos.name(servo)}</span>
+          <NumberField
+            label={words.servoPanel.weight(servo)}
+            size="small"
+            value={weights[servo] ?? 100}
+            min={-MOST_PERCENT}
+            max={MOST_PERCENT}
+            unit={words.servoPanel.percent}
+            onChange={(percent) => set(servo, percent)}
+            onRefused={(value) =>
+              notices.tell(
+                'warning',
+                words.refused(words.servoPanel.weight(servo), value, -MOST_PERCENT, MOST_PERCENT),
+              )
+            }
+          />
+        </li>
+      ))}
+    </ul>
+  );
+}

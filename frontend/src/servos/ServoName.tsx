@@ -1,0 +1,54 @@
+// A servo's dial and name as one button that selects it: alone, with Ctrl or by touch beside the others, with Shift up to it.
+
+import type { MouseEvent } from 'react';
+import type { RobotServo } from '#shared/actions/robot.ts';
+import { Dial } from '../body/Dial.tsx';
+import { isHeld, selectByClick, type SelectHow } from '../stores/servoView.ts';
+import { editServoView, useDevice, useServoView, useStores } from '../stores/stores.ts';
+import { Icon } from '../ui/Icon.tsx';
+import { words } from '../words/en.ts';
+import styles from './ServoName.module.css';
+
+export interface ServoNameProps {
+  readonly servo: RobotServo;
+  readonly order: readonly number[];
+}
+
+export function ServoName({ servo: own, order }: ServoNameProps) {
+  const { servo, name: joint, isReversed } = own;
+  const stores = useStores();
+  const family = useDevice((state) => state.family);
+  const isSelected = useServoView(({ selected }) => selected.includes(servo));
+  const isLocked = useServoView((view) => isHeld(view, servo));
+  const name = words.servos.name(servo);
+
+  const said = [
+    ...(isReversed ? [words.servoPanel.marks.reversed] : []),
+    ...(isLocked ? [words.servoPanel.marks.locked] : []),
+  ];
+  return (
+    <button
+      type="button"
+      className={styles.name}
+      aria-pressed={isSelected}
+      aria-label={words.servoPanel.about(name, joint, said)}
+      onClick={(event) => editServoView(stores, (view) => selectByClick(view, servo, howOf(event), order))}
+    >
+      <Dial servo={servo} family={family} />
+      <span className={styles.texts}>
+        {name}
+        <span className={styles.joint}>
+          {joint === name ? '' : joint}
+          {isReversed && <Icon name="reverse" />}
+          {isLocked && <Icon name="lock" />}
+        </span>
+      </span>
+    </button>
+  );
+}
+
+/** A finger has no Ctrl key: each touch adds. */
+export function howOf({ ctrlKey, metaKey, shiftKey, nativeEvent }: MouseEvent): SelectHow {
+  const isTouch = nativeEvent instanceof PointerEvent && nativeEvent.pointerType === 'touch';
+  return { adds: ctrlKey || metaKey || isTouch, spans: shiftKey };
+}

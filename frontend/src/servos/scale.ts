@@ -1,0 +1,65 @@
+// A servo's positions as the person reads them, in the board's units or in degrees from its home, and back. Pure.
+
+import { degreesOf, positionOf, type RobotServo } from '#shared/actions/robot.ts';
+import type { Family } from '#shared/protocol/families.ts';
+import type { PositionsIn } from '../stores/view.ts';
+import { formatDegrees, formatPosition, formatWhole, unitSymbol } from '../words/numbers.ts';
+
+export interface Scale {
+  readonly unit: string;
+  /** The servo's limits as they are shown. */
+  readonly min: number;
+  readonly max: number;
+  readonly decimals: 0 | 1;
+  /** How far the Page keys go; arrows go by 1, with Shift by 10. */
+  readonly page: number;
+  /** -1 where a shown value grows towards the slider's left end. */
+  readonly direction: 1 | -1;
+  shown(position: number): number;
+  /** The nearest position within the limits. */
+  position(shown: number): number;
+  /** With its unit. */
+  text(position: number): string;
+  digits(position: number): string;
+}
+
+/** A unit finer than this is shown with a tenth of a degree, so that what is shown leads back to the same position. */
+const FINE_DEGREES = 0.1;
+
+export function scaleOf(servo: RobotServo, { unit }: Pick<Family, 'unit'>, positionsIn: PositionsIn): Scale {
+  return positionsIn === 'degrees' ? inDegrees(servo) : inUnits(servo, unit);
+}
+
+/** The position after a step of the shown value, within the servo's limits. */
+export function stepped(scale: Scale, from: number, change: number): number {
+  return scale.position(Math.min(scale.max, Math.max(scale.min, scale.shown(from) + change)));
+}
+
+function inUnits({ min, max }: RobotServo, unit: Family['unit']): Scale {
+  return {
+    ...{ unit: unitSymbol(unit), min, max, decimals: 0, direction: 1 },
+    page: unit === 'us' ? 100 : 50,
+    shown: Math.round,
+    position: (shown) => within({ min, max }, Math.round(shown)),
+    text: (position) => formatPosition(Math.round(position), unit),
+    digits: (position) => formatWhole(Math.round(position)),
+  };
+}
+
+function inDegrees(servo: RobotServo): Scale {
+  const decimals = servo.degreesPerUnit <= FINE_DEGREES ? 1 : 0;
+  // Adding 0 turns -0, which would be written with its sign, into 0.
+  const shown = (position: number): number => Number(degreesOf(servo, position).toFixed(decimals)) + 0;
+  const ends = [shown(servo.min), shown(servo.max)];
+  return {
+    ...{ unit: '°', min: Math.min(...ends), max: Math.max(...ends), decimals, page: 10 },
+    direction: servo.isReversed ? -1 : 1,
+    shown,
+    position: (degrees) => within(servo, positionOf(servo, degrees)),
+    text: (position) => formatDegrees(shown(position), decimals),
+    digits: (position) => formatDegrees(shown(position), decimals),
+  };
+}
+
+const within = ({ min, max }: Pick<RobotServo, 'min' | 'max'>, position: number): number =>
+  Math.min(max, Math.max(min, position));

@@ -1,0 +1,53 @@
+// What the controls of the servo panel do to servos: one alone, or with the ones it moves together with. Locked ones stay.
+
+import { servoOf } from '#shared/actions/robot.ts';
+import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { editServoView, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
+import { isHeld, type ServoView } from '../stores/servoView.ts';
+import { moveGang, weightOf, type Member } from './gang.ts';
+
+export interface Hand {
+  move(servo: number, position: number): void;
+  /** Each to its own home; `durationMs` is left out for the set move time. */
+  home(servos: readonly number[], durationMs?: number): void;
+}
+
+export function useHand(): Hand {
+  const stores = useStores();
+  return {
+    move: (servo, position) => send(stores, together(stores, servo, position)),
+    home: (servos, durationMs) => send(stores, homes(stores, servos), durationMs),
+  };
+}
+
+/** The members of the gang that may move, `moved` among them; null where it moves alone. */
+function membersOf({ robots }: Stores, view: ServoView, moved: number): readonly Member[] | null {
+  if (view.selected.length < 2 || !view.selected.includes(moved)) return null;
+  const { robot } = robots.current();
+  return view.selected.flatMap((number) => {
+    const servo = servoOf(robot, number);
+    if (servo === undefined || isHeld(view, number)) return [];
+    return [{ servo, weight: weightOf(view.together, view.weights, number, moved) }];
+  });
+}
+
+function together(stores: Stores, servo: number, position: number): readonly ServoTarget[] {
+  const view = servoViewOf(stores);
+  const members = membersOf(stores, view, servo);
+  if (members === null) return [{ servo, position }];
+  const { targets: now } = stores.device.store.getState();
+  const { targets, gang } = moveGang(members, servo, position, now, view.gang);
+  editServoView(stores, (before) => ({ ...before, gang }));
+  return targets;
+}
+
+function homes({ robots }: Stores, servos: readonly number[]): readonly ServoTarget[] {
+  const own = robots.current().robot.servos.filter(({ servo }) => servos.includes(servo));
+  return own.map(({ servo, home }) => ({ servo, position: home }));
+}
+
+function send(stores: Stores, targets: readonly ServoTarget[], durationMs?: number): void {
+  const view = servoViewOf(stores);
+  const free = targets.filter(({ servo }) => !isHeld(view, servo));
+  if (free.length > 0) stores.device.move(free, durationMs ?? stores.view.getState().moveTime);
+}

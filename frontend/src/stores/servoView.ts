@@ -1,0 +1,97 @@
+// How the servos of one robot are shown and handled on this screen: selected, locked, alone, hidden, folded away, and how the
+// selected ones move together. Pure values and edits; knows no motion.
+
+export const TOGETHER = ['straight', 'mirrored', 'weighted'] as const;
+/** `straight`: all turn the same way; `mirrored`: the others turn the other way; `weighted`: each by its own share. */
+export type Together = (typeof TOGETHER)[number];
+
+/** Positions by servo. */
+export type Stand = Readonly<Record<number, number>>;
+
+/** Where the selected servos stood when they began to move together, and what they were told last. */
+export interface Gang {
+  readonly from: Stand;
+  readonly told: Stand;
+}
+
+export interface ServoView {
+  /** Numbers say nothing about another robot. */
+  readonly robotId: number;
+  /** In the order of selecting: the last one is the one at hand. */
+  readonly selected: readonly number[];
+  readonly locked: readonly number[];
+  /** Not empty: all others are as if locked. */
+  readonly solo: readonly number[];
+  readonly hidden: readonly number[];
+  /** Groups of which only the header is shown. */
+  readonly folded: readonly string[];
+  readonly together: Together;
+  /** In percent, 100 where left out. */
+  readonly weights: Stand;
+  readonly gang: Gang | null;
+}
+
+const FRESH: ServoView = {
+  robotId: 0,
+  selected: [],
+  locked: [],
+  solo: [],
+  hidden: [],
+  folded: [],
+  together: 'straight',
+  weights: {},
+  gang: null,
+};
+
+export const INITIAL_SERVO_VIEW = FRESH;
+
+/** What holds for this robot; fresh where the view is of another one. */
+export function servoViewFor(view: ServoView, robotId: number): ServoView {
+  return view.robotId === robotId ? view : FRESH;
+}
+
+/** Nothing of the servo panel moves it. */
+export function isHeld({ locked, solo }: ServoView, servo: number): boolean {
+  return locked.includes(servo) || (solo.length > 0 && !solo.includes(servo));
+}
+
+export function select(view: ServoView, selected: readonly number[]): ServoView {
+  return { ...view, selected, gang: null };
+}
+
+export interface SelectHow {
+  /** Keeps the others. */
+  readonly adds: boolean;
+  /** Everything from the last selected one to this. */
+  readonly spans: boolean;
+}
+
+/** As lists are clicked everywhere; clicked again, a servo is let go. `order` is that of the screen. */
+export function selectByClick(
+  view: ServoView,
+  servo: number,
+  { adds, spans }: SelectHow,
+  order: readonly number[],
+): ServoView {
+  const { selected } = view;
+  const last = selected.at(-1);
+  if (spans && last !== undefined) return select(view, union(selected, between(order, last, servo), servo));
+  const others = selected.filter((one) => one !== servo);
+  const isLetGo = selected.includes(servo) && (adds || others.length === 0);
+  return select(view, [...(adds ? others : []), ...(isLetGo ? [] : [servo])]);
+}
+
+/** Puts the servos into the list, or, where all are in it, takes them out. */
+export function toggled<T>(list: readonly T[], wanted: readonly T[]): readonly T[] {
+  const others = list.filter((one) => !wanted.includes(one));
+  return wanted.every((one) => list.includes(one)) ? others : [...others, ...wanted];
+}
+
+function between(order: readonly number[], one: number, other: number): readonly number[] {
+  const [from, to] = [order.indexOf(one), order.indexOf(other)].toSorted((a, b) => a - b);
+  return order.slice(from, (to ?? 0) + 1);
+}
+
+function union(selected: readonly number[], span: readonly number[], last: number): readonly number[] {
+  return [...new Set([...selected, ...span])].filter((one) => one !== last).concat(last);
+}

@@ -1,0 +1,42 @@
+// Words of the servo panel: units, selecting, moving together, locking and hiding, the picture.
+
+import { formatCount, formatList, formatWhole } from './numbers.ts';
+
+const servosText = (servos: readonly number[]): string =>
+  `${servos.length === 1 ? 'Servo' : 'Servos'} ${formatList(servos)}`;
+
+export const servoPanelWords = {
+  estimated: (position: string): string => `≈ ${position}`,
+  positionsIn: 'Positions in',
+  degrees: '°',
+  /** For ears: everything that the row shows beside its figures. */
+  about: (name: string, joint: string, marks: readonly string[]): string =>
+    [name, ...(joint === name ? [] : [joint]), ...marks].join(', '),
+  marks: { locked: 'locked', reversed: 'turns the other way' },
+  selection: 'Selected servos',
+  selectAll: 'Select all',
+  selectGroup: (group: string): string => `Select ${group}`,
+  selectShort: 'Select',
+  selectHint: 'Press names to move servos together.',
+  clear: 'Unselect',
+  unbind: 'Unbind all',
+  selected: servosText,
+  together: 'How they move together',
+  ways: { straight: 'Straight', mirrored: 'Mirrored', weighted: 'Weighted' },
+  weight: (servo: number): string => `Share of servo ${formatWhole(servo)} in percent`,
+  percent: '%',
+  home: 'Send home',
+  lock: 'Lock',
+  unlock: 'Unlock',
+  unlockAll: 'Unlock all',
+  solo: 'Lock all others',
+  hide: 'Hide',
+  showHidden: (count: number): string => `Show ${formatCount(count)} hidden`,
+  fold: (group: string, count: number): string => `${group}, ${formatCount(count)} servos`,
+  noGroup: 'Others',
+  refused: (name: string, value: string, min: string, max: string): string =>
+    `${name}: ${value} is out of range; it takes ${min} to ${max}.`,
+  sending: (packetsPerSecond: number, waiting: number): string =>
+    `${formatWhole(packetsPerSecond)} packets/s, ${formatWhole(waiting)} waiting`,
+  sendingHint: 'Packets sent in the last second; servos whose newest target has not left yet',
+};
