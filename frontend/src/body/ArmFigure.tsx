@@ -3,7 +3,7 @@
 
 import { cx } from '../ui/cx.ts';
 import type { ArmPicture } from './pose.ts';
-import styles from './ArmFigure.module.css';
+import styles from './figure.module.css';
 
 /** Lengths in the drawing's units, in the proportions of the common arm. */
 export const UPPER = 92;

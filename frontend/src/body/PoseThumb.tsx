@@ -1,8 +1,10 @@
-// A pose as a small picture: the arm where there is one, otherwise a bar per servo. Servos that move are marked below it.
+// A pose as a small picture: the body where it is described, and a bar per servo. Servos that move are marked below it.
 
 import type { Family } from '#shared/protocol/families.ts';
 import { useRobot } from '../stores/stores.ts';
 import { ArmFigure } from './ArmFigure.tsx';
+import { BoneFigure } from './BoneFigure.tsx';
+import { bonesOf } from './bones.ts';
 import { armPicture, fraction } from './pose.ts';
 import styles from './PoseThumb.module.css';
 
@@ -15,12 +17,18 @@ export interface PoseThumbProps {
 export function PoseThumb({ pose, changed, family }: PoseThumbProps) {
   const robot = useRobot();
   const servos = robot.servos.map(({ servo }) => servo);
+  const bones = bonesOf(robot, (servo) => pose.get(servo) ?? null);
   return (
-    <span className={styles.thumb} data-arm={robot.body === 'arm'} aria-hidden="true">
+    <span className={styles.thumb} data-body={robot.body !== 'plain'} aria-hidden="true">
       {robot.body === 'arm' && (
         <svg className={styles.arm} viewBox="-250 -262 500 300">
           <path className={styles.ground} d="M-250 26H250M-26 26v-26a26 26 0 0 1 52 0v26z" />
           <ArmFigure picture={armPicture((servo) => pose.get(servo) ?? null, family)} look="small" />
+        </svg>
+      )}
+      {bones !== null && (
+        <svg className={styles.bones} viewBox="0 0 100 100">
+          <BoneFigure picture={bones} look="small" />
         </svg>
       )}
       <Bars servos={servos} pose={pose} changed={changed} family={family} />

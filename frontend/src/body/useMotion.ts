@@ -17,6 +17,24 @@ export function useMotion(servo: number, draw: (motion: ServoMotion) => void): v
   });
 }
 
-export function sameMotion(one: ServoMotion, other: ServoMotion): boolean {
+/** The same for several servos that are drawn as one. */
+export function useMotions(servos: readonly number[], draw: () => void): void {
+  const { device } = useStores();
+  const drawn = useRef<readonly ServoMotion[]>([]);
+  useEachFrame(() => {
+    const motions = servos.map(device.motion);
+    const isSame =
+      motions.length === drawn.current.length &&
+      motions.every((motion, index) => {
+        const before = drawn.current[index];
+        return before !== undefined && sameMotion(before, motion);
+      });
+    if (isSame) return;
+    drawn.current = motions;
+    draw();
+  });
+}
+
+function sameMotion(one: ServoMotion, other: ServoMotion): boolean {
   return one.target === other.target && one.estimated === other.estimated;
 }

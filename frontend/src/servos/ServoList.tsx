@@ -1,6 +1,7 @@
 // The servos one below the other, by limb where the robot has limbs. A limb can be folded away and selected as a whole.
 
 import type { RobotServo } from '#shared/actions/robot.ts';
+import { limbsOf } from '../body/limbs.ts';
 import { select, toggled } from '../stores/servoView.ts';
 import { editServoView, useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
@@ -16,12 +17,12 @@ export function ServoList() {
   const { servos } = useRobot();
   const hidden = useServoView((view) => view.hidden);
   const shown = servos.filter(({ servo }) => !hidden.includes(servo));
-  const groups = [...Map.groupBy(shown, ({ group }) => group)];
-  const order = groups.flatMap(([, members]) => members.map(({ servo }) => servo));
+  const limbs = limbsOf(shown);
+  const order = limbs.flatMap((limb) => limb.servos.map(({ servo }) => servo));
   return (
     <div className={cx(styles.list, servos.length > FIT && styles.scrolling)}>
-      {groups.map(([group, members]) =>
-        groups.length === 1 ? (
+      {limbs.map(({ group, servos: members }) =>
+        limbs.length === 1 ? (
           <Rows key={group} servos={members} order={order} />
         ) : (
           <Limb key={group} group={group} servos={members} order={order} />

@@ -1,11 +1,11 @@
 // A servo's dial and name as one button that selects it: alone, with Ctrl or by touch beside the others, with Shift up to it.
 
-import type { MouseEvent } from 'react';
 import type { RobotServo } from '#shared/actions/robot.ts';
 import { Dial } from '../body/Dial.tsx';
-import { isHeld, selectByClick, type SelectHow } from '../stores/servoView.ts';
+import { isHeld, selectByClick } from '../stores/servoView.ts';
 import { editServoView, useDevice, useServoView, useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
+import { selectHow } from '../ui/selectHow.ts';
 import { words } from '../words/en.ts';
 import styles from './ServoName.module.css';
 
@@ -32,7 +32,9 @@ export function ServoName({ servo: own, order }: ServoNameProps) {
       className={styles.name}
       aria-pressed={isSelected}
       aria-label={words.servoPanel.about(name, joint, said)}
-      onClick={(event) => editServoView(stores, (view) => selectByClick(view, servo, howOf(event), order))}
+      onClick={(event) =>
+        editServoView(stores, (view) => selectByClick(view, servo, selectHow(event), order))
+      }
     >
       <Dial servo={servo} family={family} />
       <span className={styles.texts}>
@@ -45,10 +47,4 @@ export function ServoName({ servo: own, order }: ServoNameProps) {
       </span>
     </button>
   );
-}
-
-/** A finger has no Ctrl key: each touch adds. */
-export function howOf({ ctrlKey, metaKey, shiftKey, nativeEvent }: MouseEvent): SelectHow {
-  const isTouch = nativeEvent instanceof PointerEvent && nativeEvent.pointerType === 'touch';
-  return { adds: ctrlKey || metaKey || isTouch, spans: shiftKey };
 }

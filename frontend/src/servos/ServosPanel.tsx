@@ -1,16 +1,19 @@
-// Live control: the picture of the robot and a row per servo. Where moving is not possible now it says why, and keeps every
+// Live control: the picture of the robot and a row per servo, or the servos on the body and a row for the one at hand. Where moving is not possible now it says why, and keeps every
 // control in its place.
 
+import { BodyMap } from '../body/BodyMap.tsx';
 import { Body } from '../body/Body.tsx';
 import { motionHindrance } from '../stores/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
-import { useRobot, useSnapshot } from '../stores/stores.ts';
+import { useRobot, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
+import { Choice } from '../ui/Toggle.tsx';
 import { words } from '../words/en.ts';
 import { Legend } from './Legend.tsx';
 import { MoveTimeControl } from './MoveTimeControl.tsx';
 import { SelectionBar } from './SelectionBar.tsx';
+import { ServoAtHand } from './ServoAtHand.tsx';
 import { ServoList } from './ServoList.tsx';
 import { ServoTalk } from './ServoTalk.tsx';
 import { useHand } from './useHand.ts';
@@ -18,20 +21,42 @@ import styles from './ServosPanel.module.css';
 
 export function ServosPanel() {
   const hindrance = useSnapshot(motionHindrance);
+  const layout = useView((state) => state.servoLayout);
   return (
     <Panel
       title={words.servos.title}
       note={hindrance === null ? '' : words.servos.blocked[hindrance]}
       className={styles.panel}
-      tools={<CentreAll />}
+      tools={
+        <>
+          <LayoutChoice />
+          <CentreAll />
+        </>
+      }
     >
-      <Body />
+      {layout === 'list' ? <Body /> : <BodyMap />}
       <Legend />
       <SelectionBar />
-      <ServoList />
+      {layout === 'list' ? <ServoList /> : <ServoAtHand />}
       <MoveTimeControl />
       <ServoTalk />
     </Panel>
+  );
+}
+
+function LayoutChoice() {
+  const { view } = useStores();
+  const layout = useView((state) => state.servoLayout);
+  return (
+    <Choice
+      label={words.servoPanel.layout}
+      value={layout}
+      options={[
+        { value: 'list', label: words.servoPanel.layouts.list },
+        { value: 'body', label: words.servoPanel.layouts.body },
+      ]}
+      onChange={(servoLayout) => view.setState({ servoLayout })}
+    />
   );
 }
 

@@ -59,18 +59,11 @@ export function select(view: ServoView, selected: readonly number[]): ServoView 
   return { ...view, selected, gang: null };
 }
 
-export interface SelectHow {
-  /** Keeps the others. */
-  readonly adds: boolean;
-  /** Everything from the last selected one to this. */
-  readonly spans: boolean;
-}
-
-/** As lists are clicked everywhere; clicked again, a servo is let go. `order` is that of the screen. */
+/** `adds` keeps the others, `spans` takes all from the last one on. Clicked again, a servo is let go. `order` is the screen's. */
 export function selectByClick(
   view: ServoView,
   servo: number,
-  { adds, spans }: SelectHow,
+  { adds, spans }: { readonly adds: boolean; readonly spans: boolean },
   order: readonly number[],
 ): ServoView {
   const { selected } = view;

@@ -6,6 +6,9 @@ const servosText = (servos: readonly number[]): string =>
   `${servos.length === 1 ? 'Servo' : 'Servos'} ${formatList(servos)}`;
 
 export const servoPanelWords = {
+  figure: (robot: string): string => `${robot}; solid is estimated, outline is commanded, dashed is unknown`,
+  someUnknown: (servos: readonly number[]): string =>
+    `${servosText(servos)}: position unknown, the first move may be slow.`,
   estimated: (position: string): string => `≈ ${position}`,
   positionsIn: 'Positions in',
   degrees: '°',
@@ -13,6 +16,14 @@ export const servoPanelWords = {
   about: (name: string, joint: string, marks: readonly string[]): string =>
     [name, ...(joint === name ? [] : [joint]), ...marks].join(', '),
   marks: { locked: 'locked', reversed: 'turns the other way' },
+  layout: 'Show servos as',
+  layouts: { list: 'List', body: 'Body' },
+  places: 'Servos on the body',
+  arrange: 'Arrange',
+  placeOf: (name: string, joint: string, x: number, y: number): string =>
+    `${name}${joint === name ? '' : `, ${joint}`}, at ${formatWhole(x)} % across, ${formatWhole(y)} % down`,
+  placeStep: (servo: number): string => `place of servo ${formatWhole(servo)}`,
+  atHandHint: 'Press a servo on the body to move it.',
   selection: 'Selected servos',
   selectAll: 'Select all',
   selectGroup: (group: string): string => `Select ${group}`,

@@ -1,0 +1,105 @@
+// The servos on the body: picked on the picture, moved below it, arranged as their owner sees them. And with a finger, which
+// scrolls more often than it moves a servo.
+
+import { readyRobot } from '#shared/actions/readyRobots.ts';
+import { robotToText } from '#shared/actions/robotText.ts';
+import { lastTarget, ofKind } from '../fixtures/bus.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+
+const HUMANOID = readyRobot('humanoid16', 'doc', {
+  robot: 'Walker',
+  role: (role) => role,
+  limb: (limb) => limb,
+});
+
+test('a servo picked on the body is moved by the one slider below @everyWay', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  await page.getByRole('radio', { name: 'Body' }).check();
+  await expect(dashboard.slider(4)).toBeHidden();
+  await dashboard.servoName(4).click();
+  await dashboard.slider(4).press('Shift+ArrowRight');
+  await poll(() => lastTarget(robot.bus, 4)).toBe(1510);
+  await page
+    .getByRole('list', { name: 'Servos on the body' })
+    .getByRole('button')
+    .nth(4)
+    .click({
+      modifiers: ['Shift'],
+    });
+  await dashboard.type(dashboard.target(5), 1600);
+  await poll(() => lastTarget(robot.bus, 4)).toBe(1610);
+});
+
+test.describe('of a humanoid', () => {
+  test.beforeEach(({ page }) =>
+    page.addInitScript(
+      (robots) =>
+        localStorage.getItem('servodeck.robots') ?? localStorage.setItem('servodeck.robots', robots),
+      JSON.stringify({ files: [{ id: 1, file: robotToText(HUMANOID) }], currentId: 1 }),
+    ),
+  );
+
+  test('a servo is dragged and pushed to another place, and stays there', async ({ dashboard, page }) => {
+    await page.getByRole('radio', { name: 'Body' }).check();
+    await page.getByRole('switch', { name: 'Arrange' }).check();
+    const knee = dashboard.button(/^Servo 3, knee, at/);
+    await expect(knee).toHaveAccessibleName('Servo 3, knee, at 64 % across, 68 % down');
+    await knee.hover();
+    await page.mouse.down();
+    const box = (await page.getByRole('list', { name: 'Servos on the body' }).locator('..').boundingBox())!;
+    await page.mouse.move(box.x + box.width * 0.9, box.y + box.height * 0.5, { steps: 5 });
+    await page.mouse.up();
+    await knee.press('Shift+ArrowLeft');
+    await expect(knee).toHaveAccessibleName('Servo 3, knee, at 85 % across, 50 % down');
+    await page.reload();
+    await page.getByRole('switch', { name: 'Arrange' }).check();
+    await expect(knee).toHaveAccessibleName('Servo 3, knee, at 85 % across, 50 % down');
+  });
+
+  test('a limb is folded away and selected as a whole', async ({ dashboard, page }) => {
+    await dashboard.button('Select leftLeg').click();
+    await expect(page.getByRole('button', { pressed: true })).toHaveCount(5);
+    await dashboard.button('leftLeg, 5 servos').click();
+    await expect(dashboard.slider(3)).toBeHidden();
+    await expect(dashboard.slider(9)).toBeVisible();
+  });
+});
+
+test.describe('with a finger', () => {
+  test.use({ hasTouch: true, isMobile: true, viewport: { width: 390, height: 844 } });
+
+  test('a touch beside the thumb and a swipe over a slider move nothing', async ({
+    dashboard,
+    robot,
+    page,
+  }) => {
+    await dashboard.slider(2).scrollIntoViewIfNeeded();
+    const box = (await dashboard.slider(2).boundingBox())!;
+    const y = box.y + box.height / 2;
+    await page.touchscreen.tap(box.x + box.width * 0.9, y);
+    await expect(dashboard.slider(2)).toHaveValue('1500');
+
+    const finger = await page.context().newCDPSession(page);
+    const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', x: number, atY: number) =>
+      finger.send('Input.dispatchTouchEvent', {
+        type,
+        touchPoints: type === 'touchEnd' ? [] : [{ x, y: atY }],
+      });
+    const swipe = async (alongX: number, alongY: number): Promise<void> => {
+      const from = (await dashboard.slider(2).boundingBox())!;
+      const [x, startY] = [from.x + from.width / 2, from.y + from.height / 2];
+      await touch('touchStart', x, startY);
+      for (let step = 1; step <= 8; step += 1)
+        await touch('touchMove', x + (alongX * step) / 8, startY + (alongY * step) / 8);
+      await touch('touchEnd', x, startY);
+    };
+    await swipe(4, -120);
+    await expect(dashboard.slider(2)).toHaveValue('1500');
+    expect(ofKind(await robot.bus(), 'move')).toEqual([]);
+    await swipe(80, 2);
+    await poll(() => lastTarget(robot.bus, 2)).toBeGreaterThan(1600);
+  });
+});

@@ -1,0 +1,60 @@
+// A servo on the body while its place is being chosen: dragged, or pushed by arrow keys. Letting go is one step of the history.
+
+import { useState, type KeyboardEvent, type PointerEvent, type RefObject } from 'react';
+import type { Robot, RobotServo } from '#shared/actions/robot.ts';
+import { useStores } from '../stores/stores.ts';
+import { cx } from '../ui/cx.ts';
+import { words } from '../words/en.ts';
+import { at, PlaceFace } from './Place.tsx';
+import { placeBy, placeUnder, type PlaceAt } from './placing.ts';
+import styles from './Place.module.css';
+
+export interface ArrangedPlaceProps {
+  readonly servo: RobotServo;
+  /** What the places are shares of. */
+  readonly stage: RefObject<HTMLElement | null>;
+}
+
+export function ArrangedPlace({ servo: { servo, name, place }, stage }: ArrangedPlaceProps) {
+  const { robots } = useStores();
+  const [dragged, setDragged] = useState<PlaceAt | null>(null);
+
+  function put(to: PlaceAt | null): void {
+    setDragged(null);
+    if (to !== null && (to.x !== place.x || to.y !== place.y))
+      robots.edit(words.servoPanel.placeStep(servo), (robot) => withPlace(robot, servo, to));
+  }
+
+  function drag(event: PointerEvent<HTMLButtonElement>): void {
+    if (stage.current === null || !event.currentTarget.hasPointerCapture(event.pointerId)) return;
+    setDragged(placeUnder(event, stage.current.getBoundingClientRect()));
+  }
+
+  function push(event: KeyboardEvent): void {
+    const to = placeBy(event, place);
+    if (to === null) return;
+    event.preventDefault();
+    put(to);
+  }
+
+  return (
+    <li className={styles.place} style={at(dragged ?? place)}>
+      <button
+        type="button"
+        className={cx(styles.button, styles.arranged)}
+        aria-label={words.servoPanel.placeOf(words.servos.name(servo), name, place.x, place.y)}
+        onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
+        onPointerMove={drag}
+        onPointerUp={() => put(dragged)}
+        onPointerCancel={() => setDragged(null)}
+        onKeyDown={push}
+      >
+        <PlaceFace servo={servo} />
+      </button>
+    </li>
+  );
+}
+
+function withPlace(robot: Robot, servo: number, place: PlaceAt): Robot {
+  return { ...robot, servos: robot.servos.map((one) => (one.servo === servo ? { ...one, place } : one)) };
+}

@@ -1,0 +1,49 @@
+// The servos where they sit on the body: pressing one selects it. While arranging, they are dragged to other places instead.
+
+import { useRef, useState } from 'react';
+import type { BodyKind } from '#shared/actions/robot.ts';
+import { useRobot, useServoView } from '../stores/stores.ts';
+import { Toggle } from '../ui/Toggle.tsx';
+import { words } from '../words/en.ts';
+import { ArrangedPlace } from './ArrangedPlace.tsx';
+import { LiveArm } from './LiveArm.tsx';
+import { LiveBones } from './LiveBones.tsx';
+import { Place } from './Place.tsx';
+import { UnknownNote } from './UnknownNote.tsx';
+import styles from './BodyMap.module.css';
+
+export function BodyMap() {
+  const { body, servos } = useRobot();
+  const hidden = useServoView((view) => view.hidden);
+  const [isArranging, setArranging] = useState(false);
+  const stage = useRef<HTMLDivElement>(null);
+  const shown = servos.filter(({ servo }) => !hidden.includes(servo));
+  const order = shown.map(({ servo }) => servo);
+  return (
+    <div className={styles.map}>
+      <div className={styles.room}>
+        <div ref={stage} className={styles.stage} data-body={body}>
+          <Picture body={body} />
+          <ul className={styles.places} aria-label={words.servoPanel.places}>
+            {shown.map((servo) =>
+              isArranging ? (
+                <ArrangedPlace key={servo.servo} servo={servo} stage={stage} />
+              ) : (
+                <Place key={servo.servo} servo={servo} order={order} />
+              ),
+            )}
+          </ul>
+        </div>
+      </div>
+      <div className={styles.foot}>
+        <UnknownNote />
+        <Toggle label={words.servoPanel.arrange} isOn={isArranging} onChange={setArranging} />
+      </div>
+    </div>
+  );
+}
+
+function Picture({ body }: { readonly body: BodyKind }) {
+  if (body === 'plain') return null;
+  return <div className={styles.picture}>{body === 'arm' ? <LiveArm /> : <LiveBones />}</div>;
+}

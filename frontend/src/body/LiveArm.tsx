@@ -1,0 +1,80 @@
+// The six-servo arm from the side, its base from above and its hand from the front, as the session's motion goes. Solid is
+// where it is by the estimate, the outline is where it was asked to go.
+
+import { useRef } from 'react';
+import type { ServoMotion } from '#shared/session/state.ts';
+import { useDevice, useStores } from '../stores/stores.ts';
+import { words } from '../words/en.ts';
+import { ArmFigure, drawArm } from './ArmFigure.tsx';
+import { BaseView, drawBase, drawHand, HandView } from './insets.tsx';
+import { armPicture, JOINT, samePicture, type ArmPicture, type Pose } from './pose.ts';
+import { useMotions } from './useMotion.ts';
+import styles from './LiveArm.module.css';
+
+const ARM_SERVOS = Object.values(JOINT);
+
+export function LiveArm() {
+  const { device } = useStores();
+  const family = useDevice((state) => state.family);
+  const frame = useRef<HTMLDivElement>(null);
+  const pictureOf = (value: (motion: ServoMotion) => number | null): ArmPicture => {
+    const pose: Pose = (servo) => value(device.motion(servo));
+    return armPicture(pose, family);
+  };
+  const estimated = (): ArmPicture => pictureOf((motion) => motion.estimated);
+  const commanded = (): ArmPicture => pictureOf((motion) => motion.target);
+  useMotions(ARM_SERVOS, () => {
+    if (frame.current !== null) draw(frame.current, estimated(), commanded());
+  });
+
+  return (
+    <div className={styles.views} ref={frame}>
+      <svg className={styles.side} viewBox="-250 -252 500 304" role="img" aria-label={words.body.figure}>
+        <Floor />
+        <g data-figure="estimated">
+          <ArmFigure picture={estimated()} look="solid" />
+        </g>
+        <g data-figure="commanded">
+          <ArmFigure picture={commanded()} look="ghost" />
+        </g>
+      </svg>
+      <div className={styles.insets}>
+        <BaseView estimated={estimated()} commanded={commanded()} />
+        <HandView estimated={estimated()} commanded={commanded()} />
+      </div>
+    </div>
+  );
+}
+
+function draw(frame: HTMLElement, estimated: ArmPicture, commanded: ArmPicture): void {
+  const isThere = samePicture(estimated, commanded);
+  for (const [name, picture] of [
+    ['estimated', estimated],
+    ['commanded', commanded],
+  ] as const) {
+    const figure = frame.querySelector<SVGGElement>(`[data-figure='${name}']`);
+    if (figure !== null) drawArm(figure, picture);
+    if (name === 'commanded') figure?.setAttribute('visibility', isThere ? 'hidden' : 'visible');
+    drawBase(frame, name, picture);
+    drawHand(frame, name, picture);
+  }
+}
+
+/** The ground, the reach of the arm and the foot it stands on. */
+function Floor() {
+  return (
+    <g aria-hidden="true">
+      {[92, 176, 246].map((radius) => (
+        <path
+          key={radius}
+          className={styles.reach}
+          d={`M${-radius} 0A${radius} ${radius} 0 0 1 ${radius} 0`}
+        />
+      ))}
+      <path className={styles.reach} d="M0 0V-246" />
+      <path className={styles.ground} d="M-250 44H250" />
+      <path className={styles.foot} d="M-40 44l6-16h68l6 16z" />
+      <path className={styles.foot} d="M-20 28v-28a20 20 0 0 1 40 0v28z" />
+    </g>
+  );
+}

@@ -1,0 +1,62 @@
+// A body by bones as the session's motion goes: solid is where it is by the estimate, the outline where it was asked to go.
+
+import { useRef } from 'react';
+import type { Robot } from '#shared/actions/robot.ts';
+import type { ServoMotion } from '#shared/session/state.ts';
+import { useRobot, useStores } from '../stores/stores.ts';
+import { cx } from '../ui/cx.ts';
+import { words } from '../words/en.ts';
+import { BoneFigure, drawBones } from './BoneFigure.tsx';
+import { bonesOf, type BonePicture } from './bones.ts';
+import { useMotions } from './useMotion.ts';
+import styles from './LiveBones.module.css';
+
+const SHOWN = ['estimated', 'target'] as const;
+/** In board units: what no eye can tell apart in the picture. */
+const SAME = 6;
+
+export function LiveBones({ className }: { readonly className?: string | undefined }) {
+  const { device } = useStores();
+  const robot = useRobot();
+  const picture = useRef<SVGSVGElement>(null);
+  const now = (which: keyof ServoMotion): BonePicture | null =>
+    bonesOf(robot, (servo) => device.motion(servo)[which]);
+  useMotions(
+    robot.servos.map(({ servo }) => servo),
+    () => {
+      for (const which of SHOWN) {
+        const figure = picture.current?.querySelector<SVGGElement>(`[data-figure='${which}']`);
+        const bones = now(which);
+        if (figure instanceof SVGGElement && bones !== null) drawBones(figure, bones);
+        if (which === 'target') figure?.setAttribute('visibility', ghostVisibility(robot, device.motion));
+      }
+    },
+  );
+  const [estimated, target] = [now('estimated'), now('target')];
+  if (estimated === null || target === null) return null;
+  return (
+    <svg
+      ref={picture}
+      className={cx(styles.picture, className)}
+      viewBox="0 0 100 100"
+      role="img"
+      aria-label={words.servoPanel.figure(robot.name)}
+    >
+      <g data-figure="estimated">
+        <BoneFigure picture={estimated} look="solid" />
+      </g>
+      <g data-figure="target" visibility={ghostVisibility(robot, device.motion)}>
+        <BoneFigure picture={target} look="ghost" />
+      </g>
+    </svg>
+  );
+}
+
+/** Where all of it is where it was asked to be the outline says nothing. */
+function ghostVisibility({ servos }: Robot, motion: (servo: number) => ServoMotion): 'visible' | 'hidden' {
+  const isThere = servos.every(({ servo }) => {
+    const { target, estimated } = motion(servo);
+    return target === null || (estimated !== null && Math.abs(target - estimated) < SAME);
+  });
+  return isThere ? 'hidden' : 'visible';
+}

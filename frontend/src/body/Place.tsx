@@ -1,0 +1,55 @@
+// A servo on the body: its dial and number, pressed to select it.
+
+import type { CSSProperties } from 'react';
+import type { RobotServo } from '#shared/actions/robot.ts';
+import { isHeld, selectByClick } from '../stores/servoView.ts';
+import { editServoView, useDevice, useServoView, useStores } from '../stores/stores.ts';
+import { Icon } from '../ui/Icon.tsx';
+import { selectHow } from '../ui/selectHow.ts';
+import { words } from '../words/en.ts';
+import { formatWhole } from '../words/numbers.ts';
+import { Dial } from './Dial.tsx';
+import styles from './Place.module.css';
+
+export interface PlaceProps {
+  readonly servo: RobotServo;
+  readonly order: readonly number[];
+}
+
+export function Place({ servo: own, order }: PlaceProps) {
+  const { servo, name, place } = own;
+  const stores = useStores();
+  const isSelected = useServoView(({ selected }) => selected.includes(servo));
+  const isLocked = useServoView((view) => isHeld(view, servo));
+  const marks = isLocked ? [words.servoPanel.marks.locked] : [];
+  return (
+    <li className={styles.place} style={at(place)}>
+      <button
+        type="button"
+        className={styles.button}
+        aria-pressed={isSelected}
+        aria-label={words.servoPanel.about(words.servos.name(servo), name, marks)}
+        onClick={(event) =>
+          editServoView(stores, (view) => selectByClick(view, servo, selectHow(event), order))
+        }
+      >
+        <PlaceFace servo={servo} isLocked={isLocked} />
+      </button>
+    </li>
+  );
+}
+
+export function PlaceFace({ servo, isLocked = false }: { servo: number; isLocked?: boolean }) {
+  const family = useDevice((state) => state.family);
+  return (
+    <>
+      <Dial servo={servo} family={family} />
+      <span className={styles.number}>
+        {formatWhole(servo)}
+        {isLocked && <Icon name="lock" />}
+      </span>
+    </>
+  );
+}
+
+export const at = ({ x, y }: RobotServo['place']): CSSProperties => ({ left: `${x}%`, top: `${y}%` });

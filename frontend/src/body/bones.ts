@@ -1,0 +1,140 @@
+// Hand, humanoid and hexapod as bones between the places of their servos: where each bone is in a pose. A diagram, not a
+// model: it turns, lifts and folds limbs so that one sees which moves how. Pure geometry in percent of the picture.
+
+import { degreesOf, type Robot, type RobotServo } from '#shared/actions/robot.ts';
+import { limbsOf } from './limbs.ts';
+import { fraction, type Pose } from './pose.ts';
+
+export interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
+export interface Bone {
+  readonly servo: number;
+  readonly from: Point;
+  readonly to: Point;
+  /** false: its servo, or one that carries it, is somewhere unknown. */
+  readonly known: boolean;
+}
+
+export interface BonePicture {
+  /** Palm or trunk. */
+  readonly trunk: readonly Point[];
+  readonly bones: readonly Bone[];
+}
+
+const CENTRE: Point = { x: 50, y: 50 };
+/** Above its middle, so that hips come before knees and shoulders before elbows. */
+const HUMANOID_CENTRE: Point = { x: 50, y: 30 };
+const PALM: Point = { x: 50, y: 62 };
+/** Limbs of a humanoid bend towards and away from the eye; drawn sideways at half the turn they stay apart. */
+const BEND = 0.5;
+/** How much of its length a closed finger loses. */
+const FOLD = 0.65;
+/** What the last servo of a limb carries, beside the bone before it. */
+const TIP = 0.7;
+
+/** Null for bodies that are not drawn by bones. */
+export function bonesOf({ body, servos }: Robot, pose: Pose): BonePicture | null {
+  if (body === 'humanoid') return limbs(servos, pose, HUMANOID_CENTRE, bending);
+  if (body === 'hexapod') return limbs(servos, pose, CENTRE, lifting);
+  return body === 'hand' ? hand(servos, pose) : null;
+}
+
+/** What a joint does to the rest of its limb. */
+interface Turn {
+  readonly degrees: number;
+  /** As long as it looks, 0 to 1. */
+  readonly length: number;
+}
+
+/** Turn of the joints of a limb up to and with the last one given, all in degrees. */
+type Kinematics = (turns: readonly number[]) => Turn;
+
+const bending: Kinematics = (turns) => ({ degrees: sum(turns) * BEND, length: 1 });
+
+/** Seen from above the first joint swings the leg, the others lift it. */
+const lifting: Kinematics = ([swing = 0, ...lifts]) => ({
+  degrees: swing,
+  length: Math.max(0.15, Math.abs(Math.cos(radians(sum(lifts))))),
+});
+
+function limbs(
+  servos: readonly RobotServo[],
+  pose: Pose,
+  centre: Point,
+  kinematics: Kinematics,
+): BonePicture {
+  const chains = limbsOf(servos).map((limb) =>
+    limb.servos.toSorted((one, other) => distance(one.place, centre) - distance(other.place, centre)),
+  );
+  const roots = chains.flatMap(([root]) => (root === undefined ? [] : [root.place]));
+  return { trunk: aroundMiddle(roots), bones: chains.flatMap((chain) => limb(chain, pose, kinematics)) };
+}
+
+function limb(chain: readonly RobotServo[], pose: Pose, kinematics: Kinematics): Bone[] {
+  const bones: Bone[] = [];
+  let from = chain[0]?.place ?? CENTRE;
+  let known = true;
+  const turns: number[] = [];
+  for (const [index, servo] of chain.entries()) {
+    const position = pose(servo.servo);
+    known &&= position !== null;
+    turns.push(degreesOf(servo, position ?? servo.home));
+    const { degrees, length } = kinematics(turns);
+    const to = added(from, turned(restBone(chain, index), degrees, length));
+    bones.push({ servo: servo.servo, from, to, known });
+    from = to;
+  }
+  return bones;
+}
+
+/** From this servo's place to the next one's; the last goes on as the one before it. */
+function restBone(chain: readonly RobotServo[], index: number): Point {
+  const [here, next, before] = [chain[index], chain[index + 1], chain[index - 1]];
+  if (here === undefined) return { x: 0, y: 0 };
+  if (next !== undefined) return vector(here.place, next.place);
+  return before === undefined ? { x: 0, y: 8 } : turned(vector(before.place, here.place), 0, TIP);
+}
+
+/** Fingers grow from the palm to their places, and the base turns all of it. */
+function hand(servos: readonly RobotServo[], pose: Pose): BonePicture {
+  const base = servos.find(({ place }) => place.y > PALM.y);
+  const turn = base === undefined ? 0 : degreesOf(base, pose(base.servo) ?? base.home) * BEND;
+  const about = base?.place ?? PALM;
+  const seen = (point: Point): Point => added(about, turned(vector(about, point), turn, 1));
+  const fingers = servos.filter((servo) => servo !== base);
+  const knuckles = fingers.map(({ place }) => added(PALM, turned(vector(PALM, place), 0, 0.45)));
+  const bones = fingers.map((finger, index): Bone => {
+    const position = pose(finger.servo);
+    const from = knuckles[index] ?? PALM;
+    const length = position === null ? 1 : 1 - FOLD * Math.min(1, Math.max(0, fraction(position, finger)));
+    const to = added(from, turned(vector(from, finger.place), 0, length));
+    return { servo: finger.servo, from: seen(from), to: seen(to), known: position !== null };
+  });
+  if (base !== undefined)
+    bones.push({ servo: base.servo, from: base.place, to: seen(PALM), known: pose(base.servo) !== null });
+  return { trunk: aroundMiddle([...knuckles, { x: 40, y: 74 }, { x: 60, y: 74 }].map(seen)), bones };
+}
+
+/** The corners in the order in which one walks around them. */
+function aroundMiddle(corners: readonly Point[]): readonly Point[] {
+  const middle = {
+    x: sum(corners.map(({ x }) => x)) / corners.length,
+    y: sum(corners.map(({ y }) => y)) / corners.length,
+  };
+  const angle = (corner: Point): number => Math.atan2(corner.y - middle.y, corner.x - middle.x);
+  return corners.toSorted((one, other) => angle(one) - angle(other));
+}
+
+function turned({ x, y }: Point, degrees: number, length: number): Point {
+  const [sin, cos] = [Math.sin(radians(degrees)), Math.cos(radians(degrees))];
+  return { x: (x * cos - y * sin) * length, y: (x * sin + y * cos) * length };
+}
+
+const sum = (values: readonly number[]): number => values.reduce((total, value) => total + value, 0);
+const radians = (degrees: number): number => (degrees * Math.PI) / 180;
+const added = (one: Point, other: Point): Point => ({ x: one.x + other.x, y: one.y + other.y });
+const vector = (from: Point, to: Point): Point => ({ x: to.x - from.x, y: to.y - from.y });
+const distance = (one: Point, other: Point): number => Math.hypot(one.x - other.x, one.y - other.y);
