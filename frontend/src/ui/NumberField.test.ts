@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { stepOf } from './NumberField.tsx';
+import { numberIn, stepOf } from './NumberField.tsx';
 
 const key = (name: string, modifiers: { shiftKey?: boolean; altKey?: boolean } = {}) => ({
   key: name,
@@ -14,4 +14,12 @@ test('arrows step, Shift steps ten times as far, Alt by one', () => {
   expect(stepOf(key('ArrowUp', { altKey: true }), 10)).toBe(1);
   expect(stepOf(key('PageDown'), 10)).toBe(-100);
   expect(stepOf(key('a'), 10)).toBe(0);
+});
+
+test('a number is read as people write it, with as many decimals as the field has', () => {
+  expect(numberIn(' 1500 ', 0)).toBe(1500);
+  expect(numberIn('-12,34', 1)).toBe(-12.3);
+  expect(numberIn('−4.5', 1)).toBe(-4.5);
+  expect(numberIn('12.6', 0)).toBe(13);
+  for (const text of ['', ' ', '-', '.']) expect(numberIn(text, 0)).toBeNaN();
 });
