@@ -10,6 +10,7 @@ import { measureCodec } from './codec.ts';
 import { measureDownload } from './download.ts';
 import { measureDrag } from './drag.ts';
 import { toRecord, type Figure } from './figure.ts';
+import { measureFrames } from './frames.ts';
 import { measurePageSize } from './pageSize.ts';
 import { measureRelay } from './relay.ts';
 import { measureStart } from './start.ts';
@@ -22,6 +23,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   download: measureDownload,
   relay: measureRelay,
   stop: measureStop,
+  frames: measureFrames,
   start: measureStart,
   page: measurePageSize,
 };

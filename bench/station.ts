@@ -75,6 +75,13 @@ export async function withPage<Result>(
   }
 }
 
+/** Opens the dashboard and says which board it is, which a new visitor is asked; then motion is allowed. */
+export async function openDashboard(page: Page, url: string): Promise<void> {
+  await page.goto(url);
+  await page.getByRole('button', { name: /^Generic board / }).click();
+  await page.getByRole('slider').first().waitFor();
+}
+
 /** Its address, once it has said it and opened its port. */
 async function openedGateway(lines: readonly string[]): Promise<string> {
   const urlIn = (line: string): string | undefined => /http:\/\/[^\s/]+/.exec(line)?.[0];

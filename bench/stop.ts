@@ -9,7 +9,7 @@ import { family } from '#shared/protocol/families.ts';
 import { wireMs } from '#shared/protocol/packet.ts';
 import { packetsInto, type BusPacket } from './busPackets.ts';
 import type { Figure } from './figure.ts';
-import { withBoard, withPage, type BoardOnPort } from './station.ts';
+import { openDashboard, withBoard, withPage, type BoardOnPort } from './station.ts';
 import { percentile } from './statistics.ts';
 
 const PRESSES = 100;
@@ -28,7 +28,7 @@ interface Outcome {
 export function measureStop(): Promise<Figure[]> {
   return withBoard([], (board) =>
     withPage(board.device, async (page, url) => {
-      await page.goto(url);
+      await openDashboard(page, url);
       const idle = await outcomeOfPresses(page, board);
       await page.getByRole('slider').evaluateAll(dragInPage);
       return figuresOf({ idle, dragging: await outcomeOfPresses(page, board) });

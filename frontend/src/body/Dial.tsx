@@ -38,16 +38,16 @@ function DialFace({ label, motion, family, ref }: DialFaceProps) {
   return (
     <svg ref={ref} className={styles.dial} viewBox="-24 -24 48 48" role="img" aria-label={label}>
       <path className={styles.rim} d={RIM} />
-      <g data-unknown="" visibility={visible(estimated === null)}>
+      <g visibility={visible(estimated === null)}>
         <path className={styles.hatch} d="M-9 5L5 -9M-6 9L9 -6M-11 0L0 -11M0 11L11 0" />
         <text className={styles.question} y={5}>
           {words.servos.unknown}
         </text>
       </g>
-      <g data-target="" visibility={visible(target !== null)} transform={turn(target, family)}>
+      <g visibility={visible(target !== null)} transform={turn(target, family)}>
         <path className={styles.target} d="M-4 -22.5h8L0 -15.5z" />
       </g>
-      <g data-estimated="" visibility={visible(estimated !== null)} transform={turn(estimated, family)}>
+      <g visibility={visible(estimated !== null)} transform={turn(estimated, family)}>
         <path className={styles.needle} d="M-2.5 4L-1 -14h2L2.5 4z" />
         <circle className={styles.hub} r={4} />
       </g>
@@ -56,14 +56,17 @@ function DialFace({ label, motion, family, ref }: DialFaceProps) {
 }
 
 function drawDial(dial: SVGSVGElement, { target, estimated }: ServoMotion, family: Family): void {
-  const set = (part: string, shown: boolean, position: number | null): void => {
-    const group = dial.querySelector(part);
-    group?.setAttribute('visibility', visible(shown));
-    group?.setAttribute('transform', turn(position, family));
-  };
-  set('[data-unknown]', estimated === null, null);
-  set('[data-target]', target !== null, target);
-  set('[data-estimated]', estimated !== null, estimated);
+  const [, unknown, commanded, needle] = dial.children;
+  set(unknown, 'visibility', visible(estimated === null));
+  set(commanded, 'visibility', visible(target !== null));
+  set(commanded, 'transform', turn(target, family));
+  set(needle, 'visibility', visible(estimated !== null));
+  set(needle, 'transform', turn(estimated, family));
+}
+
+/** Writing what is there already would have it painted anew. */
+function set(part: Element | undefined, name: string, value: string): void {
+  if (part !== undefined && part.getAttribute(name) !== value) part.setAttribute(name, value);
 }
 
 /** 240 degrees of a circle of radius 19, open below. */
