@@ -2,8 +2,10 @@
 
 import { useEffect, useRef, useState } from 'react';
 import { Button } from 'react-aria-components/Button';
+import type { RobotServo } from '#shared/actions/robot.ts';
 import type { Range } from '#shared/protocol/families.ts';
 import { Estimate } from '../servos/Estimate.tsx';
+import { scaleOf } from '../servos/scale.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
@@ -13,7 +15,7 @@ import { startCreeping } from './creeping.ts';
 import styles from './CreepControl.module.css';
 
 export interface CreepControlProps {
-  readonly servo: number;
+  readonly servo: RobotServo;
   readonly reach: Range;
   readonly target: number;
   readonly unit: PositionUnit;
@@ -25,10 +27,11 @@ const WAYS = [
 ] as const;
 
 export function CreepControl({ servo, reach, target, unit }: CreepControlProps) {
-  const { start, end } = useCreeping(servo, reach);
+  const { start, end } = useCreeping(servo.servo, reach);
+  const scale = scaleOf(servo, { unit }, 'board');
   // Told when a button is let go, not at each of the many steps.
   const [said, setSaid] = useState('');
-  const value = words.servos.valueText(target, unit);
+  const value = scale.text(target);
 
   function letGo(): void {
     end();
@@ -53,7 +56,7 @@ export function CreepControl({ servo, reach, target, unit }: CreepControlProps) 
         <output className={styles.value} aria-label={words.calibration.now} aria-live="off">
           {value}
         </output>
-        <Estimate servo={servo} />
+        <Estimate servo={servo.servo} scale={scale} />
       </div>
       {higher}
       <p className={styles.said} role="status">

@@ -26,7 +26,7 @@ export function EndStep({ at: { robot, servo, accept, keep }, end }: EndStepProp
   return (
     <>
       <p>{words.calibration.ends[end]}</p>
-      <CreepControl servo={servo.servo} reach={reach} target={target} unit={unit} />
+      <CreepControl servo={servo} reach={reach} target={target} unit={unit} />
       <ReachBar servo={servo} reach={reach} unit={unit} />
       <p className={styles.dim}>{words.calibration.past(reach.min, reach.max, unit)}</p>
       <div className={styles.actions}>

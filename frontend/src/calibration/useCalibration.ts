@@ -10,7 +10,7 @@ import {
   type Calibration,
   type CalibrationStep,
 } from '#shared/actions/robotCalibration.ts';
-import { useRobot, useStores, useView } from '../stores/stores.ts';
+import { useRobot, useServoView, useStores, useView } from '../stores/stores.ts';
 import { words } from '../words/en.ts';
 
 export interface CalibrationAtHand {
@@ -31,7 +31,7 @@ export function useCalibration(): CalibrationAtHand {
   const robot = useRobot();
   const robotId = robots.current().id;
   const kept = useView(({ calibration }) => calibration);
-  const selected = useView(({ selectedServo }) => selectedServo);
+  const selected = useServoView(({ selected }) => selected.at(-1) ?? null);
   const [problem, setProblem] = useState('');
   const begun = kept?.robotId === robotId ? settled(robot, kept.progress) : beginCalibration(robot, selected);
   const servo = servoOf(robot, begun.servo);
