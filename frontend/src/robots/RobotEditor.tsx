@@ -1,5 +1,6 @@
 // The description of the robot at hand: its name, what feeds it, its servos.
 
+import { fedBy } from '#shared/actions/batterySupply.ts';
 import { BATTERY_KINDS, NAME_LENGTH, type BatteryKind } from '#shared/actions/robot.ts';
 import { addServo } from '#shared/actions/robotEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
@@ -39,7 +40,7 @@ export function RobotEditor() {
             className={styles.select}
             value={robot.battery}
             onChange={({ target: { value } }) =>
-              robots.edit(words.robotEditor.battery, (all) => ({ ...all, battery: value as BatteryKind }))
+              robots.edit(words.robotEditor.battery, (all) => fedBy(all, value as BatteryKind))
             }
           >
             {BATTERY_KINDS.map((kind) => (
