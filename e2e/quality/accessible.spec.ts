@@ -41,7 +41,7 @@ async function expectNoSidewaysScroll(page: Page, state: string): Promise<void> 
 /** On a phone each part by itself. */
 async function expectSoundEverywhere(look: Look, state: string): Promise<void> {
   const { page } = look;
-  const isPhone = await page.getByRole('tablist').isVisible();
+  const isPhone = await page.getByRole('tablist', { name: 'Parts of the dashboard' }).isVisible();
   for (const tab of isPhone ? TABS : ['']) {
     if (isPhone) await page.getByRole('tab', { name: tab }).click();
     await expectSound(look, `${state} ${tab}`);

@@ -5,6 +5,7 @@ import { useEffect } from 'react';
 import { useStore } from 'zustand';
 import { Tab, TabList, TabPanel, Tabs } from 'react-aria-components/Tabs';
 import { ActionsPanel } from './actions/ActionsPanel.tsx';
+import { AuthoringTabs } from './AuthoringTabs.tsx';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
 import { BatteryPanel } from './battery/BatteryPanel.tsx';
 import { useBatteryTab } from './battery/useBatteryTab.ts';
@@ -14,6 +15,7 @@ import type { Page } from './connect/page.ts';
 import { LogDrawer } from './console/LogDrawer.tsx';
 import { LogPanel } from './console/LogPanel.tsx';
 import { RobotDialog } from './robots/RobotDialog.tsx';
+import { PadPanel } from './pad/PadPanel.tsx';
 import { LivePanel } from './servos/LivePanel.tsx';
 import { StopButton } from './stop/StopButton.tsx';
 import { StoresContext, useStores, useView } from './stores/stores.ts';
@@ -37,11 +39,14 @@ export function App({ page }: { readonly page: Page }) {
 function Dashboard({ page }: { readonly page: Page }) {
   const layout = useLayout();
   const said = useView((state) => state.said);
-  const { device, document: group, notices } = useStores();
+  const { device, document: group, notices, pad } = useStores();
   useTheme();
   useBatteryTab();
   useUndoKeys(group);
-  useEachFrame(() => device.refreshTargets());
+  useEachFrame(() => {
+    device.refreshTargets();
+    pad.frame();
+  });
   return (
     <div className={styles.app} data-layout={layout}>
       <TopBar onMoveHere={() => void page.connector.moveHere().catch(notices.tellError)} />
@@ -65,7 +70,7 @@ function DeskWork() {
           <LivePanel />
         </div>
         <div className={styles.authoring}>
-          <ActionsPanel />
+          <AuthoringTabs />
           <div className={styles.boardRow}>
             <BoardPanel />
             <BatteryPanel />
@@ -106,6 +111,7 @@ function PhoneWork() {
       <main className={styles.phone}>
         <TabPanel id="live" className={styles.tabPanel ?? ''}>
           <LivePanel />
+          <PadPanel />
         </TabPanel>
         <TabPanel id="actions" className={styles.tabPanel ?? ''}>
           <ActionsPanel />

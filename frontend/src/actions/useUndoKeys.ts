@@ -2,6 +2,7 @@
 // of its own.
 
 import { useEffect } from 'react';
+import { isTextField } from '../ui/textField.ts';
 import type { Document } from '../stores/document.ts';
 
 export function useUndoKeys(document: Document): void {
@@ -24,8 +25,4 @@ export function undoActionOf(
   const key = event.key.toLowerCase();
   if (key === 'z') return event.shiftKey ? 'redo' : 'undo';
   return key === 'y' ? 'redo' : null;
-}
-
-function isTextField(target: EventTarget | null): boolean {
-  return target instanceof HTMLInputElement && target.type !== 'range' && target.type !== 'checkbox';
 }

@@ -8,7 +8,10 @@ import { pollBattery } from '../stores/batteryPoll.ts';
 import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
+import { watchInputs } from '../pad/watchInputs.ts';
+import { createMappings } from '../stores/mappings.ts';
 import { createNotices } from '../stores/notices.ts';
+import { createPad } from '../stores/pad.ts';
 import { createRobots } from '../stores/robots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
@@ -31,8 +34,11 @@ export function openPage(): Page {
   const device = createDevice({ family: FAMILIES.doc, clock: pageClock, notices, robots });
   const boards = createBoards(storage);
   const battery = createBattery(device, robots);
+  const mappings = createMappings(storage, notices, robots);
+  const readPads = () => navigator.getGamepads();
+  const pad = createPad({ device, robots, mappings, notices, clock: pageClock, readPads });
   const stores = {
-    ...{ device, notices, boards, robots, battery },
+    ...{ device, notices, boards, robots, battery, mappings, pad },
     document: createDocument(storage, notices),
     view: createView(storage),
   };
@@ -40,6 +46,7 @@ export function openPage(): Page {
   connector.start().catch(notices.tellError);
   watchLeaving(window, { hidden: () => device.stopPlaying(), left: () => connector.leave() });
   applyBatteryPolicy({ device, battery, robots, notices });
+  watchInputs(window, pad);
   pollBattery(device, isWatched);
   return { stores, connector };
 }

@@ -18,13 +18,16 @@ import { createBattery, type BatteryStore } from '../stores/battery.ts';
 import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
+import { createMappings } from '../stores/mappings.ts';
 import { createNotices } from '../stores/notices.ts';
+import { createPad } from '../stores/pad.ts';
 import { createRobots, type RobotStore } from '../stores/robots.ts';
 import { editServoView, StoresContext, type Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
 import { RobotSpecimens } from './RobotSpecimens.tsx';
+import { PadSpecimens } from './PadSpecimens.tsx';
 import { RawSpecimens } from './RawSpecimens.tsx';
 import { frozenSession } from './frozen.ts';
 import { motionsOf, SPECIMENS, type BatteryFeed, type Specimen } from './specimens.ts';
@@ -49,6 +52,7 @@ export function Gallery() {
         <StoresContext value={blank}>
           <ConnectSpecimens />
           <RawSpecimens />
+          <PadSpecimens />
           <RobotSpecimens newStores={() => storesOf(BLANK)} />
         </StoresContext>
       )}
@@ -115,7 +119,9 @@ function storesOf(specimen: Specimen): Stores {
     boards.remember(specimen.way, specimen.board ?? 'doc');
     boards.rename(specimen.way, specimen.nickname);
   }
-  return { device, document, view, notices, boards, robots, battery };
+  const mappings = createMappings(NO_STORAGE, notices, robots);
+  const pad = createPad({ device, robots, mappings, notices, clock: pageClock, readPads: () => [] });
+  return { device, document, view, notices, boards, robots, battery, mappings, pad };
 }
 
 const READ_EVERY_MS = 5000;

@@ -7,11 +7,14 @@ import type { Robot } from '#shared/actions/robot.ts';
 import type { ActionGroup } from '#shared/actions/group.ts';
 import type { BatteryState, BatteryStore } from './battery.ts';
 import type { Boards } from './boards.ts';
+import type { Mapping } from '#shared/actions/mapping.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { Document, DocumentState } from './document.ts';
 import { currentOf, type RobotStore } from './robots.ts';
+import type { MappingStore } from './mappings.ts';
 import type { Notices } from './notices.ts';
 import { servoViewFor, type ServoView } from './servoView.ts';
+import type { Pad, PadState } from './pad.ts';
 import type { View, ViewState } from './view.ts';
 
 export interface Stores {
@@ -22,6 +25,8 @@ export interface Stores {
   readonly boards: Boards;
   readonly robots: RobotStore;
   readonly battery: BatteryStore;
+  readonly mappings: MappingStore;
+  readonly pad: Pad;
 }
 
 export const StoresContext = createContext<Stores | null>(null);
@@ -55,6 +60,15 @@ export function useRobot(): Robot {
 
 export function useBattery<T>(select: (state: BatteryState) => T): T {
   return useStore(useStores().battery, select);
+}
+
+/** What pad and keys do to it. */
+export function useMapping(): Mapping {
+  return useStore(useStores().mappings.store, ({ present }) => present);
+}
+
+export function usePad<T>(select: (state: PadState) => T): T {
+  return useStore(useStores().pad.store, select);
 }
 
 export function useView<T>(select: (state: ViewState) => T): T {

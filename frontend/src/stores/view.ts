@@ -18,6 +18,7 @@ export type LogKind = 'move' | 'group' | 'battery' | 'link' | 'noise';
 export interface ViewState {
   readonly tab: Tab;
   readonly theme: Theme;
+  readonly authoring: 'group' | 'pad';
   readonly connectOpen: boolean;
   /** What of the robots is open; null: nothing. */
   readonly robotView: 'list' | 'edit' | 'calibrate' | null;
@@ -54,6 +55,7 @@ const NAMES = Object.keys(REMEMBERED) as Remembered[];
 export const INITIAL_VIEW: ViewState = {
   tab: 'live',
   theme: 'system',
+  authoring: 'group',
   connectOpen: false,
   robotView: null,
   calibration: null,

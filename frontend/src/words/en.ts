@@ -17,6 +17,7 @@ import { calibrationWords } from './calibration.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { robotEditorWords } from './robotEditor.ts';
+import { padWords } from './pad.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
 import { timesWords } from './packets.ts';
@@ -64,6 +65,7 @@ export const words = {
   robotEditor: robotEditorWords,
   calibration: calibrationWords,
   servoPanel: servoPanelWords,
+  pad: padWords,
 
   stop: {
     button: 'Stop',

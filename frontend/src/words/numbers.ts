@@ -20,6 +20,7 @@ const seconds = new Intl.NumberFormat(language, {
   minimumFractionDigits: 1,
   maximumFractionDigits: 1,
 });
+const percent = new Intl.NumberFormat(language, { style: 'percent' });
 const grouped = new Intl.NumberFormat(language);
 const ago = new Intl.RelativeTimeFormat(language, { style: 'short' });
 const list = new Intl.ListFormat(language);
@@ -36,6 +37,7 @@ export type PositionUnit = 'us' | 'steps';
 export const formatWhole = (value: number): string => whole.format(value);
 export const formatCount = (value: number): string => grouped.format(value);
 export const formatList = (values: readonly number[]): string => list.format(values.map(formatWhole));
+export const formatNames = (names: readonly string[]): string => list.format(names);
 export const unitSymbol = (unit: PositionUnit): string => (unit === 'us' ? 'µs' : 'steps');
 export const formatPosition = (position: number, unit: PositionUnit): string =>
   `${whole.format(position)} ${unitSymbol(unit)}`;
@@ -48,6 +50,7 @@ export const formatTick = (volts: number): string => tickVolts.format(volts);
 /** `14:05`, from milliseconds since 1970. */
 export const formatTimeOfDay = (epochMs: number): string => timeOfDay.format(epochMs);
 export const formatSeconds = (ms: number): string => seconds.format(ms / 1000);
+export const formatPercent = (value: number): string => percent.format(value / 100);
 export const formatMs = (ms: number): string => `${whole.format(ms)} ms`;
 
 /** `3 sec. ago`, by whole seconds and above a minute by minutes. */

@@ -29,10 +29,8 @@ export function valueOf(input: Input, { axes, buttons, keys }: Inputs): number {
 export const isPressed = (input: Input, inputs: Inputs): boolean =>
   Math.abs(valueOf(input, inputs)) > PRESSED;
 
-/** What a finger has moved since `before`: a key, a button, or the half of an axis; null while nothing is clear. */
+/** What a finger has moved on the pad since `before`: a button, or the half of an axis; null while nothing is clear. */
 export function movedInput(before: Inputs, now: Inputs): Input | null {
-  const code = [...now.keys].find((key) => !before.keys.has(key));
-  if (code !== undefined) return { kind: 'key', code };
   const button = now.buttons.findIndex((value, at) => value - (before.buttons[at] ?? 0) > PRESSED);
   if (button >= 0) return { kind: 'button', index: button };
   const axis = now.axes.findIndex((value, at) => Math.abs(value - (before.axes[at] ?? 0)) > PRESSED);

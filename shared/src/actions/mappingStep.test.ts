@@ -17,14 +17,18 @@ const pushed = (way: number): Inputs => ({ ...NO_INPUTS, axes: [way] });
 const HELD_KEY: Inputs = { ...NO_INPUTS, keys: new Set(['KeyQ']) };
 
 /** A robot that is where it was asked to be, unless `lagsAt` holds it back; time passes in frames. */
-function drive(bindings: readonly (readonly [Input, Action])[], feel: Partial<Feel> = {}, lagsAt?: number) {
+function drive(
+  bindings: readonly (readonly [Input, Action])[],
+  feel: Partial<Feel> = {},
+  lagsAt?: number | null,
+) {
   const targets: Record<number, number | null> = { 1: 1500, 2: 1500, 3: null };
   const driven: Driven = {
     robot: ROBOT,
     mapping: { bindings: bindings.map(([input, action]) => ({ input, action })), feel: { ...RAW, ...feel } },
     place: (servo) => {
       const target = targets[servo] ?? null;
-      return { target, estimated: target === null ? null : (lagsAt ?? target) };
+      return { target, estimated: target === null || lagsAt === undefined ? target : lagsAt };
     },
   };
   let state = AT_REST;
@@ -161,6 +165,12 @@ describe('what moves nothing', () => {
     const { rest, frame } = drive([[STICK, rate(500, 3)]]);
     expect(rest().unknown).toEqual([]);
     expect(frame(pushed(1))).toMatchObject({ moves: [], unknown: [3] });
+  });
+
+  test('a servo on its slow first move is left alone, and not asked for again', () => {
+    const { rest, frame } = drive([[STICK, rate(500)]], {}, null);
+    rest();
+    expect(frame(pushed(1))).toMatchObject({ moves: [], unknown: [] });
   });
 
   test('a servo that the robot does not have is nobody', () => {

@@ -110,7 +110,9 @@ function wishFor(
   const turned = unitsPerS(servo, driven.mapping, held);
   const placed = placedAt(servo, driven.mapping, held, before);
   if (turned === 0 && placed === null) return null;
-  if (target === null || estimated === null) return 'unknown';
+  if (target === null) return 'unknown';
+  // On its slow first move: it is followed once it has arrived.
+  if (estimated === null) return null;
   if (placed !== null) return placed;
   const aim = before.aims[servo.servo];
   const from = aim !== undefined && Math.round(aim) === target ? aim : target;

@@ -1,0 +1,141 @@
+// Driving by pad and keys: only when switched on, only while held, and STOP is in the hand. What the board heard is the judge.
+
+import type { Page } from '@playwright/test';
+import { lastTarget, ofKind, type Bus } from '../fixtures/bus.ts';
+import type { Dashboard } from '../fixtures/dashboard.ts';
+import { plugInPad, type SyntheticPad } from '../fixtures/padInPage.ts';
+import { expect, poll, test as base } from '../fixtures/test.ts';
+
+/** Numbers of the standard pad, as the ready mapping uses them. */
+const STOP = 1;
+const RIGHT_TRIGGER = 7;
+
+/** Plugged in before the page opens. */
+const test = base.extend<{ readonly pad: SyntheticPad }>({
+  pad: [async ({ page }, use) => use(await plugInPad(page)), { auto: true }],
+});
+
+const driveSwitch = (page: Page) => page.getByRole('switch', { name: 'Drive' });
+
+/** Switched on, with servo 1 at 1500 and known. */
+async function startDriving(dashboard: Dashboard): Promise<void> {
+  const { page } = dashboard;
+  await dashboard.type(dashboard.target(1), 1500);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
+  await page.getByRole('tab', { name: 'Keys and pad' }).click();
+  await driveSwitch(page).check();
+}
+
+/** Nothing more leaves than what is on its way already. */
+async function expectRest(bus: Bus): Promise<void> {
+  const count = async () => ofKind(await bus(), 'move').length;
+  let before = -1;
+  await poll(async () => {
+    const now = await count();
+    const isSame = now === before;
+    before = now;
+    return isSame;
+  }).toBe(true);
+  const settled = await lastTarget(bus, 1);
+  await poll(() => lastTarget(bus, 1)).toBe(settled);
+}
+
+test('a pad moves nothing before it is switched on, then while it is held, and stops @everyWay', async ({
+  dashboard,
+  robot,
+  page,
+  pad,
+}) => {
+  await pad.hold(RIGHT_TRIGGER);
+  await dashboard.type(dashboard.target(1), 1500);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
+  expect(ofKind(await robot.bus(), 'move')).toHaveLength(1);
+
+  await startDriving(dashboard);
+  await expect(page.getByRole('tab', { name: 'Keys and pad, driving' })).toBeVisible();
+  await pad.hold();
+  await expect(page.getByRole('figure', { name: 'Synthetic pad' })).toBeVisible();
+  expect(ofKind(await robot.bus(), 'move')).toHaveLength(1);
+
+  await pad.hold(RIGHT_TRIGGER);
+  await poll(() => lastTarget(robot.bus, 1)).toBeGreaterThan(1700);
+  await pad.hold();
+  await expectRest(robot.bus);
+  expect(await lastTarget(robot.bus, 1)).toBeLessThan(2500);
+
+  await pad.hold(STOP);
+  await expect(dashboard.status).toContainText('Stop sent');
+  await expect(driveSwitch(page)).not.toBeChecked();
+  await pad.hold();
+  await dashboard.resume.click();
+  const before = ofKind(await robot.bus(), 'move').length;
+  await pad.hold(RIGHT_TRIGGER);
+  await dashboard.battery.getByRole('button', { name: 'Refresh' }).click();
+  await poll(async () => (await robot.bus()).at(-1)?.command.kind).toBe('readBattery');
+  expect(ofKind(await robot.bus(), 'move')).toHaveLength(before);
+});
+
+test('a held key turns its servo; leaving the window ends it though the key is never let go @everyWay', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  await startDriving(dashboard);
+  await page.keyboard.down('q');
+  await poll(() => lastTarget(robot.bus, 1)).toBeGreaterThan(1600);
+  await page.evaluate(() => window.dispatchEvent(new Event('blur')));
+  await expectRest(robot.bus);
+  const reached = await lastTarget(robot.bus, 1);
+  expect(reached).toBeLessThan(2500);
+  await page.evaluate(() => window.dispatchEvent(new Event('focus')));
+  await expectRest(robot.bus);
+  expect(await lastTarget(robot.bus, 1)).toBe(reached);
+});
+
+test('servos that nobody knows are asked for and go home slowly', async ({ dashboard, robot, page, pad }) => {
+  await page.getByRole('tab', { name: 'Keys and pad' }).click();
+  await driveSwitch(page).check();
+  await pad.hold(RIGHT_TRIGGER);
+  await expect(dashboard.notices).toContainText('Gripper stays: nobody knows where it is.');
+  expect(ofKind(await robot.bus(), 'move')).toEqual([]);
+  await pad.hold();
+  await dashboard.button('First move, slowly').click();
+  await poll(async () => ofKind(await robot.bus(), 'move').length).toBe(1);
+  expect(ofKind(await robot.bus(), 'move')[0]?.durationMs).toBeGreaterThanOrEqual(1500);
+  await expect(dashboard.button('First move, slowly')).toBeHidden();
+});
+
+test('an input is bound by pressing it, says what it conflicts with, and is kept', async ({
+  dashboard,
+  page,
+  pad,
+}) => {
+  await page.getByRole('tab', { name: 'Keys and pad' }).click();
+  await dashboard.button('Press the input you want').click();
+  await pad.hold(RIGHT_TRIGGER);
+  const form = page.getByRole('form', { name: 'What does Right trigger do' });
+  await form.getByRole('combobox', { name: 'It does' }).selectOption('Run a slot');
+  await dashboard.type(form.getByRole('textbox', { name: 'Slot to run' }), 7);
+  const conflicts = page.getByRole('list', { name: 'Conflicts' });
+  await expect(conflicts).toHaveText('Right trigger is bound to Gripper and to Run slot 7.');
+
+  await page.reload();
+  await page.getByRole('tab', { name: 'Keys and pad' }).click();
+  await expect(driveSwitch(page)).not.toBeChecked();
+  await dashboard.button('Right trigger for Gripper').click();
+  await dashboard.button('Unbind').click();
+  await expect(conflicts).toBeHidden();
+  await dashboard.button('Undo: unbind Right trigger').click();
+  await expect(conflicts).toBeVisible();
+});
+
+test('pulling the pad while it is held ends the motion', async ({ dashboard, robot, page, pad }) => {
+  await startDriving(dashboard);
+  await pad.hold(RIGHT_TRIGGER);
+  await poll(() => lastTarget(robot.bus, 1)).toBeGreaterThan(1600);
+  await pad.unplug();
+  await expect(dashboard.notices).toContainText('The pad is gone.');
+  await expect(driveSwitch(page)).not.toBeChecked();
+  await expectRest(robot.bus);
+  expect(await lastTarget(robot.bus, 1)).toBeLessThan(2500);
+});

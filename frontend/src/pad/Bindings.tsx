@@ -1,0 +1,143 @@
+// Which input does what: a row per servo with its keys and sticks, lit while they are held, and the way to a new binding: press
+// the input, then say what it is to do.
+
+import { useEffect, useRef, useState } from 'react';
+import { Button as Bare } from 'react-aria-components/Button';
+import type { Binding, Input } from '#shared/actions/mapping.ts';
+import { shaped, valueOf } from '#shared/actions/mappingInputs.ts';
+import { readyMapping } from '#shared/actions/mappingReady.ts';
+import { useMapping, useRobot, useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { useEachFrame } from '../ui/useEachFrame.ts';
+import { words } from '../words/en.ts';
+import { BindingForm } from './BindingForm.tsx';
+import { draftFor, draftOf, type Draft } from './draft.ts';
+import { rowsOf } from './rows.ts';
+import styles from './Bindings.module.css';
+
+export function Bindings() {
+  const { mappings } = useStores();
+  const robot = useRobot();
+  const mapping = useMapping();
+  const [draft, setDraft] = useState<Draft | null>(null);
+
+  const edit = (label: string, bindings: readonly Binding[]): void => {
+    mappings.edit(label, (former) => ({ ...former, bindings }));
+    setDraft(null);
+  };
+  const save = (binding: Binding, at: number | null): void => {
+    const { bindings } = mapping;
+    const label = words.pad.steps.bind(words.pad.input(binding.input));
+    edit(label, at === null ? [...bindings, binding] : bindings.with(at, binding));
+  };
+  const remove = (at: number): void => {
+    const gone = mapping.bindings[at];
+    if (gone === undefined) return;
+    edit(words.pad.steps.unbind(words.pad.input(gone.input)), mapping.bindings.toSpliced(at, 1));
+  };
+
+  return (
+    <div className={styles.bindings}>
+      <div className={styles.tools}>
+        <Listen onHeard={(input) => setDraft(draftFor(input, robot))} />
+        <Button
+          tone="quiet"
+          hint={words.pad.readyHint}
+          onPress={() => edit(words.pad.steps.ready, readyMapping(robot).bindings)}
+        >
+          {words.pad.ready}
+        </Button>
+      </div>
+      {draft !== null && (
+        <BindingForm
+          key={`${draft.at} ${words.pad.input(draft.input)}`}
+          initial={draft}
+          onSave={save}
+          onRemove={remove}
+          onCancel={() => setDraft(null)}
+        />
+      )}
+      <Table onEdit={(at, binding) => setDraft(draftOf(at, binding, robot))} />
+    </div>
+  );
+}
+
+/** Waits for the input that a person moves next. */
+function Listen({ onHeard }: { onHeard(input: Input): void }) {
+  const { pad } = useStores();
+  const [giveUp, setGiveUp] = useState<(() => void) | null>(null);
+  useEffect(() => giveUp ?? undefined, [giveUp]);
+
+  function listen(): void {
+    const stop = pad.listen((input) => {
+      setGiveUp(null);
+      onHeard(input);
+    });
+    setGiveUp(() => stop);
+  }
+
+  if (giveUp === null)
+    return (
+      <Button tone="primary" icon="plus" hint={words.pad.addHint} onPress={listen}>
+        {words.pad.add}
+      </Button>
+    );
+  return (
+    <div
+      className={styles.listening}
+      onKeyDown={({ key }) => {
+        if (key === 'Escape') setGiveUp(null);
+      }}
+    >
+      <p role="status">{words.pad.listening}</p>
+      <Button autoFocus onPress={() => setGiveUp(null)}>
+        {words.pad.giveUp}
+      </Button>
+    </div>
+  );
+}
+
+function Table({ onEdit }: { onEdit(at: number, binding: Binding): void }) {
+  const { pad } = useStores();
+  const robot = useRobot();
+  const mapping = useMapping();
+  const list = useRef<HTMLUListElement>(null);
+
+  useEachFrame(() => {
+    const inputs = pad.inputs();
+    for (const chip of list.current?.querySelectorAll<HTMLElement>('[data-binding]') ?? []) {
+      const binding = mapping.bindings[Number(chip.dataset.binding)];
+      const isHeld = binding !== undefined && shaped(valueOf(binding.input, inputs), mapping.feel) !== 0;
+      chip.dataset.held = String(isHeld);
+    }
+  });
+
+  return (
+    <ul ref={list} className={styles.rows} aria-label={words.pad.table}>
+      {rowsOf(mapping, robot).map(({ title, bindings }) => (
+        <li key={title} className={styles.row}>
+          <span className={styles.title}>{title}</span>
+          <span className={styles.chips}>
+            {bindings.length === 0 && <span className={styles.none}>{words.pad.none}</span>}
+            {bindings.map((at) => {
+              const binding = mapping.bindings[at];
+              return (
+                binding && (
+                  <Bare
+                    key={at}
+                    data-binding={at}
+                    className={styles.chip ?? ''}
+                    aria-label={words.pad.edit(words.pad.input(binding.input), title)}
+                    onPress={() => onEdit(at, binding)}
+                  >
+                    {words.pad.chip(binding)}
+                  </Bare>
+                )
+              );
+            })}
+          </span>
+        </li>
+      ))}
+    </ul>
+  );
+}

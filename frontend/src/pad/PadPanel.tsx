@@ -1,0 +1,97 @@
+// Driving by keys and pad: the switch, the picture of what is held, how it feels, and which input does what.
+
+import { redoLabel, undoLabel } from '#shared/actions/history.ts';
+import { servoBoundBy } from '#shared/actions/mapping.ts';
+import { useStore } from 'zustand';
+import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { motionHindrance } from '../stores/readiness.ts';
+import { useDevice, useMapping, usePad, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
+import { Button, IconButton } from '../ui/Button.tsx';
+import { Panel } from '../ui/Panel.tsx';
+import { Toggle } from '../ui/Toggle.tsx';
+import { words } from '../words/en.ts';
+import { Bindings } from './Bindings.tsx';
+import { Conflicts } from './Conflicts.tsx';
+import { FeelControls } from './FeelControls.tsx';
+import { PadPicture } from './PadPicture.tsx';
+import styles from './PadPanel.module.css';
+
+export function PadPanel() {
+  return (
+    <Panel title={words.pad.title} tools={<Tools />} className={styles.panel}>
+      <p className={styles.hint}>
+        <Hint />
+      </p>
+      <FirstMoves />
+      <div className={styles.top}>
+        <PadPicture />
+        <FeelControls />
+      </div>
+      <Conflicts />
+      <Bindings />
+    </Panel>
+  );
+}
+
+function Hint() {
+  const isDriving = usePad((state) => state.isDriving);
+  const hindrance = useSnapshot(motionHindrance);
+  if (hindrance !== null) return words.servos.blocked[hindrance];
+  return isDriving ? words.pad.drivingHint : words.pad.driveHint;
+}
+
+function Tools() {
+  const { pad, mappings } = useStores();
+  const isDriving = usePad((state) => state.isDriving);
+  const isBlocked = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
+  const back = useStore(mappings.store, undoLabel);
+  const forth = useStore(mappings.store, redoLabel);
+  return (
+    <>
+      <IconButton
+        icon="undo"
+        label={back === null ? words.pad.undo : words.pad.undoStep(back)}
+        isDisabled={back === null}
+        onPress={() => mappings.undo()}
+      />
+      <IconButton
+        icon="redo"
+        label={forth === null ? words.pad.redo : words.pad.redoStep(forth)}
+        isDisabled={forth === null}
+        onPress={() => mappings.redo()}
+      />
+      <span className={styles.drive}>
+        <Toggle
+          label={words.pad.drive}
+          isOn={isDriving}
+          isDisabled={isBlocked && !isDriving}
+          onChange={pad.drive}
+        />
+      </span>
+    </>
+  );
+}
+
+/** Speeds begin at a known place: whoever has none is asked for a slow move, never guessed. */
+function FirstMoves() {
+  const { device } = useStores();
+  const { servos } = useRobot();
+  const { bindings } = useMapping();
+  const targets = useDevice((state) => state.targets);
+  const isDriving = usePad((state) => state.isDriving);
+  const bound = new Set(bindings.map(servoBoundBy));
+  const unknown = servos.filter(({ servo }) => bound.has(servo) && targets[servo] === undefined);
+  if (!isDriving || unknown.length === 0) return null;
+  const goHome = (): void => {
+    const homes = unknown.map(({ servo, home }) => ({ servo, position: home }));
+    device.move(homes, GENTLE_MOVE_MS);
+  };
+  return (
+    <div className={styles.unknown}>
+      <p>{words.pad.allUnknown(unknown.map(({ name }) => name))}</p>
+      <Button icon="centre" hint={words.pad.firstMoveHint} onPress={goHome}>
+        {words.pad.firstMove}
+      </Button>
+    </div>
+  );
+}

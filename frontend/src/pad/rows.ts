@@ -1,0 +1,34 @@
+// The bindings as a table: a row per servo of the robot, then what else is bound. Knows no drawing.
+
+import { servoBoundBy, type Binding, type Mapping } from '#shared/actions/mapping.ts';
+import { servoOf, type Robot } from '#shared/actions/robot.ts';
+import { words } from '../words/en.ts';
+
+export interface Row {
+  readonly title: string;
+  /** Places in the mapping's list. */
+  readonly bindings: readonly number[];
+}
+
+/** What a binding does, for its row. */
+export function rowTitle(binding: Binding, robot: Robot): string {
+  const servo = servoBoundBy(binding);
+  if (servo !== null) return servoOf(robot, servo)?.name ?? words.pad.absent(servo);
+  return binding.action.kind === 'run' ? words.pad.slotRow(binding.action.slot) : words.pad.stopRow;
+}
+
+/** Servos are there without a binding too. Two servos of one name share a row, and are not to be told apart anywhere else. */
+export function rowsOf({ bindings }: Mapping, robot: Robot): readonly Row[] {
+  const titles = bindings.map((binding) => rowTitle(binding, robot));
+  const all = new Set([...robot.servos.map(({ name }) => name), ...titles]);
+  return [...all].map((title) => ({
+    title,
+    bindings: titles
+      .flatMap((one, at) => (one === title ? [at] : []))
+      .toSorted((one, other) => placeInRow(bindings[one]) - placeInRow(bindings[other])),
+  }));
+}
+
+const ORDER = ['axis', 'button', 'key'] as const;
+
+const placeInRow = (binding: Binding | undefined): number => ORDER.indexOf(binding?.input.kind ?? 'key');

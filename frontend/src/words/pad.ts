@@ -1,0 +1,125 @@
+// Words about driving by pad and keys: names of inputs, what they do, and what the panel says.
+
+import type { Binding, Input, Side } from '#shared/actions/mapping.ts';
+import {
+  formatNames,
+  formatMs,
+  formatPercent,
+  formatWhole,
+  unitSymbol,
+  type PositionUnit,
+} from './numbers.ts';
+
+/** As most pads print it; the order is the browser's standard one. */
+const BUTTONS: readonly string[] = [
+  ...['A', 'B', 'X', 'Y', 'Left bumper', 'Right bumper', 'Left trigger', 'Right trigger', 'Back', 'Start'],
+  ...['Left stick press', 'Right stick press', 'Pad up', 'Pad down', 'Pad left', 'Pad right', 'Home'],
+];
+
+const AXES: readonly Readonly<Record<Side, string>>[] = [
+  { whole: 'Left stick sideways', minus: 'Left stick to the left', plus: 'Left stick to the right' },
+  { whole: 'Left stick up and down', minus: 'Left stick up', plus: 'Left stick down' },
+  { whole: 'Right stick sideways', minus: 'Right stick to the left', plus: 'Right stick to the right' },
+  { whole: 'Right stick up and down', minus: 'Right stick up', plus: 'Right stick down' },
+];
+
+const SHORT_AXES: readonly string[] = ['Left stick ↔', 'Left stick ↕', 'Right stick ↔', 'Right stick ↕'];
+
+const SIDE_SIGN: Readonly<Record<Side, string>> = { whole: '', minus: ' −', plus: ' +' };
+
+/** `KeyQ` is Q, `Digit1` is 1; others are told as browsers call them. */
+const keyName = (code: string): string => code.replace(/^(Key|Digit)/u, '');
+
+function inputName(input: Input): string {
+  if (input.kind === 'key') return `Key ${keyName(input.code)}`;
+  if (input.kind === 'button') return BUTTONS[input.index] ?? `Button ${formatWhole(input.index)}`;
+  return AXES[input.index]?.[input.side] ?? `Axis ${formatWhole(input.index)}${SIDE_SIGN[input.side]}`;
+}
+
+/** A whole stick's way as a sign; null for anything else. */
+function shortName(input: Input): string | null {
+  if (input.kind !== 'axis' || input.side !== 'whole') return null;
+  return SHORT_AXES[input.index] ?? null;
+}
+
+/** In its row an input needs its name and direction only. */
+function chipText({ input, action }: Binding): string {
+  const name = input.kind === 'key' ? keyName(input.code) : (shortName(input) ?? inputName(input));
+  if (action.kind !== 'rate') return name;
+  const isBothWays = input.kind === 'axis' && input.side === 'whole';
+  return isBothWays ? name : `${name} ${action.unitsPerS < 0 ? '−' : '+'}`;
+}
+
+export const padWords = {
+  title: 'Keys and pad',
+  tabs: { group: 'Action group', pad: 'Keys and pad' },
+  tabList: 'What to work on',
+  drivingTab: 'Keys and pad, driving',
+  drive: 'Drive',
+  driveHint: 'Off, no key and no stick moves anything. Stop on the pad always works.',
+  drivingHint: 'Keys and sticks move the robot. Letting go, or leaving this window, ends it.',
+  unreadable: 'The saved keys and pad could not be read. They were set aside unharmed.',
+  notSaved: 'The browser does not store keys and pad; they are kept until the page is closed.',
+  gone: 'The pad is gone. Driving is switched off.',
+  noPad: 'No pad seen. Press a button on it: the browser shows it only then.',
+  otherPad: 'This pad counts its buttons in its own way; the picture may not fit.',
+  picture: 'Picture of the pad: what lights up is held',
+  unknown: (servo: string): string =>
+    `${servo} stays: nobody knows where it is. Make its slow first move under Keys and pad, or by its slider.`,
+  allUnknown: (names: readonly string[]): string =>
+    `Nobody knows yet where these are: ${formatNames(names)}.`,
+  firstMove: 'First move, slowly',
+  firstMoveHint: 'Takes the servos that nobody has moved yet to their home, slowly',
+
+  table: 'Which key or stick does what',
+  absent: (servo: number): string => `Servo ${formatWhole(servo)}, not on this robot`,
+  stopRow: 'Stop',
+  slotRow: (slot: number): string => `Run slot ${formatWhole(slot)}`,
+  none: 'Nothing yet',
+  edit: (input: string, row: string): string => `${input} for ${row}`,
+  input: inputName,
+  chip: chipText,
+
+  add: 'Press the input you want',
+  addHint: 'Then say what it is to do',
+  listening: 'Waiting for a key, a button or a stick. Esc gives up.',
+  giveUp: 'Give up',
+  form: (input: string): string => `What does ${input} do`,
+  does: 'It does',
+  actions: { rate: 'Turn a servo', position: 'Place a servo', run: 'Run a slot', stop: 'Stop' },
+  servo: 'Servo',
+  slot: 'Slot to run',
+  speedUnit: (unit: PositionUnit): string => `${unitSymbol(unit)}/s`,
+  speedField: 'Speed in units a second',
+  reversed: 'The other way round',
+  save: 'Bind',
+  remove: 'Unbind',
+  cancel: 'Cancel',
+  ready: 'Ready mapping',
+  readyHint: 'Replaces every binding by the ready ones. Undo brings yours back.',
+  undo: 'Undo',
+  redo: 'Redo',
+  undoStep: (label: string): string => `Undo: ${label}`,
+  redoStep: (label: string): string => `Redo: ${label}`,
+  steps: {
+    bind: (input: string): string => `bind ${input}`,
+    unbind: (input: string): string => `unbind ${input}`,
+    feel: 'feel of the sticks',
+    ready: 'ready mapping',
+  },
+
+  feel: 'Feel',
+  speedPercent: 'Speed',
+  deadZonePercent: 'Dead zone',
+  curvePercent: 'Curve',
+  smoothingMs: 'Smoothing',
+  percent: formatPercent,
+  ms: formatMs,
+  plot: 'How far a stick is pushed, and what comes of it',
+
+  conflicts: 'Conflicts',
+  sameInput: (input: string, one: string, other: string): string =>
+    one === other ? `${input} is bound to ${one} twice.` : `${input} is bound to ${one} and to ${other}.`,
+  sharedServo: (name: string): string =>
+    `${name} is placed by one input and turned by another; the last one wins.`,
+};
