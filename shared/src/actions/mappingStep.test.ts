@@ -10,6 +10,8 @@ const ROBOT = readyRobot('arm', 'doc', names);
 const RAW: Feel = { deadZonePercent: 0, curvePercent: 0, smoothingMs: 0, speedPercent: 100 };
 const STICK: Input = { kind: 'axis', index: 0, side: 'whole' };
 const BUTTON: Input = { kind: 'button', index: 0 };
+/** A servo that nobody moved, whose position the board told. */
+const TOLD = 4;
 const KEY: Input = { kind: 'key', code: 'KeyQ' };
 
 const rate = (unitsPerS: number, servo = 1): Action => ({ kind: 'rate', servo, unitsPerS });
@@ -27,6 +29,7 @@ function drive(
     robot: ROBOT,
     mapping: { bindings: bindings.map(([input, action]) => ({ input, action })), feel: { ...RAW, ...feel } },
     place: (servo) => {
+      if (servo === TOLD && targets[servo] === undefined) return { target: null, estimated: 1200 };
       const target = targets[servo] ?? null;
       return { target, estimated: target === null || lagsAt === undefined ? target : lagsAt };
     },
@@ -61,6 +64,13 @@ describe('a rate', () => {
     targets[1] = 2000;
     frames(pushed(1), 50);
     expect(targets[1]).toBe(2100);
+  });
+
+  test('begins where the board says the servo stands, if nobody commanded it', () => {
+    const { targets, rest, frames } = drive([[STICK, rate(100, TOLD)]]);
+    rest();
+    frames(pushed(1), 50);
+    expect(targets[TOLD]).toBe(1300);
   });
 
   test('follows the speed, and two inputs on one servo add up', () => {

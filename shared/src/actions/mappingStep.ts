@@ -110,12 +110,13 @@ function wishFor(
   const turned = unitsPerS(servo, driven.mapping, held);
   const placed = placedAt(servo, driven.mapping, held, before);
   if (turned === 0 && placed === null) return null;
-  if (target === null) return 'unknown';
+  const known = target ?? estimated;
+  if (known === null) return 'unknown';
   // On its slow first move: it is followed once it has arrived.
   if (estimated === null) return null;
   if (placed !== null) return placed;
   const aim = before.aims[servo.servo];
-  const from = aim !== undefined && Math.round(aim) === target ? aim : target;
+  const from = aim !== undefined && Math.round(aim) === target ? aim : known;
   return led(from, from + (turned * dtMs) / 1000, estimated, servo);
 }
 
@@ -171,7 +172,8 @@ function shareNow({ robot, place }: Driven, { input }: Binding, action: ActionOf
   const servo = servoOf(robot, action.servo);
   if (servo === undefined) return 0;
   const { min, max } = servo;
-  const along = ((place(action.servo).target ?? min) - min) / (max - min);
+  const { target, estimated } = place(action.servo);
+  const along = ((target ?? estimated ?? min) - min) / (max - min);
   const share = action.isReversed ? 1 - along : along;
   return isSigned(input) ? share * 2 - 1 : share;
 }
