@@ -44,7 +44,7 @@ test('a servo is calibrated from nothing, and what was set holds everywhere @eve
 
   await dashboard.type(dashboard.target(1), lowest - 20);
   await expect(dashboard.notices).toContainText(
-    `Servo 1: ${lowest - 20} is out of range; it takes ${lowest} to ${highest}.`,
+    `Gripper: ${lowest - 20} is out of range; it takes ${lowest} to ${highest}.`,
   );
   await dashboard.type(dashboard.target(1), lowest);
   await poll(() => lastTarget(robot.bus, 1)).toBe(lowest);
