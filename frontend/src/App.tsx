@@ -4,7 +4,6 @@
 import { useEffect } from 'react';
 import { useStore } from 'zustand';
 import { Tab, TabList, TabPanel, Tabs } from 'react-aria-components/Tabs';
-import { ActionsPanel } from './actions/ActionsPanel.tsx';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
 import { BatteryPanel } from './battery/BatteryPanel.tsx';
 import { useBatteryTab } from './battery/useBatteryTab.ts';
@@ -14,9 +13,13 @@ import type { Page } from './connect/page.ts';
 import { LogDrawer } from './console/LogDrawer.tsx';
 import { LogPanel } from './console/LogPanel.tsx';
 import { RobotDialog } from './robots/RobotDialog.tsx';
+import { ButtonsPage } from './macros/ButtonsPage.tsx';
+import { Kiosk } from './macros/Kiosk.tsx';
+import { Authoring } from './poses/Authoring.tsx';
 import { LivePanel } from './servos/LivePanel.tsx';
 import { StopButton } from './stop/StopButton.tsx';
 import { StoresContext, useStores, useView } from './stores/stores.ts';
+import type { Undoable } from './stores/undoable.ts';
 import type { Tab as TabName, Theme } from './stores/view.ts';
 import { TopBar } from './topBar/TopBar.tsx';
 import { Icon, type IconName } from './ui/Icon.tsx';
@@ -37,16 +40,18 @@ export function App({ page }: { readonly page: Page }) {
 function Dashboard({ page }: { readonly page: Page }) {
   const layout = useLayout();
   const said = useView((state) => state.said);
-  const { device, document: group, notices } = useStores();
+  const { device, notices } = useStores();
+  const isKiosk = useView((state) => state.kiosk === 'on');
+  const moveHere = (): void => void page.connector.moveHere().catch(notices.tellError);
   useTheme();
   useBatteryTab();
-  useUndoKeys(group);
+  useUndoKeys(useWritten());
   useEachFrame(() => device.refreshTargets());
   return (
     <div className={styles.app} data-layout={layout}>
-      <TopBar onMoveHere={() => void page.connector.moveHere().catch(notices.tellError)} />
+      {!isKiosk && <TopBar onMoveHere={moveHere} />}
       <StopButton />
-      {layout === 'phone' ? <PhoneWork /> : <DeskWork />}
+      {isKiosk ? <Kiosk onMoveHere={moveHere} /> : layout === 'phone' ? <PhoneWork /> : <DeskWork />}
       <Messages />
       <p className={styles.said} role="status">
         {said}
@@ -57,7 +62,25 @@ function Dashboard({ page }: { readonly page: Page }) {
   );
 }
 
+/** What the undo keys are about: what is written on now. */
+function useWritten(): Pick<Undoable<unknown>, 'undo' | 'redo'> | null {
+  const { document: group, poses, macros } = useStores();
+  return useView(({ kiosk, tab, authoring }) => {
+    if (kiosk === 'on') return null;
+    if (tab === 'buttons') return macros;
+    return authoring === 'poses' ? poses.book : group;
+  });
+}
+
 function DeskWork() {
+  const isButtons = useView((state) => state.tab === 'buttons');
+  if (isButtons) {
+    return (
+      <main className={styles.page}>
+        <ButtonsPage />
+      </main>
+    );
+  }
   return (
     <>
       <main className={styles.desk}>
@@ -65,7 +88,7 @@ function DeskWork() {
           <LivePanel />
         </div>
         <div className={styles.authoring}>
-          <ActionsPanel />
+          <Authoring />
           <div className={styles.boardRow}>
             <BoardPanel />
             <BatteryPanel />
@@ -82,6 +105,7 @@ const TABS: readonly { readonly id: TabName; readonly icon: IconName }[] = [
   { id: 'actions', icon: 'frames' },
   { id: 'board', icon: 'board' },
   { id: 'log', icon: 'log' },
+  { id: 'buttons', icon: 'buttons' },
 ];
 
 function PhoneWork() {
@@ -108,7 +132,7 @@ function PhoneWork() {
           <LivePanel />
         </TabPanel>
         <TabPanel id="actions" className={styles.tabPanel ?? ''}>
-          <ActionsPanel />
+          <Authoring />
         </TabPanel>
         <TabPanel id="board" className={styles.tabPanel ?? ''}>
           <BoardPanel />
@@ -116,6 +140,9 @@ function PhoneWork() {
         </TabPanel>
         <TabPanel id="log" className={styles.tabPanel ?? ''}>
           <LogPanel />
+        </TabPanel>
+        <TabPanel id="buttons" className={styles.tabPanel ?? ''}>
+          <ButtonsPage />
         </TabPanel>
       </main>
     </Tabs>

@@ -2,13 +2,14 @@
 // of its own.
 
 import { useEffect } from 'react';
-import type { Document } from '../stores/document.ts';
+import type { Undoable } from '../stores/undoable.ts';
 
-export function useUndoKeys(document: Document): void {
+/** null: they do nothing now. */
+export function useUndoKeys(document: Pick<Undoable<unknown>, 'undo' | 'redo'> | null): void {
   useEffect(() => {
     const key = (event: KeyboardEvent): void => {
       const action = undoActionOf(event);
-      if (action === null || isTextField(event.target)) return;
+      if (action === null || document === null || isTextField(event.target)) return;
       event.preventDefault();
       document[action]();
     };

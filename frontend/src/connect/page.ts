@@ -8,7 +8,10 @@ import { pollBattery } from '../stores/batteryPoll.ts';
 import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
+import { createMacroRun } from '../stores/macroRun.ts';
+import { createMacros } from '../stores/macros.ts';
 import { createNotices } from '../stores/notices.ts';
+import { createPoses } from '../stores/poses.ts';
 import { createRobots } from '../stores/robots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
@@ -31,14 +34,21 @@ export function openPage(): Page {
   const device = createDevice({ family: FAMILIES.doc, clock: pageClock, notices, robots });
   const boards = createBoards(storage);
   const battery = createBattery(device, robots);
+  const poses = createPoses({ storage, notices, robots, device });
+  const macroRun = createMacroRun({ device, poses, robots, notices, clock: pageClock });
   const stores = {
-    ...{ device, notices, boards, robots, battery },
+    ...{ device, notices, boards, robots, battery, poses, macroRun },
+    macros: createMacros(storage, notices, robots),
     document: createDocument(storage, notices),
     view: createView(storage),
   };
   const connector = createConnector({ device, notices, boards, storage, isWatched });
   connector.start().catch(notices.tellError);
-  watchLeaving(window, { hidden: () => device.stopPlaying(), left: () => connector.leave() });
+  const paused = (): void => {
+    device.stopPlaying();
+    macroRun.end();
+  };
+  watchLeaving(window, { hidden: paused, left: () => connector.leave() });
   applyBatteryPolicy({ device, battery, robots, notices });
   pollBattery(device, isWatched);
   return { stores, connector };

@@ -17,6 +17,8 @@ import { calibrationWords } from './calibration.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { robotEditorWords } from './robotEditor.ts';
+import { macroWords } from './macros.ts';
+import { poseWords } from './poses.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
 import { timesWords } from './packets.ts';
@@ -24,7 +26,7 @@ import { timesWords } from './packets.ts';
 export const words = {
   product: 'Servodeck',
   regions: { top: 'Robot and link', notices: 'Notices' },
-  tabs: { live: 'Live', actions: 'Actions', board: 'Board', log: 'Log' },
+  tabs: { live: 'Live', actions: 'Actions', board: 'Board', log: 'Log', buttons: 'Buttons' },
   tabList: 'Parts of the dashboard',
   close: 'Close',
 
@@ -64,6 +66,8 @@ export const words = {
   robotEditor: robotEditorWords,
   calibration: calibrationWords,
   servoPanel: servoPanelWords,
+  poses: poseWords,
+  macros: macroWords,
 
   stop: {
     button: 'Stop',

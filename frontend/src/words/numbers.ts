@@ -20,6 +20,7 @@ const seconds = new Intl.NumberFormat(language, {
   minimumFractionDigits: 1,
   maximumFractionDigits: 1,
 });
+const percent = new Intl.NumberFormat(language, { style: 'percent', maximumFractionDigits: 0 });
 const grouped = new Intl.NumberFormat(language);
 const ago = new Intl.RelativeTimeFormat(language, { style: 'short' });
 const list = new Intl.ListFormat(language);
@@ -34,6 +35,7 @@ export type PositionUnit = 'us' | 'steps';
 
 /** Digits only, never grouped: positions stand in columns. */
 export const formatWhole = (value: number): string => whole.format(value);
+export const formatPercent = (share: number): string => percent.format(share);
 export const formatCount = (value: number): string => grouped.format(value);
 export const formatList = (values: readonly number[]): string => list.format(values.map(formatWhole));
 export const unitSymbol = (unit: PositionUnit): string => (unit === 'us' ? 'µs' : 'steps');

@@ -13,7 +13,8 @@ const id = whole(1, Number.MAX_SAFE_INTEGER);
 
 export const MOVE_MS = { min: 0, max: 30_000 } as const;
 export const WAIT_MS = { min: 100, max: 600_000 } as const;
-const SLOT_TIMES = { min: 1, max: 255 } as const;
+export const SLOT = { min: 0, max: 255 } as const;
+export const SLOT_TIMES = { min: 1, max: 255 } as const;
 /** A page for fingers: more are not found. */
 const MAX_MACROS = 200;
 const MAX_STEPS = 100;
@@ -27,7 +28,7 @@ const stepSchema = z.discriminatedUnion('kind', [
   /** Without end is no step: the next one would never come. */
   z.strictObject({
     kind: z.literal('slot'),
-    slot: whole(0, 255),
+    slot: whole(SLOT.min, SLOT.max),
     times: whole(SLOT_TIMES.min, SLOT_TIMES.max),
   }),
   z.strictObject({ kind: z.literal('wait'), waitMs: whole(WAIT_MS.min, WAIT_MS.max) }),
