@@ -12,7 +12,7 @@ const SIZES = [
   { width: 820, height: 1180 },
   { width: 1440, height: 900 },
 ];
-const TABS = ['Actions', 'Board', 'Log', 'Live'];
+const TABS = ['Actions', 'Board', 'Log', 'Buttons', 'Live'];
 
 interface Look {
   readonly page: Page;
@@ -36,6 +36,25 @@ async function expectNoSidewaysScroll(page: Page, state: string): Promise<void> 
     return scrollWidth - clientWidth;
   });
   expect.soft(overflow, `${state}: pixels beyond the right edge`).toBe(0);
+}
+
+/** Where the screen has no tabs for it, the page of buttons is chosen above. */
+async function expectSoundPages(look: Look): Promise<void> {
+  const { page } = look;
+  const isPhone = await page.getByRole('tablist').isVisible();
+  if (isPhone) await page.getByRole('tab', { name: 'Actions' }).click();
+  await page.getByRole('radio', { name: 'Poses' }).check();
+  await expectSound(look, 'poses');
+  await page.getByRole('radio', { name: 'Keys and pad' }).check();
+  await expectSound(look, 'keys and pad');
+  if (isPhone) await page.getByRole('tab', { name: 'Buttons' }).click();
+  else await page.getByRole('radio', { name: 'Buttons' }).check();
+  await page.getByRole('switch', { name: 'Edit buttons' }).check();
+  await page.getByRole('button', { name: 'Add button' }).click();
+  await page.getByRole('button', { name: 'Slot' }).click();
+  await expectSound(look, 'buttons being changed');
+  await page.getByRole('button', { name: 'Kiosk' }).click();
+  await expectSound(look, 'kiosk');
 }
 
 /** On a phone each part by itself. */
@@ -92,6 +111,12 @@ for (const colorScheme of ['light', 'dark'] as const) {
         await dashboard.button('Disconnect').click();
         await expect(dashboard.link).toContainText('Not connected');
         await expectSound(look, 'disconnected');
+      });
+
+      test('poses, buttons and the kiosk are accessible and fit', async ({ page, servers }) => {
+        await page.goto((await servers.files()).url);
+        await expect(dashboardOf(page).link).toContainText('Ready');
+        await expectSoundPages({ page, isDark: colorScheme === 'dark' });
       });
     });
   }

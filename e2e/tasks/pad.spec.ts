@@ -22,7 +22,7 @@ async function startDriving(dashboard: Dashboard): Promise<void> {
   const { page } = dashboard;
   await dashboard.type(dashboard.target(1), 1500);
   await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
-  await page.getByRole('tab', { name: 'Keys and pad' }).click();
+  await page.getByRole('radio', { name: 'Keys and pad' }).check();
   await driveSwitch(page).check();
 }
 
@@ -52,7 +52,7 @@ test('a pad moves nothing before it is switched on, then while it is held, and s
   expect(ofKind(await robot.bus(), 'move')).toHaveLength(1);
 
   await startDriving(dashboard);
-  await expect(page.getByRole('tab', { name: 'Keys and pad, driving' })).toBeVisible();
+  await expect(page.getByRole('radio', { name: 'Keys and pad, driving' })).toBeVisible();
   await pad.hold();
   await expect(page.getByRole('figure', { name: 'Synthetic pad' })).toBeVisible();
   expect(ofKind(await robot.bus(), 'move')).toHaveLength(1);
@@ -93,7 +93,7 @@ test('a held key turns its servo; leaving the window ends it though the key is n
 });
 
 test('servos that nobody knows are asked for and go home slowly', async ({ dashboard, robot, page, pad }) => {
-  await page.getByRole('tab', { name: 'Keys and pad' }).click();
+  await page.getByRole('radio', { name: 'Keys and pad' }).check();
   await driveSwitch(page).check();
   await pad.hold(RIGHT_TRIGGER);
   await expect(dashboard.notices).toContainText('Gripper stays: nobody knows where it is.');
@@ -110,7 +110,7 @@ test('an input is bound by pressing it, says what it conflicts with, and is kept
   page,
   pad,
 }) => {
-  await page.getByRole('tab', { name: 'Keys and pad' }).click();
+  await page.getByRole('radio', { name: 'Keys and pad' }).check();
   await dashboard.button('Press the input you want').click();
   await pad.hold(RIGHT_TRIGGER);
   const form = page.getByRole('form', { name: 'What does Right trigger do' });
@@ -120,7 +120,7 @@ test('an input is bound by pressing it, says what it conflicts with, and is kept
   await expect(conflicts).toHaveText('Right trigger is bound to Gripper and to Run slot 7.');
 
   await page.reload();
-  await page.getByRole('tab', { name: 'Keys and pad' }).click();
+  await page.getByRole('radio', { name: 'Keys and pad' }).check();
   await expect(driveSwitch(page)).not.toBeChecked();
   await dashboard.button('Right trigger for Gripper').click();
   await dashboard.button('Unbind').click();
@@ -138,4 +138,11 @@ test('pulling the pad while it is held ends the motion', async ({ dashboard, rob
   await expect(driveSwitch(page)).not.toBeChecked();
   await expectRest(robot.bus);
   expect(await lastTarget(robot.bus, 1)).toBeLessThan(2500);
+});
+
+test('driving ends where the keys belong to buttons', async ({ dashboard, page }) => {
+  await startDriving(dashboard);
+  await page.getByRole('radio', { name: 'Buttons' }).check();
+  await page.getByRole('radio', { name: 'Controls' }).check();
+  await expect(driveSwitch(page)).not.toBeChecked();
 });

@@ -4,8 +4,6 @@
 import { useEffect } from 'react';
 import { useStore } from 'zustand';
 import { Tab, TabList, TabPanel, Tabs } from 'react-aria-components/Tabs';
-import { ActionsPanel } from './actions/ActionsPanel.tsx';
-import { AuthoringTabs } from './AuthoringTabs.tsx';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
 import { BatteryPanel } from './battery/BatteryPanel.tsx';
 import { useBatteryTab } from './battery/useBatteryTab.ts';
@@ -15,10 +13,13 @@ import type { Page } from './connect/page.ts';
 import { LogDrawer } from './console/LogDrawer.tsx';
 import { LogPanel } from './console/LogPanel.tsx';
 import { RobotDialog } from './robots/RobotDialog.tsx';
-import { PadPanel } from './pad/PadPanel.tsx';
+import { Authoring } from './authoring/Authoring.tsx';
+import { ButtonsPage } from './macros/ButtonsPage.tsx';
+import { Kiosk } from './macros/Kiosk.tsx';
 import { LivePanel } from './servos/LivePanel.tsx';
 import { StopButton } from './stop/StopButton.tsx';
 import { StoresContext, useStores, useView } from './stores/stores.ts';
+import type { Undoable } from './stores/undoable.ts';
 import type { Tab as TabName, Theme } from './stores/view.ts';
 import { TopBar } from './topBar/TopBar.tsx';
 import { Icon, type IconName } from './ui/Icon.tsx';
@@ -39,19 +40,21 @@ export function App({ page }: { readonly page: Page }) {
 function Dashboard({ page }: { readonly page: Page }) {
   const layout = useLayout();
   const said = useView((state) => state.said);
-  const { device, document: group, notices, pad } = useStores();
+  const { device, notices, pad } = useStores();
+  const isKiosk = useView((state) => state.kiosk === 'on');
+  const moveHere = (): void => void page.connector.moveHere().catch(notices.tellError);
   useTheme();
   useBatteryTab();
-  useUndoKeys(group);
+  useUndoKeys(useWritten());
   useEachFrame(() => {
     device.refreshTargets();
     pad.frame();
   });
   return (
     <div className={styles.app} data-layout={layout}>
-      <TopBar onMoveHere={() => void page.connector.moveHere().catch(notices.tellError)} />
+      {!isKiosk && <TopBar onMoveHere={moveHere} />}
       <StopButton />
-      {layout === 'phone' ? <PhoneWork /> : <DeskWork />}
+      {isKiosk ? <Kiosk onMoveHere={moveHere} /> : layout === 'phone' ? <PhoneWork /> : <DeskWork />}
       <Messages />
       <p className={styles.said} role="status">
         {said}
@@ -62,7 +65,25 @@ function Dashboard({ page }: { readonly page: Page }) {
   );
 }
 
+/** What the undo keys are about: what is written on now. */
+function useWritten(): Pick<Undoable<unknown>, 'undo' | 'redo'> | null {
+  const { document: group, poses, macros, mappings } = useStores();
+  return useView(({ kiosk, tab, authoring }) => {
+    if (kiosk === 'on') return null;
+    if (tab === 'buttons') return macros;
+    return { group, poses: poses.book, pad: mappings }[authoring];
+  });
+}
+
 function DeskWork() {
+  const isButtons = useView((state) => state.tab === 'buttons');
+  if (isButtons) {
+    return (
+      <main className={styles.page}>
+        <ButtonsPage />
+      </main>
+    );
+  }
   return (
     <>
       <main className={styles.desk}>
@@ -70,7 +91,7 @@ function DeskWork() {
           <LivePanel />
         </div>
         <div className={styles.authoring}>
-          <AuthoringTabs />
+          <Authoring />
           <div className={styles.boardRow}>
             <BoardPanel />
             <BatteryPanel />
@@ -87,6 +108,7 @@ const TABS: readonly { readonly id: TabName; readonly icon: IconName }[] = [
   { id: 'actions', icon: 'frames' },
   { id: 'board', icon: 'board' },
   { id: 'log', icon: 'log' },
+  { id: 'buttons', icon: 'buttons' },
 ];
 
 function PhoneWork() {
@@ -111,10 +133,9 @@ function PhoneWork() {
       <main className={styles.phone}>
         <TabPanel id="live" className={styles.tabPanel ?? ''}>
           <LivePanel />
-          <PadPanel />
         </TabPanel>
         <TabPanel id="actions" className={styles.tabPanel ?? ''}>
-          <ActionsPanel />
+          <Authoring />
         </TabPanel>
         <TabPanel id="board" className={styles.tabPanel ?? ''}>
           <BoardPanel />
@@ -122,6 +143,9 @@ function PhoneWork() {
         </TabPanel>
         <TabPanel id="log" className={styles.tabPanel ?? ''}>
           <LogPanel />
+        </TabPanel>
+        <TabPanel id="buttons" className={styles.tabPanel ?? ''}>
+          <ButtonsPage />
         </TabPanel>
       </main>
     </Tabs>

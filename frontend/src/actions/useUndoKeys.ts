@@ -2,14 +2,15 @@
 // of its own.
 
 import { useEffect } from 'react';
+import type { Undoable } from '../stores/undoable.ts';
 import { isTextField } from '../ui/textField.ts';
-import type { Document } from '../stores/document.ts';
 
-export function useUndoKeys(document: Document): void {
+/** null: they do nothing now. */
+export function useUndoKeys(document: Pick<Undoable<unknown>, 'undo' | 'redo'> | null): void {
   useEffect(() => {
     const key = (event: KeyboardEvent): void => {
       const action = undoActionOf(event);
-      if (action === null || isTextField(event.target)) return;
+      if (action === null || document === null || isTextField(event.target)) return;
       event.preventDefault();
       document[action]();
     };

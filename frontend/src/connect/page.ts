@@ -9,9 +9,12 @@ import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import { watchInputs } from '../pad/watchInputs.ts';
+import { createMacroRun } from '../stores/macroRun.ts';
+import { createMacros } from '../stores/macros.ts';
 import { createMappings } from '../stores/mappings.ts';
 import { createNotices } from '../stores/notices.ts';
 import { createPad } from '../stores/pad.ts';
+import { createPoses } from '../stores/poses.ts';
 import { createRobots } from '../stores/robots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
@@ -37,16 +40,26 @@ export function openPage(): Page {
   const mappings = createMappings(storage, notices, robots);
   const readPads = () => navigator.getGamepads();
   const pad = createPad({ device, robots, mappings, notices, clock: pageClock, readPads });
+  const poses = createPoses({ storage, notices, robots, device });
+  const macroRun = createMacroRun({ device, poses, robots, notices, clock: pageClock });
   const stores = {
-    ...{ device, notices, boards, robots, battery, mappings, pad },
+    ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun },
+    macros: createMacros(storage, notices, robots),
     document: createDocument(storage, notices),
     view: createView(storage),
   };
   const connector = createConnector({ device, notices, boards, storage, isWatched });
   connector.start().catch(notices.tellError);
-  watchLeaving(window, { hidden: () => device.stopPlaying(), left: () => connector.leave() });
+  const paused = (): void => {
+    device.stopPlaying();
+    macroRun.end();
+  };
+  watchLeaving(window, { hidden: paused, left: () => connector.leave() });
   applyBatteryPolicy({ device, battery, robots, notices });
   watchInputs(window, pad);
+  stores.view.subscribe(({ tab, kiosk }) => {
+    if (tab === 'buttons' || kiosk === 'on') pad.drive(false);
+  });
   pollBattery(device, isWatched);
   return { stores, connector };
 }

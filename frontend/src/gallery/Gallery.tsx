@@ -14,22 +14,17 @@ import { pageClock } from '../connect/page.ts';
 import { LogPanel } from '../console/LogPanel.tsx';
 import { ThisBoard } from '../identity/ThisBoard.tsx';
 import { LivePanel } from '../servos/LivePanel.tsx';
-import { createBattery, type BatteryStore } from '../stores/battery.ts';
-import { createBoards } from '../stores/boards.ts';
-import { createDevice } from '../stores/device.ts';
-import { createDocument, type TextStorage } from '../stores/document.ts';
-import { createMappings } from '../stores/mappings.ts';
-import { createNotices } from '../stores/notices.ts';
-import { createPad } from '../stores/pad.ts';
-import { createRobots, type RobotStore } from '../stores/robots.ts';
+import type { BatteryStore } from '../stores/battery.ts';
+import type { RobotStore } from '../stores/robots.ts';
 import { editServoView, StoresContext, type Stores } from '../stores/stores.ts';
-import { createView } from '../stores/view.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
+import { PoseSpecimens } from './PoseSpecimens.tsx';
 import { RobotSpecimens } from './RobotSpecimens.tsx';
 import { PadSpecimens } from './PadSpecimens.tsx';
 import { RawSpecimens } from './RawSpecimens.tsx';
 import { frozenSession } from './frozen.ts';
+import { specimenStores } from './specimenStores.ts';
 import { motionsOf, SPECIMENS, type BatteryFeed, type Specimen } from './specimens.ts';
 import { SAMPLE_TRAFFIC } from './traffic.ts';
 import styles from './Gallery.module.css';
@@ -53,6 +48,7 @@ export function Gallery() {
           <ConnectSpecimens />
           <RawSpecimens />
           <PadSpecimens />
+          <PoseSpecimens />
           <RobotSpecimens newStores={() => storesOf(BLANK)} />
         </StoresContext>
       )}
@@ -91,37 +87,29 @@ function Shown({ specimen }: { readonly specimen: Specimen }) {
 
 /** As before anything is connected. */
 const BLANK: Specimen = { name: '', way: null, state: INITIAL_STATE, pose: 'unknown', frames: 0 };
-const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined };
 
 function storesOf(specimen: Specimen): Stores {
   const family = specimen.isUnknown === true ? UNKNOWN_BOARD : FAMILIES[specimen.board ?? 'doc'];
-  const notices = createNotices(pageClock);
-  const robots = createRobots(NO_STORAGE, notices);
-  const device = createDevice({ family, clock: pageClock, notices, robots });
-  const battery = createBattery(device, robots);
+  const stores = specimenStores(family);
+  const { device, document, view, boards, robots, battery } = stores;
   if (specimen.robot !== undefined) robots.add('', specimen.robot.robot);
   const motions = motionsOf(specimen);
   if (specimen.way !== null) device.attach(frozenSession(family, specimen.state, motions), specimen.way);
   device.refreshTargets();
   if (specimen.feed !== undefined) feed(specimen.feed, robots, battery);
   if (specimen.pose !== 'unknown') for (const entry of SAMPLE_TRAFFIC) device.traffic.add(entry, family.id);
-  const document = createDocument(NO_STORAGE, notices);
   for (let number = 1; number <= specimen.frames; number++) {
     document.edit('frame', (group) =>
       insertFrame(group, group.frames.length, sampleFrame(number, family), family.unit),
     );
   }
-  const view = createView(NO_STORAGE);
   view.setState({ selectedFrame: specimen.selectedFrame ?? null, ...specimen.robot?.view });
   editServoView({ view, robots }, (servos) => ({ ...servos, ...specimen.robot?.servos }));
-  const boards = createBoards(NO_STORAGE);
   if (specimen.way !== null && specimen.nickname !== undefined) {
     boards.remember(specimen.way, specimen.board ?? 'doc');
     boards.rename(specimen.way, specimen.nickname);
   }
-  const mappings = createMappings(NO_STORAGE, notices, robots);
-  const pad = createPad({ device, robots, mappings, notices, clock: pageClock, readPads: () => [] });
-  return { device, document, view, notices, boards, robots, battery, mappings, pad };
+  return stores;
 }
 
 const READ_EVERY_MS = 5000;

@@ -4,20 +4,12 @@ import { useState } from 'react';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import type { Binding } from '#shared/actions/mapping.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
-import { pageClock } from '../connect/page.ts';
 import { PadPanel } from '../pad/PadPanel.tsx';
-import { createBattery } from '../stores/battery.ts';
-import { createBoards } from '../stores/boards.ts';
-import { createDevice } from '../stores/device.ts';
-import { createDocument, type TextStorage } from '../stores/document.ts';
-import { createMappings } from '../stores/mappings.ts';
-import { createNotices } from '../stores/notices.ts';
-import { createPad, type Gamepadlike } from '../stores/pad.ts';
-import { createRobots } from '../stores/robots.ts';
+import type { Gamepadlike } from '../stores/pad.ts';
 import { StoresContext, type Stores } from '../stores/stores.ts';
-import { createView } from '../stores/view.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { frozenSession } from './frozen.ts';
+import { specimenStores } from './specimenStores.ts';
 import styles from './Gallery.module.css';
 
 interface PadSpecimen {
@@ -69,25 +61,13 @@ function Shown({ specimen }: { readonly specimen: PadSpecimen }) {
   );
 }
 
-const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined };
-
 function storesOf({ pad: held, isDriving = false, more = [] }: PadSpecimen): Stores {
-  const notices = createNotices(pageClock);
-  const robots = createRobots(NO_STORAGE, notices);
-  const device = createDevice({ family: FAMILIES.doc, clock: pageClock, notices, robots });
+  const stores = specimenStores(FAMILIES.doc, held);
+  const { device, mappings, pad } = stores;
   device.attach(frozenSession(FAMILIES.doc, { ...INITIAL_STATE, link: { status: 'ready' } }, {}), {
     ...{ kind: 'simulated', label: 'Simulated board', isSimulated: true },
   });
-  const mappings = createMappings(NO_STORAGE, notices, robots);
   mappings.edit('bind', (mapping) => ({ ...mapping, bindings: [...mapping.bindings, ...more] }));
-  const readPads = () => [held];
-  const pad = createPad({ device, robots, mappings, notices, clock: pageClock, readPads });
   pad.drive(isDriving);
-  return {
-    ...{ device, notices, robots, mappings, pad },
-    document: createDocument(NO_STORAGE, notices),
-    view: createView(NO_STORAGE),
-    boards: createBoards(NO_STORAGE),
-    battery: createBattery(device, robots),
-  };
+  return stores;
 }

@@ -3,6 +3,7 @@
 import { redoLabel, undoLabel } from '#shared/actions/history.ts';
 import { servoBoundBy } from '#shared/actions/mapping.ts';
 import { useStore } from 'zustand';
+import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useMapping, usePad, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
@@ -18,7 +19,7 @@ import styles from './PadPanel.module.css';
 
 export function PadPanel() {
   return (
-    <Panel title={words.pad.title} tools={<Tools />} className={styles.panel}>
+    <Panel title={words.pad.title} tabs={<AuthoringTabs />} tools={<Tools />} className={styles.panel}>
       <p className={styles.hint}>
         <Hint />
       </p>

@@ -2,7 +2,7 @@
 // intents of the panels into calls whose failures become notices. Live, never undoable; knows no transport and no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { fromBoard, limitsOnBoard, onBoard, refusedTarget, type Robot } from '#shared/actions/robot.ts';
+import { fromBoard, limitsOnBoard, onBoard, type Robot } from '#shared/actions/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
@@ -12,6 +12,7 @@ import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { Transport } from '#shared/session/transport.ts';
 import { words } from '../words/en.ts';
+import { limitRefusal } from './limits.ts';
 import { moveDurationMs, type MoveTime } from './moveTime.ts';
 import type { Notices } from './notices.ts';
 import { followRobot } from './robotOfLink.ts';
@@ -53,7 +54,8 @@ export interface Device {
   refreshTargets(): void;
   /** Servos whose newest target has not left yet. */
   waiting(): number;
-  move(targets: readonly ServoTarget[], time: MoveTime): void;
+  /** False where it was refused; then the person was told why. */
+  move(targets: readonly ServoTarget[], time: MoveTime): boolean;
   /** This servo's limits are looked for: `creep` moves it, past the present ones too. null: no longer. */
   calibrate(servo: number | null): void;
   /** Moves the servo that is calibrated, as far as its board can. */
@@ -65,7 +67,8 @@ export interface Device {
   setAutoReconnect(enabled: boolean): void;
   identify(): void;
   choose(family: Family): void;
-  run(slot: number, times: number): void;
+  /** `settled` hears whether the board took it, as far as anybody can know. */
+  run(slot: number, times: number, settled?: (isTaken: boolean) => void): void;
   stopGroup(): void;
   erase(): void;
   readBattery(): void;
@@ -133,10 +136,9 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
 
   /** What the board is told, or null where a limit of the robot forbids it; then the person is told which. */
   function allowed(targets: readonly ServoTarget[]): readonly ServoTarget[] | null {
-    const refused = refusedTarget(robot(), targets);
-    if (refused === null) return onBoard(robot(), targets);
-    const { servo, position } = refused;
-    notices.tell('warning', words.refused(words.robots.called(servo), position, servo.min, servo.max));
+    const refusal = limitRefusal(robot(), targets);
+    if (refusal === null) return onBoard(robot(), targets);
+    notices.tell('warning', refusal);
     return null;
   }
 
@@ -187,28 +189,45 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     notices.tellError(error);
   }
 
-  function send(targets: readonly ServoTarget[], time: MoveTime): void {
-    if (session === null) return;
+  /** False where it was refused; then the person was told why. */
+  function send(targets: readonly ServoTarget[], time: MoveTime): boolean {
+    if (session === null) return false;
     try {
       session.move(onBoard(robot(), targets), moveDurationMs(time, targets, session.state.family, motion));
       book.wish(targets);
       refreshTargets();
+      return true;
     } catch (error) {
       notices.tellError(error);
+      return false;
     }
   }
 
-  function attempt(work: (session: Session) => Promise<unknown>): void {
-    if (session !== null) work(session).catch(notices.tellError);
+  function attempt(
+    work: (session: Session) => Promise<unknown>,
+    settled: (isDone: boolean) => void = () => undefined,
+  ): void {
+    if (session === null) return settled(false);
+    work(session).then(
+      () => settled(true),
+      (error: unknown) => {
+        notices.tellError(error);
+        settled(false);
+      },
+    );
   }
 
   /** As `attempt`, where nothing forbids that something runs. */
-  function attemptRun(work: (session: Session) => Promise<unknown>): void {
+  function attemptRun(
+    work: (session: Session) => Promise<unknown>,
+    settled: (isDone: boolean) => void = () => undefined,
+  ): void {
     const asked = session;
     const anyway = (): void => {
       if (session === asked) attempt(work);
     };
-    if (session !== null && mayBegin(anyway)) attempt(work);
+    if (session !== null && mayBegin(anyway)) attempt(work, settled);
+    else settled(false);
   }
 
   async function detach(): Promise<void> {
@@ -260,7 +279,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     refreshTargets,
     waiting: book.waiting,
     move(targets, time) {
-      if (session !== null && allowed(targets) !== null) send(targets, time);
+      return session !== null && allowed(targets) !== null && send(targets, time);
     },
     calibrate(servo) {
       calibrated = servo;
@@ -278,7 +297,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     },
     identify: () => attempt((current) => current.identify()),
     choose: (chosen) => attempt((current) => current.choose(chosen)),
-    run: (slot, times) => attemptRun((current) => current.run(slot, times)),
+    run: (slot, times, settled) => attemptRun((current) => current.run(slot, times), settled),
     stopGroup: () => attempt((current) => current.stopGroup()),
     erase: () => attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased))),
     readBattery: () => attempt((current) => current.readBattery()),

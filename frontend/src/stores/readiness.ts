@@ -24,3 +24,8 @@ export function motionHindrance({ link, latch, activity }: SessionState): Hindra
   if (latch !== null) return 'latched';
   return activity.kind === 'downloading' || activity.kind === 'erasing' ? 'busy' : null;
 }
+
+/** null: something that takes its own time may begin, because nothing else is at it. */
+export function startHindrance(snapshot: SessionState): Hindrance | null {
+  return motionHindrance(snapshot) ?? (snapshot.activity.kind === 'idle' ? null : 'busy');
+}

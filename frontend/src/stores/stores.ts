@@ -5,6 +5,9 @@ import { createContext, use } from 'react';
 import { useStore } from 'zustand';
 import type { Robot } from '#shared/actions/robot.ts';
 import type { ActionGroup } from '#shared/actions/group.ts';
+import type { History } from '#shared/actions/history.ts';
+import type { MacroPage } from '#shared/actions/macro.ts';
+import type { PoseBook } from '#shared/actions/pose.ts';
 import type { BatteryState, BatteryStore } from './battery.ts';
 import type { Boards } from './boards.ts';
 import type { Mapping } from '#shared/actions/mapping.ts';
@@ -15,6 +18,9 @@ import type { MappingStore } from './mappings.ts';
 import type { Notices } from './notices.ts';
 import { servoViewFor, type ServoView } from './servoView.ts';
 import type { Pad, PadState } from './pad.ts';
+import type { MacroRun } from './macroRun.ts';
+import type { Poses } from './poses.ts';
+import type { Undoable } from './undoable.ts';
 import type { View, ViewState } from './view.ts';
 
 export interface Stores {
@@ -27,6 +33,9 @@ export interface Stores {
   readonly battery: BatteryStore;
   readonly mappings: MappingStore;
   readonly pad: Pad;
+  readonly poses: Poses;
+  readonly macros: Undoable<MacroPage>;
+  readonly macroRun: MacroRun;
 }
 
 export const StoresContext = createContext<Stores | null>(null);
@@ -51,6 +60,14 @@ export function useDocument<T>(select: (state: DocumentState) => T): T {
 
 export function useGroup(): ActionGroup {
   return useDocument((state) => state.present);
+}
+
+export function usePoses<T>(select: (state: History<PoseBook>) => T): T {
+  return useStore(useStores().poses.book.store, select);
+}
+
+export function useMacros<T>(select: (state: History<MacroPage>) => T): T {
+  return useStore(useStores().macros.store, select);
 }
 
 /** The robot at hand. */

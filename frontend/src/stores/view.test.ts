@@ -28,3 +28,11 @@ test('what else is open or selected begins anew', () => {
   createView(storage).setState({ tab: 'log', slot: 7 });
   expect(createView(storage).getState()).toMatchObject({ tab: 'live', slot: 0 });
 });
+
+test('the kiosk outlives a reload, until somebody leaves it', () => {
+  const storage = storageWith(null);
+  createView(storage).setState({ kiosk: 'on' });
+  expect(createView(storage).getState().kiosk).toBe('on');
+  createView(storage).setState({ kiosk: 'off' });
+  expect(createView(storage).getState().kiosk).toBe('off');
+});

@@ -1,13 +1,14 @@
-// What is selected, open and set on this screen: neither the robot's state nor the document's. How things look is
-// remembered, nothing else. Knows no link.
+// What is selected, open and set on this screen: neither the robot's state nor the document's. How things look,
+// and the kiosk, is remembered, nothing else. Knows no link.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Calibration } from '#shared/actions/robotCalibration.ts';
 import type { TextStorage } from './document.ts';
-import type { MoveTime } from './moveTime.ts';
+import { GENTLE_MOVE_MS, type MoveTime } from './moveTime.ts';
 import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
 
-export type Tab = 'live' | 'actions' | 'board' | 'log';
+/** On a wide screen all but the buttons are side by side. */
+export type Tab = 'live' | 'actions' | 'board' | 'log' | 'buttons';
 export type Theme = 'system' | 'light' | 'dark';
 /** `board`: the units of the board, microseconds or steps. */
 export type PositionsIn = 'board' | 'degrees';
@@ -18,7 +19,9 @@ export type LogKind = 'move' | 'group' | 'battery' | 'link' | 'noise';
 export interface ViewState {
   readonly tab: Tab;
   readonly theme: Theme;
-  readonly authoring: 'group' | 'pad';
+  /** Nothing but buttons and STOP; remembered, so that a reload is no way out. */
+  readonly kiosk: 'on' | 'off';
+  readonly authoring: 'group' | 'poses' | 'pad';
   readonly connectOpen: boolean;
   /** What of the robots is open; null: nothing. */
   readonly robotView: 'list' | 'edit' | 'calibrate' | null;
@@ -30,6 +33,11 @@ export interface ViewState {
   readonly servos: ServoView;
   readonly positionsIn: PositionsIn;
   readonly servoLayout: ServoLayout;
+  readonly selectedPose: number | null;
+  /** How long a pose takes to be reached. */
+  readonly poseMs: number;
+  readonly selectedButton: number | null;
+  readonly editsButtons: boolean;
   /** The frame to play from, as an index: where the last playing was paused. */
   readonly playFrom: number;
   readonly moveTime: MoveTime;
@@ -46,6 +54,7 @@ export type View = StoreApi<ViewState>;
 const REMEMBERED = {
   theme: { key: 'servodeck.view', values: ['system', 'light', 'dark'] },
   positionsIn: { key: 'servodeck.positionsIn', values: ['board', 'degrees'] },
+  kiosk: { key: 'servodeck.kiosk', values: ['on', 'off'] },
   servoLayout: { key: 'servodeck.servoLayout', values: ['list', 'body'] },
 } as const satisfies { readonly [K in keyof ViewState]?: { key: string; values: readonly ViewState[K][] } };
 
@@ -55,6 +64,7 @@ const NAMES = Object.keys(REMEMBERED) as Remembered[];
 export const INITIAL_VIEW: ViewState = {
   tab: 'live',
   theme: 'system',
+  kiosk: 'off',
   authoring: 'group',
   connectOpen: false,
   robotView: null,
@@ -65,6 +75,10 @@ export const INITIAL_VIEW: ViewState = {
   servos: INITIAL_SERVO_VIEW,
   positionsIn: 'board',
   servoLayout: 'list',
+  selectedPose: null,
+  poseMs: GENTLE_MOVE_MS,
+  selectedButton: null,
+  editsButtons: false,
   playFrom: 0,
   moveTime: 'hand',
   slot: 0,

@@ -12,7 +12,12 @@ import { words } from '../words/en.ts';
 import { errorSentence } from '../words/errors.ts';
 import styles from './StatusLine.module.css';
 
-export function StatusLine({ onMoveHere }: { readonly onMoveHere: () => void }) {
+export interface StatusLineProps {
+  /** Has another tab let go of the robot. */
+  onMoveHere(): void;
+}
+
+export function StatusLine({ onMoveHere }: StatusLineProps) {
   const link = useSnapshot((snapshot) => snapshot.link);
   const latch = useSnapshot((snapshot) => snapshot.latch);
   const activity = useSnapshot((snapshot) => snapshot.activity);

@@ -8,17 +8,13 @@ import { RobotButton } from '../robots/RobotButton.tsx';
 import { BatteryReadout } from '../battery/BatteryReadout.tsx';
 import { IconButton } from '../ui/Button.tsx';
 import type { IconName } from '../ui/Icon.tsx';
+import { PageSwitch } from '../macros/PageSwitch.tsx';
 import { words } from '../words/en.ts';
 import { LinkChip } from './LinkChip.tsx';
-import { StatusLine } from './StatusLine.tsx';
+import { StatusLine, type StatusLineProps } from './StatusLine.tsx';
 import styles from './TopBar.module.css';
 
-export interface TopBarProps {
-  /** Has another tab let go of the robot. */
-  onMoveHere(): void;
-}
-
-export function TopBar({ onMoveHere }: TopBarProps) {
+export function TopBar({ onMoveHere }: StatusLineProps) {
   return (
     <header className={styles.bar} aria-label={words.regions.top}>
       <h1 className={styles.product}>
@@ -27,6 +23,9 @@ export function TopBar({ onMoveHere }: TopBarProps) {
       </h1>
       <Robot />
       <StatusLine onMoveHere={onMoveHere} />
+      <div className={styles.pages}>
+        <PageSwitch />
+      </div>
       <BatteryReadout />
       <ThemeButton />
     </header>

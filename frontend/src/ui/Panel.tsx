@@ -6,6 +6,8 @@ import styles from './Panel.module.css';
 
 export interface PanelProps {
   readonly title: string;
+  /** In the title's place for the eye: a choice of which the title is one. */
+  readonly tabs?: ReactNode;
   /** Beside the title: what the panel says of itself. */
   readonly note?: ReactNode;
   readonly tools?: ReactNode;
@@ -13,14 +15,15 @@ export interface PanelProps {
   readonly children: ReactNode;
 }
 
-export function Panel({ title, note, tools, className, children }: PanelProps) {
+export function Panel({ title, tabs, note, tools, className, children }: PanelProps) {
   const headingId = useId();
   return (
     <section className={cx(styles.panel, className)} aria-labelledby={headingId}>
       <header className={styles.header}>
-        <h2 id={headingId} className={styles.title}>
+        <h2 id={headingId} className={tabs === undefined ? styles.title : styles.unseen}>
           {title}
         </h2>
+        {tabs}
         <div className={styles.note}>{note}</div>
         <div className={styles.tools}>{tools}</div>
       </header>

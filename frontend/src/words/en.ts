@@ -18,6 +18,8 @@ import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { robotEditorWords } from './robotEditor.ts';
 import { padWords } from './pad.ts';
+import { macroWords } from './macros.ts';
+import { poseWords } from './poses.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
 import { timesWords } from './packets.ts';
@@ -25,7 +27,7 @@ import { timesWords } from './packets.ts';
 export const words = {
   product: 'Servodeck',
   regions: { top: 'Robot and link', notices: 'Notices' },
-  tabs: { live: 'Live', actions: 'Actions', board: 'Board', log: 'Log' },
+  tabs: { live: 'Live', actions: 'Actions', board: 'Board', log: 'Log', buttons: 'Buttons' },
   tabList: 'Parts of the dashboard',
   close: 'Close',
 
@@ -65,7 +67,16 @@ export const words = {
   robotEditor: robotEditorWords,
   calibration: calibrationWords,
   servoPanel: servoPanelWords,
+  authoring: {
+    label: 'What to work on',
+    group: 'Action group',
+    poses: 'Poses',
+    pad: 'Keys and pad',
+    padDriving: 'Keys and pad, driving',
+  },
   pad: padWords,
+  poses: poseWords,
+  macros: macroWords,
 
   stop: {
     button: 'Stop',

@@ -20,7 +20,7 @@ const seconds = new Intl.NumberFormat(language, {
   minimumFractionDigits: 1,
   maximumFractionDigits: 1,
 });
-const percent = new Intl.NumberFormat(language, { style: 'percent' });
+const percent = new Intl.NumberFormat(language, { style: 'percent', maximumFractionDigits: 0 });
 const grouped = new Intl.NumberFormat(language);
 const ago = new Intl.RelativeTimeFormat(language, { style: 'short' });
 const list = new Intl.ListFormat(language);
@@ -35,6 +35,8 @@ export type PositionUnit = 'us' | 'steps';
 
 /** Digits only, never grouped: positions stand in columns. */
 export const formatWhole = (value: number): string => whole.format(value);
+/** 0 to 1. */
+export const formatPercent = (share: number): string => percent.format(share);
 export const formatCount = (value: number): string => grouped.format(value);
 export const formatList = (values: readonly number[]): string => list.format(values.map(formatWhole));
 export const formatNames = (names: readonly string[]): string => list.format(names);
@@ -50,7 +52,6 @@ export const formatTick = (volts: number): string => tickVolts.format(volts);
 /** `14:05`, from milliseconds since 1970. */
 export const formatTimeOfDay = (epochMs: number): string => timeOfDay.format(epochMs);
 export const formatSeconds = (ms: number): string => seconds.format(ms / 1000);
-export const formatPercent = (value: number): string => percent.format(value / 100);
 export const formatMs = (ms: number): string => `${whole.format(ms)} ms`;
 
 /** `3 sec. ago`, by whole seconds and above a minute by minutes. */

@@ -52,9 +52,6 @@ function chipText({ input, action }: Binding): string {
 
 export const padWords = {
   title: 'Keys and pad',
-  tabs: { group: 'Action group', pad: 'Keys and pad' },
-  tabList: 'What to work on',
-  drivingTab: 'Keys and pad, driving',
   drive: 'Drive',
   driveHint: 'Off, no key and no stick moves anything. Stop on the pad always works.',
   drivingHint: 'Keys and sticks move the robot. Letting go, or leaving this window, ends it.',
@@ -113,7 +110,7 @@ export const padWords = {
   deadZonePercent: 'Dead zone',
   curvePercent: 'Curve',
   smoothingMs: 'Smoothing',
-  percent: formatPercent,
+  percent: (value: number): string => formatPercent(value / 100),
   ms: formatMs,
   plot: 'How far a stick is pushed, and what comes of it',
 

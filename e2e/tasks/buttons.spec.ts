@@ -1,0 +1,120 @@
+// The page of buttons: made, used by finger and key, never while stopped; the kiosk that only a long press leaves.
+
+import type { Page } from '@playwright/test';
+import { lastTarget, ofKind } from '../fixtures/bus.ts';
+import type { Dashboard } from '../fixtures/dashboard.ts';
+import type { Robot } from '../fixtures/robot.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+
+const buttonOf = (page: Page, name: string) =>
+  page.getByRole('list', { name: 'Buttons' }).getByRole('button', { name: new RegExp(`^${name}`) });
+
+/** A pose of servo 1 as a button with the key G, on the page of buttons. */
+async function makeButton(dashboard: Dashboard, page: Page): Promise<void> {
+  await page.getByRole('radio', { name: 'Poses' }).check();
+  await dashboard.type(dashboard.target(1), 1800);
+  await dashboard.button('Capture pose').click();
+  await dashboard.type(dashboard.target(1), 1500);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
+  await dashboard.button('Make a button').click();
+  await page.getByRole('radio', { name: 'Buttons' }).check();
+  await page.getByRole('switch', { name: 'Edit buttons' }).check();
+  await buttonOf(page, 'Pose 1').click();
+  await dashboard.button('Set a key').click();
+  await page.keyboard.press('g');
+  await expect(buttonOf(page, 'Pose 1')).toHaveAccessibleName('Pose 1, key G');
+}
+
+const leaveEditing = (page: Page) => page.getByRole('switch', { name: 'Edit buttons' }).uncheck();
+
+/** What buttons ask for; STOP holds the robot by moves as short as the board takes. */
+const slowMoves = async ({ bus }: Robot) =>
+  ofKind(await bus(), 'move').filter(({ durationMs }) => durationMs >= 1500);
+
+test('a sequence is made, runs by a press and by its key, and STOP ends it for good @everyWay', async ({
+  dashboard,
+  page,
+  robot,
+}) => {
+  await makeButton(dashboard, page);
+  await dashboard.button('Wait').click();
+  await dashboard.button('Pose').click();
+  await page.getByRole('combobox', { name: 'Pose of step 3' }).selectOption('Home');
+  await page.getByRole('radio', { name: 'Plum' }).check();
+  await dashboard.field('Name of the button').fill('Greet');
+  await dashboard.field('Name of the button').press('Enter');
+  // Typed into a field the key is a letter.
+  await dashboard.field('Name of the button').fill('Great');
+  await dashboard.field('Name of the button').press('Enter');
+  await leaveEditing(page);
+  expect(await lastTarget(robot.bus, 1)).toBe(1500);
+
+  await buttonOf(page, 'Great').click();
+  await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
+  await expect(buttonOf(page, 'Great')).toContainText('Step 1 of 3');
+  await expect(buttonOf(page, 'Great')).toContainText('Step 2 of 3');
+  await poll(() => lastTarget(robot.bus, 6)).toBe(1500);
+  await expect(buttonOf(page, 'Great')).toHaveAttribute('aria-pressed', 'false');
+
+  await page.keyboard.press('g');
+  await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
+  await page.keyboard.press('Escape');
+  await expect(dashboard.resume).toBeVisible();
+  await expect(buttonOf(page, 'Great')).toHaveAttribute('aria-pressed', 'false');
+  const asked = (await slowMoves(robot)).length;
+  await page.keyboard.press('g');
+  await expect(dashboard.notices).toContainText('Stopped. Resume to move.');
+  await dashboard.resume.click();
+  await expect(dashboard.resume).toBeHidden();
+  expect(await slowMoves(robot)).toHaveLength(asked);
+});
+
+test('the kiosk shows only buttons and Stop, also after a reload, until a long press', async ({
+  dashboard,
+  page,
+  robot,
+}) => {
+  await makeButton(dashboard, page);
+  await leaveEditing(page);
+  await dashboard.button('Kiosk').click();
+  await page.reload();
+  await expect(dashboard.status).toHaveText('Idle');
+  await expect(buttonOf(page, 'Pose 1')).toBeVisible();
+  const offered = page.getByRole('button').filter({ visible: true });
+  await expect(offered).toHaveText([/^Stop/, /^Pose 1/, /^Hold for 2 seconds/]);
+  expect(await page.getByRole('radio').count()).toBe(0);
+
+  await page.keyboard.press('g');
+  await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
+  await dashboard.stop.click();
+  await expect(dashboard.resume).toBeVisible();
+
+  const leave = dashboard.button('Hold for 2 seconds to leave');
+  await leave.click();
+  await expect(leave).toBeVisible();
+  await leave.hover();
+  await page.mouse.down();
+  await expect(page.getByRole('switch', { name: 'Edit buttons' })).toBeVisible();
+  await page.mouse.up();
+});
+
+test('a button moves to another place by key, and is deleted, and each is undone', async ({
+  dashboard,
+  page,
+}) => {
+  await makeButton(dashboard, page);
+  await dashboard.button('Add button').click();
+  const names = () =>
+    page
+      .getByRole('list', { name: 'Buttons' })
+      .getByRole('button')
+      .evaluateAll((all) => all.map((one) => one.getAttribute('aria-label')).filter((name) => name !== null));
+  await poll(names).toEqual(['Pose 1, key G', 'Button 2']);
+  await buttonOf(page, 'Button 2').press('Alt+ArrowLeft');
+  await poll(names).toEqual(['Button 2', 'Pose 1, key G']);
+  await buttonOf(page, 'Pose 1').press('Delete');
+  await poll(names).toEqual(['Button 2']);
+  await dashboard.button('Undo: delete Pose 1').click();
+  await page.keyboard.press('Control+z');
+  await poll(names).toEqual(['Pose 1, key G', 'Button 2']);
+});

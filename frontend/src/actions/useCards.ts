@@ -1,0 +1,60 @@
+// Keys of a list of cards with one tab stop: arrows select, Alt with an arrow moves the card, Delete deletes it. The focus
+// follows the selection. Knows no document.
+
+import { useEffect, useEffectEvent, useRef, useState, type KeyboardEvent, type RefObject } from 'react';
+import { neighbour } from './neighbour.ts';
+
+export interface CardsOptions {
+  /** In the order shown. */
+  readonly ids: readonly number[];
+  readonly selected: number | null;
+  /** The attribute in which a card carries its id; the part that takes the focus has `data-card-face`. */
+  readonly attribute: string;
+  select(id: number | null): void;
+  move(id: number, to: number): void;
+  remove(id: number): void;
+}
+
+export interface Cards<List extends HTMLElement> {
+  readonly list: RefObject<List | null>;
+  /** The card that Tab leads to. */
+  readonly tabStop: number | null;
+  key(event: KeyboardEvent, id: number): void;
+}
+
+export function useCards<List extends HTMLElement>(options: CardsOptions): Cards<List> {
+  const { ids, selected, attribute } = options;
+  const list = useRef<List>(null);
+  /** Counts wishes to see the focus on the selected card, which may be drawn only by the next round. */
+  const [focusWish, setFocusWish] = useState(0);
+  const focus = useEffectEvent(() => {
+    list.current?.querySelector<HTMLElement>(`[${attribute}='${selected}'] [data-card-face]`)?.focus();
+  });
+
+  useEffect(() => {
+    if (focusWish > 0) focus();
+  }, [focusWish]);
+
+  function select(id: number | null): void {
+    options.select(id);
+    setFocusWish((wish) => wish + 1);
+  }
+
+  return {
+    list,
+    tabStop: selected !== null && ids.includes(selected) ? selected : (ids[0] ?? null),
+    key(event, id) {
+      const index = ids.indexOf(id);
+      const to = neighbour(event.key, index, ids.length);
+      if (event.key === 'Delete' || event.key === 'Backspace') {
+        select(ids[index + 1] ?? ids[index - 1] ?? null);
+        options.remove(id);
+      } else if (to === null) return;
+      else if (event.altKey && to !== index) {
+        options.move(id, to);
+        select(id);
+      } else select(ids[to] ?? id);
+      event.preventDefault();
+    },
+  };
+}

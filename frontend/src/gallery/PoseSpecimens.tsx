@@ -1,0 +1,67 @@
+// Poses and buttons in each of their states, fed by plain values.
+
+import { useState, type ReactNode } from 'react';
+import { addMacro, changeMacro } from '#shared/actions/macroEdits.ts';
+import { addPose, markApplied, markRest } from '#shared/actions/poseEdits.ts';
+import type { PoseBook } from '#shared/actions/pose.ts';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { ButtonsPage } from '../macros/ButtonsPage.tsx';
+import { Kiosk } from '../macros/Kiosk.tsx';
+import { PosesPanel } from '../poses/PosesPanel.tsx';
+import { StoresContext, type Stores } from '../stores/stores.ts';
+import styles from './Gallery.module.css';
+import { specimenStores } from './specimenStores.ts';
+
+const POSES = { 'Greet the visitor': 0.2, 'Look down': 0.5, Sit: 0.8 };
+
+function fill({ poses, macros, view }: Stores, edits: boolean): void {
+  const targets = (share: number) =>
+    [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 700 + Math.round(share * servo * 260) }));
+  poses.book.edit('fill', (empty) => {
+    const book = Object.entries(POSES).reduce<PoseBook>(
+      (sum, [name, share]) => addPose(sum, { name, unit: 'us', targets: targets(share) }),
+      empty,
+    );
+    return markApplied(markRest(book, 3), 1);
+  });
+  Object.keys(POSES).forEach((name, index) => {
+    const go = { kind: 'pose', pose: index + 1, durationMs: 1500 } as const;
+    macros.edit('fill', (page) => addMacro(page, name, [go, { kind: 'wait', waitMs: 500 }]));
+  });
+  macros.edit('fill', (page) => changeMacro(addMacro(page, 'Dance', []), 1, { key: 'g' }));
+  view.setState({ selectedPose: 1, selectedButton: 1, editsButtons: edits });
+}
+
+const CASES: readonly {
+  readonly name: string;
+  readonly panel: ReactNode;
+  readonly isEmpty?: boolean;
+  readonly edits?: boolean;
+}[] = [
+  { name: 'Poses, none', panel: <PosesPanel />, isEmpty: true },
+  { name: 'Poses', panel: <PosesPanel /> },
+  { name: 'Buttons, none', panel: <ButtonsPage />, isEmpty: true },
+  { name: 'Buttons', panel: <ButtonsPage /> },
+  { name: 'Buttons, being changed', panel: <ButtonsPage />, edits: true },
+  { name: 'Kiosk', panel: <Kiosk onMoveHere={() => undefined} /> },
+];
+
+export function PoseSpecimens() {
+  return CASES.map(({ name, ...rest }) => <Shown key={name} name={name} {...rest} />);
+}
+
+function Shown({ name, panel, isEmpty = false, edits = false }: (typeof CASES)[number]) {
+  const [stores] = useState(() => {
+    const made = specimenStores(FAMILIES.doc);
+    if (!isEmpty) fill(made, edits);
+    return made;
+  });
+  return (
+    <StoresContext value={stores}>
+      <article className={styles.specimen} aria-label={name}>
+        <h2 className={styles.name}>{name}</h2>
+        {panel}
+      </article>
+    </StoresContext>
+  );
+}

@@ -1,0 +1,38 @@
+// The page's stores with nothing in them and nothing behind them, for one specimen.
+
+import type { Family } from '#shared/protocol/families.ts';
+import { pageClock } from '../connect/page.ts';
+import { createBattery } from '../stores/battery.ts';
+import { createBoards } from '../stores/boards.ts';
+import { createDevice } from '../stores/device.ts';
+import { createDocument, type TextStorage } from '../stores/document.ts';
+import { createMacroRun } from '../stores/macroRun.ts';
+import { createMacros } from '../stores/macros.ts';
+import { createMappings } from '../stores/mappings.ts';
+import { createNotices } from '../stores/notices.ts';
+import { createPad, type Gamepadlike } from '../stores/pad.ts';
+import { createPoses } from '../stores/poses.ts';
+import { createRobots } from '../stores/robots.ts';
+import type { Stores } from '../stores/stores.ts';
+import { createView } from '../stores/view.ts';
+
+const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined };
+
+export function specimenStores(family: Family, held: Gamepadlike | null = null): Stores {
+  const notices = createNotices(pageClock);
+  const robots = createRobots(NO_STORAGE, notices);
+  const device = createDevice({ family, clock: pageClock, notices, robots });
+  const poses = createPoses({ storage: NO_STORAGE, notices, robots, device });
+  const mappings = createMappings(NO_STORAGE, notices, robots);
+  const readPads = () => [held];
+  return {
+    ...{ notices, robots, device, poses, mappings },
+    pad: createPad({ device, robots, mappings, notices, clock: pageClock, readPads }),
+    battery: createBattery(device, robots),
+    document: createDocument(NO_STORAGE, notices),
+    view: createView(NO_STORAGE),
+    boards: createBoards(NO_STORAGE),
+    macros: createMacros(NO_STORAGE, notices, robots),
+    macroRun: createMacroRun({ device, poses, robots, notices, clock: pageClock }),
+  };
+}

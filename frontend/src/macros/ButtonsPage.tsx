@@ -1,0 +1,78 @@
+// The page of buttons: in use by anybody, or being changed. The kiosk is the same page with nothing around it.
+
+import { redoLabel, undoLabel } from '#shared/actions/history.ts';
+import { useMacros, useStores, useView } from '../stores/stores.ts';
+import { Button, IconButton } from '../ui/Button.tsx';
+import { Panel } from '../ui/Panel.tsx';
+import { Toggle } from '../ui/Toggle.tsx';
+import { words } from '../words/en.ts';
+import { EditGrid } from './EditGrid.tsx';
+import { MacroEditor } from './MacroEditor.tsx';
+import { MacroGrid } from './MacroGrid.tsx';
+import styles from './Macros.module.css';
+
+export function ButtonsPage() {
+  const edits = useView((state) => state.editsButtons);
+  const isEmpty = useMacros(({ present }) => present.macros.length === 0);
+  return (
+    <div className={styles.page} data-edits={edits}>
+      <Panel title={words.macros.title} tools={<Tools />} className={styles.panel}>
+        {edits ? <EditGrid /> : isEmpty ? <NoButtons /> : <MacroGrid />}
+        <Foot />
+      </Panel>
+      {edits && <MacroEditor />}
+    </div>
+  );
+}
+
+export function NoButtons() {
+  return (
+    <div className={styles.empty}>
+      <p className={styles.emptyTitle}>{words.macros.noButtons}</p>
+      <p>{words.macros.noButtonsHint}</p>
+    </div>
+  );
+}
+
+function Tools() {
+  const { macros, macroRun, view } = useStores();
+  const edits = useView((state) => state.editsButtons);
+  const back = useMacros(undoLabel);
+  const forth = useMacros(redoLabel);
+  return (
+    <>
+      <Toggle
+        label={words.macros.edit}
+        isOn={edits}
+        onChange={(isOn) => {
+          macroRun.end();
+          view.setState({ editsButtons: isOn });
+        }}
+      />
+      <IconButton
+        icon="undo"
+        label={back === null ? words.actions.undo : words.actions.undoStep(back)}
+        isDisabled={back === null}
+        onPress={() => macros.undo()}
+      />
+      <IconButton
+        icon="redo"
+        label={forth === null ? words.actions.redo : words.actions.redoStep(forth)}
+        isDisabled={forth === null}
+        onPress={() => macros.redo()}
+      />
+    </>
+  );
+}
+
+function Foot() {
+  const { view } = useStores();
+  return (
+    <div className={styles.foot}>
+      <Button icon="kiosk" onPress={() => view.setState({ kiosk: 'on', editsButtons: false })}>
+        {words.macros.kiosk}
+      </Button>
+      <p className={styles.hint}>{words.macros.kioskHint}</p>
+    </div>
+  );
+}

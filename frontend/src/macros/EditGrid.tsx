@@ -1,0 +1,106 @@
+// The buttons while they are changed: a press selects, a drag or Alt with an arrow moves. Nothing starts.
+
+import type { KeyboardEvent } from 'react';
+import type { Macro } from '#shared/actions/macro.ts';
+import { addMacro, moveMacro, removeMacro } from '#shared/actions/macroEdits.ts';
+import { useCards } from '../actions/useCards.ts';
+import { useMacros, useStores, useView } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { cx } from '../ui/cx.ts';
+import { Icon } from '../ui/Icon.tsx';
+import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
+import { words } from '../words/en.ts';
+import { MacroFace } from './MacroFace.tsx';
+import styles from './Macros.module.css';
+
+export function EditGrid() {
+  const { macros, view } = useStores();
+  const { macros: list, nextId } = useMacros(({ present }) => present);
+  const selected = useView((state) => state.selectedButton);
+  const ids = list.map(({ id }) => id);
+  const nameOf = (id: number): string => list.find((macro) => macro.id === id)?.name ?? '';
+  const cards = useCards<HTMLUListElement>({
+    ...{ ids, selected, attribute: 'data-macro' },
+    select: (id) => view.setState({ selectedButton: id }),
+    move(id, to) {
+      macros.edit(words.macros.edits.move(nameOf(id)), (page) => moveMacro(page, id, to));
+      view.setState({ said: words.macros.moved(ids.indexOf(id) + 1, to + 1) });
+    },
+    remove: (id) => macros.edit(words.macros.edits.delete(nameOf(id)), (page) => removeMacro(page, id)),
+  });
+  const { list: gridRef, tabStop, key } = cards;
+
+  function add(): void {
+    const name = words.macros.newName(nextId);
+    macros.edit(words.macros.edits.add(name), (page) => addMacro(page, name, []));
+    view.setState({ selectedButton: nextId });
+  }
+
+  return (
+    <ul ref={gridRef} className={styles.grid} aria-label={words.macros.list}>
+      {list.map((macro) => (
+        <EditCard
+          key={macro.id}
+          macro={macro}
+          isSelected={macro.id === selected}
+          isTabStop={macro.id === tabStop}
+          onKey={key}
+        />
+      ))}
+      <li className={styles.add}>
+        <Button icon="plus" wide onPress={add}>
+          {words.macros.add}
+        </Button>
+      </li>
+    </ul>
+  );
+}
+
+interface EditCardProps {
+  readonly macro: Macro;
+  readonly isSelected: boolean;
+  readonly isTabStop: boolean;
+  onKey(event: KeyboardEvent, id: number): void;
+}
+
+function EditCard({ macro, isSelected, isTabStop, onKey }: EditCardProps) {
+  const { view } = useStores();
+  const { isDragged, startDrag } = useMacroDrag(macro);
+  return (
+    <li data-macro={macro.id} className={cx(styles.card, isDragged && styles.dragged)}>
+      <button
+        type="button"
+        data-card-face=""
+        className={styles.button}
+        data-colour={macro.colour}
+        aria-label={words.macros.keyed(macro.name, macro.key)}
+        aria-pressed={isSelected}
+        tabIndex={isTabStop ? 0 : -1}
+        onClick={() => view.setState({ selectedButton: macro.id })}
+        onKeyDown={(event) => onKey(event, macro.id)}
+      >
+        <MacroFace macro={macro} progress={null} />
+      </button>
+      <span className={styles.grip} aria-hidden="true" onPointerDown={startDrag}>
+        <Icon name="grip" />
+      </span>
+    </li>
+  );
+}
+
+function useMacroDrag({ id, name }: Macro): DragOrder {
+  const { macros, view } = useStores();
+  return useDragOrder({
+    attribute: 'data-macro',
+    begin() {
+      macros.begin(words.macros.edits.move(name));
+      view.setState({ selectedButton: id });
+    },
+    over(other) {
+      const to = macros.store.getState().present.macros.findIndex((macro) => macro.id === other);
+      if (to >= 0) macros.preview((page) => moveMacro(page, id, to));
+    },
+    commit: () => macros.commit(),
+    cancel: () => macros.cancel(),
+  });
+}

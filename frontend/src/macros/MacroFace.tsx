@@ -1,0 +1,77 @@
+// What a button shows: its name, its key, the pose it leads to first, and how far it is.
+
+import type { Macro } from '#shared/actions/macro.ts';
+import { PoseThumb } from '../body/PoseThumb.tsx';
+import type { MacroProgress } from '../stores/macroRun.ts';
+import { poseName } from '../stores/poses.ts';
+import { useDevice, usePoses, useStores } from '../stores/stores.ts';
+import { words } from '../words/en.ts';
+import styles from './Macros.module.css';
+
+export interface MacroFaceProps {
+  readonly macro: Macro;
+  readonly progress: MacroProgress | null;
+}
+
+export function MacroFace({ macro, progress }: MacroFaceProps) {
+  return (
+    <>
+      <Picture macro={macro} />
+      <span className={styles.text}>
+        <span className={styles.name}>{macro.name}</span>
+        <span className={styles.about} role={progress === null ? undefined : 'status'}>
+          {progress === null ? (
+            <About {...macro} />
+          ) : (
+            `${words.macros.progress(progress.stepIndex + 1, progress.stepCount)}. ${words.macros.atWork}`
+          )}
+        </span>
+      </span>
+      {macro.key !== null && (
+        <kbd className={styles.key} aria-hidden="true">
+          {macro.key.toUpperCase()}
+        </kbd>
+      )}
+      {progress !== null && <Steps {...progress} />}
+    </>
+  );
+}
+
+function About({ name, steps }: Macro) {
+  const book = usePoses(({ present }) => present);
+  const [first] = steps;
+  if (first === undefined) return words.macros.empty;
+  if (steps.length > 1) return words.macros.stepCount(steps.length);
+  const pose = first.kind === 'pose' ? poseName(book, first.pose) : '';
+  // Usually the button is called like the pose, and once is enough.
+  return words.macros.stepAbout(first, pose === name ? '' : pose);
+}
+
+function Picture({ macro }: { readonly macro: Macro }) {
+  const { poses } = useStores();
+  const family = useDevice((state) => state.family);
+  // The picture changes with the poses it is taken from.
+  usePoses(({ present }) => present);
+  const step = macro.steps.find(({ kind }) => kind === 'pose');
+  const targets = step?.kind === 'pose' ? poses.targetsOf(step.pose) : null;
+  if (targets === null) return null;
+  return (
+    <span className={styles.picture}>
+      <PoseThumb
+        pose={new Map(targets.map(({ servo, position }) => [servo, position]))}
+        changed={[]}
+        family={family}
+      />
+    </span>
+  );
+}
+
+function Steps({ stepIndex, stepCount }: MacroProgress) {
+  return (
+    <span className={styles.steps} aria-hidden="true">
+      {Array.from({ length: stepCount }, (_, index) => (
+        <span key={index} data-done={index <= stepIndex} />
+      ))}
+    </span>
+  );
+}

@@ -1,0 +1,23 @@
+// From the controls to the page of buttons and back, where the screen has no tabs for it.
+
+import { useStores, useView } from '../stores/stores.ts';
+import { Choice } from '../ui/Toggle.tsx';
+import { words } from '../words/en.ts';
+
+export function PageSwitch() {
+  const { view } = useStores();
+  const isButtons = useView((state) => state.tab === 'buttons');
+  return (
+    <Choice
+      label={words.macros.page.label}
+      value={isButtons ? 'buttons' : 'work'}
+      options={OPTIONS}
+      onChange={(page) => view.setState({ tab: page === 'buttons' ? 'buttons' : 'live' })}
+    />
+  );
+}
+
+const OPTIONS = [
+  { value: 'work', label: words.macros.page.work },
+  { value: 'buttons', label: words.macros.page.buttons },
+] as const;

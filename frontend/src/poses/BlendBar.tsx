@@ -1,0 +1,86 @@
+// Between two poses: a slider from the selected one to another, with its picture. The robot goes there when asked to.
+
+import { useState } from 'react';
+import type { Pose } from '#shared/actions/pose.ts';
+import { addPose } from '#shared/actions/poseEdits.ts';
+import { blended } from '#shared/actions/poseShapes.ts';
+import { PoseThumb } from '../body/PoseThumb.tsx';
+import { motionHindrance } from '../stores/readiness.ts';
+import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { Select } from '../ui/Select.tsx';
+import { words } from '../words/en.ts';
+import styles from './PosesPanel.module.css';
+
+export function BlendBar({ pose }: { readonly pose: Pose }) {
+  const { poses, view } = useStores();
+  const list = usePoses(({ present }) => present.poses);
+  const nextId = usePoses(({ present }) => present.nextId);
+  const family = useDevice((state) => state.family);
+  const poseMs = useView((state) => state.poseMs);
+  const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
+  const [otherId, setOtherId] = useState<number | null>(null);
+  const [share, setShare] = useState(0.5);
+  const others = list.filter(({ id, unit }) => id !== pose.id && unit === pose.unit);
+  const other = others.find(({ id }) => id === otherId);
+  const targets = other === undefined ? [] : blended(pose.targets, other.targets, share);
+  const isNothing = targets.length === 0;
+
+  const go = (): void => {
+    if (other !== undefined)
+      poses.applyBlend(words.poses.steps.blend(pose.name, other.name), targets, poseMs);
+  };
+  const keep = (): void => {
+    if (other === undefined) return;
+    const name = words.poses.blendName(pose.name, other.name, share);
+    poses.book.edit(words.poses.steps.capture(name), (book) =>
+      addPose(book, { name, unit: pose.unit, targets }),
+    );
+    view.setState({ selectedPose: nextId });
+  };
+
+  return (
+    <div className={styles.drawer} role="group" aria-label={words.poses.blend}>
+      <div className={styles.blend}>
+        <Select
+          label={words.poses.blendWith}
+          value={String(other?.id ?? '')}
+          options={[
+            { value: '', label: words.poses.blendNone },
+            ...others.map(({ id, name }) => ({ value: String(id), label: name })),
+          ]}
+          onChange={(id) => setOtherId(id === '' ? null : Number(id))}
+        />
+        <input
+          type="range"
+          className={styles.share}
+          aria-label={words.poses.blendShare(other?.name ?? words.poses.blendNone)}
+          aria-valuetext={words.poses.share(share)}
+          min={0}
+          max={100}
+          step={1}
+          value={Math.round(share * 100)}
+          disabled={other === undefined}
+          onChange={({ target }) => setShare(target.valueAsNumber / 100)}
+        />
+        <span className={styles.percent}>{words.poses.share(share)}</span>
+        <span className={styles.blendThumb}>
+          <PoseThumb
+            pose={new Map(targets.map(({ servo, position }) => [servo, position]))}
+            changed={targets.map(({ servo }) => servo)}
+            family={family}
+          />
+        </span>
+      </div>
+      <div className={styles.shapes}>
+        <Button icon="play" isDisabled={isNothing || !mayMove || pose.unit !== family.unit} onPress={go}>
+          {words.poses.blendGo}
+        </Button>
+        <Button tone="quiet" icon="plus" isDisabled={isNothing} onPress={keep}>
+          {words.poses.blendKeep}
+        </Button>
+        <p className={styles.hint}>{other !== undefined && isNothing ? words.poses.blendNothing : ''}</p>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,50 @@
+// The poses in order, one card each; they wrap like a contact sheet.
+
+import type { Pose } from '#shared/actions/pose.ts';
+import { movePose, removePose } from '#shared/actions/poseEdits.ts';
+import { useCards } from '../actions/useCards.ts';
+import { poseName } from '../stores/poses.ts';
+import { usePoses, useStores, useView } from '../stores/stores.ts';
+import { words } from '../words/en.ts';
+import { PoseCard } from './PoseCard.tsx';
+import styles from './PosesPanel.module.css';
+
+export function PoseList() {
+  const { poses, view } = useStores();
+  const book = usePoses(({ present }) => present);
+  const selected = useView((state) => state.selectedPose);
+  const ids = book.poses.map(({ id }) => id);
+  const { list, tabStop, key } = useCards<HTMLOListElement>({
+    ...{ ids, selected, attribute: 'data-pose' },
+    select: (id) => view.setState({ selectedPose: id }),
+    move(id, to) {
+      poses.book.edit(words.poses.steps.move(poseName(book, id)), (before) => movePose(before, id, to));
+      view.setState({ said: words.poses.moved(ids.indexOf(id) + 1, to + 1) });
+    },
+    remove: (id) =>
+      poses.book.edit(words.poses.steps.delete(poseName(book, id)), (before) => removePose(before, id)),
+  });
+
+  const marks = ({ id }: Pose): string =>
+    [
+      book.restId === id ? words.poses.resting : '',
+      book.applied === id || (book.applied === 'rest' && book.restId === id) ? words.poses.applied : '',
+    ]
+      .filter((mark) => mark !== '')
+      .join(', ');
+
+  return (
+    <ol ref={list} className={styles.list} aria-label={words.poses.list}>
+      {book.poses.map((pose) => (
+        <PoseCard
+          key={pose.id}
+          pose={pose}
+          marks={marks(pose)}
+          isSelected={pose.id === selected}
+          isTabStop={pose.id === tabStop}
+          onKey={key}
+        />
+      ))}
+    </ol>
+  );
+}

@@ -1,0 +1,174 @@
+// What can be done with the selected pose, in words. Always in its place, so that nothing jumps when a pose is selected.
+
+import { addMacro } from '#shared/actions/macroEdits.ts';
+import type { PoseBook } from '#shared/actions/pose.ts';
+import { duplicatePose, markRest, movePose, removePose, setPose } from '#shared/actions/poseEdits.ts';
+import { flippedTargets, mirroredTargets } from '#shared/actions/poseShapes.ts';
+import { servoOf } from '#shared/actions/robot.ts';
+import { commandedPose } from '../actions/pose.ts';
+import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { useDevice, usePoses, useRobot, useStores } from '../stores/stores.ts';
+import { Button, IconButton } from '../ui/Button.tsx';
+import { Toggle } from '../ui/Toggle.tsx';
+import { words } from '../words/en.ts';
+import { useSelectedPose } from './useSelectedPose.ts';
+import styles from './PosesPanel.module.css';
+
+/** What lies open below the tools. */
+export type Drawer = 'servos' | 'blend';
+
+export interface PoseToolsProps {
+  readonly drawer: Drawer | null;
+  onDrawer(drawer: Drawer | null): void;
+}
+
+export function PoseTools({ drawer, onDrawer }: PoseToolsProps) {
+  const pose = useSelectedPose();
+  const toggle = (which: Drawer) => (isOn: boolean) => onDrawer(isOn ? which : null);
+  return (
+    <div className={styles.tools} role="group" aria-label={words.poses.tools}>
+      <span className={styles.which}>{pose === undefined ? words.poses.select : pose.name}</span>
+      <Arrange />
+      <div className={styles.shapes}>
+        <Shapes />
+        <Toggle
+          label={words.poses.servos}
+          isOn={drawer === 'servos'}
+          isDisabled={pose === undefined}
+          onChange={toggle('servos')}
+        />
+        <Toggle
+          label={words.poses.blend}
+          isOn={drawer === 'blend'}
+          isDisabled={pose === undefined}
+          onChange={toggle('blend')}
+        />
+      </div>
+    </div>
+  );
+}
+
+/** Its targets: as the robot is commanded now, mirrored, flipped; and where the robot rests. */
+function Shapes() {
+  const { device, poses, notices, macros } = useStores();
+  const pose = useSelectedPose();
+  const robot = useRobot();
+  const knowsPose = useDevice((state) => Object.keys(state.targets).length > 0);
+  const unit = useDevice((state) => state.family.unit);
+  const restId = usePoses(({ present }) => present.restId);
+  const isRest = restId !== null && restId === pose?.id;
+  const { steps } = words.poses;
+  const mayShape = pose?.unit === unit;
+  const hasSides = (pose?.targets ?? []).some(
+    ({ servo }) => typeof servoOf(robot, servo)?.mirror === 'number',
+  );
+
+  function edit(label: (name: string) => string, change: (book: PoseBook, id: number) => PoseBook): void {
+    if (pose !== undefined) poses.book.edit(label(pose.name), (book) => change(book, pose.id));
+  }
+
+  const update = (): void =>
+    edit(steps.update, (book, id) => setPose(book, id, commandedPose(device.store.getState().targets), unit));
+
+  const reshape = (label: (name: string) => string, shape: typeof mirroredTargets) => (): void => {
+    const { targets, held } = shape(robot, pose?.targets ?? []);
+    edit(label, (book, id) => setPose(book, id, targets));
+    if (held.length > 0) notices.tell('warning', words.poses.held(held.map(({ name }) => name)));
+  };
+
+  const makeButton = (): void => {
+    if (pose === undefined) return;
+    const { id, name } = pose;
+    macros.edit(words.macros.edits.add(name), (page) =>
+      addMacro(page, name, [{ kind: 'pose', pose: id, durationMs: GENTLE_MOVE_MS }]),
+    );
+    notices.tell('info', words.poses.buttonMade(name));
+  };
+
+  return (
+    <>
+      <Button tone="quiet" icon="update" isDisabled={pose === undefined || !knowsPose} onPress={update}>
+        {words.poses.update}
+      </Button>
+      <Button
+        tone="quiet"
+        icon="mirror"
+        hint={words.poses.mirrorHint}
+        isDisabled={!mayShape || !hasSides}
+        onPress={reshape(steps.mirror, mirroredTargets)}
+      >
+        {words.poses.mirror}
+      </Button>
+      <Button
+        tone="quiet"
+        icon="flip"
+        hint={words.poses.flipHint}
+        isDisabled={!mayShape}
+        onPress={reshape(steps.flip, flippedTargets)}
+      >
+        {words.poses.flip}
+      </Button>
+      <Button tone="quiet" icon="buttons" isDisabled={pose === undefined} onPress={makeButton}>
+        {words.poses.button}
+      </Button>
+      <Toggle
+        label={words.poses.makeRest}
+        isOn={isRest}
+        isDisabled={pose === undefined}
+        onChange={(isOn) =>
+          edit(
+            () => steps.rest,
+            (book, id) => markRest(book, isOn ? id : null),
+          )
+        }
+      />
+    </>
+  );
+}
+
+function Arrange() {
+  const { poses, view } = useStores();
+  const pose = useSelectedPose();
+  const list = usePoses(({ present }) => present.poses);
+  const nextId = usePoses(({ present }) => present.nextId);
+  const index = pose === undefined ? -1 : list.indexOf(pose);
+  const none = pose === undefined;
+  const { steps } = words.poses;
+
+  const move = (to: number) => (): void => {
+    if (none) return;
+    poses.book.edit(steps.move(pose.name), (book) => movePose(book, pose.id, to));
+    view.setState({ said: words.poses.moved(index + 1, to + 1) });
+  };
+  const duplicate = (): void => {
+    if (none) return;
+    view.setState({ selectedPose: nextId });
+    poses.book.edit(steps.duplicate(pose.name), (book) =>
+      duplicatePose(book, pose.id, words.poses.copyOf(pose.name)),
+    );
+  };
+  const remove = (): void => {
+    if (none) return;
+    view.setState({ selectedPose: list[index + 1]?.id ?? list[index - 1]?.id ?? null });
+    poses.book.edit(steps.delete(pose.name), (book) => removePose(book, pose.id));
+  };
+
+  return (
+    <span className={styles.icons}>
+      <IconButton
+        icon="earlier"
+        label={words.poses.earlier}
+        isDisabled={none || index === 0}
+        onPress={move(index - 1)}
+      />
+      <IconButton
+        icon="later"
+        label={words.poses.later}
+        isDisabled={none || index === list.length - 1}
+        onPress={move(index + 1)}
+      />
+      <IconButton icon="copy" label={words.poses.duplicate} isDisabled={none} onPress={duplicate} />
+      <IconButton icon="trash" label={words.poses.delete} isDisabled={none} onPress={remove} />
+    </span>
+  );
+}

@@ -1,0 +1,88 @@
+// The foot of the poses: keep the pose at hand, and the ways home and to rest, in the time that holds for every pose.
+
+import { addPose } from '#shared/actions/poseEdits.ts';
+import { POSE_VERBS } from '#shared/actions/pose.ts';
+import { commandedPose } from '../actions/pose.ts';
+import { poseName } from '../stores/poses.ts';
+import { motionHindrance } from '../stores/readiness.ts';
+import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { NumberField } from '../ui/NumberField.tsx';
+import { words } from '../words/en.ts';
+import { PoseFiles } from './PoseFiles.tsx';
+import styles from './PosesPanel.module.css';
+
+export function PoseVerbs() {
+  const { poses } = useStores();
+  const poseMs = useView((state) => state.poseMs);
+  const restName = usePoses(({ present }) => poseName(present, present.restId ?? 'home'));
+  const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
+  const hints = { home: words.poses.homeHint, rest: words.poses.restHint(restName) };
+  return (
+    <div className={styles.verbs}>
+      <Capture />
+      <PoseFiles />
+      <span className={styles.ways}>
+        {POSE_VERBS.map((verb) => (
+          <Button
+            key={verb}
+            icon={verb}
+            hint={hints[verb]}
+            isDisabled={!mayMove}
+            onPress={() => poses.apply(verb, poseMs)}
+          >
+            {words.poses.verbs[verb]}
+          </Button>
+        ))}
+        <PoseTime />
+      </span>
+    </div>
+  );
+}
+
+function Capture() {
+  const { device, poses, view } = useStores();
+  const isKnown = useDevice((state) => Object.keys(state.targets).length > 0);
+  const nextId = usePoses(({ present }) => present.nextId);
+  const capture = (): void => {
+    const { targets, family } = device.store.getState();
+    const pose = { name: words.poses.newName(nextId), unit: family.unit, targets: commandedPose(targets) };
+    poses.book.edit(words.poses.steps.capture(pose.name), (book) => addPose(book, pose));
+    view.setState({ selectedPose: nextId });
+  };
+  return (
+    <>
+      <Button
+        tone="primary"
+        icon="plus"
+        hint={words.poses.captureHint}
+        isDisabled={!isKnown}
+        onPress={capture}
+      >
+        {words.poses.capture}
+      </Button>
+      {!isKnown && <p className={styles.hint}>{words.actions.nothingKnown}</p>}
+    </>
+  );
+}
+
+function PoseTime() {
+  const { view, notices } = useStores();
+  const poseMs = useView((state) => state.poseMs);
+  const { min, max } = useDevice((state) => state.family.durationMs);
+  return (
+    <span className={styles.time}>
+      <span aria-hidden="true">{words.poses.timeLabel}</span>
+      <NumberField
+        label={words.poses.time}
+        value={poseMs}
+        min={min}
+        max={max}
+        step={100}
+        unit={words.servos.ms}
+        onChange={(durationMs) => view.setState({ poseMs: durationMs })}
+        onRefused={(value) => notices.tell('warning', words.refused(words.poses.time, value, min, max))}
+      />
+    </span>
+  );
+}

@@ -1,0 +1,63 @@
+// The robot's poses: a contact sheet of cards, what can be done with one, and the ways to home, rest and any pose. The robot
+// moves only by the buttons that say so.
+
+import { useState } from 'react';
+import { redoLabel, undoLabel } from '#shared/actions/history.ts';
+import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
+import { usePoses, useStores } from '../stores/stores.ts';
+import { IconButton } from '../ui/Button.tsx';
+import { Panel } from '../ui/Panel.tsx';
+import { words } from '../words/en.ts';
+import { BlendBar } from './BlendBar.tsx';
+import { PoseList } from './PoseList.tsx';
+import { PoseTools, type Drawer } from './PoseTools.tsx';
+import { PoseVerbs } from './PoseVerbs.tsx';
+import { ServoPicker } from './ServoPicker.tsx';
+import { useSelectedPose } from './useSelectedPose.ts';
+import styles from './PosesPanel.module.css';
+
+export function PosesPanel() {
+  const isEmpty = usePoses(({ present }) => present.poses.length === 0);
+  const pose = useSelectedPose();
+  const [drawer, setDrawer] = useState<Drawer | null>(null);
+  return (
+    <Panel title={words.poses.title} tabs={<AuthoringTabs />} tools={<Tools />} className={styles.panel}>
+      {isEmpty ? <Empty /> : <PoseList />}
+      <PoseTools drawer={drawer} onDrawer={setDrawer} />
+      {pose !== undefined && drawer === 'servos' && <ServoPicker pose={pose} />}
+      {pose !== undefined && drawer === 'blend' && <BlendBar key={pose.id} pose={pose} />}
+      <PoseVerbs />
+    </Panel>
+  );
+}
+
+function Empty() {
+  return (
+    <div className={styles.empty}>
+      <p className={styles.emptyTitle}>{words.poses.empty}</p>
+      <p>{words.poses.emptyHint}</p>
+    </div>
+  );
+}
+
+function Tools() {
+  const { poses } = useStores();
+  const back = usePoses(undoLabel);
+  const forth = usePoses(redoLabel);
+  return (
+    <>
+      <IconButton
+        icon="undo"
+        label={back === null ? words.actions.undo : words.actions.undoStep(back)}
+        isDisabled={back === null}
+        onPress={() => poses.book.undo()}
+      />
+      <IconButton
+        icon="redo"
+        label={forth === null ? words.actions.redo : words.actions.redoStep(forth)}
+        isDisabled={forth === null}
+        onPress={() => poses.book.redo()}
+      />
+    </>
+  );
+}

@@ -1,0 +1,46 @@
+// Which servos a pose is about. One that is put in takes the place it is commanded to now; one that is left out stays where
+// it is when the pose is gone to.
+
+import type { Pose } from '#shared/actions/pose.ts';
+import { setPose } from '#shared/actions/poseEdits.ts';
+import { useDevice, useRobot, useStores } from '../stores/stores.ts';
+import { words } from '../words/en.ts';
+import styles from './PosesPanel.module.css';
+
+export function ServoPicker({ pose }: { readonly pose: Pose }) {
+  const { poses } = useStores();
+  const { servos } = useRobot();
+  const commanded = useDevice((state) => state.targets);
+  const sameUnit = useDevice((state) => state.family.unit === pose.unit);
+  const included = new Set(pose.targets.map(({ servo }) => servo));
+
+  function choose(servo: number, isIn: boolean): void {
+    const position = commanded[servo];
+    const others = pose.targets.filter((target) => target.servo !== servo);
+    const targets = isIn && position !== undefined ? [...others, { servo, position }] : others;
+    poses.book.edit(words.poses.steps.servos(pose.name), (book) => setPose(book, pose.id, targets));
+  }
+
+  return (
+    <fieldset className={styles.drawer} aria-label={words.poses.servosOf(included.size, servos.length)}>
+      <p className={styles.hint}>{words.poses.servosHint}</p>
+      <div className={styles.servos}>
+        {servos.map(({ servo, name }) => {
+          const isIn = included.has(servo);
+          const isLast = isIn && included.size === 1;
+          return (
+            <label key={servo} className={styles.servo}>
+              <input
+                type="checkbox"
+                checked={isIn}
+                disabled={isIn ? isLast : !sameUnit || commanded[servo] === undefined}
+                onChange={({ target }) => choose(servo, target.checked)}
+              />
+              {name}
+            </label>
+          );
+        })}
+      </div>
+    </fieldset>
+  );
+}

@@ -1,0 +1,22 @@
+// The page of buttons of the robot at hand. Never moves anything; macroRun.ts does what a button says.
+
+import { EMPTY_PAGE, type MacroPage } from '#shared/actions/macro.ts';
+import { macroPageFromText, macroPageToText } from '#shared/actions/macroText.ts';
+import { words } from '../words/en.ts';
+import type { TextStorage } from './document.ts';
+import type { Notices } from './notices.ts';
+import { createRobotDocument } from './robotDocument.ts';
+import type { RobotStore } from './robots.ts';
+import type { Undoable } from './undoable.ts';
+
+export function createMacros(
+  storage: TextStorage,
+  notices: Notices,
+  robots: RobotStore,
+): Undoable<MacroPage> {
+  return createRobotDocument({
+    ...{ storage, notices, robots, key: 'servodeck.buttons' },
+    ...{ notSaved: words.macros.notSaved, unreadable: words.macros.unreadable },
+    ...{ empty: EMPTY_PAGE, toText: macroPageToText, fromText: macroPageFromText },
+  });
+}

@@ -1,0 +1,87 @@
+// The poses of the robot at hand, and the way to them: by the device, in its limits, slowly unless asked otherwise. To go to
+// a pose is noted as a step of the book; undoing it changes the note and moves nothing.
+
+import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/actions/pose.ts';
+import { markApplied, withPosesOf } from '#shared/actions/poseEdits.ts';
+import { homeTargets } from '#shared/actions/poseShapes.ts';
+import { poseBookFromText, poseBookToText } from '#shared/actions/poseText.ts';
+import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { words } from '../words/en.ts';
+import type { Device } from './device.ts';
+import type { TextStorage } from './document.ts';
+import { limitRefusal } from './limits.ts';
+import type { Notices } from './notices.ts';
+import { createRobotDocument } from './robotDocument.ts';
+import type { RobotStore } from './robots.ts';
+import type { Undoable } from './undoable.ts';
+
+export interface Poses {
+  readonly book: Undoable<PoseBook>;
+  /** null where there is no such pose, or none in the unit of the board at hand. */
+  targetsOf(ref: PoseRef): readonly ServoTarget[] | null;
+  /** False where it was refused; then the person was told why. */
+  apply(ref: PoseRef, durationMs: number): boolean;
+  /** Somewhere between poses. */
+  applyBlend(label: string, targets: readonly ServoTarget[], durationMs: number): void;
+  /** Adds the poses of a file, all or none. */
+  importText(text: string): void;
+}
+
+export interface PosesOptions {
+  readonly storage: TextStorage;
+  readonly notices: Notices;
+  readonly robots: RobotStore;
+  readonly device: Device;
+}
+
+export function createPoses({ storage, notices, robots, device }: PosesOptions): Poses {
+  const book = createRobotDocument({
+    ...{ storage, notices, robots, key: 'servodeck.poses' },
+    ...{ notSaved: words.poses.notSaved, unreadable: words.poses.unreadable },
+    ...{ empty: EMPTY_BOOK, toText: poseBookToText, fromText: poseBookFromText },
+  });
+  const present = (): PoseBook => book.store.getState().present;
+
+  function targetsOf(ref: PoseRef): readonly ServoTarget[] | null {
+    const id = ref === 'rest' ? present().restId : ref;
+    if (id === 'home' || id === null) return homeTargets(robots.current().robot);
+    const pose = poseOf(present(), id);
+    return pose?.unit === device.store.getState().family.unit ? pose.targets : null;
+  }
+
+  /** Of the poses together, because none is taken without the others. */
+  function flawOfImport({ poses }: PoseBook): string | null {
+    return limitRefusal(
+      robots.current().robot,
+      poses.flatMap(({ targets }) => targets),
+    );
+  }
+
+  return {
+    book,
+    targetsOf,
+    apply(ref, durationMs) {
+      const targets = targetsOf(ref);
+      if (targets === null) notices.tell('warning', words.poses.gone);
+      if (targets === null || !device.move(targets, durationMs)) return false;
+      const label = words.poses.steps.apply(poseName(present(), ref));
+      book.edit(label, (before) => markApplied(before, ref));
+      return true;
+    },
+    applyBlend(label, targets, durationMs) {
+      if (device.move(targets, durationMs)) book.edit(label, (before) => markApplied(before, null));
+    },
+    importText(text) {
+      const read = poseBookFromText(text);
+      const problem = 'problem' in read ? words.poses.importFailed(read.problem) : flawOfImport(read.value);
+      if (problem !== null) notices.tell('warning', problem);
+      else if ('value' in read)
+        book.edit(words.poses.steps.import, (before) => withPosesOf(before, read.value));
+    },
+  };
+}
+
+export function poseName(book: PoseBook, ref: PoseRef): string {
+  if (typeof ref === 'string') return words.poses.verbs[ref];
+  return poseOf(book, ref)?.name ?? words.poses.missing;
+}

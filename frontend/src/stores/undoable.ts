@@ -1,0 +1,57 @@
+// An immutable value with its history, and who wants to know when an edit is whole. Knows no storage and nothing of what it
+// holds.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import {
+  begin,
+  cancel,
+  commit,
+  preview,
+  record,
+  redo,
+  startHistory,
+  undo,
+  type History,
+} from '#shared/actions/history.ts';
+
+export interface Undoable<T> {
+  readonly store: StoreApi<History<T>>;
+  /** One finished edit, one step. */
+  edit(label: string, edit: (present: T) => T): void;
+  /** A gesture: begin, preview from where it began, then commit or cancel. One gesture, one step. */
+  begin(label: string): void;
+  preview(edit: (before: T) => T): void;
+  commit(): void;
+  cancel(): void;
+  undo(): void;
+  redo(): void;
+}
+
+/** `settled` is told each value that no gesture may take back any more. */
+export function createUndoable<T>(initial: T, settled: (present: T) => void): Undoable<T> {
+  const store = createStore<History<T>>(() => startHistory(initial));
+
+  function change(next: History<T>): void {
+    const before = store.getState();
+    store.setState(next, true);
+    if (next.gesture === null && (next.present !== before.present || before.gesture !== null))
+      settled(next.present);
+  }
+
+  return {
+    store,
+    edit(label, edit) {
+      const whole = commit(store.getState());
+      change(record(whole, label, edit(whole.present)));
+    },
+    begin: (label) => change(begin(store.getState(), label)),
+    preview(edit) {
+      const state = store.getState();
+      if (state.gesture !== null) change(preview(state, edit(state.gesture.value)));
+    },
+    commit: () => change(commit(store.getState())),
+    cancel: () => change(cancel(store.getState())),
+    undo: () => change(undo(store.getState())),
+    redo: () => change(redo(store.getState())),
+  };
+}

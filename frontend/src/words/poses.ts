@@ -1,0 +1,85 @@
+// Words about poses: capturing, changing and going to them.
+
+import { formatMs, formatPercent, formatWhole } from './numbers.ts';
+
+export const poseWords = {
+  title: 'Poses',
+  list: 'Poses',
+  empty: 'No poses yet',
+  emptyHint: 'Pose the robot with the sliders, then capture the pose and give it a name.',
+  missing: 'Pose that is gone',
+  gone: 'This pose is gone, or it was made for a board that counts otherwise.',
+  notSaved: 'The browser does not store poses; they are kept until the page is closed.',
+  unreadable: 'The saved poses could not be read. They were set aside unharmed.',
+
+  verbs: { home: 'Home', rest: 'Rest' },
+  homeHint: 'Every servo to its home',
+  restHint: (name: string): string => `Where the robot rests: ${name}`,
+  go: (name: string, durationMs: number): string => `Go to ${name}, in ${formatMs(durationMs)}`,
+  time: 'Time to reach a pose in milliseconds',
+  timeLabel: 'In',
+
+  capture: 'Capture pose',
+  captureHint: 'Keeps the commanded pose under a name',
+  newName: (number: number): string => `Pose ${formatWhole(number)}`,
+  copyOf: (name: string): string => `${name}, copy`,
+  name: (name: string): string => `Name of ${name}`,
+  about: (name: string, servoCount: number, all: number): string =>
+    servoCount === all ? name : `${name}, ${formatWhole(servoCount)} of ${formatWhole(all)} servos`,
+  applied: 'Went here last',
+  resting: 'Rest',
+
+  tools: 'Change the selected pose',
+  select: 'Select a pose to change it.',
+  update: 'Update pose',
+  mirror: 'Mirror sides',
+  mirrorHint: 'Left does what right does; a servo without a partner stays',
+  flip: 'Flip',
+  flipHint: 'Each servo as far from its home, the other way',
+  held: (names: readonly string[]): string => `At its limit now, it cannot turn as far: ${names.join(', ')}.`,
+  makeRest: 'Rest here',
+  earlier: 'Move pose earlier',
+  later: 'Move pose later',
+  duplicate: 'Duplicate pose',
+  delete: 'Delete pose',
+  button: 'Make a button',
+  buttonMade: (name: string): string => `${name} is a button now, under Buttons.`,
+  moved: (from: number, to: number): string => `Pose ${formatWhole(from)} is now pose ${formatWhole(to)}`,
+
+  servos: 'Servos',
+  servosHint: 'A servo that is left out stays where it is.',
+  servosOf: (count: number, all: number): string =>
+    `Servos of this pose: ${formatWhole(count)} of ${formatWhole(all)}`,
+
+  blend: 'Blend',
+  blendWith: 'Blend with',
+  blendNone: 'Another pose',
+  blendShare: (name: string): string => `Share of ${name}`,
+  share: (share: number): string => formatPercent(share),
+  blendGo: 'Go to blend',
+  blendKeep: 'Keep as pose',
+  blendName: (one: string, other: string, share: number): string =>
+    `${one} to ${other}, ${formatPercent(share)}`,
+  blendNothing: 'The two poses have no servo in common.',
+
+  import: 'Import poses',
+  export: 'Export poses',
+  importFailed: (problem: string): string => `No pose was taken from the file: ${problem}.`,
+  unreadableFile: 'The file could not be read.',
+
+  steps: {
+    capture: (name: string): string => `capture ${name}`,
+    update: (name: string): string => `update ${name}`,
+    mirror: (name: string): string => `mirror ${name}`,
+    flip: (name: string): string => `flip ${name}`,
+    servos: (name: string): string => `servos of ${name}`,
+    rename: (name: string): string => `rename ${name}`,
+    duplicate: (name: string): string => `duplicate ${name}`,
+    delete: (name: string): string => `delete ${name}`,
+    move: (name: string): string => `move ${name}`,
+    rest: 'place of rest',
+    blend: (one: string, other: string): string => `blend ${one} and ${other}`,
+    apply: (name: string): string => `go to ${name}`,
+    import: 'import poses',
+  },
+};

@@ -1,0 +1,83 @@
+// Buttons for everyone: each one is a list of steps (go to a pose, run a slot, wait) with a name, a colour and perhaps a key.
+// One immutable page of a robot, checked by one schema. Poses are named by reference. Knows no session and no storage.
+
+import * as z from 'zod/mini';
+import { poseRefSchema } from './pose.ts';
+import { NAME_LENGTH } from './robot.ts';
+
+export const COLOURS = ['slate', 'indigo', 'violet', 'plum', 'clay', 'olive'] as const;
+export type Colour = (typeof COLOURS)[number];
+
+const whole = (min: number, max: number) => z.number().check(z.int(), z.gte(min), z.lte(max));
+const id = whole(1, Number.MAX_SAFE_INTEGER);
+
+export const MOVE_MS = { min: 0, max: 30_000 } as const;
+export const WAIT_MS = { min: 100, max: 600_000 } as const;
+export const SLOT = { min: 0, max: 255 } as const;
+export const SLOT_TIMES = { min: 1, max: 255 } as const;
+/** A page for fingers: more are not found. */
+const MAX_MACROS = 200;
+const MAX_STEPS = 100;
+
+const stepSchema = z.discriminatedUnion('kind', [
+  z.strictObject({
+    kind: z.literal('pose'),
+    pose: poseRefSchema,
+    durationMs: whole(MOVE_MS.min, MOVE_MS.max),
+  }),
+  /** Without end is no step: the next one would never come. */
+  z.strictObject({
+    kind: z.literal('slot'),
+    slot: whole(SLOT.min, SLOT.max),
+    times: whole(SLOT_TIMES.min, SLOT_TIMES.max),
+  }),
+  z.strictObject({ kind: z.literal('wait'), waitMs: whole(WAIT_MS.min, WAIT_MS.max) }),
+]);
+
+const macroSchema = z.strictObject({
+  /** Never used twice; means nothing outside its page. */
+  id,
+  name: z.string().check(z.trim(), z.minLength(1), z.maxLength(NAME_LENGTH)),
+  colour: z.enum(COLOURS),
+  /** One sign in lower case, as `keyOf` gives it; null for none. */
+  key: z.nullable(z.string().check(z.minLength(1), z.maxLength(2))),
+  steps: z.array(stepSchema).check(z.maxLength(MAX_STEPS)),
+});
+
+export const macroPageSchema = z.strictObject({
+  macros: z.array(macroSchema).check(z.maxLength(MAX_MACROS)),
+  nextId: id,
+});
+
+export type MacroStep = Readonly<z.infer<typeof stepSchema>>;
+
+export type Macro = Readonly<Omit<z.infer<typeof macroSchema>, 'steps'>> & {
+  readonly steps: readonly MacroStep[];
+};
+
+export interface MacroPage {
+  readonly macros: readonly Macro[];
+  readonly nextId: number;
+}
+
+export const EMPTY_PAGE: MacroPage = { macros: [], nextId: 1 };
+
+export function macroOf(page: MacroPage, macroId: number | null): Macro | undefined {
+  return page.macros.find((macro) => macro.id === macroId);
+}
+
+/** The key as it is kept; null for keys that no button may have: those that name something, and the space bar. */
+export function keyOf(pressed: string): string | null {
+  const key = pressed.toLowerCase();
+  return /^\S$/u.test(key) ? key : null;
+}
+
+/** What cannot be on a page, as words for people; null where nothing is wrong. */
+export function flawOfPage({ macros, nextId }: MacroPage): string | null {
+  const ids = macros.map((macro) => macro.id);
+  if (new Set(ids).size < ids.length || ids.some((one) => one >= nextId))
+    return 'two buttons share one number';
+  const keys = macros.flatMap(({ key }) => (key === null ? [] : [key]));
+  if (keys.some((key) => keyOf(key) !== key)) return 'a button has a key that no button may have';
+  return new Set(keys).size < keys.length ? 'two buttons share one key' : null;
+}

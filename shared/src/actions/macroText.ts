@@ -1,0 +1,19 @@
+// A page of buttons as text with a version, and back; for storage. Reading trusts nothing. Knows no place to store anything.
+
+import * as z from 'zod/mini';
+import { flawOfPage, macroPageSchema, type MacroPage } from './macro.ts';
+import { readVersioned, versionedText, type Read } from './versionedText.ts';
+
+const FORMAT = 'servodeck-buttons';
+
+const fileSchema = z.strictObject({
+  format: z.literal(FORMAT),
+  version: z.literal(1),
+  content: macroPageSchema,
+});
+
+export const macroPageToText = (page: MacroPage): string => versionedText(FORMAT, page);
+
+export function macroPageFromText(text: string): Read<MacroPage> {
+  return readVersioned(text, 'button', fileSchema, flawOfPage);
+}
