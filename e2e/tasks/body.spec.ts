@@ -38,7 +38,7 @@ test.describe('of a humanoid', () => {
     page.addInitScript(
       (robots) =>
         localStorage.getItem('servodeck.robots') ?? localStorage.setItem('servodeck.robots', robots),
-      JSON.stringify({ files: [{ id: 1, file: robotToText(HUMANOID) }], currentId: 1 }),
+      JSON.stringify({ files: [{ id: 1, file: robotToText(HUMANOID) }], currentId: 1, nextId: 2 }),
     ),
   );
 

@@ -17,6 +17,6 @@ export function createMacros(
   return createRobotDocument({
     ...{ storage, notices, robots, key: 'servodeck.buttons' },
     ...{ notSaved: words.macros.notSaved, unreadable: words.macros.unreadable },
-    ...{ empty: EMPTY_PAGE, toText: macroPageToText, fromText: macroPageFromText },
+    ...{ fresh: () => EMPTY_PAGE, toText: macroPageToText, fromText: macroPageFromText },
   });
 }

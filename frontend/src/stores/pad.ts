@@ -3,16 +3,16 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
-import type { Input } from '#shared/actions/mapping.ts';
+import type { Input, Mapping } from '#shared/actions/mapping.ts';
 import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/actions/mappingInputs.ts';
 import { AT_REST, step, type DriveState } from '#shared/actions/mappingStep.ts';
 import { servoOf } from '#shared/actions/robot.ts';
 import { words } from '../words/en.ts';
 import type { Device } from './device.ts';
-import type { MappingStore } from './mappings.ts';
 import type { Notices } from './notices.ts';
 import { motionHindrance } from './readiness.ts';
 import type { RobotStore } from './robots.ts';
+import type { Undoable } from './undoable.ts';
 
 /** What is needed of a pad of the browser. */
 export interface Gamepadlike {
@@ -50,7 +50,7 @@ export interface Pad {
 export interface PadOptions {
   readonly device: Device;
   readonly robots: RobotStore;
-  readonly mappings: MappingStore;
+  readonly mappings: Pick<Undoable<Mapping>, 'store'>;
   readonly notices: Notices;
   readonly clock: Clock;
   /** The browser's pads; may throw where a page must not see them. */

@@ -38,7 +38,7 @@ export function createPoses({ storage, notices, robots, device }: PosesOptions):
   const book = createRobotDocument({
     ...{ storage, notices, robots, key: 'servodeck.poses' },
     ...{ notSaved: words.poses.notSaved, unreadable: words.poses.unreadable },
-    ...{ empty: EMPTY_BOOK, toText: poseBookToText, fromText: poseBookFromText },
+    ...{ fresh: () => EMPTY_BOOK, toText: poseBookToText, fromText: poseBookFromText },
   });
   const present = (): PoseBook => book.store.getState().present;
 

@@ -2,10 +2,11 @@
 // and changes it with the robot. Text that cannot be read is set aside, never thrown away. Never moves anything.
 
 import { startHistory, type History } from '#shared/actions/history.ts';
+import type { Robot } from '#shared/actions/robot.ts';
 import type { Read } from '#shared/actions/versionedText.ts';
 import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';
-import type { RobotStore } from './robots.ts';
+import type { OwnRobot, RobotStore } from './robots.ts';
 import { createUndoable, type Undoable } from './undoable.ts';
 
 export interface RobotDocumentOptions<T> {
@@ -14,7 +15,8 @@ export interface RobotDocumentOptions<T> {
   readonly robots: RobotStore;
   /** Before the robot's number in the storage's key. */
   readonly key: string;
-  readonly empty: T;
+  /** What a robot has that nothing was saved for. */
+  fresh(robot: Robot): T;
   toText(value: T): string;
   fromText(text: string): Read<T>;
   /** What the person is told then. */
@@ -28,7 +30,7 @@ export function createRobotDocument<T>(options: RobotDocumentOptions<T>): Undoab
   const aside = new Map<number, History<T>>();
   let owner = robots.current().id;
 
-  const document = createUndoable(load(options, owner), (present) => {
+  const document = createUndoable(load(options, robots.current()), (present) => {
     try {
       storage.setItem(`${key}.${owner}`, toText(present));
     } catch {
@@ -37,18 +39,20 @@ export function createRobotDocument<T>(options: RobotDocumentOptions<T>): Undoab
   });
 
   robots.store.subscribe(() => {
-    const { id } = robots.current();
+    const taken = robots.current();
+    const { id } = taken;
     if (id === owner) return;
     document.commit();
     aside.set(owner, document.store.getState());
     owner = id;
-    document.store.setState(aside.get(id) ?? startHistory(load(options, id)), true);
+    document.store.setState(aside.get(id) ?? startHistory(load(options, taken)), true);
   });
   return document;
 }
 
-function load<T>(options: RobotDocumentOptions<T>, owner: number): T {
-  const { storage, notices, key, empty } = options;
+function load<T>(options: RobotDocumentOptions<T>, { id: owner, robot }: OwnRobot): T {
+  const { storage, notices, key } = options;
+  const empty = options.fresh(robot);
   try {
     const text = storage.getItem(`${key}.${owner}`);
     if (text === null) return empty;

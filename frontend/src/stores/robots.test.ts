@@ -61,6 +61,16 @@ describe('robots', () => {
     expect(names()).toHaveLength(2);
   });
 
+  test('a number is never used twice: what was saved for a removed robot stays its own', () => {
+    const { robots, storage } = shelf();
+    robots.duplicate();
+    const { id } = robots.current();
+    robots.remove(id);
+    const later = shelf(storage).robots;
+    later.duplicate();
+    expect(later.current().id).not.toBe(id);
+  });
+
   test('duplicates and removals are steps; the last robot stays', () => {
     const { robots, names } = shelf();
     robots.duplicate();
@@ -72,14 +82,16 @@ describe('robots', () => {
     expect(names()).toHaveLength(2);
   });
 
-  test.each(['x', '{}', '{"files":[],"currentId":1}', '{"files":[{"id":1,"file":"no"}],"currentId":1}'])(
-    'saved text that is none of ours is set aside: %s',
-    (text) => {
-      const storage = storageWith(new Map([['servodeck.robots', text]]));
-      const { robots, told } = shelf(storage);
-      expect(robots.current().robot.body).toBe('arm');
-      expect(storage.texts.get('servodeck.robots.unreadable')).toBe(text);
-      expect(told()).toHaveLength(1);
-    },
-  );
+  test.each([
+    'x',
+    '{}',
+    '{"files":[],"currentId":1,"nextId":2}',
+    '{"files":[{"id":1,"file":"no"}],"currentId":1,"nextId":2}',
+  ])('saved text that is none of ours is set aside: %s', (text) => {
+    const storage = storageWith(new Map([['servodeck.robots', text]]));
+    const { robots, told } = shelf(storage);
+    expect(robots.current().robot.body).toBe('arm');
+    expect(storage.texts.get('servodeck.robots.unreadable')).toBe(text);
+    expect(told()).toHaveLength(1);
+  });
 });

@@ -127,9 +127,9 @@ function replaced(robots: Robots, id: number, robot: Robot): Robots {
   return { ...robots, own: robots.own.map((one) => (one.id === id ? { id, robot } : one)) };
 }
 
-function toText({ own, currentId }: Robots): string {
+function toText({ own, currentId, nextId }: Robots): string {
   const files = own.map(({ id, robot }) => ({ id, file: robotToText(robot) }));
-  return JSON.stringify({ files, currentId });
+  return JSON.stringify({ files, currentId, nextId });
 }
 
 function load(storage: TextStorage, notices: Notices): Robots {
@@ -150,17 +150,18 @@ function load(storage: TextStorage, notices: Notices): Robots {
 /** null where any of it is not what this store wrote. */
 function fromText(text: string): Robots | null {
   try {
-    const { files, currentId } = JSON.parse(text) as {
+    const { files, currentId, nextId } = JSON.parse(text) as {
       files: { id: number; file: string }[];
       currentId: number;
+      nextId: number;
     };
     const own = files.map(({ id, file }) => {
       const read = robotFromText(file);
       if (!Number.isSafeInteger(id) || 'problem' in read) throw new Error('not one of ours');
       return { id, robot: read.robot };
     });
-    if (own.length === 0 || !Number.isSafeInteger(currentId)) return null;
-    return { own, currentId, nextId: Math.max(...own.map(({ id }) => id)) + 1 };
+    if (own.length === 0 || ![currentId, nextId].every(Number.isSafeInteger)) return null;
+    return { own, currentId, nextId };
   } catch {
     return null;
   }

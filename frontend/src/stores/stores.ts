@@ -14,7 +14,6 @@ import type { Mapping } from '#shared/actions/mapping.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { Document, DocumentState } from './document.ts';
 import { currentOf, type RobotStore } from './robots.ts';
-import type { MappingStore } from './mappings.ts';
 import type { Notices } from './notices.ts';
 import { servoViewFor, type ServoView } from './servoView.ts';
 import type { Pad, PadState } from './pad.ts';
@@ -31,7 +30,7 @@ export interface Stores {
   readonly boards: Boards;
   readonly robots: RobotStore;
   readonly battery: BatteryStore;
-  readonly mappings: MappingStore;
+  readonly mappings: Undoable<Mapping>;
   readonly pad: Pad;
   readonly poses: Poses;
   readonly macros: Undoable<MacroPage>;
