@@ -3,8 +3,8 @@
 // sliders in the same browser, right before.
 
 import type { Page } from '@playwright/test';
-import { readyRobot } from '#shared/actions/readyRobots.ts';
-import { robotToText } from '#shared/actions/robotText.ts';
+import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
+import { robotToText } from '#shared/actions/robot/robotText.ts';
 import type { Figure } from './figure.ts';
 import { openDashboard, withBoard, withPage } from './station.ts';
 

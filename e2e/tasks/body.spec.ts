@@ -1,8 +1,8 @@
 // The servos on the body: picked on the picture, moved below it, arranged as their owner sees them. And with a finger, which
 // scrolls more often than it moves a servo.
 
-import { readyRobot } from '#shared/actions/readyRobots.ts';
-import { robotToText } from '#shared/actions/robotText.ts';
+import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
+import { robotToText } from '#shared/actions/robot/robotText.ts';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 

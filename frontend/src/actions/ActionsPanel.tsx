@@ -1,7 +1,7 @@
 // The action group being written: its name, its frames, and what can be done with them. Edits go to the document alone;
 // the robot moves only by Play and by loading a pose.
 
-import { totalDurationMs } from '#shared/actions/group.ts';
+import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { redoLabel, undoLabel } from '#shared/actions/history.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { useDevice, useDocument, useGroup, useStores } from '../stores/stores.ts';

@@ -1,7 +1,7 @@
 // The foot of the action group: capture the pose as a frame, the group's length, play from the page.
 
-import { indexOfFrame, insertFrame } from '#shared/actions/edits.ts';
-import type { ActionGroup } from '#shared/actions/group.ts';
+import { indexOfFrame, insertFrame } from '#shared/actions/group/groupEdits.ts';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';

@@ -1,8 +1,8 @@
 // One frame as a card: its number, its pose, the servos it moves, its time. The face selects; the grip drags.
 
 import type { KeyboardEvent } from 'react';
-import { setDuration } from '#shared/actions/edits.ts';
-import { changedServos, poseAt, type GroupFrame } from '#shared/actions/group.ts';
+import { setDuration } from '#shared/actions/group/groupEdits.ts';
+import { changedServos, poseAt, type GroupFrame } from '#shared/actions/group/group.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { useDevice, useGroup, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';

@@ -1,6 +1,6 @@
 // The frames in order, one card each; they wrap like a contact sheet. The frame that plays is marked.
 
-import { deleteFrame, indexOfFrame, moveFrame } from '#shared/actions/edits.ts';
+import { deleteFrame, indexOfFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
 import { useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { words } from '../words/en.ts';
 import { FrameCard } from './FrameCard.tsx';

@@ -1,6 +1,12 @@
 // What can be done with the selected frame, in words. Always in its place, so that nothing jumps when a frame is selected.
 
-import { deleteFrame, duplicateFrame, indexOfFrame, moveFrame, setTargets } from '#shared/actions/edits.ts';
+import {
+  deleteFrame,
+  duplicateFrame,
+  indexOfFrame,
+  moveFrame,
+  setTargets,
+} from '#shared/actions/group/groupEdits.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';

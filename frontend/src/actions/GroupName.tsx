@@ -1,6 +1,6 @@
 // The group's name as a text one edits in place; taken over on Enter or on leaving the field.
 
-import { rename } from '#shared/actions/edits.ts';
+import { rename } from '#shared/actions/group/groupEdits.ts';
 import { useGroup, useStores } from '../stores/stores.ts';
 import { words } from '../words/en.ts';
 import styles from './GroupName.module.css';

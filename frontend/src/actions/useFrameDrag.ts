@@ -1,6 +1,6 @@
 // Reordering frames by drag: one gesture of the document, the frames in between make room at once.
 
-import { indexOfFrame, moveFrame } from '#shared/actions/edits.ts';
+import { indexOfFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
 import { useStores } from '../stores/stores.ts';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
 import { words } from '../words/en.ts';

@@ -1,8 +1,8 @@
 // The battery in full: volts on a gauge, what is left, what that means, how old the reading is, how it went in this visit.
 
 import { useState } from 'react';
-import { isPlain, readingKind } from '#shared/actions/batteryGauge.ts';
-import { percentOf } from '#shared/actions/batterySupply.ts';
+import { isPlain, readingKind } from '#shared/actions/battery/batteryGauge.ts';
+import { percentOf } from '#shared/actions/battery/batterySupply.ts';
 import { canReadBattery } from '../stores/batteryPoll.ts';
 import { useBattery, useDevice, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';

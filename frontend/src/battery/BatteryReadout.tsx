@@ -1,7 +1,7 @@
 // The battery in the top bar: volts with a small picture of what feeds the robot, or a word where there are none.
 
-import { readingKind } from '#shared/actions/batteryGauge.ts';
-import { percentOf, type Supply } from '#shared/actions/batterySupply.ts';
+import { readingKind } from '#shared/actions/battery/batteryGauge.ts';
+import { percentOf, type Supply } from '#shared/actions/battery/batterySupply.ts';
 import { useBattery, useSnapshot } from '../stores/stores.ts';
 import { Mark, type Truth } from '../ui/Chip.tsx';
 import { lastMv, LEVEL_TRUTH, voltsText } from './readings.ts';

@@ -1,7 +1,7 @@
 // A servo on the body while its place is being chosen: dragged, or pushed by arrow keys. Letting go is one step of the history.
 
 import { useState, type KeyboardEvent, type PointerEvent, type RefObject } from 'react';
-import type { Robot, RobotServo } from '#shared/actions/robot.ts';
+import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/en.ts';

@@ -1,7 +1,7 @@
 // The servos where they sit on the body: pressing one selects it. While arranging, they are dragged to other places instead.
 
 import { useRef, useState } from 'react';
-import type { BodyKind } from '#shared/actions/robot.ts';
+import type { BodyKind } from '#shared/actions/robot/robot.ts';
 import { useRobot, useServoView } from '../stores/stores.ts';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/en.ts';

@@ -1,7 +1,7 @@
 // A body by bones as the session's motion goes: solid is where it is by the estimate, the outline where it was asked to go.
 
 import { useRef } from 'react';
-import type { Robot } from '#shared/actions/robot.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
 import type { ServoMotion } from '#shared/session/state.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';

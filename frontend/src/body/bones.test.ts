@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { readyRobot, type ReadyRobotId } from '#shared/actions/readyRobots.ts';
+import { readyRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
 import { robotNames } from '../words/robots.ts';
 import { bonesOf, type Bone } from './bones.ts';
 

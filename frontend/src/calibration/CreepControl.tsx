@@ -2,7 +2,7 @@
 
 import { useEffect, useRef, useState } from 'react';
 import { Button } from 'react-aria-components/Button';
-import type { RobotServo } from '#shared/actions/robot.ts';
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Range } from '#shared/protocol/families.ts';
 import { Estimate } from '../servos/Estimate.tsx';
 import { scaleOf } from '../servos/scale.ts';

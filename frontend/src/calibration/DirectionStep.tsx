@@ -3,8 +3,8 @@
 
 import { useState } from 'react';
 import type { Frame } from '#shared/protocol/commands.ts';
-import { changeServo } from '#shared/actions/robotEdits.ts';
-import type { RobotServo } from '#shared/actions/robot.ts';
+import { changeServo } from '#shared/actions/robot/robotEdits.ts';
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/en.ts';

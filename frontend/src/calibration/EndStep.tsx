@@ -1,7 +1,7 @@
 // Lowest, highest and home: the servo is crept there and the commanded position becomes the figure.
 
-import { changeServo, reachOf, setEnd } from '#shared/actions/robotEdits.ts';
-import type { Robot } from '#shared/actions/robot.ts';
+import { changeServo, reachOf, setEnd } from '#shared/actions/robot/robotEdits.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { ReachBar } from '../robots/ReachBar.tsx';
 import { useDevice } from '../stores/stores.ts';

@@ -2,8 +2,8 @@
 // to its middle, slowly and only when told to.
 
 import type { ReactNode } from 'react';
-import type { Robot, RobotServo } from '#shared/actions/robot.ts';
-import { reachOf } from '#shared/actions/robotEdits.ts';
+import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
+import { reachOf } from '#shared/actions/robot/robotEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { motionHindrance } from '../stores/readiness.ts';

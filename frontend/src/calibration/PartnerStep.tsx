@@ -1,7 +1,7 @@
 // Offers the servo on the other side the mirror image of what was set.
 
-import { flawOf, servoOf } from '#shared/actions/robot.ts';
-import { changeServo, fromPartner } from '#shared/actions/robotEdits.ts';
+import { flawOf, servoOf } from '#shared/actions/robot/robot.ts';
+import { changeServo, fromPartner } from '#shared/actions/robot/robotEdits.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/en.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';

@@ -1,7 +1,7 @@
 // Gives home the figure that it has on every robot of this build, and the trim what it is off by.
 
-import { changeServo, homeAtCentre } from '#shared/actions/robotEdits.ts';
-import type { Robot, RobotServo } from '#shared/actions/robot.ts';
+import { changeServo, homeAtCentre } from '#shared/actions/robot/robotEdits.ts';
+import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/en.ts';

@@ -1,7 +1,7 @@
 // The calibration at hand: which servo, which step, and what a finished step does to the robot. Each is one step to undo.
 
 import { useEffect, useState } from 'react';
-import { flawOf, servoOf, type Robot, type RobotServo } from '#shared/actions/robot.ts';
+import { flawOf, servoOf, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
 import {
   beginCalibration,
   partnerDone,
@@ -9,7 +9,7 @@ import {
   stepDone,
   type Calibration,
   type CalibrationStep,
-} from '#shared/actions/robotCalibration.ts';
+} from '#shared/actions/robot/robotCalibration.ts';
 import { useRobot, useServoView, useStores, useView } from '../stores/stores.ts';
 import { words } from '../words/en.ts';
 

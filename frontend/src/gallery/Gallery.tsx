@@ -2,9 +2,9 @@
 // the address shows one alone. The panels are the real ones, the session behind them is frozen.
 
 import { useState } from 'react';
-import { insertFrame } from '#shared/actions/edits.ts';
-import { gaugeOf, type Reading } from '#shared/actions/batteryGauge.ts';
-import { fedBy } from '#shared/actions/batterySupply.ts';
+import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { gaugeOf, type Reading } from '#shared/actions/battery/batteryGauge.ts';
+import { fedBy } from '#shared/actions/battery/batterySupply.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import { FAMILIES, UNKNOWN_BOARD, type Family } from '#shared/protocol/families.ts';
 import { ActionsPanel } from '../actions/ActionsPanel.tsx';

@@ -2,7 +2,7 @@
 
 import { useState } from 'react';
 import { FAMILIES } from '#shared/protocol/families.ts';
-import type { Binding } from '#shared/actions/mapping.ts';
+import type { Binding } from '#shared/actions/mapping/mapping.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import { PadPanel } from '../pad/PadPanel.tsx';
 import type { Gamepadlike } from '../stores/pad.ts';

@@ -1,9 +1,9 @@
 // Poses and buttons in each of their states, fed by plain values.
 
 import { useState, type ReactNode } from 'react';
-import { addMacro, changeMacro } from '#shared/actions/macroEdits.ts';
-import { addPose, markApplied, markRest } from '#shared/actions/poseEdits.ts';
-import type { PoseBook } from '#shared/actions/pose.ts';
+import { addMacro, changeMacro } from '#shared/actions/macros/macroEdits.ts';
+import { addPose, markApplied, markRest } from '#shared/actions/poses/poseEdits.ts';
+import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { ButtonsPage } from '../macros/ButtonsPage.tsx';
 import { Kiosk } from '../macros/Kiosk.tsx';

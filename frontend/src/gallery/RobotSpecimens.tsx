@@ -1,7 +1,7 @@
 // What the dialog about robots shows: the list, the description, and the calibration at each kind of step.
 
 import { useState } from 'react';
-import type { Calibration } from '#shared/actions/robotCalibration.ts';
+import type { Calibration } from '#shared/actions/robot/robotCalibration.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { SessionState } from '#shared/session/state.ts';

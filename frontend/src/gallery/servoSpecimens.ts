@@ -1,6 +1,6 @@
 // The servo panel with robots of each body, and with servos selected, locked and described otherwise.
 
-import type { Robot } from '#shared/actions/robot.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
 import type { FamilyId } from '#shared/protocol/families.ts';
 import { freshRobot } from '../stores/robots.ts';
 import type { ServoView } from '../stores/servoView.ts';

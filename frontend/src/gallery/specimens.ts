@@ -2,7 +2,7 @@
 
 import { LINK_ERROR_CODES, LinkError } from '#shared/session/linkError.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
-import type { BatteryKind } from '#shared/actions/robot.ts';
+import type { BatteryKind } from '#shared/actions/robot/robot.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { Way } from '../stores/device.ts';
 import { identityFrom, type Evidence } from '#shared/session/identity.ts';

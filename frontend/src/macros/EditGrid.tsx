@@ -1,8 +1,8 @@
 // The buttons while they are changed: a press selects, a drag or Alt with an arrow moves. Nothing starts.
 
 import type { KeyboardEvent } from 'react';
-import type { Macro } from '#shared/actions/macro.ts';
-import { addMacro, moveMacro, removeMacro } from '#shared/actions/macroEdits.ts';
+import type { Macro } from '#shared/actions/macros/macro.ts';
+import { addMacro, moveMacro, removeMacro } from '#shared/actions/macros/macroEdits.ts';
 import { useCards } from '../actions/useCards.ts';
 import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

@@ -1,7 +1,7 @@
 // What the selected button is called, looks like and does.
 
-import { COLOURS, keyOf, macroOf, type Macro } from '#shared/actions/macro.ts';
-import { changeMacro, moveMacro, removeMacro } from '#shared/actions/macroEdits.ts';
+import { COLOURS, keyOf, macroOf, type Macro } from '#shared/actions/macros/macro.ts';
+import { changeMacro, moveMacro, removeMacro } from '#shared/actions/macros/macroEdits.ts';
 import { useId, useState, type KeyboardEvent } from 'react';
 import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';

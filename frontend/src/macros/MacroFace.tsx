@@ -1,6 +1,6 @@
 // What a button shows: its name, its key, the pose it leads to first, and how far it is.
 
-import type { Macro } from '#shared/actions/macro.ts';
+import type { Macro } from '#shared/actions/macros/macro.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import type { MacroProgress } from '../stores/macroRun.ts';
 import { poseName } from '../stores/poses.ts';

@@ -1,7 +1,7 @@
 // The values of one step: a pose and its time, a slot and its times, or a wait.
 
-import { MOVE_MS, SLOT, SLOT_TIMES, WAIT_MS, type MacroStep } from '#shared/actions/macro.ts';
-import { POSE_VERBS, type PoseRef } from '#shared/actions/pose.ts';
+import { MOVE_MS, SLOT, SLOT_TIMES, WAIT_MS, type MacroStep } from '#shared/actions/macros/macro.ts';
+import { POSE_VERBS, type PoseRef } from '#shared/actions/poses/pose.ts';
 import type { Range } from '#shared/protocol/families.ts';
 import { poseName } from '../stores/poses.ts';
 import { usePoses, useStores } from '../stores/stores.ts';

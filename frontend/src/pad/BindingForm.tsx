@@ -1,7 +1,7 @@
 // What one input is to do: a kind, and what that kind needs.
 
 import { useState } from 'react';
-import { FASTEST_UNITS_PER_S, type Action, type Binding } from '#shared/actions/mapping.ts';
+import { FASTEST_UNITS_PER_S, type Action, type Binding } from '#shared/actions/mapping/mapping.ts';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';

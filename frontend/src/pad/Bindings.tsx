@@ -3,9 +3,9 @@
 
 import { useEffect, useRef, useState } from 'react';
 import { Button as Bare } from 'react-aria-components/Button';
-import type { Binding, Input } from '#shared/actions/mapping.ts';
-import { shaped, valueOf } from '#shared/actions/mappingInputs.ts';
-import { readyMapping } from '#shared/actions/mappingReady.ts';
+import type { Binding, Input } from '#shared/actions/mapping/mapping.ts';
+import { shaped, valueOf } from '#shared/actions/mapping/mappingInputs.ts';
+import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
 import { useMapping, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { useEachFrame } from '../ui/useEachFrame.ts';

@@ -1,7 +1,7 @@
 // What two bindings have against each other, in words. Nothing is shown where all is well.
 
-import { conflicts, type Conflict, type Mapping } from '#shared/actions/mapping.ts';
-import { servoOf, type Robot } from '#shared/actions/robot.ts';
+import { conflicts, type Conflict, type Mapping } from '#shared/actions/mapping/mapping.ts';
+import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
 import { useMapping, useRobot } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { words } from '../words/en.ts';

@@ -2,8 +2,8 @@
 // of the history.
 
 import { useState } from 'react';
-import type { Feel } from '#shared/actions/mapping.ts';
-import { shaped } from '#shared/actions/mappingInputs.ts';
+import type { Feel } from '#shared/actions/mapping/mapping.ts';
+import { shaped } from '#shared/actions/mapping/mappingInputs.ts';
 import { useMapping, useStores } from '../stores/stores.ts';
 import { words } from '../words/en.ts';
 import styles from './FeelControls.module.css';

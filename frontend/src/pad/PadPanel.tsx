@@ -1,7 +1,7 @@
 // Driving by keys and pad: the switch, the picture of what is held, how it feels, and which input does what.
 
 import { redoLabel, undoLabel } from '#shared/actions/history.ts';
-import { servoBoundBy } from '#shared/actions/mapping.ts';
+import { servoBoundBy } from '#shared/actions/mapping/mapping.ts';
 import { useStore } from 'zustand';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';

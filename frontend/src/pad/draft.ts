@@ -1,8 +1,13 @@
 // A binding while it is being written: every field has a value, whatever the binding will do. Knows no drawing.
 
-import { FASTEST_UNITS_PER_S, type Action, type Binding, type Input } from '#shared/actions/mapping.ts';
-import { usualUnitsPerS } from '#shared/actions/mappingReady.ts';
-import type { Robot } from '#shared/actions/robot.ts';
+import {
+  FASTEST_UNITS_PER_S,
+  type Action,
+  type Binding,
+  type Input,
+} from '#shared/actions/mapping/mapping.ts';
+import { usualUnitsPerS } from '#shared/actions/mapping/mappingReady.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
 
 export interface Draft {
   /** Its place in the list; null for a new one. */

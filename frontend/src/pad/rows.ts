@@ -1,7 +1,7 @@
 // The bindings as a table: a row per servo of the robot, then what else is bound. Knows no drawing.
 
-import { servoBoundBy, type Binding, type Mapping } from '#shared/actions/mapping.ts';
-import { servoOf, type Robot } from '#shared/actions/robot.ts';
+import { servoBoundBy, type Binding, type Mapping } from '#shared/actions/mapping/mapping.ts';
+import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
 import { words } from '../words/en.ts';
 
 export interface Row {

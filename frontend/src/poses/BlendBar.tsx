@@ -1,9 +1,9 @@
 // Between two poses: a slider from the selected one to another, with its picture. The robot goes there when asked to.
 
 import { useState } from 'react';
-import type { Pose } from '#shared/actions/pose.ts';
-import { addPose } from '#shared/actions/poseEdits.ts';
-import { blended } from '#shared/actions/poseShapes.ts';
+import type { Pose } from '#shared/actions/poses/pose.ts';
+import { addPose } from '#shared/actions/poses/poseEdits.ts';
+import { blended } from '#shared/actions/poses/poseShapes.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';

@@ -1,8 +1,8 @@
 // One pose as a card: its picture, its name, the way to it. The face selects; the grip drags.
 
 import type { KeyboardEvent } from 'react';
-import type { Pose } from '#shared/actions/pose.ts';
-import { movePose, renamePose } from '#shared/actions/poseEdits.ts';
+import type { Pose } from '#shared/actions/poses/pose.ts';
+import { movePose, renamePose } from '#shared/actions/poses/poseEdits.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useRobot, useSnapshot, useStores, useView } from '../stores/stores.ts';

@@ -1,7 +1,7 @@
 // The poses in order, one card each; they wrap like a contact sheet.
 
-import type { Pose } from '#shared/actions/pose.ts';
-import { movePose, removePose } from '#shared/actions/poseEdits.ts';
+import type { Pose } from '#shared/actions/poses/pose.ts';
+import { movePose, removePose } from '#shared/actions/poses/poseEdits.ts';
 import { useCards } from '../actions/useCards.ts';
 import { poseName } from '../stores/poses.ts';
 import { usePoses, useStores, useView } from '../stores/stores.ts';

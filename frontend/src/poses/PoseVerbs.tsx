@@ -1,7 +1,7 @@
 // The foot of the poses: keep the pose at hand, and the ways home and to rest, in the time that holds for every pose.
 
-import { addPose } from '#shared/actions/poseEdits.ts';
-import { POSE_VERBS } from '#shared/actions/pose.ts';
+import { addPose } from '#shared/actions/poses/poseEdits.ts';
+import { POSE_VERBS } from '#shared/actions/poses/pose.ts';
 import { commandedPose } from '../actions/pose.ts';
 import { poseName } from '../stores/poses.ts';
 import { motionHindrance } from '../stores/readiness.ts';

@@ -1,8 +1,8 @@
 // Which servos a pose is about. One that is put in takes the place it is commanded to now; one that is left out stays where
 // it is when the pose is gone to.
 
-import type { Pose } from '#shared/actions/pose.ts';
-import { setPose } from '#shared/actions/poseEdits.ts';
+import type { Pose } from '#shared/actions/poses/pose.ts';
+import { setPose } from '#shared/actions/poses/poseEdits.ts';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
 import { words } from '../words/en.ts';
 import styles from './PosesPanel.module.css';

@@ -2,7 +2,7 @@
 
 import { useState } from 'react';
 import { FileTrigger } from 'react-aria-components/FileTrigger';
-import { robotFromText } from '#shared/actions/robotText.ts';
+import { robotFromText } from '#shared/actions/robot/robotText.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

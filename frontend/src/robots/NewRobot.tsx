@@ -2,7 +2,7 @@
 
 import { useId } from 'react';
 import { Button } from 'react-aria-components/Button';
-import { READY_ROBOTS, type ReadyRobotId } from '#shared/actions/readyRobots.ts';
+import { READY_ROBOTS, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { freshRobot } from '../stores/robots.ts';
 import { useStores } from '../stores/stores.ts';

@@ -1,6 +1,6 @@
 // A servo's limits within what its board can do, and its home between them.
 
-import type { RobotServo } from '#shared/actions/robot.ts';
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Range } from '#shared/protocol/families.ts';
 import type { PositionUnit } from '../words/numbers.ts';
 import { words } from '../words/en.ts';

@@ -1,8 +1,8 @@
 // The description of the robot at hand: its name, what feeds it, its servos.
 
-import { fedBy } from '#shared/actions/batterySupply.ts';
-import { BATTERY_KINDS, NAME_LENGTH, type BatteryKind } from '#shared/actions/robot.ts';
-import { addServo } from '#shared/actions/robotEdits.ts';
+import { fedBy } from '#shared/actions/battery/batterySupply.ts';
+import { BATTERY_KINDS, NAME_LENGTH, type BatteryKind } from '#shared/actions/robot/robot.ts';
+import { addServo } from '#shared/actions/robot/robotEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

@@ -1,6 +1,6 @@
 // A robot's build as a small drawing: a dot per servo at its place, a line along each limb. Knows no positions.
 
-import type { BodyKind, Robot, RobotServo } from '#shared/actions/robot.ts';
+import type { BodyKind, Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import styles from './RobotPicture.module.css';
 
 export function RobotPicture({ robot }: { readonly robot: Robot }) {

@@ -1,8 +1,8 @@
 // The servos of the robot at hand, a row each. A change that cannot be is told below its row and taken nowhere.
 
 import { useId, useState } from 'react';
-import { flawOf, type Robot, type RobotServo } from '#shared/actions/robot.ts';
-import { changeServo, pair, reachOf, removeServo } from '#shared/actions/robotEdits.ts';
+import { flawOf, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
+import { changeServo, pair, reachOf, removeServo } from '#shared/actions/robot/robotEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';

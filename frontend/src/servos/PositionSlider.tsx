@@ -5,7 +5,7 @@
 import { useEffect, useRef, type CSSProperties, type KeyboardEvent, type RefObject } from 'react';
 import { fraction } from '../body/pose.ts';
 import { useMotion } from '../body/useMotion.ts';
-import type { RobotServo } from '#shared/actions/robot.ts';
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Family, Range } from '#shared/protocol/families.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/en.ts';

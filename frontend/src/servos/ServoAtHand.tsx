@@ -1,6 +1,6 @@
 // Beside the body: the controls of the servo that was selected last. Others that are selected move with it.
 
-import { servoOf } from '#shared/actions/robot.ts';
+import { servoOf } from '#shared/actions/robot/robot.ts';
 import { useRobot, useServoView } from '../stores/stores.ts';
 import { words } from '../words/en.ts';
 import { ServoRow } from './ServoRow.tsx';

@@ -1,6 +1,6 @@
 // The servos one below the other, by limb where the robot has limbs. A limb can be folded away and selected as a whole.
 
-import type { RobotServo } from '#shared/actions/robot.ts';
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
 import { select, toggled } from '../stores/servoView.ts';
 import { editServoView, useRobot, useServoView, useStores } from '../stores/stores.ts';

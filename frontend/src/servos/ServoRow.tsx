@@ -2,7 +2,7 @@
 // drawn once a frame past React, so that a moving servo costs nothing elsewhere.
 
 import { memo, useRef } from 'react';
-import type { RobotServo } from '#shared/actions/robot.ts';
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { motionHindrance, tellsPositions } from '../stores/readiness.ts';
 import { isHeld } from '../stores/servoView.ts';
 import { useDevice, useServoView, useSnapshot, useStores, useView } from '../stores/stores.ts';

@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { readyRobot } from '#shared/actions/readyRobots.ts';
-import { degreesOf, type RobotServo } from '#shared/actions/robot.ts';
+import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
+import { degreesOf, type RobotServo } from '#shared/actions/robot/robot.ts';
 import { robotNames } from '../words/robots.ts';
 import { moveGang, weightOf, type Member } from './gang.ts';
 

@@ -1,7 +1,7 @@
 // Servos that move together: where each goes when one of them is moved. Turns are compared in degrees, in each servo's own
 // direction. When one reaches a limit all of them stop there, so that they keep their stand to each other. Pure.
 
-import { degreesOf, positionOf, type RobotServo } from '#shared/actions/robot.ts';
+import { degreesOf, positionOf, type RobotServo } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Gang, Stand, Together } from '../stores/servoView.ts';
 

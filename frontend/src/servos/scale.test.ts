@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { readyRobot } from '#shared/actions/readyRobots.ts';
-import type { RobotServo } from '#shared/actions/robot.ts';
+import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { robotNames } from '../words/robots.ts';
 import { scaleOf, stepped } from './scale.ts';

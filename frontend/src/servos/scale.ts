@@ -1,6 +1,6 @@
 // A servo's positions as the person reads them, in the board's units or in degrees from its home, and back. Pure.
 
-import { degreesOf, positionOf, type RobotServo } from '#shared/actions/robot.ts';
+import { degreesOf, positionOf, type RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import type { PositionsIn } from '../stores/view.ts';
 import { formatDegrees, formatPosition, formatWhole, unitSymbol } from '../words/numbers.ts';

@@ -1,6 +1,6 @@
 // What the controls of the servo panel do to servos: one alone, or with the ones it moves together with. Locked ones stay.
 
-import { servoOf } from '#shared/actions/robot.ts';
+import { servoOf } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { editServoView, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
 import { isHeld, type ServoView } from '../stores/servoView.ts';

@@ -1,8 +1,8 @@
 // The battery of a visit: what is kept of its readings, and what happens when it is low, on a simulated board.
 
 import { describe, expect, test } from 'vitest';
-import { fedBy } from '#shared/actions/batterySupply.ts';
-import type { BatteryPolicy } from '#shared/actions/robot.ts';
+import { fedBy } from '#shared/actions/battery/batterySupply.ts';
+import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
 import { words } from '../words/en.ts';

@@ -2,8 +2,14 @@
 // them, and when something ran. Listens to the device and the robot; asks and moves nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { EMPTY_GAUGE, gaugeAfter, gaugeOf, type Gauge, type Reading } from '#shared/actions/batteryGauge.ts';
-import { supplyOf, type Supply } from '#shared/actions/batterySupply.ts';
+import {
+  EMPTY_GAUGE,
+  gaugeAfter,
+  gaugeOf,
+  type Gauge,
+  type Reading,
+} from '#shared/actions/battery/batteryGauge.ts';
+import { supplyOf, type Supply } from '#shared/actions/battery/batterySupply.ts';
 import { nameOf } from './boards.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { RobotStore } from './robots.ts';

@@ -1,8 +1,8 @@
 // What a low battery brings about, as the person chose for the robot: they are told, new runs are refused, the robot goes to
 // rest and is stopped. The one place where the battery acts, and only on readings that agree and are fresh.
 
-import { isActionable, type Level } from '#shared/actions/batteryGauge.ts';
-import type { BatteryPolicy } from '#shared/actions/robot.ts';
+import { isActionable, type Level } from '#shared/actions/battery/batteryGauge.ts';
+import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
 import { words } from '../words/en.ts';
 import type { BatteryStore } from './battery.ts';
 import type { Device } from './device.ts';

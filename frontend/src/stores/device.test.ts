@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import type { Robot } from '#shared/actions/robot.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
 import { words } from '../words/en.ts';

@@ -2,7 +2,7 @@
 // intents of the panels into calls whose failures become notices. Live, never undoable; knows no transport and no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { fromBoard, limitsOnBoard, onBoard, type Robot } from '#shared/actions/robot.ts';
+import { fromBoard, limitsOnBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';

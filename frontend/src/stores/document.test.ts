@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
-import { insertFrame, moveFrame, setDuration } from '#shared/actions/edits.ts';
-import { groupFromText } from '#shared/actions/groupText.ts';
+import { insertFrame, moveFrame, setDuration } from '#shared/actions/group/groupEdits.ts';
+import { groupFromText } from '#shared/actions/group/groupText.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
 import { words } from '../words/en.ts';
 import { createDocument, type TextStorage } from './document.ts';

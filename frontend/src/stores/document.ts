@@ -1,8 +1,8 @@
 // The action group being written: undoable, saved in the browser's storage after each edit. Text that cannot be read is
 // never thrown away: it is set aside under another key and the person is told. Never moves the robot.
 
-import { emptyGroup, type ActionGroup } from '#shared/actions/group.ts';
-import { groupFromText, groupToText } from '#shared/actions/groupText.ts';
+import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
+import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
 import type { History } from '#shared/actions/history.ts';
 import { words } from '../words/en.ts';
 import type { Notices } from './notices.ts';

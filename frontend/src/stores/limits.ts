@@ -1,6 +1,6 @@
 // The sentence for targets that the robot must not reach: which servo, and what it may do.
 
-import { refusedTarget, type Robot } from '#shared/actions/robot.ts';
+import { refusedTarget, type Robot } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { words } from '../words/en.ts';
 

@@ -2,7 +2,7 @@
 // board's own run. One button at a time; what stops the robot or loses it ends the button for good. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Macro, MacroStep } from '#shared/actions/macro.ts';
+import type { Macro, MacroStep } from '#shared/actions/macros/macro.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { words } from '../words/en.ts';

@@ -1,7 +1,7 @@
 // The page of buttons of the robot at hand. Never moves anything; macroRun.ts does what a button says.
 
-import { EMPTY_PAGE, type MacroPage } from '#shared/actions/macro.ts';
-import { macroPageFromText, macroPageToText } from '#shared/actions/macroText.ts';
+import { EMPTY_PAGE, type MacroPage } from '#shared/actions/macros/macro.ts';
+import { macroPageFromText, macroPageToText } from '#shared/actions/macros/macroText.ts';
 import { words } from '../words/en.ts';
 import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
-import type { Mapping } from '#shared/actions/mapping.ts';
-import { readyMapping } from '#shared/actions/mappingReady.ts';
+import type { Mapping } from '#shared/actions/mapping/mapping.ts';
+import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
 import { createMappings } from './mappings.ts';
 import { createNotices } from './notices.ts';

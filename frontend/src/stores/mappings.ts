@@ -1,9 +1,9 @@
 // What pad and keys do to the robot at hand; a robot without an entry has its ready mapping. Moves nothing; pad.ts does what a
 // mapping says.
 
-import type { Mapping } from '#shared/actions/mapping.ts';
-import { readyMapping } from '#shared/actions/mappingReady.ts';
-import { mappingFromText, mappingToText } from '#shared/actions/mappingText.ts';
+import type { Mapping } from '#shared/actions/mapping/mapping.ts';
+import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
+import { mappingFromText, mappingToText } from '#shared/actions/mapping/mappingText.ts';
 import { words } from '../words/en.ts';
 import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';

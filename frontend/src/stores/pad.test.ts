@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/protocol/families.ts';
-import type { Input } from '#shared/actions/mapping.ts';
+import type { Input } from '#shared/actions/mapping/mapping.ts';
 import { createRig } from '#shared/session/rig.ts';
 import { words } from '../words/en.ts';
 import { createDevice } from './device.ts';

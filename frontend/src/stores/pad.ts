@@ -3,10 +3,10 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
-import type { Input, Mapping } from '#shared/actions/mapping.ts';
-import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/actions/mappingInputs.ts';
-import { AT_REST, step, type DriveState } from '#shared/actions/mappingStep.ts';
-import { servoOf } from '#shared/actions/robot.ts';
+import type { Input, Mapping } from '#shared/actions/mapping/mapping.ts';
+import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/actions/mapping/mappingInputs.ts';
+import { AT_REST, step, type DriveState } from '#shared/actions/mapping/mappingStep.ts';
+import { servoOf } from '#shared/actions/robot/robot.ts';
 import { words } from '../words/en.ts';
 import type { Device } from './device.ts';
 import type { Notices } from './notices.ts';

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
-import { addPose, markRest } from '#shared/actions/poseEdits.ts';
+import { addPose, markRest } from '#shared/actions/poses/poseEdits.ts';
 import { undoLabel } from '#shared/actions/history.ts';
-import { poseBookToText } from '#shared/actions/poseText.ts';
+import { poseBookToText } from '#shared/actions/poses/poseText.ts';
 import { createDesk } from './deskUnderTest.ts';
 
 const at = (position: number) => ({ unit: 'us' as const, targets: [{ servo: 1, position }] });

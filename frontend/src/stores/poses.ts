@@ -1,10 +1,10 @@
 // The poses of the robot at hand, and the way to them: by the device, in its limits, slowly unless asked otherwise. To go to
 // a pose is noted as a step of the book; undoing it changes the note and moves nothing.
 
-import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/actions/pose.ts';
-import { markApplied, withPosesOf } from '#shared/actions/poseEdits.ts';
-import { homeTargets } from '#shared/actions/poseShapes.ts';
-import { poseBookFromText, poseBookToText } from '#shared/actions/poseText.ts';
+import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/actions/poses/pose.ts';
+import { markApplied, withPosesOf } from '#shared/actions/poses/poseEdits.ts';
+import { homeTargets } from '#shared/actions/poses/poseShapes.ts';
+import { poseBookFromText, poseBookToText } from '#shared/actions/poses/poseText.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { words } from '../words/en.ts';
 import type { Device } from './device.ts';

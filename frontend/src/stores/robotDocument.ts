@@ -2,7 +2,7 @@
 // and changes it with the robot. Text that cannot be read is set aside, never thrown away. Never moves anything.
 
 import { startHistory, type History } from '#shared/actions/history.ts';
-import type { Robot } from '#shared/actions/robot.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
 import type { Read } from '#shared/actions/versionedText.ts';
 import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';

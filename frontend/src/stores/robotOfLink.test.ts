@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { limitsOnBoard, type Robot } from '#shared/actions/robot.ts';
+import { limitsOnBoard, type Robot } from '#shared/actions/robot/robot.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { SessionState } from '#shared/session/state.ts';

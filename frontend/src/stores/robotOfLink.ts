@@ -1,7 +1,7 @@
 // Keeps the robot at hand the one of the connected board, and says when what a shared link must know of it is new: once the
 // link is ready, and whenever the robot changes. Knows no session.
 
-import type { Robot } from '#shared/actions/robot.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { SessionState } from '#shared/session/state.ts';
 import type { RobotStore } from './robots.ts';

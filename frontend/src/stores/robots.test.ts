@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import type { Robot } from '#shared/actions/robot.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
 import { createNotices } from './notices.ts';
 import { createRobots } from './robots.ts';
 

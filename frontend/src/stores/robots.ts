@@ -3,9 +3,9 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { commit, record, redo, startHistory, undo, type History } from '#shared/actions/history.ts';
-import { readyRobot, usualRobot, type ReadyRobotId } from '#shared/actions/readyRobots.ts';
-import { flawOf, type Robot } from '#shared/actions/robot.ts';
-import { robotFromText, robotToText } from '#shared/actions/robotText.ts';
+import { readyRobot, usualRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
+import { flawOf, type Robot } from '#shared/actions/robot/robot.ts';
+import { robotFromText, robotToText } from '#shared/actions/robot/robotText.ts';
 import type { FamilyId } from '#shared/protocol/families.ts';
 import { robotNames } from '../words/robots.ts';
 import { words } from '../words/en.ts';

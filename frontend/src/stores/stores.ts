@@ -3,14 +3,14 @@
 
 import { createContext, use } from 'react';
 import { useStore } from 'zustand';
-import type { Robot } from '#shared/actions/robot.ts';
-import type { ActionGroup } from '#shared/actions/group.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { History } from '#shared/actions/history.ts';
-import type { MacroPage } from '#shared/actions/macro.ts';
-import type { PoseBook } from '#shared/actions/pose.ts';
+import type { MacroPage } from '#shared/actions/macros/macro.ts';
+import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import type { BatteryState, BatteryStore } from './battery.ts';
 import type { Boards } from './boards.ts';
-import type { Mapping } from '#shared/actions/mapping.ts';
+import type { Mapping } from '#shared/actions/mapping/mapping.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { Document, DocumentState } from './document.ts';
 import { currentOf, type RobotStore } from './robots.ts';

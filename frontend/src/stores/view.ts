@@ -2,7 +2,7 @@
 // and the kiosk, is remembered, nothing else. Knows no link.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Calibration } from '#shared/actions/robotCalibration.ts';
+import type { Calibration } from '#shared/actions/robot/robotCalibration.ts';
 import type { TextStorage } from './document.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from './moveTime.ts';
 import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';

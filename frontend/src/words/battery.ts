@@ -1,7 +1,7 @@
 // Words about what feeds the robot: its volts, what they mean, what is to happen when they are low.
 
-import type { Level } from '#shared/actions/batteryGauge.ts';
-import type { BatteryKind, BatteryPolicy } from '#shared/actions/robot.ts';
+import type { Level } from '#shared/actions/battery/batteryGauge.ts';
+import type { BatteryKind, BatteryPolicy } from '#shared/actions/robot/robot.ts';
 import {
   formatAge,
   formatCount,

@@ -1,6 +1,6 @@
 // Words of the calibration: what to do with a servo at each step, and what each button sets.
 
-import type { CalibrationStep } from '#shared/actions/robotCalibration.ts';
+import type { CalibrationStep } from '#shared/actions/robot/robotCalibration.ts';
 import { formatPosition, formatWhole, unitSymbol, type PositionUnit } from './numbers.ts';
 
 export const calibrationWords = {

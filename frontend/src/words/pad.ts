@@ -1,6 +1,6 @@
 // Words about driving by pad and keys: names of inputs, what they do, and what the panel says.
 
-import type { Binding, Input, Side } from '#shared/actions/mapping.ts';
+import type { Binding, Input, Side } from '#shared/actions/mapping/mapping.ts';
 import {
   formatNames,
   formatMs,

@@ -1,6 +1,6 @@
 // Words about robots: names of the ready ones, of their servos and limbs, and what can be done with a description.
 
-import type { Limb, ReadyRobotId, RobotNames, Role } from '#shared/actions/readyRobots.ts';
+import type { Limb, ReadyRobotId, RobotNames, Role } from '#shared/actions/robot/readyRobots.ts';
 import { formatWhole } from './numbers.ts';
 
 const READY: Readonly<Record<ReadyRobotId, string>> = {

@@ -2,7 +2,7 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import publishedFile from '../../../docs/robot.schema.json' with { type: 'json' };
+import publishedFile from '../../../../docs/robot.schema.json' with { type: 'json' };
 import { READY_ROBOTS, readyRobot, type ReadyRobotId, type RobotNames } from './readyRobots.ts';
 import {
   degreesOf,

@@ -2,10 +2,10 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import type { FamilyId } from '../protocol/families.ts';
+import type { FamilyId } from '../../protocol/families.ts';
 import { fedBy, gaugeFraction, percentOf, supplyOf } from './batterySupply.ts';
-import { readyRobot } from './readyRobots.ts';
-import { flawOf, type BatteryKind, type Robot } from './robot.ts';
+import { readyRobot } from '../robot/readyRobots.ts';
+import { flawOf, type BatteryKind, type Robot } from '../robot/robot.ts';
 
 const NAMES = { robot: 'Mine', role: String, limb: String };
 const robotOn = (board: FamilyId, battery: BatteryKind): Robot =>

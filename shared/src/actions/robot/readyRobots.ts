@@ -1,7 +1,7 @@
 // Robots ready to use, as their owners have them (boards.md section 9). Names come from the caller, in the person's language:
 // here a servo only has a role and a limb. Knows bodies, no session.
 
-import { FAMILIES, positionRange, type Family, type FamilyId } from '../protocol/families.ts';
+import { FAMILIES, positionRange, type Family, type FamilyId } from '../../protocol/families.ts';
 import type { BatteryKind, BodyKind, Robot, RobotServo } from './robot.ts';
 
 export const ROLES = [

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { insertFrame } from './edits.ts';
+import { insertFrame } from './groupEdits.ts';
 import { emptyGroup } from './group.ts';
 import { groupFromText, groupToText } from './groupText.ts';
 

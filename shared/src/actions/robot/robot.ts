@@ -4,8 +4,8 @@
 // A servo's position is what the person means by it; the board gets it plus the servo's trim. Both in board units.
 
 import * as z from 'zod/mini';
-import type { ServoTarget } from '../protocol/commands.ts';
-import { FAMILIES, positionRange, type FamilyId, type Range } from '../protocol/families.ts';
+import type { ServoTarget } from '../../protocol/commands.ts';
+import { FAMILIES, positionRange, type FamilyId, type Range } from '../../protocol/families.ts';
 
 export const BODIES = ['arm', 'hand', 'humanoid', 'hexapod', 'plain'] as const;
 export type BodyKind = (typeof BODIES)[number];

@@ -3,7 +3,7 @@ import { describe, expect, test } from 'vitest';
 import type { Action, Feel, Input } from './mapping.ts';
 import { NO_INPUTS, type Inputs } from './mappingInputs.ts';
 import { AT_REST, step, type Driven, type Moment } from './mappingStep.ts';
-import { readyRobot } from './readyRobots.ts';
+import { readyRobot } from '../robot/readyRobots.ts';
 
 const names = { robot: 'Arm', role: (role: string) => role, limb: (limb: string) => limb };
 const ROBOT = readyRobot('arm', 'doc', names);

@@ -2,7 +2,7 @@
 
 import * as z from 'zod/mini';
 import { mappingSchema, type Mapping } from './mapping.ts';
-import { readVersioned, versionedText, type Read } from './versionedText.ts';
+import { readVersioned, versionedText, type Read } from '../versionedText.ts';
 
 const FORMAT = 'servodeck-mapping';
 

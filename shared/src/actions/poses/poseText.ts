@@ -3,7 +3,7 @@
 
 import * as z from 'zod/mini';
 import { flawOfBook, poseBookSchema, type PoseBook } from './pose.ts';
-import { readVersioned, versionedText, type Read } from './versionedText.ts';
+import { readVersioned, versionedText, type Read } from '../versionedText.ts';
 
 const FORMAT = 'servodeck-poses';
 

@@ -1,8 +1,8 @@
 // What feeds a robot and what its volts mean: the ends of the gauge, where to warn and to alarm, what share of a pack is left
 // (boards.md chapter 8). Tables and pure functions; knows no reading.
 
-import { FAMILIES, type FamilyId } from '../protocol/families.ts';
-import type { BatteryKind, Robot } from './robot.ts';
+import { FAMILIES, type FamilyId } from '../../protocol/families.ts';
+import type { BatteryKind, Robot } from '../robot/robot.ts';
 
 export interface Supply {
   /** 0: a mains adapter or USB, of which nothing runs out. */

@@ -8,7 +8,7 @@ import {
   rename,
   setDuration,
   setTargets,
-} from './edits.ts';
+} from './groupEdits.ts';
 import { changedServos, emptyGroup, poseAt, totalDurationMs, type ActionGroup } from './group.ts';
 
 const ids = (group: ActionGroup) => group.frames.map((frame) => frame.id);

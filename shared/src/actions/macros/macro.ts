@@ -2,8 +2,8 @@
 // One immutable page of a robot, checked by one schema. Poses are named by reference. Knows no session and no storage.
 
 import * as z from 'zod/mini';
-import { poseRefSchema } from './pose.ts';
-import { NAME_LENGTH } from './robot.ts';
+import { poseRefSchema } from '../poses/pose.ts';
+import { NAME_LENGTH } from '../robot/robot.ts';
 
 export const COLOURS = ['slate', 'indigo', 'violet', 'plum', 'clay', 'olive'] as const;
 export type Colour = (typeof COLOURS)[number];

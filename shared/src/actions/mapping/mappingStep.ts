@@ -4,10 +4,10 @@
 // An input acts only once it was seen at rest (a position: once it was moved), so that neither switching on nor plugging in
 // moves anything. AT_REST forgets what was seen: after it every input has to begin anew.
 
-import type { ServoTarget } from '../protocol/commands.ts';
+import type { ServoTarget } from '../../protocol/commands.ts';
 import type { Action, Binding, Mapping } from './mapping.ts';
 import { clamped, isPressed, shaped, smoothed, valueOf, type Inputs } from './mappingInputs.ts';
-import { servoOf, type Robot, type RobotServo } from './robot.ts';
+import { servoOf, type Robot, type RobotServo } from '../robot/robot.ts';
 
 type ActionOf<Kind extends Action['kind']> = Extract<Action, { kind: Kind }>;
 

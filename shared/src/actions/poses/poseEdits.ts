@@ -1,8 +1,8 @@
 // Every change of a book of poses, as pure functions: (book, arguments) → book. One that changes nothing returns the very
 // same object, so that a history can leave it out.
 
-import type { ServoTarget } from '../protocol/commands.ts';
-import { sortedTargets } from './group.ts';
+import type { ServoTarget } from '../../protocol/commands.ts';
+import { sortedTargets } from '../group/group.ts';
 import { poseOf, type Pose, type PoseBook, type PoseRef } from './pose.ts';
 import { sameTargets } from './poseShapes.ts';
 

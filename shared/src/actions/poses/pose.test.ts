@@ -2,7 +2,7 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import type { ServoTarget } from '../protocol/commands.ts';
+import type { ServoTarget } from '../../protocol/commands.ts';
 import { EMPTY_BOOK, flawOfBook, type PoseBook } from './pose.ts';
 import {
   addPose,
@@ -17,8 +17,8 @@ import {
 } from './poseEdits.ts';
 import { blended, flippedTargets, homeTargets, mirroredTargets, sameTargets } from './poseShapes.ts';
 import { poseBookFromText, poseBookToText } from './poseText.ts';
-import { readyRobot, type RobotNames } from './readyRobots.ts';
-import { refusedTarget } from './robot.ts';
+import { readyRobot, type RobotNames } from '../robot/readyRobots.ts';
+import { refusedTarget } from '../robot/robot.ts';
 
 const NAMES: RobotNames = { robot: 'Mine', role: (role, servo) => `${role} ${servo}`, limb: (limb) => limb };
 const HUMANOID = readyRobot('humanoid16', 'lsc-16', NAMES);

@@ -1,7 +1,7 @@
 // An action group as a document: an immutable list of frames with a name. Knows no history, no storage, no session; what
 // a board can take is judged where it is sent. Positions are in the unit the group was made for, never converted.
 
-import type { Frame, ServoTarget } from '../protocol/commands.ts';
+import type { Frame, ServoTarget } from '../../protocol/commands.ts';
 
 /** `id` tells frames apart while they move about in the list; it means nothing outside the document. */
 export interface GroupFrame extends Frame {

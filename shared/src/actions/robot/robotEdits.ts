@@ -1,6 +1,6 @@
 // Edits of a robot that touch more than one figure: pure, from a robot to the next one. What cannot be is for `flawOf` to say.
 
-import { FAMILIES, positionRange, type Range } from '../protocol/families.ts';
+import { FAMILIES, positionRange, type Range } from '../../protocol/families.ts';
 import { servoOf, TRIM, type Robot, type RobotServo } from './robot.ts';
 
 export function changeServo(robot: Robot, servo: number, change: Partial<RobotServo>): Robot {

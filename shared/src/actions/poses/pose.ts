@@ -2,8 +2,8 @@
 // captured in. One immutable book, checked by one schema; applying a pose is only noted here. Knows no session, no storage.
 
 import * as z from 'zod/mini';
-import type { ServoTarget } from '../protocol/commands.ts';
-import { NAME_LENGTH } from './robot.ts';
+import type { ServoTarget } from '../../protocol/commands.ts';
+import { NAME_LENGTH } from '../robot/robot.ts';
 
 /** `home`: every servo at its home. `rest`: the pose marked as such, else home. */
 export const POSE_VERBS = ['home', 'rest'] as const;

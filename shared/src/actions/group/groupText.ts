@@ -1,7 +1,7 @@
 // An action group as text with a version, for storage. Reading trusts nothing: whatever is not exactly a group comes back
 // as null, and the caller keeps the text. Knows no place to store anything and no board's limits.
 
-import type { Frame, ServoTarget } from '../protocol/commands.ts';
+import type { Frame, ServoTarget } from '../../protocol/commands.ts';
 import { sortedTargets, type ActionGroup } from './group.ts';
 
 const VERSION = 1;

@@ -1,7 +1,7 @@
 // Every change of an action group, as pure functions: (group, arguments) → group. An edit that changes nothing returns the
 // very same object, so that a history can leave it out. Frames are named by id, places by index.
 
-import type { ServoTarget } from '../protocol/commands.ts';
+import type { ServoTarget } from '../../protocol/commands.ts';
 import { sortedTargets, type ActionGroup, type GroupFrame } from './group.ts';
 
 export function rename(group: ActionGroup, name: string): ActionGroup {

@@ -2,7 +2,7 @@
 // arm (servo 1 the gripper, 6 the base), and a pair of keys for each. Moves nothing until it is switched on.
 
 import type { Binding, Feel, Input, Mapping } from './mapping.ts';
-import type { Robot } from './robot.ts';
+import type { Robot } from '../robot/robot.ts';
 
 export const READY_FEEL: Feel = { deadZonePercent: 15, curvePercent: 30, smoothingMs: 80, speedPercent: 100 };
 

@@ -2,7 +2,7 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { FAMILIES } from '../protocol/families.ts';
+import { FAMILIES } from '../../protocol/families.ts';
 import { readyRobot, type ReadyRobotId } from './readyRobots.ts';
 import { flawOf, limitsOnBoard, onBoard, servoOf, type Robot } from './robot.ts';
 import {

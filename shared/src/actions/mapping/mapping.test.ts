@@ -12,7 +12,7 @@ import {
 import { movedInput, NO_INPUTS, shaped, smoothed, valueOf } from './mappingInputs.ts';
 import { READY_FEEL, readyMapping } from './mappingReady.ts';
 import { mappingFromText, mappingToText } from './mappingText.ts';
-import { readyRobot } from './readyRobots.ts';
+import { readyRobot } from '../robot/readyRobots.ts';
 
 const names = { robot: 'Arm', role: (role: string) => role, limb: (limb: string) => limb };
 const ARM = readyRobot('arm', 'doc', names);

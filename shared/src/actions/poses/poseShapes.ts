@@ -4,9 +4,9 @@
 // Mirror: what one side does, the other does; a servo without a partner stays as it is. Flip: every servo stays on its side
 // and turns as far from its home, the other way.
 
-import type { ServoTarget } from '../protocol/commands.ts';
-import { sortedTargets } from './group.ts';
-import { degreesOf, mirrored, positionOf, servoOf, type Robot, type RobotServo } from './robot.ts';
+import type { ServoTarget } from '../../protocol/commands.ts';
+import { sortedTargets } from '../group/group.ts';
+import { degreesOf, mirrored, positionOf, servoOf, type Robot, type RobotServo } from '../robot/robot.ts';
 
 export interface Reshaped {
   readonly targets: readonly ServoTarget[];
