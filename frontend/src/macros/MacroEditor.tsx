@@ -1,6 +1,7 @@
 // What the selected button is called, looks like and does.
 
-import { COLOURS, keyOf, macroOf, type Macro } from '#shared/actions/macros/macro.ts';
+import { COLOURS } from '#shared/actions/colours.ts';
+import { keyOf, macroOf, type Macro } from '#shared/actions/macros/macro.ts';
 import { changeMacro, moveMacro, removeMacro } from '#shared/actions/macros/macroEdits.ts';
 import { useId, useState, type KeyboardEvent } from 'react';
 import { useMacros, useStores, useView } from '../stores/stores.ts';

@@ -17,7 +17,10 @@ function createDesk(texts: Record<string, string> = {}, broken: Partial<TextStor
   };
   const notices = createNotices(createVirtualClock());
   const document = createDocument(storage, notices);
-  const saved = () => groupFromText(stored.get('servodeck.group') ?? '');
+  const saved = () => {
+    const read = groupFromText(stored.get('servodeck.group') ?? '');
+    return 'value' in read ? read.value : null;
+  };
   const told = () => notices.store.getState().map((notice) => notice.text);
   return { document, stored, storage, saved, told, group: () => document.store.getState().present };
 }

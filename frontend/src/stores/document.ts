@@ -41,8 +41,8 @@ function load(storage: TextStorage, notices: Notices): ActionGroup {
   try {
     const text = storage.getItem(KEY);
     if (text === null) return fresh;
-    const group = groupFromText(text);
-    if (group !== null) return group;
+    const read = groupFromText(text);
+    if ('value' in read) return read.value;
     storage.setItem(ASIDE_KEY, text);
     notices.tell('warning', words.actions.broken);
   } catch {

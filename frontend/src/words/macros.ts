@@ -1,6 +1,7 @@
 // Words about the page of buttons, its keys and its kiosk.
 
-import type { Colour, MacroStep } from '#shared/actions/macros/macro.ts';
+import type { Colour } from '#shared/actions/colours.ts';
+import type { MacroStep } from '#shared/actions/macros/macro.ts';
 import { formatMs, formatSeconds, formatWhole } from './numbers.ts';
 import { timesWords } from './packets.ts';
 

@@ -1,24 +1,89 @@
-// An action group as a document: an immutable list of frames with a name. Knows no history, no storage, no session; what
-// a board can take is judged where it is sent. Positions are in the unit the group was made for, never converted.
+// An action group as a document: an immutable list of frames, and what a person says of it. One schema checks its shape. Knows
+// no history, no storage, no session; what a board can take is judged where it is compiled and sent. Positions are in the unit
+// the group was made for, never converted.
+//
+// A frame is a moment, `durationMs` after the one before it, and a servo named in it has a key there. A servo that is not named
+// goes on towards its next key: its way spans the frames between. `easing` is how the servos keyed in a frame come into it.
 
+import * as z from 'zod/mini';
+import { COLOURS } from '../colours.ts';
 import type { Frame, ServoTarget } from '../../protocol/commands.ts';
 
-/** `id` tells frames apart while they move about in the list; it means nothing outside the document. */
-export interface GroupFrame extends Frame {
-  readonly id: number;
-}
+/** `hold`: stays at the key before and jumps at the end, as fast as the servo can. */
+export const EASINGS = ['linear', 'in', 'out', 'inOut', 'hold'] as const;
+export type Easing = (typeof EASINGS)[number];
 
-export interface ActionGroup {
-  readonly name: string;
-  readonly unit: 'us' | 'steps';
+export const GROUP_NAME_LENGTH = 64;
+export const NOTE_LENGTH = 200;
+/** Far above any board; keeps a damaged file from filling the memory. */
+const MAX_FRAMES = 10_000;
+const MAX_MARKERS = 1000;
+const MAX_TAGS = 20;
+
+const whole = (min: number, max: number) => z.number().check(z.int(), z.gte(min), z.lte(max));
+const id = whole(1, Number.MAX_SAFE_INTEGER);
+
+const frameSchema = z.strictObject({
+  /** Tells frames apart while they move about in the list; never used twice, means nothing outside the document. */
+  id,
+  durationMs: whole(0, 0xffff),
+  /** In ascending servo order, each servo once. */
+  targets: z.array(z.strictObject({ servo: whole(0, 0xff), position: whole(0, 0xffff) })),
+  easing: z.enum(EASINGS),
+  note: z.string().check(z.maxLength(NOTE_LENGTH)),
+  colour: z.nullable(z.enum(COLOURS)),
+});
+
+const markerSchema = z.strictObject({
+  id,
+  /** Since the group began. */
+  atMs: whole(0, 0xffff * MAX_FRAMES),
+  text: z.string().check(z.maxLength(NOTE_LENGTH)),
+});
+
+export const groupSchema = z.strictObject({
+  name: z.string().check(z.maxLength(GROUP_NAME_LENGTH)),
+  unit: z.enum(['us', 'steps']),
+  /** The name of the robot it was made for; empty where nobody said. */
+  robot: z.string().check(z.maxLength(GROUP_NAME_LENGTH)),
+  tags: z
+    .array(z.string().check(z.minLength(1), z.maxLength(GROUP_NAME_LENGTH)))
+    .check(z.maxLength(MAX_TAGS)),
+  /** Where on the board it belongs; null: nowhere yet. */
+  slot: z.nullable(whole(0, 255)),
+  /** How often it is played; 0: until stopped. */
+  times: whole(0, 0xffff),
+  frames: z.array(frameSchema).check(z.maxLength(MAX_FRAMES)),
+  markers: z.array(markerSchema).check(z.maxLength(MAX_MARKERS)),
+  /** The next unused id of a frame or marker: an undone frame comes back as itself. */
+  nextId: id,
+});
+
+export type Marker = Readonly<z.infer<typeof markerSchema>>;
+
+export type GroupFrame = Readonly<Omit<z.infer<typeof frameSchema>, 'targets'>> & Frame;
+
+export type ActionGroup = Readonly<Omit<z.infer<typeof groupSchema>, 'frames' | 'markers' | 'tags'>> & {
   readonly frames: readonly GroupFrame[];
-  /** The next unused frame id; ids are never used twice, so an undone frame comes back as itself. */
-  readonly nextId: number;
-}
+  readonly markers: readonly Marker[];
+  readonly tags: readonly string[];
+};
 
 export function emptyGroup(name: string, unit: ActionGroup['unit']): ActionGroup {
-  return { name, unit, frames: [], nextId: 1 };
+  return { name, unit, robot: '', tags: [], slot: null, times: 1, frames: [], markers: [], nextId: 1 };
 }
+
+/** What no shape can say is wrong, as a sentence; null where nothing is. */
+export function flawOfGroup({ frames, markers, nextId }: ActionGroup): string | null {
+  const ids = [...frames, ...markers].map((one) => one.id);
+  if (new Set(ids).size < ids.length) return 'two of its parts have the same id';
+  if (ids.some((one) => one >= nextId)) return 'its next id was used already';
+  const index = frames.findIndex(({ targets }) => !isAscending(targets));
+  return index === -1 ? null : `frame ${index + 1}: its servos are not in ascending order, each once`;
+}
+
+const isAscending = (targets: readonly ServoTarget[]): boolean =>
+  targets.slice(1).every(({ servo }, index) => servo > (targets[index]?.servo ?? servo));
 
 /** Nominal time of one pass, as the frames ask for it. */
 export function totalDurationMs(frames: readonly Frame[]): number {

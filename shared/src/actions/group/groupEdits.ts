@@ -1,23 +1,29 @@
 // Every change of an action group, as pure functions: (group, arguments) → group. An edit that changes nothing returns the
 // very same object, so that a history can leave it out. Frames are named by id, places by index.
 
-import type { ServoTarget } from '../../protocol/commands.ts';
+import type { Frame, ServoTarget } from '../../protocol/commands.ts';
 import { sortedTargets, type ActionGroup, type GroupFrame } from './group.ts';
 
 export function rename(group: ActionGroup, name: string): ActionGroup {
   return name === group.name ? group : { ...group, name };
 }
 
+const PLAIN = { easing: 'linear', note: '', colour: null } as const;
+
+/** What is not said of a frame is plain: linear, without note and colour. */
+export type NewFrame = Frame & Partial<GroupFrame>;
+
 /** Puts a new frame at `index` (clamped to the list's ends). An empty group takes the unit of its first frame. */
 export function insertFrame(
   group: ActionGroup,
   index: number,
-  frame: { readonly durationMs: number; readonly targets: readonly ServoTarget[] },
+  frame: NewFrame,
   unit: ActionGroup['unit'] = group.unit,
 ): ActionGroup {
   const added: GroupFrame = {
+    ...PLAIN,
+    ...frame,
     id: group.nextId,
-    durationMs: frame.durationMs,
     targets: sortedTargets(frame.targets),
   };
   const at = Math.max(0, Math.min(index, group.frames.length));

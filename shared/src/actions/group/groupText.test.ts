@@ -1,7 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { COLOURS } from '../colours.ts';
+import { EASINGS, emptyGroup, type ActionGroup } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
-import { emptyGroup } from './group.ts';
 import { groupFromText, groupToText } from './groupText.ts';
 
 const frames = fc.array(
@@ -11,9 +12,28 @@ const frames = fc.array(
       fc.record({ servo: fc.integer({ min: 1, max: 32 }), position: fc.integer({ min: 0, max: 2500 }) }),
       { selector: (target) => target.servo, maxLength: 8 },
     ),
+    easing: fc.constantFrom(...EASINGS),
+    note: fc.string({ maxLength: 200 }),
+    colour: fc.option(fc.constantFrom(...COLOURS)),
   }),
   { maxLength: 10 },
 );
+
+const SAMPLE = insertFrame(emptyGroup('Wave', 'us'), 0, {
+  durationMs: 500,
+  targets: [
+    { servo: 1, position: 1500 },
+    { servo: 2, position: 900 },
+  ],
+});
+
+const changed = (change: (group: ActionGroup) => object): string =>
+  groupToText(change(SAMPLE) as ActionGroup);
+
+const withFrame = (change: object) => (group: ActionGroup) => ({
+  ...group,
+  frames: group.frames.map((frame) => ({ ...frame, ...change })),
+});
 
 describe('a group as text', () => {
   test('is read back as it was', () => {
@@ -23,7 +43,7 @@ describe('a group as text', () => {
           (sum, frame) => insertFrame(sum, sum.frames.length, frame),
           emptyGroup(name, 'us'),
         );
-        expect(groupFromText(groupToText(group))).toEqual(group);
+        expect(groupFromText(groupToText(group))).toEqual({ value: group });
       }),
     );
   });
@@ -31,25 +51,30 @@ describe('a group as text', () => {
   test('any other text is refused and never throws', () => {
     fc.assert(
       fc.property(fc.oneof(fc.string(), fc.json()), (text) => {
-        expect(groupFromText(text)).toBeNull();
+        expect(groupFromText(text)).toHaveProperty('problem');
       }),
     );
   });
 
   test.each([
-    ['another version', { version: 2, name: 'a', unit: 'us', frames: [] }],
-    ['a unit nobody has', { version: 1, name: 'a', unit: 'degrees', frames: [] }],
-    ['a name beyond 64 characters', { version: 1, name: 'a'.repeat(65), unit: 'us', frames: [] }],
+    ['another version', groupToText(SAMPLE).replace('"version": 1', '"version": 2'), 'version'],
+    ['a unit nobody has', changed((group) => ({ ...group, unit: 'degrees' })), 'content.unit'],
+    ['a name beyond 64 characters', changed((group) => ({ ...group, name: 'a'.repeat(65) })), 'content.name'],
+    ['a time that is no whole number', changed(withFrame({ durationMs: 1.5 })), 'frames.0.durationMs'],
+    ['a target without a position', changed(withFrame({ targets: [{ servo: 1 }] })), 'targets.0.position'],
+    ['frames that are no list', changed((group) => ({ ...group, frames: {} })), 'content.frames'],
     [
-      'a time that is no whole number',
-      { version: 1, name: 'a', unit: 'us', frames: [{ durationMs: 1.5, targets: [] }] },
+      'an id used twice',
+      changed((group) => ({ ...group, frames: [...group.frames, ...group.frames] })),
+      'same id',
     ],
+    ['a next id that is taken', changed((group) => ({ ...group, nextId: 1 })), 'next id'],
     [
-      'a target without a position',
-      { version: 1, name: 'a', unit: 'us', frames: [{ durationMs: 1, targets: [{ servo: 1 }] }] },
+      'servos out of order',
+      changed(withFrame({ targets: [2, 1].map((servo) => ({ servo, position: 1500 })) })),
+      'frame 1: its servos',
     ],
-    ['frames that are no list', { version: 1, name: 'a', unit: 'us', frames: {} }],
-  ])('%s is refused', (_, value) => {
-    expect(groupFromText(JSON.stringify(value))).toBeNull();
+  ])('%s is refused, with the place', (_, text, place) => {
+    expect(groupFromText(text)).toEqual({ problem: expect.stringContaining(place) as string });
   });
 });

@@ -2,7 +2,8 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { COLOURS, EMPTY_PAGE, keyOf, macroOf, type MacroPage, type MacroStep } from './macro.ts';
+import { COLOURS } from '../colours.ts';
+import { EMPTY_PAGE, keyOf, macroOf, type MacroPage, type MacroStep } from './macro.ts';
 import {
   addMacro,
   addStep,

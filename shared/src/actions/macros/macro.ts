@@ -2,11 +2,9 @@
 // One immutable page of a robot, checked by one schema. Poses are named by reference. Knows no session and no storage.
 
 import * as z from 'zod/mini';
+import { COLOURS } from '../colours.ts';
 import { poseRefSchema } from '../poses/pose.ts';
 import { NAME_LENGTH } from '../robot/robot.ts';
-
-export const COLOURS = ['slate', 'indigo', 'violet', 'plum', 'clay', 'olive'] as const;
-export type Colour = (typeof COLOURS)[number];
 
 const whole = (min: number, max: number) => z.number().check(z.int(), z.gte(min), z.lte(max));
 const id = whole(1, Number.MAX_SAFE_INTEGER);
