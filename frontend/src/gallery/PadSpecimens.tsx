@@ -63,7 +63,8 @@ function Shown({ specimen }: { readonly specimen: PadSpecimen }) {
 
 function storesOf({ pad: held, isDriving = false, more = [] }: PadSpecimen): Stores {
   const stores = specimenStores(FAMILIES.doc, held);
-  const { device, mappings, pad } = stores;
+  const { device, mappings, pad, view } = stores;
+  view.setState({ authoring: 'pad' });
   device.attach(frozenSession(FAMILIES.doc, { ...INITIAL_STATE, link: { status: 'ready' } }, {}), {
     ...{ kind: 'simulated', label: 'Simulated board', isSimulated: true },
   });

@@ -29,7 +29,7 @@ function fill({ poses, macros, view }: Stores, edits: boolean): void {
     macros.edit('fill', (page) => addMacro(page, name, [go, { kind: 'wait', waitMs: 500 }]));
   });
   macros.edit('fill', (page) => changeMacro(addMacro(page, 'Dance', []), 1, { key: 'g' }));
-  view.setState({ selectedPose: 1, selectedButton: 1, editsButtons: edits });
+  view.setState({ authoring: 'poses', selectedPose: 1, selectedButton: 1, editsButtons: edits });
 }
 
 const CASES: readonly {
