@@ -15,6 +15,7 @@ import {
   type EstimateUnderTest,
   type Sample,
 } from './estimateUnderTest.ts';
+import { TIMES } from './faults/amount.ts';
 import {
   knownSlots,
   someFrames,
@@ -41,8 +42,6 @@ const SHARP = 0.05;
 const BRIEF: Range = { min: 20, max: 400 };
 const TIMEOUT_MS = 600_000;
 
-/** `npm run test:long` asks for more. */
-const { numRuns: longRuns } = fc.readConfigureGlobal();
 const onForMs = fc.double({ min: 10_000, max: 10_040, noNaN: true });
 
 /** All servos at one end, the groups stored. */
@@ -111,7 +110,7 @@ describe.each(SIMULATED)('$profile', ({ family, profile }) => {
           counts.sharp += known.filter(({ leeway }) => leeway <= SHARP * span).length;
           expect(samples.filter(isWrong)).toEqual([]);
         }),
-        { numRuns: longRuns ?? 30 },
+        { numRuns: 30 * TIMES },
       );
       expect(counts.known / counts.all).toBeGreaterThan(LEAST_KNOWN[family.motion.groups]);
       expect(counts.sharp / counts.known).toBeGreaterThan(LEAST_SHARP);
@@ -149,7 +148,7 @@ describe.each(SIMULATED)('$profile', ({ family, profile }) => {
             }
           }
         }),
-        { numRuns: longRuns ?? 5 },
+        { numRuns: 5 * TIMES },
       );
     },
     TIMEOUT_MS,
@@ -190,7 +189,7 @@ describe.each(TELLING)('$profile, which tells its positions,', ({ family, profil
           expect(robot.samples.filter(isWrong)).toEqual([]);
           known += robot.samples.filter(({ estimated }) => estimated !== null).length;
         }),
-        { numRuns: longRuns ?? 30 },
+        { numRuns: 30 * TIMES },
       );
       expect(known).toBeGreaterThan(0);
     },

@@ -5,11 +5,12 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import type { Family, Range } from '../protocol/families.ts';
 import { createEstimateUnderTest, isWrong, SIMULATED, type EstimateUnderTest } from './estimateUnderTest.ts';
+import { TIMES } from './faults/amount.ts';
 import { someMove, usualServos } from './stepsUnderTest.ts';
 
 const REPORTING = SIMULATED.filter(({ family }) => family.runReportsNameSlot);
 
-const { numRuns = 5 } = fc.readConfigureGlobal();
+const numRuns = 5 * TIMES;
 const TIMEOUT_MS = 600_000;
 const BRIEF: Range = { min: 0, max: 400 };
 
