@@ -50,7 +50,10 @@ function robot(id: FamilyId, groups: Groups = {}) {
       return self;
     },
     hear(atMs: number, report: Report) {
-      motion = report === END ? afterEnd(motion, atMs, board) : afterReport(motion, report, atMs, board);
+      motion =
+        report.kind === 'runFinished'
+          ? afterEnd(motion, report.slot, atMs, board)
+          : afterReport(motion, report, atMs, board);
       return self;
     },
     forget(atMs: number) {
@@ -202,6 +205,13 @@ describe('a group on deadlines', () => {
   test('of ours is not disturbed by the board saying so', () => {
     const own = robot('lsc-6', groups).send(0, run(1)).hear(30, { kind: 'runStarted', slot: 1, times: 1 });
     expect(own.at(57.3)).toBe(1_500);
+  });
+
+  test('goes on when the end of the one before it is told late', () => {
+    const next = robot('lsc-6', groups).send(0, run(1));
+    const late = next.hear(5, { kind: 'runFinished', slot: 8 });
+    expect([late.at(57.3), late.when(57.3).run?.slot]).toEqual([1_500, 1]);
+    expect(next.hear(60, { kind: 'runFinished', slot: 1 }).when(60).run).toBeNull();
   });
 });
 

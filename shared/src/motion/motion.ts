@@ -180,9 +180,12 @@ function afterStart(motion: Motion, slot: number): Motion {
   return isOurs ? motion : runningUnknown(motion, slot);
 }
 
-/** After a group has ended by itself, or was ended behind our back. */
-export function afterEnd(motion: Motion, atMs: number, board: KnownBoard): Motion {
+/** After a group has ended by itself, or was ended behind our back: the one in `slot`, or null where nobody says which. */
+export function afterEnd(motion: Motion, slot: number | null, atMs: number, board: KnownBoard): Motion {
   const current = advance(motion, atMs, board);
+  const isAnother = current.run?.kind === 'deadlines' && slot !== null && slot !== current.run.slot;
+  // Said so late that the next one runs already.
+  if (isAnother) return current;
   return restless(current, playbackOf(board).ended(current, board), atMs);
 }
 

@@ -98,8 +98,8 @@ export function createEstimateUnderTest({ family, profile, ...options }: Estimat
   function hear(report: Report): void {
     reports.push(report);
     motion = afterReport(motion, report, clock.now(), known);
-    if (report.kind === 'runFinished' || report.kind === 'runStopped')
-      motion = afterEnd(motion, clock.now(), known);
+    if (report.kind === 'runFinished') motion = afterEnd(motion, report.slot, clock.now(), known);
+    if (report.kind === 'runStopped') motion = afterEnd(motion, null, clock.now(), known);
   }
 
   function sample(): void {

@@ -57,12 +57,12 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
     const passMs = robot.groupMs(slot);
     if (times === 0 || passMs === null) return;
     // The board's own word for the end may be lost on the way.
-    cancelEndTimer = clock.after(passMs * times + RUN_END_GRACE_MS, ended);
+    cancelEndTimer = clock.after(passMs * times + RUN_END_GRACE_MS, () => ended(null));
   }
 
-  function ended(): void {
+  function ended(slot: number | null): void {
     cancelEndTimer();
-    robot.groupEnded();
+    robot.groupEnded(slot);
     if (store.state.activity.kind === 'running') setActivity(core, { kind: 'idle' });
   }
 
@@ -74,7 +74,7 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
     } finally {
       stopping -= 1;
     }
-    ended();
+    ended(null);
   }
 
   async function run(slot: number, times: number): Promise<void> {
@@ -159,7 +159,8 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
     heard(report) {
       robot.heard(report);
       if (report.kind === 'runStarted') began(report.slot, report.times, 'acknowledged');
-      if (report.kind === 'runFinished' || report.kind === 'runStopped') ended();
+      if (report.kind === 'runFinished') ended(report.slot);
+      if (report.kind === 'runStopped') ended(null);
     },
     linked,
     unlinked() {

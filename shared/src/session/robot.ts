@@ -38,8 +38,8 @@ export interface RobotEstimate {
   /** Servos that a hold cannot freeze now. */
   unheld(): readonly number[];
   moving(): boolean;
-  /** The board played its group to the end. */
-  groupEnded(): void;
+  /** The board played its group to the end: the one in `slot`, or null where nobody says which. */
+  groupEnded(slot: number | null): void;
   stored(slot: number, frames: readonly Frame[]): void;
   /** What is in `slot` is no longer what we stored; without a slot, in all of them. */
   unstored(slot?: number): void;
@@ -88,7 +88,7 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     },
     unheld: () => unheldServos(now(), clock.now()),
     moving: () => now().run !== null || remainingMs(now(), clock.now()) > 0,
-    groupEnded: () => (motion = afterEnd(motion, clock.now(), board)),
+    groupEnded: (slot) => (motion = afterEnd(motion, slot, clock.now(), board)),
     stored: (slot, frames) => changeMemory(() => memory.store(slot, frames)),
     unstored: (slot) => changeMemory(() => memory.clear(slot)),
     storedSlots: memory.slots,
