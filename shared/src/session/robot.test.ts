@@ -37,7 +37,7 @@ test('a group somebody started at the board keeps everything unknown until it en
   robot.applied(move);
   await clock.advance(200);
   expect([robot.moving(), robot.motion(1).estimated]).toEqual([true, null]);
-  robot.groupEnded();
+  robot.groupEnded(8);
   robot.applied(move);
   await clock.advance(200);
   expect([robot.moving(), robot.motion(1).estimated]).toEqual([false, 1_200]);
