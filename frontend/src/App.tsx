@@ -3,6 +3,7 @@
 
 import { useEffect } from 'react';
 import { useStore } from 'zustand';
+import { I18nProvider } from 'react-aria-components/I18nProvider';
 import { Tab, TabList, TabPanel, Tabs } from 'react-aria-components/Tabs';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
 import { BatteryPanel } from './battery/BatteryPanel.tsx';
@@ -26,14 +27,18 @@ import { Icon, type IconName } from './ui/Icon.tsx';
 import { Toasts } from './ui/Toasts.tsx';
 import { useEachFrame } from './ui/useEachFrame.ts';
 import { useLayout } from './ui/useLayout.ts';
-import { words } from './words/en.ts';
+import { useSpokenLocale } from './ui/useSpokenLocale.ts';
+import { words } from './words/words.ts';
 import styles from './App.module.css';
 
 export function App({ page }: { readonly page: Page }) {
+  const locale = useSpokenLocale();
   return (
-    <StoresContext value={page.stores}>
-      <Dashboard page={page} />
-    </StoresContext>
+    <I18nProvider locale={locale}>
+      <StoresContext value={page.stores}>
+        <Dashboard page={page} />
+      </StoresContext>
+    </I18nProvider>
   );
 }
 

@@ -10,8 +10,9 @@ import './ui/base.css';
 
 const root = document.getElementById('page');
 if (root === null) throw new Error('index.html has no #page');
+const page = await openPage();
 createRoot(root).render(
   <StrictMode>
-    <App page={openPage()} />
+    <App page={page} />
   </StrictMode>,
 );

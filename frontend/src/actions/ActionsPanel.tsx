@@ -7,7 +7,7 @@ import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { useDevice, useDocument, useGroup, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { CaptureBar } from './CaptureBar.tsx';
 import { FrameStrip } from './FrameStrip.tsx';
 import { FrameTools } from './FrameTools.tsx';

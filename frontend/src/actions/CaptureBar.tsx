@@ -6,7 +6,7 @@ import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { commandedPose } from './pose.ts';
 import styles from './CaptureBar.module.css';
 
@@ -30,8 +30,9 @@ function Capture() {
     const { targets, family } = device.store.getState();
     const { nextId } = document.store.getState().present;
     const { selectedFrame } = view.getState();
-    document.edit(words.actions.steps.capture, (group) =>
-      captured(group, selectedFrame, commandedPose(targets), family.unit),
+    document.edit(
+      () => words.actions.steps.capture,
+      (group) => captured(group, selectedFrame, commandedPose(targets), family.unit),
     );
     view.setState({ selectedFrame: nextId });
   };

@@ -8,7 +8,7 @@ import { useDevice, useGroup, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { useFrameDrag } from './useFrameDrag.ts';
 import styles from './FrameCard.module.css';
 
@@ -78,7 +78,10 @@ function FrameTime({ frame, number, isTabStop }: { frame: GroupFrame; number: nu
       unit={words.servos.ms}
       excludeFromTabOrder={!isTabStop}
       onChange={(durationMs) =>
-        document.edit(words.actions.steps.time(number), (group) => setDuration(group, frame.id, durationMs))
+        document.edit(
+          () => words.actions.steps.time(number),
+          (group) => setDuration(group, frame.id, durationMs),
+        )
       }
       onRefused={(value) => notices.tell('warning', words.refused(label, value, min, max))}
     />

@@ -2,7 +2,7 @@
 
 import { deleteFrame, indexOfFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
 import { useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { FrameCard } from './FrameCard.tsx';
 import { useCards } from './useCards.ts';
 import styles from './FrameStrip.module.css';
@@ -18,12 +18,16 @@ export function FrameStrip() {
     select: (id) => view.setState({ selectedFrame: id }),
     move(id, to) {
       const from = indexOfFrame(group, id);
-      document.edit(words.actions.steps.move(from + 1), (before) => moveFrame(before, id, to));
+      document.edit(
+        () => words.actions.steps.move(from + 1),
+        (before) => moveFrame(before, id, to),
+      );
       view.setState({ said: words.actions.moved(from + 1, to + 1) });
     },
     remove: (id) =>
-      document.edit(words.actions.steps.delete(indexOfFrame(group, id) + 1), (before) =>
-        deleteFrame(before, id),
+      document.edit(
+        () => words.actions.steps.delete(indexOfFrame(group, id) + 1),
+        (before) => deleteFrame(before, id),
       ),
   });
 

@@ -11,7 +11,7 @@ import { motionHindrance } from '../stores/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { commandedPose } from './pose.ts';
 import styles from './FrameTools.module.css';
 
@@ -25,26 +25,35 @@ export function FrameTools() {
   const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
   const sameUnit = useDevice((state) => state.family.unit === group.unit);
   const none = frame === undefined;
-  const { steps } = words.actions;
 
   const load = (): void => {
     if (frame !== undefined) device.move(frame.targets, Math.max(frame.durationMs, GENTLE_MOVE_MS));
   };
   const update = (): void =>
-    document.edit(steps.update(index + 1), (before) =>
-      setTargets(before, id, commandedPose(device.store.getState().targets)),
+    document.edit(
+      () => words.actions.steps.update(index + 1),
+      (before) => setTargets(before, id, commandedPose(device.store.getState().targets)),
     );
   const move = (to: number) => (): void => {
-    document.edit(steps.move(index + 1), (before) => moveFrame(before, id, to));
+    document.edit(
+      () => words.actions.steps.move(index + 1),
+      (before) => moveFrame(before, id, to),
+    );
     view.setState({ said: words.actions.moved(index + 1, to + 1) });
   };
   const remove = (): void => {
     view.setState({ selectedFrame: group.frames[index + 1]?.id ?? group.frames[index - 1]?.id ?? null });
-    document.edit(steps.delete(index + 1), (before) => deleteFrame(before, id));
+    document.edit(
+      () => words.actions.steps.delete(index + 1),
+      (before) => deleteFrame(before, id),
+    );
   };
   const duplicate = (): void => {
     view.setState({ selectedFrame: group.nextId });
-    document.edit(steps.duplicate(index + 1), (before) => duplicateFrame(before, id));
+    document.edit(
+      () => words.actions.steps.duplicate(index + 1),
+      (before) => duplicateFrame(before, id),
+    );
   };
 
   return (

@@ -2,7 +2,7 @@
 
 import { rename } from '#shared/actions/group/groupEdits.ts';
 import { useGroup, useStores } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './GroupName.module.css';
 
 const MAX_LENGTH = 64;
@@ -12,7 +12,11 @@ export function GroupName() {
   const { name } = useGroup();
   const take = (text: string): void => {
     const wanted = text.trim();
-    if (wanted !== '') document.edit(words.actions.steps.rename, (group) => rename(group, wanted));
+    if (wanted !== '')
+      document.edit(
+        () => words.actions.steps.rename,
+        (group) => rename(group, wanted),
+      );
   };
   return (
     <input

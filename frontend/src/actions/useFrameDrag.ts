@@ -3,14 +3,14 @@
 import { indexOfFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
 import { useStores } from '../stores/stores.ts';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 
 export function useFrameDrag(id: number, index: number): DragOrder {
   const { document, view } = useStores();
   return useDragOrder({
     attribute: 'data-frame',
     begin() {
-      document.begin(words.actions.steps.move(index + 1));
+      document.begin(() => words.actions.steps.move(index + 1));
       view.setState({ selectedFrame: id });
     },
     over(other) {

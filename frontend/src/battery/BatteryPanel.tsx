@@ -9,7 +9,7 @@ import { IconButton } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { BatteryPlot } from './BatteryPlot.tsx';
 import { BatterySettings } from './BatterySettings.tsx';
 import { lastMv, levelWord, LEVEL_TRUTH, voltsText } from './readings.ts';

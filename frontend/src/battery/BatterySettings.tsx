@@ -7,7 +7,7 @@ import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './BatterySettings.module.css';
 
 export interface BatterySettingsProps {
@@ -36,7 +36,12 @@ export function BatteryForm({ robot }: { readonly robot: Robot }) {
           label={words.battery.kindField}
           value={battery}
           options={BATTERY_KINDS.map((value) => ({ value, label: said.kind[value] }))}
-          onChange={(kind) => robots.edit(words.battery.steps.kind, (one) => fedBy(one, kind))}
+          onChange={(kind) =>
+            robots.edit(
+              () => words.battery.steps.kind,
+              (one) => fedBy(one, kind),
+            )
+          }
         />
         <p className={styles.hint}>{words.battery.kindHint[battery]}</p>
       </div>
@@ -48,10 +53,13 @@ export function BatteryForm({ robot }: { readonly robot: Robot }) {
           value={batteryCare.policy}
           options={BATTERY_POLICIES.map((value) => ({ value, label: said.policy[value] }))}
           onChange={(policy) =>
-            robots.edit(said.steps.policy, (one) => ({
-              ...one,
-              batteryCare: { ...one.batteryCare, policy },
-            }))
+            robots.edit(
+              () => words.battery.steps.policy,
+              (one) => ({
+                ...one,
+                batteryCare: { ...one.batteryCare, policy },
+              }),
+            )
           }
         />
         <p className={styles.hint}>{words.battery.policyHint[batteryCare.policy]}</p>
@@ -66,10 +74,13 @@ function Thresholds({ robot: { batteryCare } }: { readonly robot: Robot }) {
   const { robots, notices } = useStores();
   const { warnMv, alarmMv } = useBattery((state) => state.supply);
   const set = (thresholds: Thresholds | null) =>
-    robots.edit(words.battery.steps.thresholds, (robot) => ({
-      ...robot,
-      batteryCare: { ...robot.batteryCare, thresholds },
-    }));
+    robots.edit(
+      () => words.battery.steps.thresholds,
+      (robot) => ({
+        ...robot,
+        batteryCare: { ...robot.batteryCare, thresholds },
+      }),
+    );
   const field = {
     ...BATTERY_MV,
     step: 50,

@@ -4,7 +4,7 @@ import { readingKind, type Level } from '#shared/actions/battery/batteryGauge.ts
 import type { Supply } from '#shared/actions/battery/batterySupply.ts';
 import type { Battery } from '#shared/session/state.ts';
 import type { Truth } from '../ui/Chip.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 
 export const LEVEL_TRUTH: Readonly<Record<Level, Truth>> = {
   good: 'confirmed',

@@ -3,12 +3,13 @@
 import { useEffect } from 'react';
 import { isPlain, type Level } from '#shared/actions/battery/batteryGauge.ts';
 import { useBattery, useSnapshot } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { useWords } from '../words/words.ts';
 
 /** Fixed colours that are told apart on a light and on a dark tab. */
 const FILL: Readonly<Record<Exclude<Level, 'good'>, string>> = { warning: '#b87400', danger: '#d5302a' };
 
 export function useBatteryTab(): void {
+  const words = useWords();
   const isLinked = useSnapshot(({ link }) => link.status === 'ready');
   const level = useBattery(({ gauge: { level, last }, supply }) =>
     last !== null && isPlain(last, supply) ? level : null,
@@ -18,7 +19,7 @@ export function useBatteryTab(): void {
   useEffect(() => {
     document.title =
       shown === null ? words.product : words.battery.tab(words.battery.volts(restMv), words.product);
-  }, [shown, restMv]);
+  }, [words, shown, restMv]);
   useEffect(() => {
     const link = document.querySelector<HTMLLinkElement>('link[rel="icon"]');
     if (shown === null || link === null) return undefined;

@@ -6,7 +6,7 @@ import { Chip } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Panel } from '../ui/Panel.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { Absent } from './Absent.tsx';
 import { DownloadControl } from './DownloadControl.tsx';
 import { EraseControl } from './EraseControl.tsx';

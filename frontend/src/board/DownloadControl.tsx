@@ -4,7 +4,7 @@ import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import type { Activity } from '#shared/session/state.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './BoardPanel.module.css';
 
 export function DownloadControl() {

@@ -3,7 +3,7 @@
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Confirm } from '../ui/Confirm.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 
 export function EraseControl() {
   const { device } = useStores();

@@ -7,7 +7,7 @@ import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './BoardPanel.module.css';
 
 export function RunControl() {

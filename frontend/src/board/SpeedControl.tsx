@@ -7,7 +7,7 @@ import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts'
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './BoardPanel.module.css';
 
 const AS_STORED = 100;

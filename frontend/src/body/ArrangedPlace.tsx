@@ -4,7 +4,7 @@ import { useState, type KeyboardEvent, type PointerEvent, type RefObject } from 
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { at, PlaceFace } from './Place.tsx';
 import { placeBy, placeUnder, type PlaceAt } from './placing.ts';
 import styles from './Place.module.css';
@@ -22,7 +22,10 @@ export function ArrangedPlace({ servo: { servo, name, place }, stage }: Arranged
   function put(to: PlaceAt | null): void {
     setDragged(null);
     if (to !== null && (to.x !== place.x || to.y !== place.y))
-      robots.edit(words.servoPanel.placeStep(servo), (robot) => withPlace(robot, servo, to));
+      robots.edit(
+        () => words.servoPanel.placeStep(servo),
+        (robot) => withPlace(robot, servo, to),
+      );
   }
 
   function drag(event: PointerEvent<HTMLButtonElement>): void {

@@ -1,6 +1,5 @@
 // The picture of the robot above its servos: as an arm, by bones, or, where nobody described the body, its dials.
 
-import { formatWhole } from '../words/numbers.ts';
 import { select } from '../stores/servoView.ts';
 import { editServoView, useDevice, useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
@@ -8,6 +7,7 @@ import { Dial } from './Dial.tsx';
 import { LiveArm } from './LiveArm.tsx';
 import { LiveBones } from './LiveBones.tsx';
 import { UnknownNote } from './UnknownNote.tsx';
+import { words } from '../words/words.ts';
 import styles from './Body.module.css';
 
 export function Body() {
@@ -41,7 +41,7 @@ function Dials() {
           onPointerDown={() => editServoView(stores, (view) => select(view, [servo]))}
         >
           <Dial servo={servo} family={family} />
-          {formatWhole(servo)}
+          {words.numbers.formatWhole(servo)}
         </li>
       ))}
     </ol>

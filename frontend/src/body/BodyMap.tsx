@@ -4,7 +4,7 @@ import { useRef, useState } from 'react';
 import type { BodyKind } from '#shared/actions/robot/robot.ts';
 import { useRobot, useServoView } from '../stores/stores.ts';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { ArrangedPlace } from './ArrangedPlace.tsx';
 import { LiveArm } from './LiveArm.tsx';
 import { LiveBones } from './LiveBones.tsx';

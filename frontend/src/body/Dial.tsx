@@ -5,7 +5,7 @@ import { useRef } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { dialDegrees } from './pose.ts';
 import { useMotion } from './useMotion.ts';
 import styles from './Dial.module.css';

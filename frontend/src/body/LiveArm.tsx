@@ -4,7 +4,7 @@
 import { useRef } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { ArmFigure, drawArm } from './ArmFigure.tsx';
 import { BaseView, drawBase, drawHand, HandView } from './insets.tsx';
 import { armPicture, JOINT, samePicture, type ArmPicture, type Pose } from './pose.ts';

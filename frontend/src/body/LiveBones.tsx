@@ -5,7 +5,7 @@ import type { Robot } from '#shared/actions/robot/robot.ts';
 import type { ServoMotion } from '#shared/session/state.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { BoneFigure, drawBones } from './BoneFigure.tsx';
 import { bonesOf, type BonePicture } from './bones.ts';
 import { useMotions } from './useMotion.ts';

@@ -6,8 +6,7 @@ import { isHeld, selectByClick } from '../stores/servoView.ts';
 import { editServoView, useDevice, useServoView, useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { selectHow } from '../ui/selectHow.ts';
-import { words } from '../words/en.ts';
-import { formatWhole } from '../words/numbers.ts';
+import { words } from '../words/words.ts';
 import { Dial } from './Dial.tsx';
 import styles from './Place.module.css';
 
@@ -45,7 +44,7 @@ export function PlaceFace({ servo, isLocked = false }: { servo: number; isLocked
     <>
       <Dial servo={servo} family={family} />
       <span className={styles.number}>
-        {formatWhole(servo)}
+        {words.numbers.formatWhole(servo)}
         {isLocked && <Icon name="lock" />}
       </span>
     </>

@@ -1,7 +1,7 @@
 // Says which servos nobody knows the position of, before their first move is made. Keeps its line when all are known.
 
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './UnknownNote.module.css';
 
 export function UnknownNote() {

@@ -1,9 +1,9 @@
 import { describe, expect, test } from 'vitest';
 import { readyRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
-import { robotNames } from '../words/robots.ts';
+import { words } from '../words/words.ts';
 import { bonesOf, type Bone } from './bones.ts';
 
-const robot = (id: ReadyRobotId) => readyRobot(id, 'lsc-24', robotNames(id));
+const robot = (id: ReadyRobotId) => readyRobot(id, 'lsc-24', words.robots.names(id));
 const posed = (positions: Record<number, number>) => (servo: number) => positions[servo] ?? 1500;
 const bone = (id: ReadyRobotId, servo: number, pose: (servo: number) => number | null): Bone =>
   bonesOf(robot(id), pose)!.bones.find((one) => one.servo === servo)!;

@@ -9,7 +9,7 @@ import { scaleOf } from '../servos/scale.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { PositionUnit } from '../words/numbers.ts';
 import { startCreeping } from './creeping.ts';
 import styles from './CreepControl.module.css';

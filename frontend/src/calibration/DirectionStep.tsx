@@ -7,7 +7,7 @@ import { changeServo } from '#shared/actions/robot/robotEdits.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
 

@@ -3,7 +3,7 @@
 import { flawOf, servoOf } from '#shared/actions/robot/robot.ts';
 import { changeServo, fromPartner } from '#shared/actions/robot/robotEdits.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
 

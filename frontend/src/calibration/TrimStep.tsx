@@ -4,7 +4,7 @@ import { changeServo, homeAtCentre } from '#shared/actions/robot/robotEdits.ts';
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
 

@@ -11,7 +11,7 @@ import {
   type CalibrationStep,
 } from '#shared/actions/robot/robotCalibration.ts';
 import { useRobot, useServoView, useStores, useView } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 
 export interface CalibrationAtHand {
   readonly robot: Robot;
@@ -43,8 +43,6 @@ export function useCalibration(): CalibrationAtHand {
     view.setState({ calibration: { robotId, progress } });
   }
 
-  const stepName = words.calibration.stepNames[begun.step];
-
   return {
     ...{ robot, servo, problem, progress: begun },
     go: (to, step) => put({ ...begun, servo: to, step }),
@@ -54,7 +52,10 @@ export function useCalibration(): CalibrationAtHand {
         setProblem(words.robots.flaw(flaw));
         return;
       }
-      robots.edit(words.calibration.stepLabel(stepName, words.robots.called(servo)), edit);
+      robots.edit(() => {
+        const { stepNames, stepLabel } = words.calibration;
+        return stepLabel(stepNames[begun.step], words.robots.called(servo));
+      }, edit);
       put(partner === undefined ? stepDone(robot, begun) : partnerDone(robot, begun, partner));
     },
     keep: () => put(stepDone(robot, begun)),

@@ -4,7 +4,7 @@ import { useEffect } from 'react';
 import { useStore } from 'zustand';
 import { useDevice, useStores, useView } from '../stores/stores.ts';
 import { Dialog } from '../ui/Dialog.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { Connector } from './connector.ts';
 import { ConnectWays } from './ConnectWays.tsx';
 

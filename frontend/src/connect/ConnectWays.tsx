@@ -8,8 +8,7 @@ import { Button } from '../ui/Button.tsx';
 import { ThisBoard } from '../identity/ThisBoard.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
-import { errorSentence } from '../words/errors.ts';
+import { words } from '../words/words.ts';
 import type { ConnectState } from './connector.ts';
 import { isProfileName } from '#shared/simulator/profiles.ts';
 import { PortGuide } from './PortGuide.tsx';
@@ -113,7 +112,7 @@ function SimulatedWay({
           .filter(({ id }) => isProfileName(id))
           .map((family) => (
             <option key={family.id} value={family.id}>
-              {family.name}
+              {words.boardName(family)}
             </option>
           ))}
       </select>
@@ -126,7 +125,7 @@ function SerialWay({ state, onSerialPort, onChooseSerial }: ConnectWaysProps) {
   if (state.serialObstacle !== null) {
     return (
       <>
-        <p className={styles.why}>{errorSentence(state.serialObstacle)}</p>
+        <p className={styles.why}>{words.errorSentence(state.serialObstacle)}</p>
         {state.serialObstacle === 'insecureAddress' && (
           <a className={styles.link} href={localAddress()}>
             {words.connect.webSerial.secureLink}
@@ -160,7 +159,7 @@ function GatewayWay({ state, onGateway, onGatewayPort, onLook }: ConnectWaysProp
   if (gateway === 'absent') {
     return (
       <>
-        <p className={styles.why}>{errorSentence('gatewayUnreachable')}</p>
+        <p className={styles.why}>{words.errorSentence('gatewayUnreachable')}</p>
         {look}
       </>
     );

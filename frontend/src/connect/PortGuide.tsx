@@ -2,8 +2,8 @@
 
 import { useState } from 'react';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
-import { SYSTEMS, type OperatingSystem } from '../words/guides.ts';
+import { words } from '../words/words.ts';
+import { SYSTEMS, type OperatingSystem } from '../words/systems.ts';
 import { operatingSystem } from './operatingSystem.ts';
 import styles from './PortGuide.module.css';
 

@@ -9,6 +9,7 @@ import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import { watchInputs } from '../pad/watchInputs.ts';
+import { followLanguage } from '../stores/language.ts';
 import { createMacroRun } from '../stores/macroRun.ts';
 import { createMacros } from '../stores/macros.ts';
 import { createMappings } from '../stores/mappings.ts';
@@ -30,9 +31,12 @@ export interface Page {
   readonly connector: Connector;
 }
 
-export function openPage(): Page {
+export async function openPage(): Promise<Page> {
   const storage = browserStorage();
   const notices = createNotices(pageClock);
+  const view = createView(storage);
+  // Documents begin with names in the language of whoever opens the page.
+  await followLanguage({ view, notices, tags: navigator.languages });
   const robots = createRobots(storage, notices);
   const device = createDevice({ family: FAMILIES.doc, clock: pageClock, notices, robots });
   const boards = createBoards(storage);
@@ -46,7 +50,7 @@ export function openPage(): Page {
     ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun },
     macros: createMacros(storage, notices, robots),
     document: createDocument(storage, notices),
-    view: createView(storage),
+    view,
   };
   const connector = createConnector({ device, notices, boards, storage, isWatched });
   connector.start().catch(notices.tellError);

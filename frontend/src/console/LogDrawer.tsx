@@ -4,7 +4,7 @@ import { useStore } from 'zustand';
 import { useStores, useView } from '../stores/stores.ts';
 import { Button as AriaButton } from 'react-aria-components/Button';
 import { Icon } from '../ui/Icon.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import { LogPanel } from './LogPanel.tsx';
 import styles from './LogDrawer.module.css';

@@ -5,8 +5,7 @@ import { memo, useLayoutEffect, useRef, type KeyboardEvent } from 'react';
 import type { LogEntry } from '../stores/traffic.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/en.ts';
-import { formatElapsed } from '../words/numbers.ts';
+import { useWords, words } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import styles from './LogList.module.css';
 
@@ -67,9 +66,10 @@ interface LineProps {
 const Line = memo(
   function Line({ logEntry, onCopy }: LineProps) {
     const { entry } = logEntry;
+    useWords();
     return (
       <div className={cx(styles.line, styles[entry.mark])}>
-        <time className={styles.time}>{formatElapsed(entry.atMs)}</time>
+        <time className={styles.time}>{words.numbers.formatElapsed(entry.atMs)}</time>
         <span className={styles.arrow} role="img" aria-label={arrowWords(entry.mark)}>
           {arrowOf(entry)}
         </span>

@@ -7,7 +7,7 @@ import { useStores, useView } from '../stores/stores.ts';
 import type { LogEntry } from '../stores/traffic.ts';
 import type { LogKind } from '../stores/view.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { useWords, words } from '../words/words.ts';
 import { LogList } from './LogList.tsx';
 import { RawSender } from './RawSender.tsx';
 import { kindOf, lineText } from './describe.ts';
@@ -80,11 +80,12 @@ export function LogPanel({ onFold }: { readonly onFold?: () => void }) {
 function useLogView(query: string, heldId: number | null) {
   const { device } = useStores();
   const kinds = useView((state) => state.logKinds);
+  const spoken = useWords();
   const view = useMemo(() => {
-    const isFound = searchTest(query);
+    const isFound = searchTest(query, spoken);
     const passes = (entry: LogEntry): boolean => kinds.includes(kindOf(entry)) && isFound(entry);
     return createLogView(device.traffic, passes, heldId ?? undefined);
-  }, [device, kinds, query, heldId]);
+  }, [device, kinds, query, heldId, spoken]);
   return useSyncExternalStore(view.subscribe, view.getSnapshot);
 }
 

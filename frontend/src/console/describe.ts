@@ -10,7 +10,7 @@ import type { Entry } from '#shared/recording/recording.ts';
 import type { Traffic } from '#shared/session/state.ts';
 import type { LogEntry } from '../stores/traffic.ts';
 import type { LogKind } from '../stores/view.ts';
-import { boardWords, commandWords, happeningWords, noiseWords, reportWords } from '../words/packets.ts';
+import { words as spoken, type Words } from '../words/words.ts';
 
 type Described = Pick<LogEntry, 'board' | 'entry'>;
 
@@ -32,15 +32,16 @@ const KINDS: Readonly<Partial<Record<CommandKind | ReportKind, LogKind>>> = {
   battery: 'battery',
 };
 
-export function meaning(described: Described): string {
+/** In the language in use, or in another one. */
+export function meaning(described: Described, words: Words = spoken): string {
   const { entry } = described;
-  if (entry.mark === 'link') return happeningWords(entry.happening);
-  if (entry.mark === 'board') return boardWords(family(entry.board).name);
+  if (entry.mark === 'link') return words.packets.happening(entry.happening);
+  if (entry.mark === 'board') return words.packets.board(words.boardName(family(entry.board)));
   const traffic = trafficOf(entry, family(described.board));
-  if ('noise' in traffic) return noiseWords(traffic.noise, traffic.bytes.length);
+  if ('noise' in traffic) return words.packets.noise(traffic.noise, traffic.bytes.length);
   return traffic.direction === 'out'
-    ? commandWords(traffic.command, traffic.bytes)
-    : reportWords(traffic.report);
+    ? words.packets.command(traffic.command, traffic.bytes)
+    : words.packets.report(traffic.report);
 }
 
 export function bytesText({ entry }: Pick<Described, 'entry'>): string {

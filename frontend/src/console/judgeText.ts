@@ -5,8 +5,7 @@ import { fromHex } from '#shared/protocol/hex.ts';
 import { judgeRaw } from '#shared/protocol/rawPacket.ts';
 import { isHarmless } from '#shared/session/raw.ts';
 import type { SessionState } from '#shared/session/state.ts';
-import { words } from '../words/en.ts';
-import { rawWords } from '../words/packets.ts';
+import { words } from '../words/words.ts';
 
 export interface Judged {
   /** Null where it may not go. */
@@ -23,7 +22,7 @@ export function judgeText(text: string, family: Family): Judged {
   if (bytes === null) return { ...nothing, explanation: words.raw.notHex, isRefused: true };
   if (bytes.length === 0) return { ...nothing, explanation: words.raw.hint, isRefused: false };
   const verdict = judgeRaw(bytes, family);
-  const explanation = rawWords(verdict, bytes, family.name);
+  const explanation = words.packets.raw(verdict, bytes, words.boardName(family));
   if (verdict.kind === 'refused') return { ...nothing, explanation, isRefused: true };
   if (verdict.kind === 'incomplete') return { ...nothing, explanation, isRefused: false };
   const harmless = verdict.kind === 'command' && isHarmless(verdict.command);

@@ -1,15 +1,17 @@
 // Finds a line of the log by words or by bytes. Pure.
 
 import type { LogEntry } from '../stores/traffic.ts';
+import { words as spoken, type Words } from '../words/words.ts';
 import { bytesText, meaning } from './describe.ts';
 
 /** Whole bytes in hex, with or without spaces, are looked for in the bytes; everything in the words. Case is no matter. */
-export function searchTest(query: string): (entry: LogEntry) => boolean {
+export function searchTest(query: string, words: Words = spoken): (entry: LogEntry) => boolean {
   const wanted = query.trim().toLowerCase();
   if (wanted === '') return () => true;
   const bytes = bytesIn(wanted);
   return (entry) =>
-    meaning(entry).toLowerCase().includes(wanted) || (bytes !== null && bytesText(entry).includes(bytes));
+    meaning(entry, words).toLowerCase().includes(wanted) ||
+    (bytes !== null && bytesText(entry).includes(bytes));
 }
 
 function bytesIn(query: string): string | null {

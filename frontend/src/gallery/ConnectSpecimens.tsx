@@ -56,7 +56,9 @@ export function ConnectSpecimens() {
   const nothing = (): void => undefined;
   return CASES.map(({ name, state, current }) => (
     <article key={name} className={styles.specimen} aria-label={name}>
-      <h2 className={styles.name}>{name}</h2>
+      <h2 className={styles.name} lang="en">
+        {name}
+      </h2>
       <div className={styles.dialog}>
         <ConnectWays
           state={state}

@@ -2,6 +2,7 @@
 // the address shows one alone. The panels are the real ones, the session behind them is frozen.
 
 import { useState } from 'react';
+import { I18nProvider } from 'react-aria-components/I18nProvider';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { gaugeOf, type Reading } from '#shared/actions/battery/batteryGauge.ts';
 import { fedBy } from '#shared/actions/battery/batterySupply.ts';
@@ -17,6 +18,7 @@ import { LivePanel } from '../servos/LivePanel.tsx';
 import type { BatteryStore } from '../stores/battery.ts';
 import type { RobotStore } from '../stores/robots.ts';
 import { editServoView, StoresContext, type Stores } from '../stores/stores.ts';
+import { useSpokenLocale } from '../ui/useSpokenLocale.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
 import { PoseSpecimens } from './PoseSpecimens.tsx';
@@ -31,32 +33,43 @@ import styles from './Gallery.module.css';
 
 export function Gallery() {
   const wanted = new URLSearchParams(location.search).get('state');
+  const locale = useSpokenLocale();
   const [blank] = useState(() => storesOf(BLANK));
   const shown = SPECIMENS.filter((specimen) => wanted === null || specimen.name === wanted);
   return (
-    <main className={styles.gallery}>
-      <nav className={styles.index} aria-label="States">
-        <a href="?">All</a>
-        {SPECIMENS.map(({ name }) => (
-          <a key={name} href={`?state=${encodeURIComponent(name)}`}>
-            {name}
-          </a>
+    <I18nProvider locale={locale}>
+      <main className={styles.gallery}>
+        <nav className={styles.index} aria-label="States" lang="en">
+          <a href={addressOf(null)}>All</a>
+          {SPECIMENS.map(({ name }) => (
+            <a key={name} href={addressOf(name)}>
+              {name}
+            </a>
+          ))}
+        </nav>
+        {wanted === null && (
+          <StoresContext value={blank}>
+            <ConnectSpecimens />
+            <RawSpecimens />
+            <PadSpecimens />
+            <PoseSpecimens />
+            <RobotSpecimens newStores={() => storesOf(BLANK)} />
+          </StoresContext>
+        )}
+        {shown.map((specimen) => (
+          <Shown key={specimen.name} specimen={specimen} />
         ))}
-      </nav>
-      {wanted === null && (
-        <StoresContext value={blank}>
-          <ConnectSpecimens />
-          <RawSpecimens />
-          <PadSpecimens />
-          <PoseSpecimens />
-          <RobotSpecimens newStores={() => storesOf(BLANK)} />
-        </StoresContext>
-      )}
-      {shown.map((specimen) => (
-        <Shown key={specimen.name} specimen={specimen} />
-      ))}
-    </main>
+      </main>
+    </I18nProvider>
   );
+}
+
+/** Of one state, or of all. */
+function addressOf(state: string | null): string {
+  const wanted = new URLSearchParams(location.search);
+  if (state === null) wanted.delete('state');
+  else wanted.set('state', state);
+  return `?${wanted.toString()}`;
 }
 
 function Shown({ specimen }: { readonly specimen: Specimen }) {
@@ -64,7 +77,9 @@ function Shown({ specimen }: { readonly specimen: Specimen }) {
   return (
     <StoresContext value={stores}>
       <article className={styles.specimen} aria-label={specimen.name}>
-        <h2 className={styles.name}>{specimen.name}</h2>
+        <h2 className={styles.name} lang="en">
+          {specimen.name}
+        </h2>
         <TopBar onMoveHere={() => undefined} />
         <ThisBoard />
         <div className={styles.panels}>
@@ -92,15 +107,16 @@ function storesOf(specimen: Specimen): Stores {
   const family = specimen.isUnknown === true ? UNKNOWN_BOARD : FAMILIES[specimen.board ?? 'doc'];
   const stores = specimenStores(family);
   const { device, document, view, boards, robots, battery } = stores;
-  if (specimen.robot !== undefined) robots.add('', specimen.robot.robot);
+  if (specimen.robot !== undefined) robots.add(() => '', specimen.robot.robot);
   const motions = motionsOf(specimen);
   if (specimen.way !== null) device.attach(frozenSession(family, specimen.state, motions), specimen.way);
   device.refreshTargets();
   if (specimen.feed !== undefined) feed(specimen.feed, robots, battery);
   if (specimen.pose !== 'unknown') for (const entry of SAMPLE_TRAFFIC) device.traffic.add(entry, family.id);
   for (let number = 1; number <= specimen.frames; number++) {
-    document.edit('frame', (group) =>
-      insertFrame(group, group.frames.length, sampleFrame(number, family), family.unit),
+    document.edit(
+      () => 'frame',
+      (group) => insertFrame(group, group.frames.length, sampleFrame(number, family), family.unit),
     );
   }
   view.setState({ selectedFrame: specimen.selectedFrame ?? null, ...specimen.robot?.view });
@@ -115,7 +131,10 @@ function storesOf(specimen: Specimen): Stores {
 const READ_EVERY_MS = 5000;
 
 function feed({ kind, volts }: BatteryFeed, robots: RobotStore, battery: BatteryStore): void {
-  robots.edit('feed', (robot) => fedBy(robot, kind));
+  robots.edit(
+    () => 'feed',
+    (robot) => fedBy(robot, kind),
+  );
   const sinceMs = pageClock.now() - volts.length * READ_EVERY_MS;
   const readings = volts.map((batteryMv, index) => ({
     ...{ atMs: sinceMs + index * READ_EVERY_MS, batteryMv, isAtRest: true },

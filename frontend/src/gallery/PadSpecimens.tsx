@@ -54,7 +54,9 @@ function Shown({ specimen }: { readonly specimen: PadSpecimen }) {
   return (
     <StoresContext value={stores}>
       <article className={styles.specimen} aria-label={specimen.name}>
-        <h2 className={styles.name}>{specimen.name}</h2>
+        <h2 className={styles.name} lang="en">
+          {specimen.name}
+        </h2>
         <PadPanel />
       </article>
     </StoresContext>
@@ -68,7 +70,10 @@ function storesOf({ pad: held, isDriving = false, more = [] }: PadSpecimen): Sto
   device.attach(frozenSession(FAMILIES.doc, { ...INITIAL_STATE, link: { status: 'ready' } }, {}), {
     ...{ kind: 'simulated', label: 'Simulated board', isSimulated: true },
   });
-  mappings.edit('bind', (mapping) => ({ ...mapping, bindings: [...mapping.bindings, ...more] }));
+  mappings.edit(
+    () => 'bind',
+    (mapping) => ({ ...mapping, bindings: [...mapping.bindings, ...more] }),
+  );
   pad.drive(isDriving);
   return stores;
 }

@@ -17,18 +17,27 @@ const POSES = { 'Greet the visitor': 0.2, 'Look down': 0.5, Sit: 0.8 };
 function fill({ poses, macros, view }: Stores, edits: boolean): void {
   const targets = (share: number) =>
     [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 700 + Math.round(share * servo * 260) }));
-  poses.book.edit('fill', (empty) => {
-    const book = Object.entries(POSES).reduce<PoseBook>(
-      (sum, [name, share]) => addPose(sum, { name, unit: 'us', targets: targets(share) }),
-      empty,
-    );
-    return markApplied(markRest(book, 3), 1);
-  });
+  poses.book.edit(
+    () => 'fill',
+    (empty) => {
+      const book = Object.entries(POSES).reduce<PoseBook>(
+        (sum, [name, share]) => addPose(sum, { name, unit: 'us', targets: targets(share) }),
+        empty,
+      );
+      return markApplied(markRest(book, 3), 1);
+    },
+  );
   Object.keys(POSES).forEach((name, index) => {
     const go = { kind: 'pose', pose: index + 1, durationMs: 1500 } as const;
-    macros.edit('fill', (page) => addMacro(page, name, [go, { kind: 'wait', waitMs: 500 }]));
+    macros.edit(
+      () => 'fill',
+      (page) => addMacro(page, name, [go, { kind: 'wait', waitMs: 500 }]),
+    );
   });
-  macros.edit('fill', (page) => changeMacro(addMacro(page, 'Dance', []), 1, { key: 'g' }));
+  macros.edit(
+    () => 'fill',
+    (page) => changeMacro(addMacro(page, 'Dance', []), 1, { key: 'g' }),
+  );
   view.setState({ authoring: 'poses', selectedPose: 1, selectedButton: 1, editsButtons: edits });
 }
 
@@ -59,7 +68,9 @@ function Shown({ name, panel, isEmpty = false, edits = false }: (typeof CASES)[n
   return (
     <StoresContext value={stores}>
       <article className={styles.specimen} aria-label={name}>
-        <h2 className={styles.name}>{name}</h2>
+        <h2 className={styles.name} lang="en">
+          {name}
+        </h2>
         {panel}
       </article>
     </StoresContext>

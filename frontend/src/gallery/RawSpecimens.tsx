@@ -3,7 +3,7 @@
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { RawForm } from '../console/RawSender.tsx';
 import { judgeText } from '../console/judgeText.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './Gallery.module.css';
 
 const CASES: readonly {
@@ -11,7 +11,7 @@ const CASES: readonly {
   readonly text: string;
   readonly board?: FamilyId;
   readonly isConsented?: boolean;
-  readonly obstacle?: string;
+  readonly isStopped?: boolean;
 }[] = [
   { name: 'By hand, empty', text: '' },
   { name: 'By hand, not whole', text: '55 55 08 03 01' },
@@ -22,17 +22,20 @@ const CASES: readonly {
     name: 'By hand, stopped',
     text: '55 55 05 06 08 01 00',
     isConsented: true,
-    obstacle: words.raw.waits,
+    isStopped: true,
   },
 ];
 
 export function RawSpecimens() {
   const nothing = (): void => undefined;
-  return CASES.map(({ name, text, board = 'doc', isConsented = false, obstacle = null }) => {
+  return CASES.map(({ name, text, board = 'doc', isConsented = false, isStopped = false }) => {
+    const obstacle = isStopped ? words.raw.waits : null;
     const judged = judgeText(text, FAMILIES[board]);
     return (
       <article key={name} className={styles.specimen} aria-label={name}>
-        <h2 className={styles.name}>{name}</h2>
+        <h2 className={styles.name} lang="en">
+          {name}
+        </h2>
         <RawForm
           {...{ text, judged, obstacle, isConsented }}
           maySend={isConsented && judged.packet !== null && obstacle === null}

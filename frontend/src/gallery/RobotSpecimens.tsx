@@ -54,7 +54,9 @@ function RobotSpecimen({ specimen, newStores }: RobotSpecimensProps & { readonly
   return (
     <StoresContext value={stores}>
       <article className={styles.specimen} aria-label={specimen.name}>
-        <h2 className={styles.name}>{specimen.name}</h2>
+        <h2 className={styles.name} lang="en">
+          {specimen.name}
+        </h2>
         <div className={styles.dialog}>{CONTENT[specimen.content]}</div>
       </article>
     </StoresContext>
@@ -63,7 +65,7 @@ function RobotSpecimen({ specimen, newStores }: RobotSpecimensProps & { readonly
 
 function prepared(stores: Stores, { state = READY, isUnknown = false, at }: Case): Stores {
   const { robots, device, view } = stores;
-  robots.add('robot', freshRobot('humanoid16', BOARD));
+  robots.add(() => 'robot', freshRobot('humanoid16', BOARD));
   const motions = isUnknown ? {} : motionsOf({ board: BOARD, pose: 'still' });
   const way = { kind: 'simulated', label: 'Simulated board', isSimulated: true } as const;
   device.attach(frozenSession(FAMILY, state, motions), way);

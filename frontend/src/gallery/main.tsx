@@ -1,11 +1,14 @@
-// The gallery's entry.
+// The gallery's entry; `?language=zh` in the address shows it in Chinese.
 
 import { createRoot } from 'react-dom/client';
 import { Gallery } from './Gallery.tsx';
+import { preferredLanguage, speak } from '../words/words.ts';
 import '../ui/fonts.css';
 import '../ui/tokens.css';
 import '../ui/base.css';
 
 const root = document.getElementById('page');
 if (root === null) throw new Error('gallery.html has no #page');
+const wanted = new URLSearchParams(location.search).get('language');
+await speak(preferredLanguage(wanted === null ? [] : [wanted]));
 createRoot(root).render(<Gallery />);

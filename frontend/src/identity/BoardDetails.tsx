@@ -3,7 +3,7 @@
 import { mayAsk } from '../stores/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 
 export function BoardDetails() {
   const { device } = useStores();

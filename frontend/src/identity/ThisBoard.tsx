@@ -4,7 +4,7 @@ import { useStore } from 'zustand';
 import { nameOf, NICKNAME_LENGTH } from '../stores/boards.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { BoardDetails } from './BoardDetails.tsx';
 import { EvidenceList } from './EvidenceList.tsx';
 import styles from './ThisBoard.module.css';
@@ -35,7 +35,7 @@ export function ThisBoard() {
         />
       </label>
       <div className={styles.family}>
-        <p>{words.identity.takenFor(family.name)}</p>
+        <p>{words.identity.takenFor(words.boardName(family))}</p>
         <EvidenceList evidence={evidence} />
         <BoardDetails />
         {family.certainAnswers.length === 0 && <p className={styles.dim}>{words.identity.unproven}</p>}

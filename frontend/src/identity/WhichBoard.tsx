@@ -6,7 +6,7 @@ import { fitOf, type Fit } from '#shared/session/identity.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { EvidenceList } from './EvidenceList.tsx';
 import styles from './WhichBoard.module.css';
 
@@ -50,9 +50,7 @@ function Answered() {
         <summary>{words.identity.others}</summary>
         <p className={styles.dim}>{words.identity.silentHint}</p>
         <Boards families={fitting('silent')} />
-        <p className={styles.dim}>
-          {words.identity.ruledOut(fitting('contradicts').map(({ name }) => name))}
-        </p>
+        <p className={styles.dim}>{words.identity.ruledOut(fitting('contradicts').map(words.boardName))}</p>
       </details>
     </>
   );
@@ -70,7 +68,7 @@ function Boards({ families }: { readonly families: readonly Family[] }) {
       {families.map((family) => (
         <li key={family.id}>
           <Button wide onPress={() => choose(family)}>
-            <span className={styles.name}>{family.name}</span>
+            <span className={styles.name}>{words.boardName(family)}</span>
             <span className={styles.about}>{words.identity.about(family)}</span>
           </Button>
         </li>

@@ -5,7 +5,7 @@ import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { EditGrid } from './EditGrid.tsx';
 import { MacroEditor } from './MacroEditor.tsx';
 import { MacroGrid } from './MacroGrid.tsx';

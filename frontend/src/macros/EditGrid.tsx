@@ -9,7 +9,7 @@ import { Button } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { MacroFace } from './MacroFace.tsx';
 import styles from './Macros.module.css';
 
@@ -23,16 +23,26 @@ export function EditGrid() {
     ...{ ids, selected, attribute: 'data-macro' },
     select: (id) => view.setState({ selectedButton: id }),
     move(id, to) {
-      macros.edit(words.macros.edits.move(nameOf(id)), (page) => moveMacro(page, id, to));
+      macros.edit(
+        () => words.macros.edits.move(nameOf(id)),
+        (page) => moveMacro(page, id, to),
+      );
       view.setState({ said: words.macros.moved(ids.indexOf(id) + 1, to + 1) });
     },
-    remove: (id) => macros.edit(words.macros.edits.delete(nameOf(id)), (page) => removeMacro(page, id)),
+    remove: (id) =>
+      macros.edit(
+        () => words.macros.edits.delete(nameOf(id)),
+        (page) => removeMacro(page, id),
+      ),
   });
   const { list: gridRef, tabStop, key } = cards;
 
   function add(): void {
     const name = words.macros.newName(nextId);
-    macros.edit(words.macros.edits.add(name), (page) => addMacro(page, name, []));
+    macros.edit(
+      () => words.macros.edits.add(name),
+      (page) => addMacro(page, name, []),
+    );
     view.setState({ selectedButton: nextId });
   }
 
@@ -93,7 +103,7 @@ function useMacroDrag({ id, name }: Macro): DragOrder {
   return useDragOrder({
     attribute: 'data-macro',
     begin() {
-      macros.begin(words.macros.edits.move(name));
+      macros.begin(() => words.macros.edits.move(name));
       view.setState({ selectedButton: id });
     },
     over(other) {

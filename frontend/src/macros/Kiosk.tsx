@@ -4,7 +4,7 @@
 import { useEffect, useRef, useState } from 'react';
 import { useMacros, useStores } from '../stores/stores.ts';
 import { StatusLine, type StatusLineProps } from '../topBar/StatusLine.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { NoButtons } from './ButtonsPage.tsx';
 import { MacroGrid } from './MacroGrid.tsx';
 import styles from './Kiosk.module.css';

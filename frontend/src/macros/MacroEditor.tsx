@@ -8,7 +8,7 @@ import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { Panel } from '../ui/Panel.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { StepList } from './StepList.tsx';
 import styles from './MacroEditor.module.css';
 
@@ -38,7 +38,10 @@ function Tools({ macro }: MacroProps) {
   const index = list.indexOf(macro);
   const { id, name } = macro;
   const move = (to: number) => (): void => {
-    macros.edit(words.macros.edits.move(name), (page) => moveMacro(page, id, to));
+    macros.edit(
+      () => words.macros.edits.move(name),
+      (page) => moveMacro(page, id, to),
+    );
     view.setState({ said: words.macros.moved(index + 1, to + 1) });
   };
   return (
@@ -58,7 +61,12 @@ function Tools({ macro }: MacroProps) {
       <IconButton
         icon="trash"
         label={words.macros.delete}
-        onPress={() => macros.edit(words.macros.edits.delete(name), (page) => removeMacro(page, id))}
+        onPress={() =>
+          macros.edit(
+            () => words.macros.edits.delete(name),
+            (page) => removeMacro(page, id),
+          )
+        }
       />
     </>
   );
@@ -72,7 +80,10 @@ function Name({ macro: { id, name } }: MacroProps) {
       label={words.macros.name}
       name={name}
       onRename={(wanted) =>
-        macros.edit(words.macros.edits.rename(name), (page) => changeMacro(page, id, { name: wanted }))
+        macros.edit(
+          () => words.macros.edits.rename(name),
+          (page) => changeMacro(page, id, { name: wanted }),
+        )
       }
     />
   );
@@ -91,7 +102,10 @@ function Colours({ macro: { id, name, colour } }: MacroProps) {
             aria-label={words.macros.colours[one]}
             checked={one === colour}
             onChange={() =>
-              macros.edit(words.macros.edits.colour(name), (page) => changeMacro(page, id, { colour: one }))
+              macros.edit(
+                () => words.macros.edits.colour(name),
+                (page) => changeMacro(page, id, { colour: one }),
+              )
             }
           />
         </label>
@@ -105,7 +119,10 @@ function KeyField({ macro: { id, name, key } }: MacroProps) {
   const [isListening, setListening] = useState(false);
   const setKey = (wanted: string | null): void => {
     setListening(false);
-    macros.edit(words.macros.edits.key(name), (page) => changeMacro(page, id, { key: wanted }));
+    macros.edit(
+      () => words.macros.edits.key(name),
+      (page) => changeMacro(page, id, { key: wanted }),
+    );
   };
   /** Before the button takes it for a press. Esc has been STOP already, and ends the listening. */
   const listen = (event: KeyboardEvent): void => {

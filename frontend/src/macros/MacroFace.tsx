@@ -5,7 +5,7 @@ import { PoseThumb } from '../body/PoseThumb.tsx';
 import type { MacroProgress } from '../stores/macroRun.ts';
 import { poseName } from '../stores/poses.ts';
 import { useDevice, usePoses, useStores } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './Macros.module.css';
 
 export interface MacroFaceProps {
@@ -23,7 +23,7 @@ export function MacroFace({ macro, progress }: MacroFaceProps) {
           {progress === null ? (
             <About {...macro} />
           ) : (
-            `${words.macros.progress(progress.stepIndex + 1, progress.stepCount)}. ${words.macros.atWork}`
+            words.macros.atWork(progress.stepIndex + 1, progress.stepCount)
           )}
         </span>
       </span>

@@ -2,7 +2,7 @@
 
 import { useStores, useView } from '../stores/stores.ts';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 
 export function PageSwitch() {
   const { view } = useStores();
@@ -11,13 +11,8 @@ export function PageSwitch() {
     <Choice
       label={words.macros.page.label}
       value={isButtons ? 'buttons' : 'work'}
-      options={OPTIONS}
+      options={(['work', 'buttons'] as const).map((value) => ({ value, label: words.macros.page[value] }))}
       onChange={(page) => view.setState({ tab: page === 'buttons' ? 'buttons' : 'live' })}
     />
   );
 }
-
-const OPTIONS = [
-  { value: 'work', label: words.macros.page.work },
-  { value: 'buttons', label: words.macros.page.buttons },
-] as const;

@@ -7,7 +7,7 @@ import { poseName } from '../stores/poses.ts';
 import { usePoses, useStores } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Select } from '../ui/Select.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './MacroEditor.module.css';
 
 export interface StepFieldsProps<Step extends MacroStep = MacroStep> {

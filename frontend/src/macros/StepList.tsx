@@ -6,20 +6,21 @@ import type { MacroPage } from '#shared/actions/macros/macro.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { StepFields } from './StepFields.tsx';
 import styles from './MacroEditor.module.css';
 
-const NEW_STEPS: readonly { readonly label: string; readonly step: MacroStep }[] = [
-  { label: words.macros.addPose, step: { kind: 'pose', pose: 'home', durationMs: GENTLE_MOVE_MS } },
-  { label: words.macros.addSlot, step: { kind: 'slot', slot: 0, times: 1 } },
-  { label: words.macros.addWait, step: { kind: 'wait', waitMs: 1000 } },
-];
+const NEW_STEPS = {
+  addPose: { kind: 'pose', pose: 'home', durationMs: GENTLE_MOVE_MS },
+  addSlot: { kind: 'slot', slot: 0, times: 1 },
+  addWait: { kind: 'wait', waitMs: 1000 },
+} as const satisfies Readonly<Record<string, MacroStep>>;
+const ADD_STEPS = ['addPose', 'addSlot', 'addWait'] as const;
 
 export function StepList({ macro: { id, name, steps } }: { readonly macro: Macro }) {
   const { macros } = useStores();
   const edit = (change: (page: MacroPage) => MacroPage): void =>
-    macros.edit(words.macros.edits.steps(name), change);
+    macros.edit(() => words.macros.edits.steps(name), change);
   return (
     <>
       <ol className={styles.list} aria-label={words.macros.steps}>
@@ -56,9 +57,9 @@ export function StepList({ macro: { id, name, steps } }: { readonly macro: Macro
       {steps.length === 0 && <p className={styles.hint}>{words.macros.empty}</p>}
       <div className={styles.row} role="group" aria-label={words.macros.addStep}>
         <span className={styles.label}>{words.macros.addStep}</span>
-        {NEW_STEPS.map(({ label, step }) => (
-          <Button key={label} icon="plus" onPress={() => edit((page) => addStep(page, id, step))}>
-            {label}
+        {ADD_STEPS.map((verb) => (
+          <Button key={verb} icon="plus" onPress={() => edit((page) => addStep(page, id, NEW_STEPS[verb]))}>
+            {words.macros[verb]}
           </Button>
         ))}
       </div>

@@ -1,6 +1,7 @@
 // Which input does what: a row per servo with its keys and sticks, lit while they are held, and the way to a new binding: press
 // the input, then say what it is to do.
 
+import type { Label } from '#shared/actions/history.ts';
 import { useEffect, useRef, useState } from 'react';
 import { Button as Bare } from 'react-aria-components/Button';
 import type { Binding, Input } from '#shared/actions/mapping/mapping.ts';
@@ -9,7 +10,7 @@ import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
 import { useMapping, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { useEachFrame } from '../ui/useEachFrame.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { BindingForm } from './BindingForm.tsx';
 import { draftFor, draftOf, type Draft } from './draft.ts';
 import { rowsOf } from './rows.ts';
@@ -21,19 +22,19 @@ export function Bindings() {
   const mapping = useMapping();
   const [draft, setDraft] = useState<Draft | null>(null);
 
-  const edit = (label: string, bindings: readonly Binding[]): void => {
+  const edit = (label: Label, bindings: readonly Binding[]): void => {
     mappings.edit(label, (former) => ({ ...former, bindings }));
     setDraft(null);
   };
   const save = (binding: Binding, at: number | null): void => {
     const { bindings } = mapping;
-    const label = words.pad.steps.bind(words.pad.input(binding.input));
+    const label = (): string => words.pad.steps.bind(words.pad.input(binding.input));
     edit(label, at === null ? [...bindings, binding] : bindings.with(at, binding));
   };
   const remove = (at: number): void => {
     const gone = mapping.bindings[at];
     if (gone === undefined) return;
-    edit(words.pad.steps.unbind(words.pad.input(gone.input)), mapping.bindings.toSpliced(at, 1));
+    edit(() => words.pad.steps.unbind(words.pad.input(gone.input)), mapping.bindings.toSpliced(at, 1));
   };
 
   return (
@@ -43,7 +44,7 @@ export function Bindings() {
         <Button
           tone="quiet"
           hint={words.pad.readyHint}
-          onPress={() => edit(words.pad.steps.ready, readyMapping(robot).bindings)}
+          onPress={() => edit(() => words.pad.steps.ready, readyMapping(robot).bindings)}
         >
           {words.pad.ready}
         </Button>

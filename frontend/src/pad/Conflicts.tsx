@@ -4,7 +4,7 @@ import { conflicts, type Conflict, type Mapping } from '#shared/actions/mapping/
 import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
 import { useMapping, useRobot } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { rowTitle } from './rows.ts';
 import styles from './Conflicts.module.css';
 

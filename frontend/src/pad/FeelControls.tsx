@@ -5,7 +5,7 @@ import { useState } from 'react';
 import type { Feel } from '#shared/actions/mapping/mapping.ts';
 import { shaped } from '#shared/actions/mapping/mappingInputs.ts';
 import { useMapping, useStores } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './FeelControls.module.css';
 
 interface Control {
@@ -13,14 +13,15 @@ interface Control {
   readonly min: number;
   readonly max: number;
   readonly step: number;
-  text(value: number): string;
+  /** How its value is told. */
+  readonly unit: 'percent' | 'ms';
 }
 
 const CONTROLS: readonly Control[] = [
-  { field: 'speedPercent', min: 10, max: 100, step: 5, text: words.pad.percent },
-  { field: 'deadZonePercent', min: 0, max: 50, step: 1, text: words.pad.percent },
-  { field: 'curvePercent', min: 0, max: 100, step: 5, text: words.pad.percent },
-  { field: 'smoothingMs', min: 0, max: 500, step: 10, text: words.pad.ms },
+  { field: 'speedPercent', min: 10, max: 100, step: 5, unit: 'percent' },
+  { field: 'deadZonePercent', min: 0, max: 50, step: 1, unit: 'percent' },
+  { field: 'curvePercent', min: 0, max: 100, step: 5, unit: 'percent' },
+  { field: 'smoothingMs', min: 0, max: 500, step: 10, unit: 'ms' },
 ];
 
 export function FeelControls() {
@@ -29,7 +30,11 @@ export function FeelControls() {
   const [draft, setDraft] = useState<Feel | null>(null);
   const feel = draft ?? kept;
   function keep(): void {
-    if (draft !== null) mappings.edit(words.pad.steps.feel, (mapping) => ({ ...mapping, feel: draft }));
+    if (draft !== null)
+      mappings.edit(
+        () => words.pad.steps.feel,
+        (mapping) => ({ ...mapping, feel: draft }),
+      );
     setDraft(null);
   }
   return (
@@ -57,14 +62,14 @@ interface FeelSliderProps {
   onDone(): void;
 }
 
-function FeelSlider({ control: { field, min, max, step, text }, value, onChange, onDone }: FeelSliderProps) {
+function FeelSlider({ control: { field, min, max, step, unit }, value, onChange, onDone }: FeelSliderProps) {
   return (
     <label className={styles.slider}>
       <span>{words.pad[field]}</span>
       <input
         type="range"
         className={styles.input}
-        aria-valuetext={text(value)}
+        aria-valuetext={words.pad[unit](value)}
         {...{ min, max, step, value }}
         onChange={(event) => onChange(event.currentTarget.valueAsNumber)}
         onPointerUp={onDone}
@@ -72,7 +77,7 @@ function FeelSlider({ control: { field, min, max, step, text }, value, onChange,
         onKeyUp={onDone}
         onBlur={onDone}
       />
-      <output className={styles.value}>{text(value)}</output>
+      <output className={styles.value}>{words.pad[unit](value)}</output>
     </label>
   );
 }

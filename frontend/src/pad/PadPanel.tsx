@@ -10,7 +10,7 @@ import { useDevice, useMapping, usePad, useRobot, useSnapshot, useStores } from 
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { Bindings } from './Bindings.tsx';
 import { Conflicts } from './Conflicts.tsx';
 import { FeelControls } from './FeelControls.tsx';

@@ -2,7 +2,7 @@
 
 import { servoBoundBy, type Binding, type Mapping } from '#shared/actions/mapping/mapping.ts';
 import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 
 export interface Row {
   readonly title: string;

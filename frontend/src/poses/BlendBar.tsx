@@ -9,7 +9,7 @@ import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './PosesPanel.module.css';
 
 export function BlendBar({ pose }: { readonly pose: Pose }) {
@@ -28,13 +28,14 @@ export function BlendBar({ pose }: { readonly pose: Pose }) {
 
   const go = (): void => {
     if (other !== undefined)
-      poses.applyBlend(words.poses.steps.blend(pose.name, other.name), targets, poseMs);
+      poses.applyBlend(() => words.poses.steps.blend(pose.name, other.name), targets, poseMs);
   };
   const keep = (): void => {
     if (other === undefined) return;
     const name = words.poses.blendName(pose.name, other.name, share);
-    poses.book.edit(words.poses.steps.capture(name), (book) =>
-      addPose(book, { name, unit: pose.unit, targets }),
+    poses.book.edit(
+      () => words.poses.steps.capture(name),
+      (book) => addPose(book, { name, unit: pose.unit, targets }),
     );
     view.setState({ selectedPose: nextId });
   };

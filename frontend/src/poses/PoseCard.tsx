@@ -11,7 +11,7 @@ import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './PoseCard.module.css';
 
 export interface PoseCardProps {
@@ -39,7 +39,7 @@ export function PoseCard({ pose, marks, isSelected, isTabStop, onKey }: PoseCard
         type="button"
         data-card-face=""
         className={styles.face}
-        aria-label={marks === '' ? about : `${about}, ${marks}`}
+        aria-label={marks === '' ? about : `${about}${words.comma}${marks}`}
         aria-pressed={isSelected}
         tabIndex={isTabStop ? 0 : -1}
         onClick={() => view.setState({ selectedPose: id })}
@@ -58,7 +58,10 @@ export function PoseCard({ pose, marks, isSelected, isTabStop, onKey }: PoseCard
           name={name}
           excludeFromTabOrder={!isTabStop}
           onRename={(wanted) =>
-            poses.book.edit(words.poses.steps.rename(name), (book) => renamePose(book, id, wanted))
+            poses.book.edit(
+              () => words.poses.steps.rename(name),
+              (book) => renamePose(book, id, wanted),
+            )
           }
         />
         <Go pose={pose} isTabStop={isTabStop} />
@@ -96,7 +99,7 @@ function usePoseDrag({ id, name }: Pose): DragOrder {
   return useDragOrder({
     attribute: 'data-pose',
     begin() {
-      book.begin(words.poses.steps.move(name));
+      book.begin(() => words.poses.steps.move(name));
       view.setState({ selectedPose: id });
     },
     over(other) {

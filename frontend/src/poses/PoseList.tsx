@@ -5,7 +5,7 @@ import { movePose, removePose } from '#shared/actions/poses/poseEdits.ts';
 import { useCards } from '../actions/useCards.ts';
 import { poseName } from '../stores/poses.ts';
 import { usePoses, useStores, useView } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { PoseCard } from './PoseCard.tsx';
 import styles from './PosesPanel.module.css';
 
@@ -18,11 +18,17 @@ export function PoseList() {
     ...{ ids, selected, attribute: 'data-pose' },
     select: (id) => view.setState({ selectedPose: id }),
     move(id, to) {
-      poses.book.edit(words.poses.steps.move(poseName(book, id)), (before) => movePose(before, id, to));
+      poses.book.edit(
+        () => words.poses.steps.move(poseName(book, id)),
+        (before) => movePose(before, id, to),
+      );
       view.setState({ said: words.poses.moved(ids.indexOf(id) + 1, to + 1) });
     },
     remove: (id) =>
-      poses.book.edit(words.poses.steps.delete(poseName(book, id)), (before) => removePose(before, id)),
+      poses.book.edit(
+        () => words.poses.steps.delete(poseName(book, id)),
+        (before) => removePose(before, id),
+      ),
   });
 
   const marks = ({ id }: Pose): string =>
@@ -31,7 +37,7 @@ export function PoseList() {
       book.applied === id || (book.applied === 'rest' && book.restId === id) ? words.poses.applied : '',
     ]
       .filter((mark) => mark !== '')
-      .join(', ');
+      .join(words.comma);
 
   return (
     <ol ref={list} className={styles.list} aria-label={words.poses.list}>

@@ -10,9 +10,12 @@ import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { useDevice, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { useSelectedPose } from './useSelectedPose.ts';
 import styles from './PosesPanel.module.css';
+
+/** A step of the book, in the words of the moment. */
+type PoseLabel = (name: string) => string;
 
 /** What lies open below the tools. */
 export type Drawer = 'servos' | 'blend';
@@ -57,20 +60,26 @@ function Shapes() {
   const unit = useDevice((state) => state.family.unit);
   const restId = usePoses(({ present }) => present.restId);
   const isRest = restId !== null && restId === pose?.id;
-  const { steps } = words.poses;
   const mayShape = pose?.unit === unit;
   const hasSides = (pose?.targets ?? []).some(
     ({ servo }) => typeof servoOf(robot, servo)?.mirror === 'number',
   );
 
-  function edit(label: (name: string) => string, change: (book: PoseBook, id: number) => PoseBook): void {
-    if (pose !== undefined) poses.book.edit(label(pose.name), (book) => change(book, pose.id));
+  function edit(label: PoseLabel, change: (book: PoseBook, id: number) => PoseBook): void {
+    if (pose !== undefined)
+      poses.book.edit(
+        () => label(pose.name),
+        (book) => change(book, pose.id),
+      );
   }
 
   const update = (): void =>
-    edit(steps.update, (book, id) => setPose(book, id, commandedPose(device.store.getState().targets), unit));
+    edit(
+      (name) => words.poses.steps.update(name),
+      (book, id) => setPose(book, id, commandedPose(device.store.getState().targets), unit),
+    );
 
-  const reshape = (label: (name: string) => string, shape: typeof mirroredTargets) => (): void => {
+  const reshape = (label: PoseLabel, shape: typeof mirroredTargets) => (): void => {
     const { targets, held } = shape(robot, pose?.targets ?? []);
     edit(label, (book, id) => setPose(book, id, targets));
     if (held.length > 0) notices.tell('warning', words.poses.held(held.map(({ name }) => name)));
@@ -79,8 +88,9 @@ function Shapes() {
   const makeButton = (): void => {
     if (pose === undefined) return;
     const { id, name } = pose;
-    macros.edit(words.macros.edits.add(name), (page) =>
-      addMacro(page, name, [{ kind: 'pose', pose: id, durationMs: GENTLE_MOVE_MS }]),
+    macros.edit(
+      () => words.macros.edits.add(name),
+      (page) => addMacro(page, name, [{ kind: 'pose', pose: id, durationMs: GENTLE_MOVE_MS }]),
     );
     notices.tell('info', words.poses.buttonMade(name));
   };
@@ -95,7 +105,7 @@ function Shapes() {
         icon="mirror"
         hint={words.poses.mirrorHint}
         isDisabled={!mayShape || !hasSides}
-        onPress={reshape(steps.mirror, mirroredTargets)}
+        onPress={reshape((name) => words.poses.steps.mirror(name), mirroredTargets)}
       >
         {words.poses.mirror}
       </Button>
@@ -104,7 +114,7 @@ function Shapes() {
         icon="flip"
         hint={words.poses.flipHint}
         isDisabled={!mayShape}
-        onPress={reshape(steps.flip, flippedTargets)}
+        onPress={reshape((name) => words.poses.steps.flip(name), flippedTargets)}
       >
         {words.poses.flip}
       </Button>
@@ -117,7 +127,7 @@ function Shapes() {
         isDisabled={pose === undefined}
         onChange={(isOn) =>
           edit(
-            () => steps.rest,
+            () => words.poses.steps.rest,
             (book, id) => markRest(book, isOn ? id : null),
           )
         }
@@ -133,24 +143,30 @@ function Arrange() {
   const nextId = usePoses(({ present }) => present.nextId);
   const index = pose === undefined ? -1 : list.indexOf(pose);
   const none = pose === undefined;
-  const { steps } = words.poses;
 
   const move = (to: number) => (): void => {
     if (none) return;
-    poses.book.edit(steps.move(pose.name), (book) => movePose(book, pose.id, to));
+    poses.book.edit(
+      () => words.poses.steps.move(pose.name),
+      (book) => movePose(book, pose.id, to),
+    );
     view.setState({ said: words.poses.moved(index + 1, to + 1) });
   };
   const duplicate = (): void => {
     if (none) return;
     view.setState({ selectedPose: nextId });
-    poses.book.edit(steps.duplicate(pose.name), (book) =>
-      duplicatePose(book, pose.id, words.poses.copyOf(pose.name)),
+    poses.book.edit(
+      () => words.poses.steps.duplicate(pose.name),
+      (book) => duplicatePose(book, pose.id, words.poses.copyOf(pose.name)),
     );
   };
   const remove = (): void => {
     if (none) return;
     view.setState({ selectedPose: list[index + 1]?.id ?? list[index - 1]?.id ?? null });
-    poses.book.edit(steps.delete(pose.name), (book) => removePose(book, pose.id));
+    poses.book.edit(
+      () => words.poses.steps.delete(pose.name),
+      (book) => removePose(book, pose.id),
+    );
   };
 
   return (

@@ -8,7 +8,7 @@ import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { PoseFiles } from './PoseFiles.tsx';
 import styles from './PosesPanel.module.css';
 
@@ -47,7 +47,10 @@ function Capture() {
   const capture = (): void => {
     const { targets, family } = device.store.getState();
     const pose = { name: words.poses.newName(nextId), unit: family.unit, targets: commandedPose(targets) };
-    poses.book.edit(words.poses.steps.capture(pose.name), (book) => addPose(book, pose));
+    poses.book.edit(
+      () => words.poses.steps.capture(pose.name),
+      (book) => addPose(book, pose),
+    );
     view.setState({ selectedPose: nextId });
   };
   return (

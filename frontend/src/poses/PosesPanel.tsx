@@ -7,7 +7,7 @@ import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { usePoses, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { BlendBar } from './BlendBar.tsx';
 import { PoseList } from './PoseList.tsx';
 import { PoseTools, type Drawer } from './PoseTools.tsx';

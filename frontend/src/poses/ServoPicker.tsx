@@ -4,7 +4,7 @@
 import type { Pose } from '#shared/actions/poses/pose.ts';
 import { setPose } from '#shared/actions/poses/poseEdits.ts';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './PosesPanel.module.css';
 
 export function ServoPicker({ pose }: { readonly pose: Pose }) {
@@ -18,7 +18,10 @@ export function ServoPicker({ pose }: { readonly pose: Pose }) {
     const position = commanded[servo];
     const others = pose.targets.filter((target) => target.servo !== servo);
     const targets = isIn && position !== undefined ? [...others, { servo, position }] : others;
-    poses.book.edit(words.poses.steps.servos(pose.name), (book) => setPose(book, pose.id, targets));
+    poses.book.edit(
+      () => words.poses.steps.servos(pose.name),
+      (book) => setPose(book, pose.id, targets),
+    );
   }
 
   return (

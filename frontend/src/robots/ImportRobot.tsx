@@ -6,7 +6,7 @@ import { robotFromText } from '#shared/actions/robot/robotText.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './RobotList.module.css';
 
 export function ImportRobot({ connected }: { readonly connected: FamilyId | null }) {
@@ -22,10 +22,10 @@ export function ImportRobot({ connected }: { readonly connected: FamilyId | null
     const found = robotFromText(text);
     if ('problem' in found) return words.robots.notImported(file, found.problem);
     const { name, board } = found.robot;
-    robots.add(words.robots.steps.import, found.robot);
+    robots.add(() => words.robots.steps.import, found.robot);
     return connected === null || board === connected
       ? words.robots.imported(name)
-      : words.robots.importedElsewhere(name, FAMILIES[board].name);
+      : words.robots.importedElsewhere(name, words.boardName(FAMILIES[board]));
   }
 
   return (

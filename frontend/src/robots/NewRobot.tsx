@@ -6,7 +6,7 @@ import { READY_ROBOTS, type ReadyRobotId } from '#shared/actions/robot/readyRobo
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { freshRobot } from '../stores/robots.ts';
 import { useStores } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { RobotPicture } from './RobotPicture.tsx';
 import styles from './RobotList.module.css';
 
@@ -16,14 +16,14 @@ export function NewRobot({ board }: { readonly board: FamilyId }) {
   return (
     <section aria-labelledby={headingId}>
       <h3 id={headingId}>{words.robots.fresh}</h3>
-      <p className={styles.dim}>{words.robots.freshHint(FAMILIES[board].name)}</p>
+      <p className={styles.dim}>{words.robots.freshHint(words.boardName(FAMILIES[board]))}</p>
       <ul className={styles.ready}>
         {fitting(board).map((id) => (
           <li key={id}>
             <Button
               className={styles.card ?? ''}
               aria-label={words.robots.add(words.robots.ready[id])}
-              onPress={() => robots.add(words.robots.steps.add, freshRobot(id, board))}
+              onPress={() => robots.add(() => words.robots.steps.add, freshRobot(id, board))}
             >
               <RobotPicture robot={freshRobot(id, board)} />
               {words.robots.ready[id]}

@@ -3,7 +3,7 @@
 import { Button } from 'react-aria-components/Button';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './RobotButton.module.css';
 
 export function RobotButton() {

@@ -7,7 +7,7 @@ import { CalibrationWizard } from '../calibration/CalibrationWizard.tsx';
 import { useStores, useView } from '../stores/stores.ts';
 import type { ViewState } from '../stores/view.ts';
 import { Dialog } from '../ui/Dialog.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { RobotEditor } from './RobotEditor.tsx';
 import { RobotList } from './RobotList.tsx';
 import styles from './RobotDialog.module.css';

@@ -6,7 +6,7 @@ import { addServo } from '#shared/actions/robot/robotEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { CellField } from './CellField.tsx';
 import { RobotHead } from './RobotHead.tsx';
 import { ServoTable } from './ServoTable.tsx';
@@ -18,7 +18,13 @@ export function RobotEditor() {
 
   function rename(text: string): boolean {
     const wanted = text.trim();
-    return wanted !== '' && robots.edit(words.robotEditor.name, (all) => ({ ...all, name: wanted }));
+    return (
+      wanted !== '' &&
+      robots.edit(
+        () => words.robotEditor.name,
+        (all) => ({ ...all, name: wanted }),
+      )
+    );
   }
 
   return (
@@ -40,7 +46,10 @@ export function RobotEditor() {
             className={styles.select}
             value={robot.battery}
             onChange={({ target: { value } }) =>
-              robots.edit(words.robotEditor.battery, (all) => fedBy(all, value as BatteryKind))
+              robots.edit(
+                () => words.robotEditor.battery,
+                (all) => fedBy(all, value as BatteryKind),
+              )
             }
           >
             {BATTERY_KINDS.map((kind) => (
@@ -50,7 +59,7 @@ export function RobotEditor() {
             ))}
           </select>
         </label>
-        <p className={styles.dim}>{words.robotEditor.board(FAMILIES[robot.board].name)}</p>
+        <p className={styles.dim}>{words.robotEditor.board(words.boardName(FAMILIES[robot.board]))}</p>
       </div>
       <ServoTable />
       <AddServo />
@@ -67,7 +76,13 @@ function AddServo() {
       <Button
         icon="plus"
         isDisabled={longer === null}
-        onPress={() => longer !== null && robots.edit(words.robotEditor.addStep, () => longer)}
+        onPress={() =>
+          longer !== null &&
+          robots.edit(
+            () => words.robotEditor.addStep,
+            () => longer,
+          )
+        }
       >
         {words.robotEditor.add}
       </Button>

@@ -2,7 +2,7 @@
 
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { UndoTools } from './UndoTools.tsx';
 import styles from './RobotEditor.module.css';
 

@@ -8,7 +8,7 @@ import { currentOf, type OwnRobot } from '../stores/robots.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { ImportRobot } from './ImportRobot.tsx';
 import { NewRobot } from './NewRobot.tsx';
 import { RobotPicture } from './RobotPicture.tsx';
@@ -58,7 +58,7 @@ function Described({ robot }: OwnRobot) {
       <div className={styles.words}>
         <span className={styles.name}>{robot.name}</span>
         <span className={styles.dim}>
-          {FAMILIES[robot.board].name} · {words.robots.count(robot.servos.length)}
+          {words.boardName(FAMILIES[robot.board])} · {words.robots.count(robot.servos.length)}
         </span>
       </div>
     </div>
@@ -75,7 +75,7 @@ function Other({ id, robot, fits }: OwnRobot & { readonly fits: boolean }) {
           {words.robots.useVerb}
         </Button>
       ) : (
-        <span className={styles.dim}>{words.robots.otherBoard(FAMILIES[robot.board].name)}</span>
+        <span className={styles.dim}>{words.robots.otherBoard(words.boardName(FAMILIES[robot.board]))}</span>
       )}
       <IconButton
         icon="trash"

@@ -1,12 +1,13 @@
 // The servos of the robot at hand, a row each. A change that cannot be is told below its row and taken nowhere.
 
+import type { Label } from '#shared/actions/history.ts';
 import { useId, useState } from 'react';
 import { flawOf, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
 import { changeServo, pair, reachOf, removeServo } from '#shared/actions/robot/robotEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { CellField } from './CellField.tsx';
 import { COLUMNS, type Column, type ColumnId, type Edited } from './columns.ts';
 import { ReachBar } from './ReachBar.tsx';
@@ -48,8 +49,8 @@ function ServoLine({ servo, titles }: ServoLineProps) {
   const [problems, setProblems] = useState<Partial<Record<ColumnId, string>>>({});
   const problemId = useId();
 
-  const change = (what: string, edit: (robot: Robot) => Robot): boolean =>
-    robots.edit(words.robotEditor.step(what, called), edit);
+  const change = (what: Label, edit: (robot: Robot) => Robot): boolean =>
+    robots.edit(() => words.robotEditor.step(what(), called), edit);
 
   function take(column: Column, text: string): boolean {
     const isSame = text === column.show(servo);
@@ -58,7 +59,14 @@ function ServoLine({ servo, titles }: ServoLineProps) {
     setProblems(({ [column.id]: _, ...others }) =>
       problem === null ? others : { ...others, [column.id]: problem },
     );
-    return 'robot' in edited && problem === null && change(titles[column.id], () => edited.robot);
+    return (
+      'robot' in edited &&
+      problem === null &&
+      change(
+        () => words.robotEditor.columns[column.id],
+        () => edited.robot,
+      )
+    );
   }
 
   return (
@@ -84,7 +92,10 @@ function ServoLine({ servo, titles }: ServoLineProps) {
           checked={servo.isReversed}
           onChange={(event) => {
             const isReversed = event.target.checked;
-            change(words.robotEditor.reversed, (all) => changeServo(all, servo.servo, { isReversed }));
+            change(
+              () => words.robotEditor.reversed,
+              (all) => changeServo(all, servo.servo, { isReversed }),
+            );
           }}
         />
       </label>
@@ -93,7 +104,12 @@ function ServoLine({ servo, titles }: ServoLineProps) {
         <Mirror
           servo={servo}
           others={robot.servos}
-          onChange={(partner) => change(words.robotEditor.mirror, (all) => pair(all, servo.servo, partner))}
+          onChange={(partner) =>
+            change(
+              () => words.robotEditor.mirror,
+              (all) => pair(all, servo.servo, partner),
+            )
+          }
         />
       </label>
       <IconButton
@@ -101,7 +117,10 @@ function ServoLine({ servo, titles }: ServoLineProps) {
         label={words.robotEditor.remove(called)}
         isDisabled={robot.servos.length === 1}
         onPress={() =>
-          robots.edit(words.robotEditor.removeStep(called), (all) => removeServo(all, servo.servo))
+          robots.edit(
+            () => words.robotEditor.removeStep(called),
+            (all) => removeServo(all, servo.servo),
+          )
         }
       />
       <ReachBar servo={servo} reach={reachOf(robot, servo)} unit={FAMILIES[robot.board].unit} />

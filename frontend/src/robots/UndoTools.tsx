@@ -4,7 +4,7 @@ import { useStore } from 'zustand';
 import { redoLabel, undoLabel } from '#shared/actions/history.ts';
 import { useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './RobotDialog.module.css';
 
 export function UndoTools() {

@@ -5,7 +5,7 @@ import { useEffect, useRef } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
 import { useMotion } from '../body/useMotion.ts';
 import { useStores } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { Scale } from './scale.ts';
 import styles from './Estimate.module.css';
 

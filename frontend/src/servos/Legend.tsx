@@ -4,8 +4,7 @@ import { tellsPositions } from '../stores/readiness.ts';
 import { useDevice, useStores, useView } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
-import { unitSymbol } from '../words/numbers.ts';
+import { words } from '../words/words.ts';
 import styles from './Legend.module.css';
 
 export function Legend() {
@@ -26,7 +25,7 @@ export function Legend() {
         label={words.servoPanel.positionsIn}
         value={positionsIn}
         options={[
-          { value: 'board', label: unitSymbol(unit) },
+          { value: 'board', label: words.numbers.unitSymbol(unit) },
           { value: 'degrees', label: words.servoPanel.degrees },
         ]}
         onChange={(wanted) => view.setState({ positionsIn: wanted })}

@@ -4,7 +4,7 @@ import { useState } from 'react';
 import { useDevice, useStores, useView } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { SendRate } from './SendRate.tsx';
 import styles from './MoveTimeControl.module.css';
 
@@ -29,7 +29,7 @@ export function MoveTimeControl() {
       <Choice
         label={words.servos.moveTime}
         value={isTimed ? 'timed' : 'hand'}
-        options={OPTIONS}
+        options={(['hand', 'timed'] as const).map((value) => ({ value, label: words.servos[value] }))}
         onChange={(choice) => view.setState({ moveTime: choice === 'hand' ? 'hand' : lastMs })}
       />
       <NumberField
@@ -46,8 +46,3 @@ export function MoveTimeControl() {
     </div>
   );
 }
-
-const OPTIONS = [
-  { value: 'hand', label: words.servos.hand },
-  { value: 'timed', label: words.servos.timed },
-] as const;

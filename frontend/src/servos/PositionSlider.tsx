@@ -8,7 +8,7 @@ import { useMotion } from '../body/useMotion.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Family, Range } from '#shared/protocol/families.ts';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { stepped, type Scale } from './scale.ts';
 import styles from './PositionSlider.module.css';
 

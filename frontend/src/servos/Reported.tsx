@@ -4,7 +4,7 @@ import { fromBoard } from '#shared/actions/robot/robot.ts';
 import { useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { Scale } from './scale.ts';
 import styles from './Reported.module.css';
 

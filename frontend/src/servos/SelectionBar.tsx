@@ -6,7 +6,7 @@ import { editServoView, useRobot, useServoView, useSnapshot, useStores } from '.
 import { Button, IconButton } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { useHand } from './useHand.ts';
 import styles from './SelectionBar.module.css';
 

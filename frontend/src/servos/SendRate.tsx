@@ -3,7 +3,7 @@
 import { useRef } from 'react';
 import { useStores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { sentSince } from './sentSince.ts';
 import styles from './MoveTimeControl.module.css';
 

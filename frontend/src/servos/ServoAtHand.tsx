@@ -2,7 +2,7 @@
 
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { useRobot, useServoView } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { ServoRow } from './ServoRow.tsx';
 import styles from './ServoAtHand.module.css';
 

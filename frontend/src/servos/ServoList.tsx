@@ -6,7 +6,7 @@ import { select, toggled } from '../stores/servoView.ts';
 import { editServoView, useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { ServoRow } from './ServoRow.tsx';
 import styles from './ServoList.module.css';
 

@@ -6,7 +6,7 @@ import { isHeld, selectByClick } from '../stores/servoView.ts';
 import { editServoView, useDevice, useServoView, useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { selectHow } from '../ui/selectHow.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './ServoName.module.css';
 
 export interface ServoNameProps {

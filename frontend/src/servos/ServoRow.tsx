@@ -8,7 +8,7 @@ import { isHeld } from '../stores/servoView.ts';
 import { useDevice, useServoView, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/en.ts';
+import { useWords, words } from '../words/words.ts';
 import { Estimate } from './Estimate.tsx';
 import { PositionSlider } from './PositionSlider.tsx';
 import { Reported } from './Reported.tsx';
@@ -26,6 +26,7 @@ export interface ServoRowProps {
 
 export const ServoRow = memo(function ServoRow({ servo: own, order }: ServoRowProps) {
   const { servo } = own;
+  useWords();
   const isSelected = useServoView(({ selected }) => selected.includes(servo));
   return (
     <li className={cx(styles.row, isSelected && styles.selected)}>

@@ -4,7 +4,7 @@ import { mayAsk, motionHindrance, tellsPositions } from '../stores/readiness.ts'
 import { useDevice, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Confirm } from '../ui/Confirm.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './ServoTalk.module.css';
 
 export function ServoTalk() {

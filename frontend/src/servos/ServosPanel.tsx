@@ -9,7 +9,7 @@ import { useRobot, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { Legend } from './Legend.tsx';
 import { MoveTimeControl } from './MoveTimeControl.tsx';
 import { SelectionBar } from './SelectionBar.tsx';

@@ -2,10 +2,10 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
 import { degreesOf, type RobotServo } from '#shared/actions/robot/robot.ts';
-import { robotNames } from '../words/robots.ts';
+import { words } from '../words/words.ts';
 import { moveGang, weightOf, type Member } from './gang.ts';
 
-const servos = readyRobot('arm', 'doc', robotNames('arm')).servos;
+const servos = readyRobot('arm', 'doc', words.robots.names('arm')).servos;
 const member = (servo: number, weight = 1, change: Partial<RobotServo> = {}): Member => ({
   servo: { ...servos[servo - 1]!, ...change },
   weight,

@@ -3,7 +3,7 @@
 import { degreesOf, positionOf, type RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import type { PositionsIn } from '../stores/view.ts';
-import { formatDegrees, formatPosition, formatWhole, unitSymbol } from '../words/numbers.ts';
+import { words } from '../words/words.ts';
 
 export interface Scale {
   readonly unit: string;
@@ -37,12 +37,12 @@ export function stepped(scale: Scale, from: number, change: number): number {
 
 function inUnits({ min, max }: RobotServo, unit: Family['unit']): Scale {
   return {
-    ...{ unit: unitSymbol(unit), min, max, decimals: 0, direction: 1 },
+    ...{ unit: words.numbers.unitSymbol(unit), min, max, decimals: 0, direction: 1 },
     page: unit === 'us' ? 100 : 50,
     shown: Math.round,
     position: (shown) => within({ min, max }, Math.round(shown)),
-    text: (position) => formatPosition(Math.round(position), unit),
-    digits: (position) => formatWhole(Math.round(position)),
+    text: (position) => words.numbers.formatPosition(Math.round(position), unit),
+    digits: (position) => words.numbers.formatWhole(Math.round(position)),
   };
 }
 
@@ -56,8 +56,8 @@ function inDegrees(servo: RobotServo): Scale {
     direction: servo.isReversed ? -1 : 1,
     shown,
     position: (degrees) => within(servo, positionOf(servo, degrees)),
-    text: (position) => formatDegrees(shown(position), decimals),
-    digits: (position) => formatDegrees(shown(position), decimals),
+    text: (position) => words.numbers.formatDegrees(shown(position), decimals),
+    digits: (position) => words.numbers.formatDegrees(shown(position), decimals),
   };
 }
 

@@ -4,7 +4,7 @@
 import { useEffect, type KeyboardEvent as ReactKeyboardEvent } from 'react';
 import type { Device } from '../stores/device.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './StopButton.module.css';
 
 export function StopButton() {

@@ -5,7 +5,7 @@ import { fedBy } from '#shared/actions/battery/batterySupply.ts';
 import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { createBattery } from './battery.ts';
 import { applyBatteryPolicy, REST_MOVE_MS, REST_WARNING_MS } from './batteryPolicy.ts';
 import { pollBattery } from './batteryPoll.ts';
@@ -25,7 +25,10 @@ async function createDesk(
   const notices = createNotices(rig.clock);
   const robots = createRobots({ getItem: () => null, setItem: () => undefined }, notices);
   robots.takeUpFor(board);
-  robots.edit('a pack', (robot) => fedBy({ ...robot, batteryCare: { policy, thresholds: null } }, '2s'));
+  robots.edit(
+    () => 'a pack',
+    (robot) => fedBy({ ...robot, batteryCare: { policy, thresholds: null } }, '2s'),
+  );
   const device = createDevice({ family: FAMILIES[board], clock: rig.clock, notices, robots });
   const battery = createBattery(device, robots);
   applyBatteryPolicy({ device, battery, robots, notices });
@@ -86,7 +89,10 @@ describe('the readings of a visit', () => {
     await clock.advance(SETTLED_MS);
     expect(battery.getState().gauge.level).toBe('warning');
     const thresholds = { warnMv: 6800, alarmMv: 6500 };
-    robots.edit('thresholds', (robot) => ({ ...robot, batteryCare: { policy: 'tell', thresholds } }));
+    robots.edit(
+      () => 'thresholds',
+      (robot) => ({ ...robot, batteryCare: { policy: 'tell', thresholds } }),
+    );
     expect(battery.getState().gauge.level).toBe('good');
     robots.undo();
     expect(battery.getState().gauge.level).toBe('warning');
@@ -118,7 +124,10 @@ describe('a low battery', () => {
     const { clock, robots, told } = await createDesk(6900);
     await clock.advance(SETTLED_MS);
     const thresholds = { warnMv: 7200, alarmMv: 7000 };
-    robots.edit('thresholds', (robot) => ({ ...robot, batteryCare: { policy: 'tell', thresholds } }));
+    robots.edit(
+      () => 'thresholds',
+      (robot) => ({ ...robot, batteryCare: { policy: 'tell', thresholds } }),
+    );
     expect(told().at(-1)).toBe(words.battery.alarmed(words.battery.volts(6900)));
   });
 

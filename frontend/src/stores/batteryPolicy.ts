@@ -3,7 +3,7 @@
 
 import { isActionable, type Level } from '#shared/actions/battery/batteryGauge.ts';
 import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { BatteryStore } from './battery.ts';
 import type { Device } from './device.ts';
 import type { Notices } from './notices.ts';

@@ -2,8 +2,7 @@ import { describe, expect, test } from 'vitest';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
-import { words } from '../words/en.ts';
-import { errorSentence } from '../words/errors.ts';
+import { words } from '../words/words.ts';
 import { createDevice } from './device.ts';
 import { createNotices } from './notices.ts';
 import { createRobots } from './robots.ts';
@@ -85,7 +84,7 @@ describe('a device with a session', () => {
     device.halt();
     await draw(400);
     device.move([{ servo: 1, position: 2400 }], 300);
-    expect(told()).toEqual([errorSentence('latched')]);
+    expect(told()).toEqual([words.errorSentence('latched')]);
     const movesBefore = ofKind('move').length;
     device.resume();
     await draw(400);
@@ -110,7 +109,7 @@ describe('a device with a session', () => {
 
     async function createElbowDesk() {
       const desk = await createDesk();
-      desk.robots.edit('limits', elbow);
+      desk.robots.edit(() => 'limits', elbow);
       return desk;
     }
 
@@ -248,7 +247,7 @@ describe('a device with a session', () => {
     device.sendRaw(Uint8Array.of(0x55, 0x55, 2, 6));
     await draw(500);
     expect(ofKind('readBattery')).toHaveLength(1);
-    expect(told()).toEqual([errorSentence('outOfRange', 'packet by hand: otherShape')]);
+    expect(told()).toEqual([words.errorSentence('outOfRange', 'packet by hand: otherShape')]);
   });
 
   test('detached, it is as if nothing had ever been connected', async () => {

@@ -11,7 +11,7 @@ import type { Session } from '#shared/session/session.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { Transport } from '#shared/session/transport.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { limitRefusal } from './limits.ts';
 import { moveDurationMs, type MoveTime } from './moveTime.ts';
 import type { Notices } from './notices.ts';

@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { insertFrame, moveFrame, setDuration } from '#shared/actions/group/groupEdits.ts';
 import { groupFromText } from '#shared/actions/group/groupText.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { createDocument, type TextStorage } from './document.ts';
 import { createNotices } from './notices.ts';
 
@@ -28,8 +28,14 @@ function createDesk(texts: Record<string, string> = {}, broken: Partial<TextStor
 describe('the document', () => {
   test('is saved after each edit, undo and redo, and found again', () => {
     const { document, storage, saved } = createDesk();
-    document.edit('capture', (group) => insertFrame(group, 0, FRAME));
-    document.edit('capture', (group) => insertFrame(group, 1, FRAME));
+    document.edit(
+      () => 'capture',
+      (group) => insertFrame(group, 0, FRAME),
+    );
+    document.edit(
+      () => 'capture',
+      (group) => insertFrame(group, 1, FRAME),
+    );
     expect(saved()!.frames).toHaveLength(2);
     document.undo();
     expect(saved()!.frames).toHaveLength(1);
@@ -41,8 +47,12 @@ describe('the document', () => {
 
   test('a drag is one step, saved once it ends', () => {
     const { document, saved, group } = createDesk();
-    for (const at of [0, 1, 2]) document.edit('capture', (before) => insertFrame(before, at, FRAME));
-    document.begin('move');
+    for (const at of [0, 1, 2])
+      document.edit(
+        () => 'capture',
+        (before) => insertFrame(before, at, FRAME),
+      );
+    document.begin(() => 'move');
     document.preview((before) => moveFrame(before, 1, 1));
     document.preview((before) => moveFrame(before, 1, 2));
     expect(group().frames.map((frame) => frame.id)).toEqual([2, 3, 1]);
@@ -54,9 +64,13 @@ describe('the document', () => {
 
   test('a cancelled drag leaves everything as it was', () => {
     const { document, group } = createDesk();
-    for (const at of [0, 1]) document.edit('capture', (before) => insertFrame(before, at, FRAME));
+    for (const at of [0, 1])
+      document.edit(
+        () => 'capture',
+        (before) => insertFrame(before, at, FRAME),
+      );
     const before = group();
-    document.begin('move');
+    document.begin(() => 'move');
     document.preview((current) => moveFrame(current, 1, 1));
     document.cancel();
     expect(group()).toBe(before);
@@ -64,8 +78,14 @@ describe('the document', () => {
 
   test('an edit that changes nothing is no step', () => {
     const { document } = createDesk();
-    document.edit('capture', (group) => insertFrame(group, 0, FRAME));
-    document.edit('time', (group) => setDuration(group, 1, 500));
+    document.edit(
+      () => 'capture',
+      (group) => insertFrame(group, 0, FRAME),
+    );
+    document.edit(
+      () => 'time',
+      (group) => setDuration(group, 1, 500),
+    );
     expect(document.store.getState().past).toHaveLength(1);
   });
 
@@ -81,8 +101,14 @@ describe('the document', () => {
       throw new Error('storage is forbidden');
     };
     const { document, group, told } = createDesk({}, { getItem: refuse, setItem: refuse });
-    document.edit('capture', (before) => insertFrame(before, 0, FRAME));
-    document.edit('capture', (before) => insertFrame(before, 0, FRAME));
+    document.edit(
+      () => 'capture',
+      (before) => insertFrame(before, 0, FRAME),
+    );
+    document.edit(
+      () => 'capture',
+      (before) => insertFrame(before, 0, FRAME),
+    );
     expect(group().frames).toHaveLength(2);
     expect(told()).toEqual([words.actions.notSaved]);
   });

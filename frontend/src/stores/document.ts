@@ -4,7 +4,7 @@
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
 import type { History } from '#shared/actions/history.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { Notices } from './notices.ts';
 import { createUndoable, type Undoable } from './undoable.ts';
 

@@ -2,7 +2,7 @@
 
 import { refusedTarget, type Robot } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 
 /** null where every target is within its servo's limits. */
 export function limitRefusal(robot: Robot, targets: readonly ServoTarget[]): string | null {

@@ -11,9 +11,18 @@ const RUN: MacroStep = { kind: 'slot', slot: 5, times: 1 };
 async function deskWith(...steps: readonly MacroStep[]) {
   const desk = await createDesk();
   const at = (position: number) => ({ unit: 'us' as const, targets: [{ servo: 1, position }] });
-  desk.poses.book.edit('capture', (book) => addPose(book, { name: 'Wave', ...at(1800) }));
-  desk.poses.book.edit('capture', (book) => addPose(book, { name: 'Bow', ...at(1200) }));
-  desk.macros.edit('add', (page) => addMacro(page, 'Greet', steps));
+  desk.poses.book.edit(
+    () => 'capture',
+    (book) => addPose(book, { name: 'Wave', ...at(1800) }),
+  );
+  desk.poses.book.edit(
+    () => 'capture',
+    (book) => addPose(book, { name: 'Bow', ...at(1200) }),
+  );
+  desk.macros.edit(
+    () => 'add',
+    (page) => addMacro(page, 'Greet', steps),
+  );
   const greet: Macro = macroOf(desk.macros.store.getState().present, 1)!;
   const positions = () => desk.moves().map(({ targets }) => targets[0]?.position);
   const step = () => desk.macroRun.store.getState()?.stepIndex ?? null;
@@ -118,10 +127,13 @@ describe('a button', () => {
 
   test('with a step that cannot be, begins none of its steps', async () => {
     const desk = await deskWith(GO(1), GO(2));
-    desk.robots.edit('limits', (robot) => ({
-      ...robot,
-      servos: robot.servos.map((servo) => (servo.servo === 1 ? { ...servo, min: 1300 } : servo)),
-    }));
+    desk.robots.edit(
+      () => 'limits',
+      (robot) => ({
+        ...robot,
+        servos: robot.servos.map((servo) => (servo.servo === 1 ? { ...servo, min: 1300 } : servo)),
+      }),
+    );
     desk.macroRun.start(desk.greet);
     desk.macroRun.start({ ...desk.greet, steps: [GO(1), GO(7)] });
     await desk.clock.advance(5000);

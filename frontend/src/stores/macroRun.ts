@@ -5,7 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Macro, MacroStep } from '#shared/actions/macros/macro.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { Device } from './device.ts';
 import { limitRefusal } from './limits.ts';
 import { GENTLE_MOVE_MS } from './moveTime.ts';

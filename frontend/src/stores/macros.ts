@@ -2,7 +2,7 @@
 
 import { EMPTY_PAGE, type MacroPage } from '#shared/actions/macros/macro.ts';
 import { macroPageFromText, macroPageToText } from '#shared/actions/macros/macroText.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';
 import { createRobotDocument } from './robotDocument.ts';
@@ -16,7 +16,7 @@ export function createMacros(
 ): Undoable<MacroPage> {
   return createRobotDocument({
     ...{ storage, notices, robots, key: 'servodeck.buttons' },
-    ...{ notSaved: words.macros.notSaved, unreadable: words.macros.unreadable },
+    ...{ notSaved: () => words.macros.notSaved, unreadable: () => words.macros.unreadable },
     ...{ fresh: () => EMPTY_PAGE, toText: macroPageToText, fromText: macroPageFromText },
   });
 }

@@ -25,14 +25,14 @@ describe('mappings', () => {
   test('a robot has the ready one until somebody changes it; then it is there at the next visit', () => {
     const { texts, mappings, robots } = desk();
     expect(mappings.store.getState().present).toEqual(readyMapping(robots.current().robot));
-    mappings.edit('empty', emptied);
+    mappings.edit(() => 'empty', emptied);
     expect(desk(texts).bindings()).toBe(0);
   });
 
   test('edits are undone and redone', () => {
     const { mappings, bindings } = desk();
     const before = bindings();
-    mappings.edit('empty', emptied);
+    mappings.edit(() => 'empty', emptied);
     mappings.undo();
     expect(bindings()).toBe(before);
     mappings.redo();
@@ -42,8 +42,8 @@ describe('mappings', () => {
   test('each robot has its own, with its own undo', () => {
     const { robots, mappings, bindings } = desk();
     const { id } = robots.current();
-    mappings.edit('empty', emptied);
-    robots.add('add', freshRobot('hand', 'doc'));
+    mappings.edit(() => 'empty', emptied);
+    robots.add(() => 'add', freshRobot('hand', 'doc'));
     expect(bindings()).toBeGreaterThan(0);
     mappings.undo();
     expect(bindings()).toBeGreaterThan(0);

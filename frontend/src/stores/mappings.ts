@@ -4,7 +4,7 @@
 import type { Mapping } from '#shared/actions/mapping/mapping.ts';
 import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
 import { mappingFromText, mappingToText } from '#shared/actions/mapping/mappingText.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';
 import { createRobotDocument } from './robotDocument.ts';
@@ -18,7 +18,7 @@ export function createMappings(
 ): Undoable<Mapping> {
   return createRobotDocument({
     ...{ storage, notices, robots, key: 'servodeck.mapping' },
-    ...{ notSaved: words.pad.notSaved, unreadable: words.pad.unreadable },
+    ...{ notSaved: () => words.pad.notSaved, unreadable: () => words.pad.unreadable },
     ...{ fresh: readyMapping, toText: mappingToText, fromText: mappingFromText },
   });
 }

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { LinkError } from '#shared/session/linkError.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import { errorSentence } from '../words/errors.ts';
+import { words } from '../words/words.ts';
 import { createNotices } from './notices.ts';
 
 function createDesk() {
@@ -16,7 +16,7 @@ describe('notices', () => {
     notices.tell('info', 'Slot 1 is downloaded.');
     notices.tellError(new LinkError('noAnswer', 'silence'));
     await clock.advance(60_000);
-    expect(told()).toEqual([errorSentence('noAnswer')]);
+    expect(told()).toEqual([words.errorSentence('noAnswer')]);
   });
 
   test('the same thing is said once, and at most three things stand there', () => {
@@ -36,7 +36,7 @@ describe('notices', () => {
     notices.tellError(new TypeError('x is undefined'));
     expect(notices.store.getState()[0]).toMatchObject({
       tone: 'danger',
-      text: errorSentence('internal', 'x is undefined'),
+      text: words.errorSentence('internal', 'x is undefined'),
     });
   });
 

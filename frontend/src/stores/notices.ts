@@ -4,7 +4,7 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
 import { LinkError } from '#shared/session/linkError.ts';
-import { errorSentence } from '../words/errors.ts';
+import { words } from '../words/words.ts';
 
 export type NoticeTone = 'info' | 'warning' | 'danger';
 
@@ -53,7 +53,7 @@ export function createNotices(clock: Clock): Notices {
     tellError(error) {
       const { code, message } = asLinkError(error);
       if (code !== 'cancelled')
-        tell(code === 'internal' ? 'danger' : 'warning', errorSentence(code, message));
+        tell(code === 'internal' ? 'danger' : 'warning', words.errorSentence(code, message));
     },
     dismiss,
   };

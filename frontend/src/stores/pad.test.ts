@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import type { Input } from '#shared/actions/mapping/mapping.ts';
 import { createRig } from '#shared/session/rig.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import { createDevice } from './device.ts';
 import { createMappings } from './mappings.ts';
 import { createNotices } from './notices.ts';
@@ -124,7 +124,7 @@ describe('driving by pad', () => {
 
   test('other robot, other hands: taking up another one switches off', async () => {
     const { robots, isDriving } = await createDesk();
-    robots.add('add', freshRobot('hand', 'doc'));
+    robots.add(() => 'add', freshRobot('hand', 'doc'));
     expect(isDriving()).toBe(false);
   });
 });

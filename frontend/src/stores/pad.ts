@@ -7,7 +7,7 @@ import type { Input, Mapping } from '#shared/actions/mapping/mapping.ts';
 import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/actions/mapping/mappingInputs.ts';
 import { AT_REST, step, type DriveState } from '#shared/actions/mapping/mappingStep.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { Device } from './device.ts';
 import type { Notices } from './notices.ts';
 import { motionHindrance } from './readiness.ts';

@@ -8,8 +8,14 @@ const at = (position: number) => ({ unit: 'us' as const, targets: [{ servo: 1, p
 
 async function deskWithPoses() {
   const desk = await createDesk();
-  desk.poses.book.edit('capture', (book) => addPose(book, { name: 'Wave', ...at(1800) }));
-  desk.poses.book.edit('capture', (book) => addPose(book, { name: 'Bow', ...at(1200) }));
+  desk.poses.book.edit(
+    () => 'capture',
+    (book) => addPose(book, { name: 'Wave', ...at(1800) }),
+  );
+  desk.poses.book.edit(
+    () => 'capture',
+    (book) => addPose(book, { name: 'Bow', ...at(1200) }),
+  );
   return desk;
 }
 
@@ -45,7 +51,10 @@ describe('going to a pose', () => {
     const home = [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 1500 }));
     expect(desk.poses.targetsOf('home')).toEqual(home);
     expect(desk.poses.targetsOf('rest')).toEqual(home);
-    desk.poses.book.edit('rest', (book) => markRest(book, 2));
+    desk.poses.book.edit(
+      () => 'rest',
+      (book) => markRest(book, 2),
+    );
     desk.poses.apply('rest', 1500);
     await desk.clock.advance(200);
     expect(lastMove(desk)?.targets).toEqual([{ servo: 1, position: 1200 }]);
@@ -54,10 +63,13 @@ describe('going to a pose', () => {
 
   test('a limit, a latch or a missing pose refuses it, and nothing is noted', async () => {
     const desk = await deskWithPoses();
-    desk.robots.edit('limits', (robot) => ({
-      ...robot,
-      servos: robot.servos.map((servo) => (servo.servo === 1 ? { ...servo, max: 1700 } : servo)),
-    }));
+    desk.robots.edit(
+      () => 'limits',
+      (robot) => ({
+        ...robot,
+        servos: robot.servos.map((servo) => (servo.servo === 1 ? { ...servo, max: 1700 } : servo)),
+      }),
+    );
     expect(desk.poses.apply(1, 1500)).toBe(false);
     expect(desk.told()[0]).toContain('Gripper: 1800 is out of range');
     expect(desk.poses.apply(9, 1500)).toBe(false);
@@ -70,7 +82,10 @@ describe('going to a pose', () => {
 
   test('a pose of a board that counts otherwise is refused', async () => {
     const desk = await createDesk();
-    desk.poses.book.edit('capture', (book) => addPose(book, { name: 'Bus', ...at(500), unit: 'steps' }));
+    desk.poses.book.edit(
+      () => 'capture',
+      (book) => addPose(book, { name: 'Bus', ...at(500), unit: 'steps' }),
+    );
     expect(desk.poses.apply(1, 1500)).toBe(false);
     expect(desk.moves()).toEqual([]);
   });

@@ -1,12 +1,13 @@
 // The poses of the robot at hand, and the way to them: by the device, in its limits, slowly unless asked otherwise. To go to
 // a pose is noted as a step of the book; undoing it changes the note and moves nothing.
 
+import type { Label } from '#shared/actions/history.ts';
 import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/actions/poses/pose.ts';
 import { markApplied, withPosesOf } from '#shared/actions/poses/poseEdits.ts';
 import { homeTargets } from '#shared/actions/poses/poseShapes.ts';
 import { poseBookFromText, poseBookToText } from '#shared/actions/poses/poseText.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { Device } from './device.ts';
 import type { TextStorage } from './document.ts';
 import { limitRefusal } from './limits.ts';
@@ -22,7 +23,7 @@ export interface Poses {
   /** False where it was refused; then the person was told why. */
   apply(ref: PoseRef, durationMs: number): boolean;
   /** Somewhere between poses. */
-  applyBlend(label: string, targets: readonly ServoTarget[], durationMs: number): void;
+  applyBlend(label: Label, targets: readonly ServoTarget[], durationMs: number): void;
   /** Adds the poses of a file, all or none. */
   importText(text: string): void;
 }
@@ -36,8 +37,14 @@ export interface PosesOptions {
 
 export function createPoses({ storage, notices, robots, device }: PosesOptions): Poses {
   const book = createRobotDocument({
-    ...{ storage, notices, robots, key: 'servodeck.poses' },
-    ...{ notSaved: words.poses.notSaved, unreadable: words.poses.unreadable },
+    ...{
+      storage,
+      notices,
+      robots,
+      key: 'servodeck.poses',
+      notSaved: () => words.poses.notSaved,
+      unreadable: () => words.poses.unreadable,
+    },
     ...{ fresh: () => EMPTY_BOOK, toText: poseBookToText, fromText: poseBookFromText },
   });
   const present = (): PoseBook => book.store.getState().present;
@@ -64,8 +71,11 @@ export function createPoses({ storage, notices, robots, device }: PosesOptions):
       const targets = targetsOf(ref);
       if (targets === null) notices.tell('warning', words.poses.gone);
       if (targets === null || !device.move(targets, durationMs)) return false;
-      const label = words.poses.steps.apply(poseName(present(), ref));
-      book.edit(label, (before) => markApplied(before, ref));
+      const name = poseName(present(), ref);
+      book.edit(
+        () => words.poses.steps.apply(name),
+        (before) => markApplied(before, ref),
+      );
       return true;
     },
     applyBlend(label, targets, durationMs) {
@@ -76,7 +86,10 @@ export function createPoses({ storage, notices, robots, device }: PosesOptions):
       const problem = 'problem' in read ? words.poses.importFailed(read.problem) : flawOfImport(read.value);
       if (problem !== null) notices.tell('warning', problem);
       else if ('value' in read)
-        book.edit(words.poses.steps.import, (before) => withPosesOf(before, read.value));
+        book.edit(
+          () => words.poses.steps.import,
+          (before) => withPosesOf(before, read.value),
+        );
     },
   };
 }

@@ -20,8 +20,8 @@ export interface RobotDocumentOptions<T> {
   toText(value: T): string;
   fromText(text: string): Read<T>;
   /** What the person is told then. */
-  readonly notSaved: string;
-  readonly unreadable: string;
+  notSaved(): string;
+  unreadable(): string;
 }
 
 export function createRobotDocument<T>(options: RobotDocumentOptions<T>): Undoable<T> {
@@ -34,7 +34,7 @@ export function createRobotDocument<T>(options: RobotDocumentOptions<T>): Undoab
     try {
       storage.setItem(`${key}.${owner}`, toText(present));
     } catch {
-      notices.tell('warning', options.notSaved);
+      notices.tell('warning', options.notSaved());
     }
   });
 
@@ -59,9 +59,9 @@ function load<T>(options: RobotDocumentOptions<T>, { id: owner, robot }: OwnRobo
     const read = options.fromText(text);
     if ('value' in read) return read.value;
     storage.setItem(`${key}.${owner}.unreadable`, text);
-    notices.tell('warning', options.unreadable);
+    notices.tell('warning', options.unreadable());
   } catch {
-    notices.tell('warning', options.notSaved);
+    notices.tell('warning', options.notSaved());
   }
   return empty;
 }

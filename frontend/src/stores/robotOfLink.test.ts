@@ -30,7 +30,7 @@ function follower() {
 describe('the robot of a link', () => {
   test('is told once the link is ready, once, and whenever it changes', () => {
     const { robots, told, note } = follower();
-    robots.edit('limits', trimmed);
+    robots.edit(() => 'limits', trimmed);
     expect(told).toEqual([]);
     note(ready('doc'));
     note(ready('doc'));

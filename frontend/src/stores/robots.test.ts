@@ -36,7 +36,7 @@ describe('robots', () => {
 
   test('edits are undone and redone, and are there at the next visit', () => {
     const { robots, storage } = shelf();
-    robots.edit('rename', named('Desk arm'));
+    robots.edit(() => 'rename', named('Desk arm'));
     robots.undo();
     robots.redo();
     expect(shelf(storage).robots.current().robot.name).toBe('Desk arm');
@@ -45,7 +45,7 @@ describe('robots', () => {
   test('an edit that leaves nonsense is refused with its reason, and changes nothing', () => {
     const { robots, told } = shelf();
     const before = robots.current();
-    expect(robots.edit('limits', narrowed)).toBe(false);
+    expect(robots.edit(() => 'limits', narrowed)).toBe(false);
     expect(robots.current()).toBe(before);
     expect(told()).toEqual([expect.stringContaining('Elbow (servo 4): its lowest position 2000')]);
   });
@@ -54,7 +54,7 @@ describe('robots', () => {
     const { robots, names } = shelf();
     robots.takeUpFor('lsc-16');
     expect(robots.current().robot.servos).toHaveLength(16);
-    robots.edit('rename', named('Walker'));
+    robots.edit(() => 'rename', named('Walker'));
     robots.takeUpFor('doc');
     robots.takeUpFor('lsc-16');
     expect(robots.current().robot.name).toBe('Walker');

@@ -2,13 +2,20 @@
 // cannot be read is set aside, never thrown away. Knows no link; which robot belongs to a connected board is asked of it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { commit, record, redo, startHistory, undo, type History } from '#shared/actions/history.ts';
+import {
+  commit,
+  record,
+  redo,
+  startHistory,
+  undo,
+  type History,
+  type Label,
+} from '#shared/actions/history.ts';
 import { readyRobot, usualRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
 import { flawOf, type Robot } from '#shared/actions/robot/robot.ts';
 import { robotFromText, robotToText } from '#shared/actions/robot/robotText.ts';
 import type { FamilyId } from '#shared/protocol/families.ts';
-import { robotNames } from '../words/robots.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';
 
@@ -31,9 +38,9 @@ export interface RobotStore {
   /** The robot on such a board: the one at hand, else the last one described for it, else the usual one, made now. */
   takeUpFor(board: FamilyId): void;
   takeUp(id: number): void;
-  add(label: string, robot: Robot): void;
+  add(label: Label, robot: Robot): void;
   /** False where the edit would leave a robot that cannot be; the person is told why. */
-  edit(label: string, change: (robot: Robot) => Robot): boolean;
+  edit(label: Label, change: (robot: Robot) => Robot): boolean;
   duplicate(): void;
   remove(id: number): void;
   undo(): void;
@@ -56,7 +63,7 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
     }
   }
 
-  const step = (label: string, next: Robots): void => change(record(store.getState(), label, next));
+  const step = (label: Label, next: Robots): void => change(record(store.getState(), label, next));
 
   /** No step of the history: nothing was described, only chosen. */
   const silently = (next: Robots): void => change({ ...commit(store.getState()), present: next });
@@ -88,7 +95,7 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
     duplicate() {
       const { robot } = current();
       step(
-        words.robots.steps.duplicate,
+        () => words.robots.steps.duplicate,
         withRobot(present(), { ...robot, name: words.robots.copyOf(robot.name) }),
       );
     },
@@ -97,7 +104,7 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
       const next = own.at(-1);
       if (next === undefined) return;
       const { currentId } = present();
-      step(words.robots.steps.remove, {
+      step(() => words.robots.steps.remove, {
         ...present(),
         own,
         currentId: currentId === id ? next.id : currentId,
@@ -115,7 +122,7 @@ export function currentOf({ own, currentId }: Robots): OwnRobot {
 }
 
 export function freshRobot(id: ReadyRobotId, board: FamilyId): Robot {
-  return readyRobot(id, board, robotNames(id));
+  return readyRobot(id, board, words.robots.names(id));
 }
 
 function withRobot(robots: Robots, robot: Robot): Robots {

@@ -12,14 +12,15 @@ import {
   startHistory,
   undo,
   type History,
+  type Label,
 } from '#shared/actions/history.ts';
 
 export interface Undoable<T> {
   readonly store: StoreApi<History<T>>;
   /** One finished edit, one step. */
-  edit(label: string, edit: (present: T) => T): void;
+  edit(label: Label, edit: (present: T) => T): void;
   /** A gesture: begin, preview from where it began, then commit or cancel. One gesture, one step. */
-  begin(label: string): void;
+  begin(label: Label): void;
   preview(edit: (before: T) => T): void;
   commit(): void;
   cancel(): void;

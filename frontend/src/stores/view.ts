@@ -3,6 +3,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Calibration } from '#shared/actions/robot/robotCalibration.ts';
+import { LANGUAGES, type Language } from '../words/words.ts';
 import type { TextStorage } from './document.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from './moveTime.ts';
 import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
@@ -10,6 +11,7 @@ import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
 /** On a wide screen all but the buttons are side by side. */
 export type Tab = 'live' | 'actions' | 'board' | 'log' | 'buttons';
 export type Theme = 'system' | 'light' | 'dark';
+export type LanguageChoice = 'system' | Language;
 /** `board`: the units of the board, microseconds or steps. */
 export type PositionsIn = 'board' | 'degrees';
 /** Servos one below the other, or where they sit on the body. */
@@ -19,6 +21,7 @@ export type LogKind = 'move' | 'group' | 'battery' | 'link' | 'noise';
 export interface ViewState {
   readonly tab: Tab;
   readonly theme: Theme;
+  readonly language: LanguageChoice;
   /** Nothing but buttons and STOP; remembered, so that a reload is no way out. */
   readonly kiosk: 'on' | 'off';
   readonly authoring: 'group' | 'poses' | 'pad';
@@ -53,6 +56,7 @@ export type View = StoreApi<ViewState>;
 /** Where each remembered choice is stored, and what it may be. */
 const REMEMBERED = {
   theme: { key: 'servodeck.view', values: ['system', 'light', 'dark'] },
+  language: { key: 'servodeck.language', values: ['system', ...LANGUAGES] },
   positionsIn: { key: 'servodeck.positionsIn', values: ['board', 'degrees'] },
   kiosk: { key: 'servodeck.kiosk', values: ['on', 'off'] },
   servoLayout: { key: 'servodeck.servoLayout', values: ['list', 'body'] },
@@ -64,6 +68,7 @@ const NAMES = Object.keys(REMEMBERED) as Remembered[];
 export const INITIAL_VIEW: ViewState = {
   tab: 'live',
   theme: 'system',
+  language: 'system',
   kiosk: 'off',
   authoring: 'group',
   connectOpen: false,

@@ -5,7 +5,7 @@ import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Mark, type Truth } from '../ui/Chip.tsx';
 import { Button } from '../ui/Button.tsx';
 import type { LinkState } from '#shared/session/state.ts';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
 import styles from './LinkChip.module.css';
 
 const TRUTH: Readonly<Record<LinkState['status'], Truth>> = {
@@ -30,7 +30,7 @@ export function LinkChip() {
     <div className={styles.link}>
       <AriaButton
         className={styles.chip ?? ''}
-        aria-label={`${words.link.change}: ${words.link.chip(isSimulated ? words.link.simulated : words.link.status[status], label)}`}
+        aria-label={words.link.chip(isSimulated ? words.link.simulated : words.link.status[status], label)}
         onPress={open}
       >
         <Mark truth={TRUTH[status]} />

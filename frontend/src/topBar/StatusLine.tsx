@@ -8,8 +8,7 @@ import { Button } from '../ui/Button.tsx';
 import { Mark, type Truth } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/en.ts';
-import { errorSentence } from '../words/errors.ts';
+import { words } from '../words/words.ts';
 import styles from './StatusLine.module.css';
 
 export interface StatusLineProps {
@@ -26,7 +25,7 @@ export function StatusLine({ onMoveHere }: StatusLineProps) {
       {link.status === 'lost' || link.status === 'refused' ? (
         <Down link={link} onMoveHere={onMoveHere} />
       ) : link.status === 'stale' ? (
-        <Said truth="warning" text={errorSentence('boardSilent')} />
+        <Said truth="warning" text={words.errorSentence('boardSilent')} />
       ) : link.status === 'identifying' ? (
         <Said truth="unknown" text={words.identity.asking} />
       ) : latch !== null ? (
@@ -78,7 +77,7 @@ function Down({ link, onMoveHere }: { readonly link: DownState; readonly onMoveH
   const said = (
     <Said
       truth={needsChoice ? 'warning' : 'danger'}
-      text={errorSentence(link.error.code, link.error.message)}
+      text={words.errorSentence(link.error.code, link.error.message)}
     />
   );
   // There is nothing to try again: the sentence says to connect, or to say which board it is.
@@ -118,7 +117,10 @@ function activityWords(activity: Activity): string {
     case 'idle':
       return words.activity.idle;
     case 'running':
-      return `${words.activity.running(activity.slot, activity.times)}: ${words.activity.runTruth[activity.truth]}`;
+      return words.activity.told(
+        words.activity.running(activity.slot, activity.times),
+        words.activity.runTruth[activity.truth],
+      );
     case 'playing':
       return words.activity.playing(activity.frameIndex + 1, activity.frameCount);
     case 'downloading':

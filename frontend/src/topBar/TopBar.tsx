@@ -9,7 +9,8 @@ import { BatteryReadout } from '../battery/BatteryReadout.tsx';
 import { IconButton } from '../ui/Button.tsx';
 import type { IconName } from '../ui/Icon.tsx';
 import { PageSwitch } from '../macros/PageSwitch.tsx';
-import { words } from '../words/en.ts';
+import { words } from '../words/words.ts';
+import { LanguageControl } from './LanguageControl.tsx';
 import { LinkChip } from './LinkChip.tsx';
 import { StatusLine, type StatusLineProps } from './StatusLine.tsx';
 import styles from './TopBar.module.css';
@@ -27,7 +28,10 @@ export function TopBar({ onMoveHere }: StatusLineProps) {
         <PageSwitch />
       </div>
       <BatteryReadout />
-      <ThemeButton />
+      <div className={styles.looks}>
+        <LanguageControl />
+        <ThemeButton />
+      </div>
     </header>
   );
 }
@@ -50,7 +54,7 @@ function Robot() {
   const way = useDevice((state) => state.way);
   const family = useDevice((state) => state.family);
   const nickname = useStore(boards.store, (all) => (way === null ? '' : all[nameOf(way)]?.nickname)) ?? '';
-  const name = way === null ? words.link.noBoard : way.isSimulated ? '' : nickname || family.name;
+  const name = way === null ? words.link.noBoard : way.isSimulated ? '' : nickname || words.boardName(family);
   return (
     <div className={styles.robot}>
       <RobotButton />
@@ -67,12 +71,10 @@ function ThemeButton() {
   const { view } = useStores();
   const theme = useView((state) => state.theme);
   return (
-    <div className={styles.theme}>
-      <IconButton
-        icon={THEME_ICONS[theme]}
-        label={`${words.theme.label}: ${words.theme[theme]}`}
-        onPress={() => view.setState({ theme: NEXT_THEME[theme] })}
-      />
-    </div>
+    <IconButton
+      icon={THEME_ICONS[theme]}
+      label={words.theme.now(words.theme[theme])}
+      onPress={() => view.setState({ theme: NEXT_THEME[theme] })}
+    />
   );
 }

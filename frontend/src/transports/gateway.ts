@@ -144,7 +144,7 @@ export function createGatewayTransport(url: string): Transport {
     setLimits: (limits) => postIfOpen({ type: 'limits', servos: [...limits] }),
     calibrate: (servo) => postIfOpen({ type: 'calibrate', servo }),
     get label() {
-      return port?.device ?? 'Gateway';
+      return port?.device ?? '';
     },
     async open(next) {
       await connect();

@@ -1,10 +1,10 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { describe, expect, test } from 'vitest';
+import { afterEach, describe, expect, test } from 'vitest';
 import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
-import { words } from './en.ts';
-import { errorSentence } from './errors.ts';
-import { formatAge, formatPosition, formatSeconds, formatVolts } from './numbers.ts';
+import { english } from './en/english.ts';
+import { LANGUAGES, OWN_NAMES, preferredLanguage, speak, words } from './words.ts';
+import { chinese } from './zh/chinese.ts';
 
 const pageDir = join(import.meta.dirname, '..');
 const sources = readdirSync(pageDir, { recursive: true, encoding: 'utf8' })
@@ -20,33 +20,41 @@ function plainTexts(value: unknown, path: string): [string, string][] {
 }
 
 describe('the words', () => {
-  const texts = plainTexts(words, 'words');
+  const texts = plainTexts(english, 'words');
 
   test('every failure of a link has a sentence of its own that ends like one', () => {
-    const sentences = LINK_ERROR_CODES.map((code) => errorSentence(code, 'the detail'));
+    const sentences = LINK_ERROR_CODES.map((code) => english.errorSentence(code, 'the detail'));
     expect(new Set(sentences).size).toBe(LINK_ERROR_CODES.length);
     for (const sentence of sentences) expect(sentence).toMatch(/^[A-Z].*\.$/u);
   });
 
   test('a detail is part of the sentence, and its absence leaves no gap', () => {
-    expect(errorSentence('outOfRange', 'slot is 256')).toBe('The board cannot take this value: slot is 256.');
-    expect(errorSentence('outOfRange')).toBe('The board cannot take this value.');
+    expect(english.errorSentence('outOfRange', 'slot is 256')).toBe(
+      'The board cannot take this value: slot is 256.',
+    );
+    expect(english.errorSentence('outOfRange')).toBe('The board cannot take this value.');
   });
 
   test('nothing shouts, nothing is empty', () => {
-    for (const [path, text] of texts) {
-      expect(text, path).not.toMatch(/!|oops/iu);
+    for (const [path, text] of [...texts, ...plainTexts(chinese, 'chinese')]) {
+      expect(text, path).not.toMatch(/[!！]|oops/iu);
       expect(text.trim(), path).not.toBe('');
     }
   });
 
   test('every group of words is used by the page', () => {
-    const leaves = Object.entries(words).flatMap(([group, inner]) =>
+    const leaves = Object.entries(english).flatMap(([group, inner]) =>
       typeof inner === 'object' ? Object.keys(inner).map((key) => `${group}.${key}`) : [group],
     );
+    // Other words are made of the numbers; the page reads only some of them.
     const unused = leaves.filter((leaf) => {
       const group = leaf.split('.')[0] ?? leaf;
-      return !sources.includes(`words.${leaf}`) && !sources.includes(`words.${group}[`);
+      return (
+        group !== 'numbers' &&
+        group !== 'locale' &&
+        !sources.includes(`words.${leaf}`) &&
+        !sources.includes(`words.${group}[`)
+      );
     });
     expect(unused).toEqual([]);
   });
@@ -59,16 +67,74 @@ describe('the words', () => {
   });
 });
 
+/** Names, signs and keys that are the same to everybody. */
+const SAME_IN_CHINESE = /^(Servodeck|zh-CN|Esc|Windows|macOS|Linux|ChromeOS|mV|– V|55 55 02 0F|[A-Z%°×?])$/u;
+
+describe('Chinese', () => {
+  test('no plain text is English, and none is punctuated like it', () => {
+    for (const [path, text] of plainTexts(chinese, 'chinese')) {
+      if (SAME_IN_CHINESE.test(text)) continue;
+      expect(text, path).toMatch(/[\p{Script=Han}，]/u);
+      expect(text, path).not.toMatch(/\p{Script=Han}[,.:;?!()]/u);
+    }
+  });
+
+  test('every failure of a link has a sentence of its own that ends like one', () => {
+    const sentences = LINK_ERROR_CODES.map((code) => chinese.errorSentence(code, '详情'));
+    expect(new Set(sentences).size).toBe(LINK_ERROR_CODES.length);
+    for (const sentence of sentences) expect(sentence).toMatch(/\p{Script=Han}.*。$/u);
+  });
+
+  test('writes numbers and units its own way', () => {
+    expect(chinese.numbers.formatPosition(1500, 'us')).toBe('1500微秒');
+    expect(chinese.numbers.formatMs(1500)).toBe('1500毫秒');
+    expect(chinese.numbers.formatSeconds(4250)).toBe('4.3秒');
+    expect(chinese.numbers.formatAge(180_000)).toBe('3分钟前');
+    expect(chinese.numbers.formatList([1, 2, 3])).toBe('1、2和3');
+  });
+});
+
+describe('the language', () => {
+  afterEach(() => speak('en'));
+
+  test('is the first one of the browser that there are words for', () => {
+    expect(preferredLanguage(['de-AT', 'zh-Hans-CN', 'en'])).toBe('zh');
+    expect(preferredLanguage(['en-GB', 'zh'])).toBe('en');
+    expect(preferredLanguage(['ZH'])).toBe('zh');
+    expect(preferredLanguage(['de'])).toBe('en');
+    expect(preferredLanguage([])).toBe('en');
+  });
+
+  test('is what everybody reads once it is spoken', async () => {
+    await speak('zh');
+    expect(words.stop.button).toBe('停止');
+    await speak('en');
+    expect(words.stop.button).toBe('Stop');
+  });
+
+  test('is the one asked for last, however long the other takes to load', async () => {
+    await Promise.all([speak('zh'), speak('en')]);
+    expect(words.locale).toBe('en');
+  });
+
+  test('says of itself which it is', async () => {
+    for (const language of LANGUAGES) {
+      await speak(language);
+      expect(words.locale).toBe(OWN_NAMES[language].locale);
+    }
+  });
+});
+
 describe('numbers', () => {
   test('carry their unit', () => {
-    expect(formatVolts(7480)).toBe('7.48\u00a0V');
-    expect(formatPosition(1500, 'us')).toBe('1500 µs');
-    expect(formatPosition(500, 'steps')).toBe('500 steps');
-    expect(formatSeconds(4250)).toBe('4.3 sec');
+    expect(english.numbers.formatVolts(7480)).toBe('7.48\u00a0V');
+    expect(english.numbers.formatPosition(1500, 'us')).toBe('1500 µs');
+    expect(english.numbers.formatPosition(500, 'steps')).toBe('500 steps');
+    expect(english.numbers.formatSeconds(4250)).toBe('4.3 sec');
   });
 
   test('ages are whole seconds, then minutes', () => {
-    expect(formatAge(2600)).toBe('3 sec. ago');
-    expect(formatAge(180_000)).toBe('3 min. ago');
+    expect(english.numbers.formatAge(2600)).toBe('3 sec. ago');
+    expect(english.numbers.formatAge(180_000)).toBe('3 min. ago');
   });
 });

@@ -1,11 +1,14 @@
 // Undo for any immutable value: references to the states before and after, each step with a label for people. A gesture is
 // a transaction: begin, preview as often as needed, then commit as one step or cancel. Knows nothing of what it holds.
 
+/** What a step is called, asked whenever it is shown: its language may have changed since. */
+export type Label = () => string;
+
 /** Steps kept; with structural sharing 1,000 states of the largest group cost a few megabytes. */
 const MAX_STEPS = 1000;
 
 interface Step<T> {
-  readonly label: string;
+  readonly label: Label;
   /** The value on the far side of the step. */
   readonly value: T;
 }
@@ -25,13 +28,13 @@ export function startHistory<T>(present: T): History<T> {
 }
 
 /** One finished edit. A gesture in progress is committed first: no edit may vanish with somebody else's cancel. */
-export function record<T>(history: History<T>, label: string, next: T): History<T> {
+export function record<T>(history: History<T>, label: Label, next: T): History<T> {
   const settled = commit(history);
   return next === settled.present ? settled : step(settled, label, settled.present, next);
 }
 
 /** Starts a gesture; one already in progress is committed. */
-export function begin<T>(history: History<T>, label: string): History<T> {
+export function begin<T>(history: History<T>, label: Label): History<T> {
   const settled = commit(history);
   return { ...settled, gesture: { label, value: settled.present } };
 }
@@ -83,14 +86,14 @@ export function redo<T>(history: History<T>): History<T> {
 
 /** What Undo would take back; null where there is nothing. */
 export function undoLabel(history: History<unknown>): string | null {
-  return history.past.at(-1)?.label ?? null;
+  return history.past.at(-1)?.label() ?? null;
 }
 
 export function redoLabel(history: History<unknown>): string | null {
-  return history.future.at(-1)?.label ?? null;
+  return history.future.at(-1)?.label() ?? null;
 }
 
-function step<T>(history: History<T>, label: string, before: T, present: T): History<T> {
+function step<T>(history: History<T>, label: Label, before: T, present: T): History<T> {
   const past = [...history.past, { label, value: before }].slice(-MAX_STEPS);
   return { present, past, future: [], gesture: null };
 }

@@ -85,6 +85,8 @@ export const robotWords = {
   fresh: 'New robot',
   freshHint: (board: string): string => `Ready ones that fit the ${board}. Add one, then calibrate it.`,
   ready: READY,
+  /** What a ready robot is called when it is added. */
+  names: robotNames,
   add: (name: string): string => `Add ${name}`,
   import: 'Import a robot file',
   importHint: 'Or drop it here.',
@@ -99,7 +101,7 @@ export const robotWords = {
   back: 'All robots',
 };
 
-export function robotNames(id: ReadyRobotId): RobotNames {
+function robotNames(id: ReadyRobotId): RobotNames {
   return {
     robot: READY[id],
     role: (role, servo) =>

@@ -63,8 +63,8 @@ export const macroWords = {
     return `Wait ${formatSeconds(step.waitMs)}`;
   },
   stepCount: (count: number): string => `${formatWhole(count)} steps`,
-  progress: (step: number, count: number): string => `Step ${formatWhole(step)} of ${formatWhole(count)}`,
-  atWork: 'Press to end',
+  atWork: (step: number, count: number): string =>
+    `Step ${formatWhole(step)} of ${formatWhole(count)}. Press to end`,
 
   kiosk: 'Kiosk',
   kioskHint: `Shows only these buttons and Stop, also after a reload. To leave, hold the button at the lower left for ${formatWhole(KIOSK_HOLD_S)} seconds.`,

@@ -1,8 +1,7 @@
 // What to do when the port is not in the list, by operating system, most likely cause first. Facts about cables, drivers and
 // permissions; no panel.
 
-export const SYSTEMS = ['windows', 'macos', 'linux', 'chromeos'] as const;
-export type OperatingSystem = (typeof SYSTEMS)[number];
+import type { OperatingSystem } from '../systems.ts';
 
 const EVERYWHERE = [
   'Switch the robot on: many boards are not on the cable’s power alone.',

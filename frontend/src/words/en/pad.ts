@@ -1,14 +1,8 @@
 // Words about driving by pad and keys: names of inputs, what they do, and what the panel says.
 
 import type { Binding, Input, Side } from '#shared/actions/mapping/mapping.ts';
-import {
-  formatNames,
-  formatMs,
-  formatPercent,
-  formatWhole,
-  unitSymbol,
-  type PositionUnit,
-} from './numbers.ts';
+import { formatNames, formatMs, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
+import type { PositionUnit } from '../numbers.ts';
 
 /** As most pads print it; the order is the browser's standard one. */
 const BUTTONS: readonly string[] = [

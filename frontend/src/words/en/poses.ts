@@ -62,6 +62,7 @@ export const poseWords = {
     `${one} to ${other}, ${formatPercent(share)}`,
   blendNothing: 'The two poses have no servo in common.',
 
+  fileName: (robot: string): string => `${robot} poses`,
   import: 'Import poses',
   export: 'Export poses',
   importFailed: (problem: string): string => `No pose was taken from the file: ${problem}.`,

@@ -1,7 +1,8 @@
 // Words of the calibration: what to do with a servo at each step, and what each button sets.
 
 import type { CalibrationStep } from '#shared/actions/robot/robotCalibration.ts';
-import { formatPosition, formatWhole, unitSymbol, type PositionUnit } from './numbers.ts';
+import { formatPosition, formatWhole, unitSymbol } from './numbers.ts';
+import type { PositionUnit } from '../numbers.ts';
 
 export const calibrationWords = {
   servos: 'Servos to calibrate',

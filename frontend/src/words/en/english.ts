@@ -1,6 +1,7 @@
-// Every other sentence of the page in English, as one typed catalogue. Another language is another object of this type.
+// The English words, as one typed catalogue. Another language is another object of this type.
 // Words are short and concrete; verbs stand on buttons; whatever destroys something names what is lost.
 
+import type { Family } from '#shared/protocol/families.ts';
 import type { LinkState } from '#shared/session/state.ts';
 import {
   formatAge,
@@ -9,11 +10,13 @@ import {
   formatMs,
   formatSeconds,
   formatWhole,
+  numbers,
   unitSymbol,
-  type PositionUnit,
 } from './numbers.ts';
+import type { PositionUnit } from '../numbers.ts';
 import { batteryWords } from './battery.ts';
 import { calibrationWords } from './calibration.ts';
+import { errorSentence } from './errors.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { robotEditorWords } from './robotEditor.ts';
@@ -22,14 +25,22 @@ import { macroWords } from './macros.ts';
 import { poseWords } from './poses.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
-import { timesWords } from './packets.ts';
+import { packetWords, timesWords } from './packets.ts';
 
-export const words = {
+export const english = {
+  /** For `lang` and for whatever speaks or sorts. */
+  locale: 'en',
   product: 'Servodeck',
+  numbers,
+  errorSentence,
+  packets: packetWords,
+  boardName: (family: Pick<Family, 'id' | 'name'>): string => family.name,
   regions: { top: 'Robot and link', notices: 'Notices' },
   tabs: { live: 'Live', actions: 'Actions', board: 'Board', log: 'Log', buttons: 'Buttons' },
   tabList: 'Parts of the dashboard',
   close: 'Close',
+  /** Between marks of one thing. */
+  comma: ', ',
 
   truth: {
     commanded: 'Commanded',
@@ -51,9 +62,8 @@ export const words = {
     } satisfies Record<LinkState['status'], string>,
     simulated: 'Simulated',
     noBoard: 'No robot',
-    chip: (status: string, label: string): string => (label === '' ? status : `${status}, ${label}`),
+    chip: (status: string, label: string): string => `Link: ${label === '' ? status : `${status}, ${label}`}`,
     connect: 'Connect',
-    change: 'Link',
     disconnect: 'Disconnect',
     retryNow: 'Try now',
     moveHere: 'Move it here',
@@ -107,13 +117,24 @@ export const words = {
       acknowledged: 'received by the board',
       unknown: 'no word from the board',
     },
+    told: (activity: string, truth: string): string => `${activity}: ${truth}`,
     playing: (frame: number, count: number): string =>
       `Playing frame ${formatWhole(frame)} of ${formatWhole(count)}`,
     downloading: (slot: number): string => `Downloading to slot ${formatWhole(slot)}`,
     erasing: 'Erasing every slot',
   },
 
-  theme: { label: 'Appearance', system: 'As the system', light: 'Light', dark: 'Dark' },
+  theme: {
+    now: (theme: string): string => `Appearance: ${theme}`,
+    system: 'As the system',
+    light: 'Light',
+    dark: 'Dark',
+  },
+  language: {
+    label: 'Language',
+    system: 'As the system',
+    notLoaded: 'The words of this language could not be loaded. Reload the page to try again.',
+  },
 
   connect: {
     title: 'Connect a robot',
@@ -339,3 +360,6 @@ export const words = {
     `${name}: ${formatWhole(value)} is out of range; it takes ${formatWhole(min)} to ${formatWhole(max)}.`,
   dismiss: 'Dismiss',
 };
+
+/** What each language must say. */
+export type Words = typeof english;

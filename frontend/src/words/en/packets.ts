@@ -10,7 +10,7 @@ import { formatCount, formatMs, formatVolts, formatWhole, unitSymbol } from './n
 const TARGETS_SHOWN = 6;
 
 /** `command` null: what the family knows nothing of, by its bytes. */
-export function commandWords(command: Command | null, bytes: Uint8Array): string {
+function commandWords(command: Command | null, bytes: Uint8Array): string {
   if (command === null) return unknownWords(bytes);
   switch (command.kind) {
     case 'move':
@@ -45,7 +45,7 @@ function unknownWords(bytes: Uint8Array): string {
   return `Command ${formatWhole(bytes[3] ?? 0)}, unknown to this board`;
 }
 
-export function reportWords(report: Report): string {
+function reportWords(report: Report): string {
   switch (report.kind) {
     case 'runAccepted':
       return 'Run received';
@@ -75,7 +75,7 @@ export function reportWords(report: Report): string {
   }
 }
 
-export function noiseWords(noise: 'garbage' | 'truncated', byteCount: number): string {
+function noiseWords(noise: 'garbage' | 'truncated', byteCount: number): string {
   const bytes = bytesWords(byteCount);
   return noise === 'garbage' ? `Noise, ${bytes}` : `Packet cut short, ${bytes}`;
 }
@@ -89,9 +89,9 @@ const HAPPENINGS: Readonly<Record<Happening, string>> = {
   resumed: 'Motion allowed again',
 };
 
-export const happeningWords = (happening: Happening): string => HAPPENINGS[happening];
+const happeningWords = (happening: Happening): string => HAPPENINGS[happening];
 
-export const boardWords = (board: string): string => `From here on the board is ${board}`;
+const boardWords = (board: string): string => `From here on the board is ${board}`;
 
 const COMMANDS: Readonly<Record<CommandKind, string>> = {
   move: 'Move',
@@ -109,7 +109,7 @@ const COMMANDS: Readonly<Record<CommandKind, string>> = {
 };
 
 /** What the board would make of a packet written by hand, or why it does not get it. */
-export function rawWords(verdict: RawVerdict, bytes: Uint8Array, board: string): string {
+function rawWords(verdict: RawVerdict, bytes: Uint8Array, board: string): string {
   switch (verdict.kind) {
     case 'command':
       return commandWords(verdict.command, bytes);
@@ -180,3 +180,12 @@ function listWords(items: readonly string[]): string {
   const rest = items.length - shown.length;
   return rest === 0 ? shown.join(', ') : `${shown.join(', ')} and ${formatWhole(rest)} more`;
 }
+
+export const packetWords = {
+  command: commandWords,
+  report: reportWords,
+  noise: noiseWords,
+  happening: happeningWords,
+  board: boardWords,
+  raw: rawWords,
+};

@@ -1,0 +1,30 @@
+// Which language the page speaks. Each is called by its own name, for whoever cannot read the others.
+
+import { useStores, useView } from '../stores/stores.ts';
+import type { LanguageChoice } from '../stores/view.ts';
+import { Icon } from '../ui/Icon.tsx';
+import { LANGUAGES, OWN_NAMES, words } from '../words/words.ts';
+import styles from './LanguageControl.module.css';
+
+export function LanguageControl() {
+  const { view } = useStores();
+  const language = useView((state) => state.language);
+  return (
+    <div className={styles.control} title={words.language.label}>
+      <Icon name="globe" />
+      <select
+        className={styles.select}
+        aria-label={words.language.label}
+        value={language}
+        onChange={(event) => view.setState({ language: event.target.value as LanguageChoice })}
+      >
+        <option value="system">{words.language.system}</option>
+        {LANGUAGES.map((one) => (
+          <option key={one} value={one} lang={OWN_NAMES[one].locale}>
+            {OWN_NAMES[one].name}
+          </option>
+        ))}
+      </select>
+    </div>
+  );
+}

@@ -1,0 +1,25 @@
+// Numbers in English.
+
+import { numbersIn } from '../numbers.ts';
+
+export const numbers = numbersIn({
+  locale: 'en',
+  units: { us: 'µs', steps: 'steps' },
+  gap: ' ',
+});
+
+export const {
+  formatAge,
+  formatCount,
+  formatList,
+  formatMs,
+  formatNames,
+  formatPercent,
+  formatPosition,
+  formatSeconds,
+  formatTick,
+  formatTimeOfDay,
+  formatVolts,
+  formatWhole,
+  unitSymbol,
+} = numbers;

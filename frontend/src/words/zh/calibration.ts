@@ -1,0 +1,59 @@
+// Words of the calibration, in Chinese.
+
+import type { calibrationWords as english } from '../en/calibration.ts';
+import { formatPosition, formatWhole, unitSymbol } from './numbers.ts';
+
+export const calibrationWords: typeof english = {
+  servos: '要校准的舵机',
+  servo: (name, done, all) => `${name}，已完成${formatWhole(done)}步，共${formatWhole(all)}步`,
+  steps: '这个舵机的步骤',
+  stepNames: {
+    min: '最低',
+    max: '最高',
+    home: '初始位',
+    direction: '方向',
+    partner: '镜像',
+    trim: '微调',
+  },
+  isDone: (step) => `${step}，已完成`,
+  ends: {
+    min: '按住 − 或 +，直到允许的最低位置。在它发出嗡嗡声或碰到东西之前松开。',
+    max: '现在是另一端：允许的最高位置。',
+    home: '移到它休息时的位置：伸直、水平或半开。',
+  },
+  set: {
+    min: '把这里设为最低',
+    max: '把这里设为最高',
+    home: '把这里设为初始位',
+  },
+  keep: (at, unit) => `保留 ${formatPosition(at, unit)}`,
+  stepLabel: (step, servo) => `${servo}的${step}`,
+  lower: '点动减小',
+  higher: '点动增大',
+  now: '目标位置',
+  past: (min, max, unit) =>
+    `这里可以超过现有限位，但不超过控制板的范围：${formatWhole(min)}到${formatWhole(max)}${unitSymbol(unit)}。`,
+  unknown: '还不知道这个舵机在哪里。它会先慢慢转到中间。请保持距离。',
+  goHome: '慢慢转到中间',
+  direction: '点“转一点”并观察。它会转过去再转回来。',
+  turn: '转一点',
+  arrow: '按机器人图中的方向，它应该往哪边转',
+  asked: '它是按箭头方向转的吗？',
+  same: '是，方向一致',
+  other: '不是，方向相反',
+  partner: (name) => `${name}是它的镜像。可以把刚才设置的镜像值用在它上面：`,
+  partnerFigures: (min, home, max) =>
+    `最低 ${formatWhole(min)}，初始位 ${formatWhole(home)}，最高 ${formatWhole(max)}`,
+  partnerNot: '它的控制板转不了那么远。请单独校准对侧舵机。',
+  takeOver: (name) => `这样设置${name}`,
+  leaveAsIs: '保持不变',
+  trim: (home, centre, trim) =>
+    `初始位在 ${formatWhole(home)}。微调设为 ${formatWhole(trim)} 后，它记作 ${formatWhole(centre)}，姿态就能用在同样结构的其他机器人上。机器人不会动。`,
+  trimNone: '初始位就是控制板范围的中间，不需要微调。',
+  trimFar: '初始位离中间太远，无法微调。姿态照样能用；要改善，请把舵盘换一个齿装上。',
+  trimSet: (centre) => `记作 ${formatWhole(centre)}`,
+  goOn: '下一步',
+  finished: '所有舵机都已校准。',
+  done: '完成',
+  stopped: '已停止。恢复之前什么都不会动。',
+};

@@ -1,0 +1,26 @@
+// Numbers in Chinese, which leaves no gap before a unit that it writes out.
+
+import type { numbers as english } from '../en/numbers.ts';
+import { numbersIn } from '../numbers.ts';
+
+export const numbers: typeof english = numbersIn({
+  locale: 'zh-CN',
+  units: { us: '微秒', steps: '步' },
+  gap: '',
+});
+
+export const {
+  formatAge,
+  formatCount,
+  formatList,
+  formatMs,
+  formatNames,
+  formatPercent,
+  formatPosition,
+  formatSeconds,
+  formatTick,
+  formatTimeOfDay,
+  formatVolts,
+  formatWhole,
+  unitSymbol,
+} = numbers;

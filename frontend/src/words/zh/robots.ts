@@ -1,0 +1,107 @@
+// Words about robots, in Chinese.
+
+import type { Limb, ReadyRobotId, RobotNames, Role } from '#shared/actions/robot/readyRobots.ts';
+import type { robotWords as english } from '../en/robots.ts';
+import { formatWhole } from './numbers.ts';
+
+const READY: Readonly<Record<ReadyRobotId, string>> = {
+  arm: '机械臂，6个舵机',
+  hand: '机械手，6个舵机',
+  humanoid16: '人形机器人，16个舵机',
+  humanoid18: '人形机器人，18个舵机',
+  hexapod18: '六足机器人，18个舵机',
+  plain6: '普通，6个舵机',
+  plain16: '普通，16个舵机',
+  plain24: '普通，24个舵机',
+  plain32: '普通，32个舵机',
+};
+
+const ROLE_NAMES: Readonly<Record<Role, string>> = {
+  gripper: '夹爪',
+  wristRoll: '腕部旋转',
+  wrist: '腕部',
+  elbow: '肘部',
+  shoulder: '肩部',
+  base: '底座',
+  thumb: '拇指',
+  index: '食指',
+  middle: '中指',
+  ring: '无名指',
+  little: '小指',
+  foot: '脚',
+  ankle: '踝部',
+  knee: '膝部',
+  thigh: '大腿',
+  hip: '髋部',
+  shoulderTurn: '肩部旋转',
+  upperArm: '上臂',
+  hand: '手',
+  coxa: '髋节',
+  femur: '股节',
+  tibia: '胫节',
+  servo: '舵机',
+};
+
+const LIMB_NAMES: Readonly<Record<Limb, string>> = {
+  leftArm: '左臂',
+  rightArm: '右臂',
+  leftLeg: '左腿',
+  rightLeg: '右腿',
+  frontLeft: '左前腿',
+  middleLeft: '左中腿',
+  rearLeft: '左后腿',
+  frontRight: '右前腿',
+  middleRight: '右中腿',
+  rearRight: '右后腿',
+};
+
+function robotNames(id: ReadyRobotId): RobotNames {
+  return {
+    robot: READY[id],
+    role: (role, servo) => (role === 'servo' ? `${formatWhole(servo)}号舵机` : ROLE_NAMES[role]),
+    limb: (limb) => LIMB_NAMES[limb],
+  };
+}
+
+export const robotWords: typeof english = {
+  notSaved: '浏览器不能保存机器人；关闭页面前它们一直在。',
+  unreadable: '已保存的机器人无法读取。原文件已完好地另存。',
+  flaw: (flaw) => `这样不行：${flaw}。`,
+  copyOf: (name) => `${name}（副本）`,
+  steps: {
+    duplicate: '复制机器人',
+    remove: '删除机器人',
+    add: '新机器人',
+    import: '导入机器人',
+  },
+  called: ({ name, group }) => (group === '' ? name : `${name}，${group}`),
+  title: '机器人',
+  button: (name) => `机器人：${name}`,
+  own: '您的机器人',
+  count: (servos) => `${formatWhole(servos)}个舵机`,
+  atHand: '当前',
+  use: (name) => `使用${name}`,
+  useVerb: '使用',
+  otherBoard: (board) => `等待它的控制板：${board}`,
+  calibrate: '校准',
+  edit: '编辑',
+  duplicate: '复制',
+  export: '导出',
+  remove: '删除',
+  removeNamed: (name) => `删除${name}`,
+  fresh: '新机器人',
+  freshHint: (board) => `适合${board}的预设机器人。添加一个，然后校准。`,
+  ready: READY,
+  names: robotNames,
+  add: (name) => `添加${name}`,
+  import: '导入机器人文件',
+  importHint: '也可以拖到这里。',
+  imported: (name) => `${name}已导入。`,
+  importedElsewhere: (name, board) => `${name}已导入，等待连接它的控制板：${board}。`,
+  notImported: (file, problem) => `${file} 没有导入：${problem}。`,
+  undo: (label) => `撤销：${label}`,
+  redo: (label) => `重做：${label}`,
+  undoVerb: '撤销',
+  redoVerb: '重做',
+  back: '所有机器人',
+};
