@@ -70,6 +70,20 @@ export default defineConfig(
     rules: { 'react-hooks/exhaustive-deps': 'error' },
   },
   {
+    // The language changes under a running page, so a table that holds words is made where it is shown.
+    files: ['frontend/src/**/*.{ts,tsx}'],
+    ignores: ['**/*.test.ts', 'frontend/src/words/**'],
+    rules: {
+      'no-restricted-syntax': [
+        ...house['no-restricted-syntax'],
+        {
+          selector: 'Identifier[name="words"]:not(:function *, ImportSpecifier *)',
+          message: 'Words are read while drawing, not when a module is loaded: their language changes.',
+        },
+      ],
+    },
+  },
+  {
     // The type checker knows which names Node has; the linter does not see that a JSDoc cast names the type of an any.
     files: ['**/*.mjs'],
     rules: { 'no-undef': 'off', '@typescript-eslint/no-unsafe-assignment': 'off' },
