@@ -31,7 +31,9 @@ describe('a packet that is being typed', () => {
   test('is refused where the family must not get it, or nobody knows', () => {
     expect(judge('55 55 02 0C', 'learm-esp32').explanation).toMatch(/^Command 12 never goes to LeArm AI/u);
     expect(judge('55 55 02 63', 'lsc-6')).toMatchObject({ packet: null, isRefused: true });
-    expect(judge('55 55 08 03 01 E8 03 01 28 0A').explanation).toContain('allowed 500..2500 µs');
+    expect(judge('55 55 08 03 01 E8 03 01 28 0A').explanation).toContain(
+      'position of servo 1 is 2600, allowed is 500 to 2500',
+    );
   });
 
   test('can be sent once it is whole, to a robot that is there', () => {

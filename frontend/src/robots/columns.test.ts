@@ -43,6 +43,6 @@ describe('a text typed into a column', () => {
 
   test('a number that another servo has is a flaw of the whole robot', () => {
     const edited = typed('servo', '4');
-    expect('robot' in edited && flawOf(edited.robot)).toBe('servo 4 is there twice');
+    expect('robot' in edited && flawOf(edited.robot)).toEqual({ code: 'servoTwice', servo: 4 });
   });
 });

@@ -1,7 +1,8 @@
 import { describe, expect, test } from 'vitest';
+import { RangeRefusal } from '#shared/protocol/limits.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import { words } from '../words/words.ts';
+import { speak, words } from '../words/words.ts';
 import { createNotices } from './notices.ts';
 
 function createDesk() {
@@ -38,6 +39,25 @@ describe('notices', () => {
       tone: 'danger',
       text: words.errorSentence('internal', 'x is undefined'),
     });
+  });
+
+  test('a value that the board cannot take is told with its figures, in the language in use', async () => {
+    const { notices, told } = createDesk();
+    const refusal = new RangeRefusal({
+      field: 'position',
+      value: 2600,
+      range: { min: 500, max: 2500 },
+      servo: 3,
+    });
+    const failure = new LinkError('outOfRange', refusal.message, { cause: refusal });
+    notices.tellError(failure);
+    await speak('zh');
+    notices.tellError(failure);
+    await speak('en');
+    expect(told()).toEqual([
+      'The board cannot take this value: the position of servo 3 is 2600, allowed is 500 to 2500.',
+      '控制板不接受这个值：3号舵机的位置是 2600，应在 500 到 2500 之间。',
+    ]);
   });
 
   test('a dismissed notice is gone', () => {

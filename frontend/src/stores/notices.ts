@@ -3,6 +3,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
+import { RangeRefusal } from '#shared/protocol/limits.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import { words } from '../words/words.ts';
 
@@ -51,15 +52,16 @@ export function createNotices(clock: Clock): Notices {
     store,
     tell,
     tellError(error) {
-      const { code, message } = asLinkError(error);
+      const { code, message, cause } = asLinkError(error);
+      const detail = cause instanceof RangeRefusal ? words.rangeText(cause) : message;
       if (code !== 'cancelled')
-        tell(code === 'internal' ? 'danger' : 'warning', words.errorSentence(code, message));
+        tell(code === 'internal' ? 'danger' : 'warning', words.errorSentence(code, detail));
     },
     dismiss,
   };
 }
 
-function asLinkError(error: unknown): Pick<LinkError, 'code' | 'message'> {
+function asLinkError(error: unknown): Pick<LinkError, 'code' | 'message' | 'cause'> {
   if (error instanceof LinkError) return error;
   return { code: 'internal', message: error instanceof Error ? error.message : String(error) };
 }

@@ -63,10 +63,10 @@ describe('a packet by hand', () => {
     expect(judge('55 55 02 08', FAMILIES['learm-esp32'])).toEqual(refusal('flash'));
   });
 
-  test('limits hold as everywhere, with their sentence', () => {
-    expect(judge('55 55 08 03 01 E8 03 01 28 0A')).toEqual({
+  test('limits hold as everywhere, with their figures', () => {
+    expect(judge('55 55 08 03 01 E8 03 01 28 0A')).toMatchObject({
       kind: 'refused',
-      reason: { code: 'limits', detail: 'position of servo 1 is 2600, allowed 500..2500 µs' },
+      reason: { code: 'limits', refusal: { field: 'position', servo: 1, value: 2600, min: 500, max: 2500 } },
     });
   });
 

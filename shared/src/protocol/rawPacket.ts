@@ -24,7 +24,7 @@ export type RawRefusal =
   /** Written to flash, which needs the waiting and the marks of the operation itself. */
   | { readonly code: 'flash' }
   | { readonly code: 'otherShape'; readonly command: CommandKind }
-  | { readonly code: 'limits'; readonly detail: string };
+  | { readonly code: 'limits'; readonly refusal: RangeRefusal };
 
 const KINDS = new Map(Object.entries(COMMAND_NUMBER).map(([kind, number]) => [number, kind as CommandKind]));
 const FLASH: readonly CommandKind[] = ['erase', 'download'];
@@ -68,7 +68,7 @@ function judgeWhole(number: number, params: Uint8Array, family: Family): RawVerd
     return { kind: 'command', command };
   } catch (error) {
     if (!(error instanceof RangeRefusal)) throw error;
-    return { kind: 'refused', reason: { code: 'limits', detail: error.message } };
+    return { kind: 'refused', reason: { code: 'limits', refusal: error } };
   }
 }
 

@@ -65,12 +65,9 @@ export async function download(job: DownloadJob): Promise<void> {
   }
 }
 
-function frameCommands({ slot, frames, family }: DownloadJob): readonly FrameCommand[] {
+function frameCommands({ slot, frames }: DownloadJob): readonly FrameCommand[] {
   const frameCount = frames.length;
   if (frameCount === 0) throw new LinkError('outOfRange', 'an action group needs at least one frame');
-  if (frameCount > family.framesPerGroup) {
-    throw new LinkError('outOfRange', `${frameCount} frames, ${family.name} takes ${family.framesPerGroup}`);
-  }
   return frames.map((frame, frameIndex) => ({ kind: 'download', slot, frameCount, frameIndex, frame }));
 }
 

@@ -19,6 +19,7 @@ import { calibrationWords } from './calibration.ts';
 import { errorSentence } from './errors.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
+import { rangeText } from './refusals.ts';
 import { robotEditorWords } from './robotEditor.ts';
 import { padWords } from './pad.ts';
 import { macroWords } from './macros.ts';
@@ -33,6 +34,7 @@ export const english = {
   product: 'Servodeck',
   numbers,
   errorSentence,
+  rangeText,
   packets: packetWords,
   boardName: (family: Pick<Family, 'id' | 'name'>): string => family.name,
   regions: { top: 'Robot and link', notices: 'Notices' },

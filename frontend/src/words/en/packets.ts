@@ -5,6 +5,7 @@ import type { RawRefusal, RawVerdict } from '#shared/protocol/rawPacket.ts';
 import type { Report } from '#shared/protocol/reports.ts';
 import type { Happening } from '#shared/recording/recording.ts';
 import { formatCount, formatMs, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
+import { rangeText } from './refusals.ts';
 
 /** Targets named in one line of the log; the bytes beside it have the rest. */
 const TARGETS_SHOWN = 6;
@@ -143,7 +144,7 @@ function refusalWords(reason: RawRefusal, board: string): string {
     case 'otherShape':
       return `“${COMMANDS[reason.command]}” does not look like this; the board would act on bytes of earlier packets`;
     case 'limits':
-      return `The board cannot take this: ${reason.detail}`;
+      return `The board cannot take this: ${rangeText(reason.refusal)}`;
   }
 }
 

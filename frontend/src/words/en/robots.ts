@@ -1,6 +1,9 @@
 // Words about robots: names of the ready ones, of their servos and limbs, and what can be done with a description.
 
 import type { Limb, ReadyRobotId, RobotNames, Role } from '#shared/actions/robot/readyRobots.ts';
+import type { RobotFlaw, ServoFlaw } from '#shared/actions/robot/robot.ts';
+import type { RobotFileFlaw } from '#shared/actions/robot/robotText.ts';
+import type { Range } from '#shared/protocol/families.ts';
 import { formatWhole } from './numbers.ts';
 
 const READY: Readonly<Record<ReadyRobotId, string>> = {
@@ -54,10 +57,43 @@ const LIMB_NAMES: Readonly<Record<Limb, string>> = {
   rearRight: 'Rear right leg',
 };
 
+function flawText(flaw: RobotFileFlaw): string {
+  switch (flaw.code) {
+    case 'notOurs':
+      return 'this is no robot file of Servodeck';
+    case 'field':
+      return `the value of ${flaw.field} is none that can be`;
+    case 'servoTwice':
+      return `servo ${formatWhole(flaw.servo)} is there twice`;
+    case 'alarmNotBelow':
+      return `its battery alarm ${formatWhole(flaw.alarmMv)} mV is not below its warning ${formatWhole(flaw.warnMv)} mV`;
+    case 'servo':
+      return `${flaw.servo.name} (servo ${formatWhole(flaw.servo.servo)}): ${servoFlawText(flaw.flaw)}`;
+  }
+}
+
+function servoFlawText(flaw: ServoFlaw): string {
+  switch (flaw.code) {
+    case 'number':
+      return `its board takes servos ${rangeText(flaw.range)}`;
+    case 'minNotBelowMax':
+      return `its lowest position ${formatWhole(flaw.min)} is not below its highest ${formatWhole(flaw.max)}`;
+    case 'home':
+    case 'trim':
+      return `its ${flaw.code} ${formatWhole(flaw.value)} is outside ${rangeText(flaw.range)}`;
+    case 'beyondBoard':
+      return `with its trim it leaves what the board can do, ${rangeText(flaw.range)}`;
+    case 'noMirror':
+      return `its mirror, servo ${formatWhole(flaw.mirror)}, is not there`;
+  }
+}
+
+const rangeText = ({ min, max }: Range): string => `${formatWhole(min)}..${formatWhole(max)}`;
+
 export const robotWords = {
   notSaved: 'The browser does not store robots; they are kept until the page is closed.',
   unreadable: 'The saved robots could not be read. They were set aside unharmed.',
-  flaw: (flaw: string): string => `This cannot be: ${flaw}.`,
+  flaw: (flaw: RobotFlaw): string => `This cannot be: ${flawText(flaw)}.`,
   copyOf: (name: string): string => `${name}, copy`,
   steps: {
     duplicate: 'duplicate robot',
@@ -93,7 +129,8 @@ export const robotWords = {
   imported: (name: string): string => `${name} is imported.`,
   importedElsewhere: (name: string, board: string): string =>
     `${name} is imported and waits until its board, ${board}, is connected.`,
-  notImported: (file: string, problem: string): string => `${file} was not imported: ${problem}.`,
+  notImported: (file: string, problem: RobotFileFlaw): string =>
+    `${file} was not imported: ${flawText(problem)}.`,
   undo: (label: string): string => `Undo: ${label}`,
   redo: (label: string): string => `Redo: ${label}`,
   undoVerb: 'Undo',

@@ -21,6 +21,7 @@ import {
 import { packetWords, timesWords } from './packets.ts';
 import { padWords } from './pad.ts';
 import { poseWords } from './poses.ts';
+import { rangeText } from './refusals.ts';
 import { robotEditorWords } from './robotEditor.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
@@ -32,6 +33,7 @@ export const chinese: Words = {
   product: 'Servodeck',
   numbers,
   errorSentence,
+  rangeText,
   packets: packetWords,
   boardName,
   regions: { top: '机器人和连接', notices: '通知' },

@@ -17,7 +17,7 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
   unsupported: () => '这个浏览器打不开串口。请在电脑上使用 Chrome 或 Edge，或者在那台电脑上启动网关。',
   insecureAddress: () => '这个地址不安全，浏览器因此隐藏了串口。请改用 127.0.0.1 打开页面。',
   gatewayUnreachable: () => '这个地址没有网关应答。请用 “npm start” 启动网关后再试。',
-  gatewayRefused: (detail) => withDetail('网关拒绝了这个操作', detail),
+  gatewayRefused: (detail) => withDetail('网关拒绝了这个操作', inChinese(detail)),
   boardUnknown: () => '请说明这是哪种控制板。在此之前不会向它发送任何动作。',
   wrongBoard: () => '应答的不是原来那种控制板。请说明这是哪种控制板。',
   echo: () => '这个串口把发出的内容原样送了回来。请检查转接器与控制板的接线：RX 接 TX，TX 接 RX。',
@@ -28,13 +28,16 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
   busy: () => '控制板正忙。请等下载或擦除结束，或者取消它。',
   slotBroken: () => '这个槽位已损坏：上次下载没有完成。请重新下载一个动作组。',
   cancelled: () => '已取消。',
-  outOfRange: (detail) => withDetail('控制板不接受这个值', detail),
+  outOfRange: (detail) => withDetail('控制板不接受这个值', inChinese(detail)),
   internal: (detail) => withDetail('Servodeck 出错了，请报告这个问题', detail),
 };
 
 export function errorSentence(code: LinkErrorCode, detail = ''): string {
   return SENTENCES[code](detail);
 }
+
+/** Programs tell details in English, which is for whoever mends Servodeck: what a person can mend is told in Chinese. */
+const inChinese = (detail: string): string => (/\p{Script=Han}/u.test(detail) ? detail : '');
 
 function withDetail(sentence: string, detail: string): string {
   return detail === '' ? `${sentence}。` : `${sentence}：${detail.replace(/[.。]$/u, '')}。`;

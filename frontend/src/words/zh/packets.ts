@@ -6,6 +6,7 @@ import type { Report } from '#shared/protocol/reports.ts';
 import type { Happening } from '#shared/recording/recording.ts';
 import type { packetWords as english } from '../en/packets.ts';
 import { formatCount, formatMs, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
+import { rangeText } from './refusals.ts';
 
 /** Targets named in one line of the log; the bytes beside it have the rest. */
 const TARGETS_SHOWN = 6;
@@ -138,7 +139,7 @@ function refusalWords(reason: RawRefusal, board: string): string {
     case 'otherShape':
       return `“${COMMANDS[reason.command]}”不是这个格式；控制板会用到以前数据包里的字节`;
     case 'limits':
-      return `控制板不接受：${reason.detail}`;
+      return `控制板不接受：${rangeText(reason.refusal)}`;
   }
 }
 

@@ -1,6 +1,9 @@
 // Words about robots, in Chinese.
 
 import type { Limb, ReadyRobotId, RobotNames, Role } from '#shared/actions/robot/readyRobots.ts';
+import type { ServoFlaw } from '#shared/actions/robot/robot.ts';
+import type { RobotFileFlaw } from '#shared/actions/robot/robotText.ts';
+import type { Range } from '#shared/protocol/families.ts';
 import type { robotWords as english } from '../en/robots.ts';
 import { formatWhole } from './numbers.ts';
 
@@ -63,10 +66,44 @@ function robotNames(id: ReadyRobotId): RobotNames {
   };
 }
 
+function flawText(flaw: RobotFileFlaw): string {
+  switch (flaw.code) {
+    case 'notOurs':
+      return '这不是 Servodeck 的机器人文件';
+    case 'field':
+      return `${flaw.field} 的值不合理`;
+    case 'servoTwice':
+      return `${formatWhole(flaw.servo)}号舵机出现了两次`;
+    case 'alarmNotBelow':
+      return `报警电压 ${formatWhole(flaw.alarmMv)} mV 不低于提醒电压 ${formatWhole(flaw.warnMv)} mV`;
+    case 'servo':
+      return `${flaw.servo.name}（${formatWhole(flaw.servo.servo)}号舵机）${servoFlawText(flaw.flaw)}`;
+  }
+}
+
+function servoFlawText(flaw: ServoFlaw): string {
+  switch (flaw.code) {
+    case 'number':
+      return `的编号应在 ${rangeText(flaw.range)} 之间`;
+    case 'minNotBelowMax':
+      return `的最低位置 ${formatWhole(flaw.min)} 不低于最高位置 ${formatWhole(flaw.max)}`;
+    case 'home':
+      return `的初始位 ${formatWhole(flaw.value)} 不在 ${rangeText(flaw.range)} 之间`;
+    case 'trim':
+      return `的微调 ${formatWhole(flaw.value)} 不在 ${rangeText(flaw.range)} 之间`;
+    case 'beyondBoard':
+      return `加上微调后超出控制板的范围 ${rangeText(flaw.range)}`;
+    case 'noMirror':
+      return `的镜像，${formatWhole(flaw.mirror)}号舵机，不存在`;
+  }
+}
+
+const rangeText = ({ min, max }: Range): string => `${formatWhole(min)} 到 ${formatWhole(max)}`;
+
 export const robotWords: typeof english = {
   notSaved: '浏览器不能保存机器人；关闭页面前它们一直在。',
   unreadable: '已保存的机器人无法读取。原文件已完好地另存。',
-  flaw: (flaw) => `这样不行：${flaw}。`,
+  flaw: (flaw) => `这样不行：${flawText(flaw)}。`,
   copyOf: (name) => `${name}（副本）`,
   steps: {
     duplicate: '复制机器人',
@@ -98,7 +135,7 @@ export const robotWords: typeof english = {
   importHint: '也可以拖到这里。',
   imported: (name) => `${name}已导入。`,
   importedElsewhere: (name, board) => `${name}已导入，等待连接它的控制板：${board}。`,
-  notImported: (file, problem) => `${file} 没有导入：${problem}。`,
+  notImported: (file, problem) => `${file} 没有导入：${flawText(problem)}。`,
   undo: (label) => `撤销：${label}`,
   redo: (label) => `重做：${label}`,
   undoVerb: '撤销',

@@ -69,39 +69,53 @@ export type Robot = Readonly<Omit<z.infer<typeof robotSchema>, 'servos'>> & {
   readonly servos: readonly RobotServo[];
 };
 
-/** What is wrong with a robot, as a sentence for people with its field in front; null where nothing is. */
-export function flawOf(robot: Robot): string | null {
+/** What is wrong with a robot, for whoever has the words: ranges are what is allowed. */
+export type RobotFlaw =
+  | { readonly code: 'servoTwice'; readonly servo: number }
+  | { readonly code: 'alarmNotBelow'; readonly alarmMv: number; readonly warnMv: number }
+  | { readonly code: 'servo'; readonly servo: Pick<RobotServo, 'servo' | 'name'>; readonly flaw: ServoFlaw }
+  | ShapeFlaw;
+
+/** The value at `field`, a path like `servos.3.min`, is none. */
+export type ShapeFlaw = { readonly code: 'field'; readonly field: string };
+
+export type ServoFlaw =
+  | { readonly code: 'number' | 'beyondBoard'; readonly range: Range }
+  | { readonly code: 'minNotBelowMax'; readonly min: number; readonly max: number }
+  | { readonly code: 'home' | 'trim'; readonly value: number; readonly range: Range }
+  | { readonly code: 'noMirror'; readonly mirror: number };
+
+/** Null where nothing is wrong. */
+export function flawOf(robot: Robot): RobotFlaw | null {
   const numbers = robot.servos.map(({ servo }) => servo);
   const twice = numbers.find((servo, index) => numbers.indexOf(servo) < index);
-  if (twice !== undefined) return `servo ${twice} is there twice`;
+  if (twice !== undefined) return { code: 'servoTwice', servo: twice };
   const { thresholds } = robot.batteryCare;
   if (thresholds !== null && thresholds.alarmMv >= thresholds.warnMv)
-    return `its battery alarm ${thresholds.alarmMv} mV is not below its warning ${thresholds.warnMv} mV`;
+    return { code: 'alarmNotBelow', ...thresholds };
   for (const servo of robot.servos) {
     const flaw = flawOfServo(servo, robot);
-    if (flaw !== null) return `${servo.name} (servo ${servo.servo}): ${flaw}`;
+    if (flaw !== null) return { code: 'servo', servo: { servo: servo.servo, name: servo.name }, flaw };
   }
   const { error } = robotSchema.safeParse(robot);
-  return error === undefined ? null : shapeProblem(error);
+  return error === undefined ? null : shapeFlaw(error);
 }
 
-/** Where the shape is not that of a robot, and why. */
-export function shapeProblem({ issues: [first] }: z.core.$ZodError): string {
-  return first === undefined ? 'it is no robot' : `${first.path.join('.')}: ${first.message}`;
+/** Where the shape is not that of a robot. */
+export function shapeFlaw({ issues: [first] }: z.core.$ZodError): ShapeFlaw {
+  return { code: 'field', field: first?.path.join('.') ?? '' };
 }
 
-function flawOfServo({ servo, min, max, home, trim, mirror }: RobotServo, robot: Robot): string | null {
+function flawOfServo({ servo, min, max, home, trim, mirror }: RobotServo, robot: Robot): ServoFlaw | null {
   const family = FAMILIES[robot.board];
   const board = positionRange(family, servo);
-  if (servo < family.servo.min || servo > family.servo.max)
-    return `its board takes servos ${family.servo.min}..${family.servo.max}`;
-  if (min >= max) return `its lowest position ${min} is not below its highest ${max}`;
-  if (home < min || home > max) return `its home ${home} is outside ${min}..${max}`;
-  if (trim < TRIM.min || trim > TRIM.max) return `its trim ${trim} is outside ${TRIM.min}..${TRIM.max}`;
-  if (min + trim < board.min || max + trim > board.max)
-    return `with its trim it leaves what the board can do, ${board.min}..${board.max}`;
+  if (servo < family.servo.min || servo > family.servo.max) return { code: 'number', range: family.servo };
+  if (min >= max) return { code: 'minNotBelowMax', min, max };
+  if (home < min || home > max) return { code: 'home', value: home, range: { min, max } };
+  if (trim < TRIM.min || trim > TRIM.max) return { code: 'trim', value: trim, range: TRIM };
+  if (min + trim < board.min || max + trim > board.max) return { code: 'beyondBoard', range: board };
   if (mirror !== null && !robot.servos.some((other) => other.servo === mirror))
-    return `its mirror, servo ${mirror}, is not there`;
+    return { code: 'noMirror', mirror };
   return null;
 }
 

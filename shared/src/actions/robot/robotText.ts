@@ -1,8 +1,8 @@
 // A robot as a file, and back: JSON that carries its version and follows the published schema, docs/robot.schema.json. Reading
-// trusts nothing and says what is wrong in a sentence. Knows no place to store anything.
+// trusts nothing and says what is wrong. Knows no place to store anything.
 
 import * as z from 'zod/mini';
-import { flawOf, robotSchema, shapeProblem, type Robot } from './robot.ts';
+import { flawOf, robotSchema, shapeFlaw, type Robot, type RobotFlaw } from './robot.ts';
 
 const FORMAT = 'servodeck-robot';
 const VERSION = 1;
@@ -17,7 +17,10 @@ export function robotToText(robot: Robot): string {
   return `${JSON.stringify({ format: FORMAT, version: VERSION, robot }, null, 2)}\n`;
 }
 
-export type ReadRobot = { readonly robot: Robot } | { readonly problem: string };
+/** `notOurs`: it is no robot file of ours. */
+export type RobotFileFlaw = RobotFlaw | { readonly code: 'notOurs' };
+
+export type ReadRobot = { readonly robot: Robot } | { readonly problem: RobotFileFlaw };
 
 export function robotFromText(text: string): ReadRobot {
   const parsed = fileSchema.safeParse(jsonIn(text));
@@ -40,7 +43,7 @@ function jsonIn(text: string): unknown {
   }
 }
 
-function problemOf(error: z.core.$ZodError): string {
+function problemOf(error: z.core.$ZodError): RobotFileFlaw {
   const [field = 'format'] = error.issues[0]?.path ?? [];
-  return field === 'format' ? 'this is no robot file of Servodeck' : shapeProblem(error);
+  return field === 'format' ? { code: 'notOurs' } : shapeFlaw(error);
 }
