@@ -5,7 +5,8 @@ import { COLOURS } from '../colours.ts';
 import { EASINGS, emptyGroup, type ActionGroup, type Easing } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
 import { addMarker } from './markerEdits.ts';
-import { positionAt, tracksOf, type KeyRef, type Tracks } from './tracks.ts';
+import type { TimeRange } from './timeEdits.ts';
+import { frameEnds, positionAt, tracksOf, type KeyRef, type Tracks } from './tracks.ts';
 
 export interface GroupTraits {
   readonly servos?: readonly number[];
@@ -61,6 +62,26 @@ export function refsOf({ frames }: ActionGroup): readonly KeyRef[] {
 
 /** Any of its keys. */
 export const someRefs = (group: ActionGroup): fc.Arbitrary<KeyRef[]> => fc.subarray([...refsOf(group)]);
+
+/** Often just where a frame ends. */
+export function someInstant({ frames }: ActionGroup): fc.Arbitrary<number> {
+  const ends = frameEnds(frames);
+  return fc.oneof(fc.constantFrom(0, ...ends), fc.integer({ min: 0, max: (ends.at(-1) ?? 0) + 500 }));
+}
+
+export function someRange(group: ActionGroup): fc.Arbitrary<TimeRange> {
+  return fc
+    .tuple(someInstant(group), someInstant(group))
+    .map(([one, other]) => ({ fromMs: Math.min(one, other), toMs: Math.max(one, other) }));
+}
+
+/** A group and what is generated of it. */
+export function withGroup<T>(
+  groups: fc.Arbitrary<ActionGroup>,
+  more: (group: ActionGroup) => fc.Arbitrary<T>,
+): fc.Arbitrary<readonly [ActionGroup, T]> {
+  return groups.chain((group) => fc.tuple(fc.constant(group), more(group)));
+}
 
 /** What moves, without the names of the frames. */
 export function shapeOf(group: ActionGroup) {

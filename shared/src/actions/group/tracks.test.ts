@@ -3,6 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { BACKWARDS, CURVES } from './easings.ts';
 import { EASINGS, emptyGroup, totalDurationMs, type Easing } from './group.ts';
 import { insertFrame, setDuration, setTargets } from './groupEdits.ts';
+import { setEasing } from './frameEdits.ts';
 import { someGroup } from './groupsUnderTest.ts';
 import { frameEnds, keysAt, poseAtMs, positionAt, tracksOf } from './tracks.ts';
 
@@ -133,7 +134,8 @@ describe('the tracks of a group', () => {
     const after = tracksOf(turned, before);
     expect(after.get(2)).toBe(before.get(2));
     expect(after.get(1)).not.toBe(before.get(1));
-    expect(tracksOf(setDuration(group, 2, 300), before).get(2)).not.toBe(before.get(2));
+    for (const edited of [setDuration(group, 2, 300), setEasing(group, [2], 'in')])
+      expect(tracksOf(edited, before).get(2)).not.toBe(before.get(2));
   });
 
   test('tell the whole pose, with the servos that only stand there', () => {
