@@ -8,25 +8,30 @@ export interface Curve {
   at(share: number): number;
   /** Where within the time it is just as steep as a straight way of `slope`: there it is farthest from such a way. */
   asSteepAs(slope: number): readonly number[];
+  /** The greatest slope. */
+  readonly steepest: number;
 }
 
 const into: Curve = {
   at: (share) => share * share,
   asSteepAs: (slope) => [slope / 2],
+  steepest: 2,
 };
 
 export const CURVES: Readonly<Record<Easing, Curve>> = {
-  linear: { at: (share) => share, asSteepAs: () => [] },
+  linear: { at: (share) => share, asSteepAs: () => [], steepest: 1 },
   in: into,
   out: {
     at: (share) => 1 - into.at(1 - share),
     asSteepAs: (slope) => [1 - slope / 2],
+    steepest: 2,
   },
   inOut: {
     at: (share) => (share < 0.5 ? into.at(2 * share) / 2 : 1 - into.at(2 - 2 * share) / 2),
     asSteepAs: (slope) => [slope / 4, 1 - slope / 4],
+    steepest: 2,
   },
-  hold: { at: (share) => (share < 1 ? 0 : 1), asSteepAs: () => [] },
+  hold: { at: (share) => (share < 1 ? 0 : 1), asSteepAs: () => [], steepest: Infinity },
 };
 
 /** The same way seen from its end. A jump has no other end. */
