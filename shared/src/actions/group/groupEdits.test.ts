@@ -7,6 +7,7 @@ import {
   moveFrame,
   rename,
   setDuration,
+  setMeta,
   setTargets,
 } from './groupEdits.ts';
 import { changedServos, emptyGroup, poseAt, totalDurationMs, type ActionGroup } from './group.ts';
@@ -62,6 +63,12 @@ describe('edits of an action group', () => {
     expect(deleteFrame(group, 9)).toBe(group);
     expect(duplicateFrame(group, 9)).toBe(group);
     expect(rename(group, 'Wave')).toBe(group);
+  });
+
+  test('what is said of the whole group is said at once or in part', () => {
+    const said = setMeta(groupOf(1000), { name: 'Bow', tags: ['dance'], slot: 3, times: 2, robot: 'Mine' });
+    expect(said).toMatchObject({ name: 'Bow', tags: ['dance'], slot: 3, times: 2, robot: 'Mine' });
+    expect(setMeta(said, { tags: ['dance'], slot: 3 })).toBe(said);
   });
 
   test('an edit touches one frame and shares the others', () => {

@@ -5,7 +5,27 @@ import type { Frame, ServoTarget } from '../../protocol/commands.ts';
 import { sortedTargets, type ActionGroup, type GroupFrame } from './group.ts';
 
 export function rename(group: ActionGroup, name: string): ActionGroup {
-  return name === group.name ? group : { ...group, name };
+  return changed(group, { name });
+}
+
+/** What is said of the group as a whole. */
+export type GroupMeta = Pick<ActionGroup, 'name' | 'tags' | 'slot' | 'times' | 'robot'>;
+
+export function setMeta(group: ActionGroup, meta: Partial<GroupMeta>): ActionGroup {
+  const tags = meta.tags ?? group.tags;
+  return changed(group, { ...meta, tags: sameList(group.tags, tags) });
+}
+
+/** The very same object where nothing in `change` is different. */
+export function changed<T extends object>(before: T, change: Partial<T>): T {
+  const keys = Object.keys(change) as (keyof T)[];
+  return keys.every((key) => change[key] === before[key]) ? before : { ...before, ...change };
+}
+
+/** The list as it was where its items are. */
+export function sameList<T>(before: readonly T[], after: readonly T[]): readonly T[] {
+  const isSame = before.length === after.length && before.every((item, index) => item === after[index]);
+  return isSame ? before : after;
 }
 
 const PLAIN = { easing: 'linear', note: '', colour: null } as const;
@@ -57,9 +77,7 @@ export function moveFrame(group: ActionGroup, id: number, index: number): Action
 }
 
 export function setDuration(group: ActionGroup, id: number, durationMs: number): ActionGroup {
-  return changeFrame(group, id, (frame) =>
-    frame.durationMs === durationMs ? frame : { ...frame, durationMs },
-  );
+  return changeFrame(group, id, (frame) => changed(frame, { durationMs }));
 }
 
 /** Replaces the frame's pose. */
@@ -83,7 +101,8 @@ function changeFrame(group: ActionGroup, id: number, change: (frame: GroupFrame)
   return after === before ? group : { ...group, frames: group.frames.with(index, after) };
 }
 
-function samePose(one: readonly ServoTarget[], other: readonly ServoTarget[]): boolean {
+/** Both in ascending servo order. */
+export function samePose(one: readonly ServoTarget[], other: readonly ServoTarget[]): boolean {
   return (
     one.length === other.length &&
     one.every(

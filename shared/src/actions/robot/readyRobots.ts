@@ -157,7 +157,7 @@ export const READY_ROBOTS = {
 export type ReadyRobotId = keyof typeof READY_ROBOTS;
 
 /** Half a turn over the range of a common PWM servo, 240 degrees over that of a bus servo (X9). */
-const DEGREES_PER_UNIT = { us: 0.09, steps: 0.24 } as const;
+export const DEGREES_PER_UNIT = { us: 0.09, steps: 0.24 } as const;
 
 export function readyRobot(id: ReadyRobotId, board: FamilyId, names: RobotNames): Robot {
   const { body, joints, battery }: ReadyRobot = READY_ROBOTS[id];

@@ -1,0 +1,67 @@
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import { copyKeys, duplicateKeys, pasteKeys } from './clip.ts';
+import { emptyGroup } from './group.ts';
+import { insertFrame } from './groupEdits.ts';
+import { refsOf, shapeOf, someGroup, someRefs, withGroup } from './groupsUnderTest.ts';
+import { setKey } from './keyEdits.ts';
+
+const STAY = { ripple: false };
+const RIPPLE = { ripple: true };
+
+describe('a clip', () => {
+  test('pasted where it was taken changes nothing', () => {
+    const spaced = someGroup({ durationMs: fc.integer({ min: 1, max: 900 }), least: 1 });
+    fc.assert(
+      fc.property(withGroup(spaced, someRefs), ([group, refs]) => {
+        expect(duplicateKeys(group, refs, 0, STAY).group).toBe(group);
+      }),
+    );
+  });
+
+  test('brings its keys, as far apart as they were, into another group', () => {
+    const spaced = someGroup({ durationMs: fc.integer({ min: 1, max: 900 }), least: 1 });
+    fc.assert(
+      fc.property(spaced, fc.integer({ min: 0, max: 5000 }), (group, atMs) => {
+        const { group: there, problems } = pasteKeys(
+          emptyGroup('Other', 'steps'),
+          copyKeys(group, refsOf(group)),
+          atMs,
+          STAY,
+        );
+        const firstMs = Math.min(...shapeOf(group).flatMap(({ keys }) => keys.map((key) => key.atMs)));
+        expect(problems).toEqual([]);
+        expect(shapeOf(there)).toEqual(
+          shapeOf(group).map(({ servo, keys }) => ({
+            servo,
+            keys: keys.map((key) => ({ ...key, atMs: key.atMs - firstMs + atMs })),
+          })),
+        );
+        if (refsOf(group).length > 0) expect(there.unit).toBe('us');
+      }),
+    );
+  });
+
+  test('with ripple first makes room for itself', () => {
+    const pose = (position: number) => ({ durationMs: 500, targets: [{ servo: 1, position }] });
+    const group = [1000, 2000].reduce((sum, at) => insertFrame(sum, 9, pose(at)), emptyGroup('Wave', 'us'));
+    const clip = copyKeys(group, refsOf(group));
+    expect(shapeOf(pasteKeys(group, clip, 600, RIPPLE).group)[0]!.keys.map(({ atMs }) => atMs)).toEqual([
+      500, 600, 1100, 1500,
+    ]);
+  });
+
+  test('of another unit is refused, one beyond the limits is told', () => {
+    const one = setKey(emptyGroup('Wave', 'us'), 3, 100, 2400);
+    const clip = copyKeys(one, refsOf(one));
+    const steps = setKey(emptyGroup('Other', 'steps'), 1, 100, 500);
+    expect(pasteKeys(steps, clip, 0, STAY)).toEqual({
+      group: steps,
+      problems: [{ kind: 'unit', clip: 'us', group: 'steps' }],
+    });
+    const rangeOf = () => ({ min: 600, max: 2000 });
+    const { group, problems } = pasteKeys(one, clip, 500, { ...STAY, rangeOf });
+    expect(group.frames).toHaveLength(2);
+    expect(problems).toEqual([{ kind: 'position', servo: 3, position: 2400, min: 600, max: 2000 }]);
+  });
+});

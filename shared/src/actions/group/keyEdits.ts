@@ -1,0 +1,161 @@
+// Edits of single keys, as pure functions: (group, arguments) → group, the very same object where nothing changes. Servos that
+// are not named go on exactly as they did. What shifts time for everybody is timeEdits.ts.
+
+import type { ActionGroup, GroupFrame } from './group.ts';
+import { momentsOf, newMoment, placed, wholeMs, withMoments, withTargets, type Moment } from './moments.ts';
+import { isVacated, lifted, servosByFrame } from './lifted.ts';
+import { setDuration } from './timeEdits.ts';
+import type { KeyRef } from './tracks.ts';
+
+/** What the document can write down; what a board takes is far less. */
+const LARGEST_POSITION = 0xffff;
+
+const wholePosition = (position: number): number =>
+  Math.min(LARGEST_POSITION, Math.max(0, Math.round(position)));
+
+/**
+ * The servo is at `position` at `atMs`. Where no frame ends there, one begins and ends there now, and comes in as the one it
+ * was cut from.
+ */
+export function setKey(group: ActionGroup, servo: number, atMs: number, position: number): ActionGroup {
+  const moments = momentsOf(group);
+  const at = wholeMs(atMs);
+  const { easing = 'linear' } = moments.find((moment) => moment.atMs >= at)?.frame ?? {};
+  const targets = [{ servo, position: wholePosition(position) }];
+  return withMoments(
+    group,
+    placed(moments, at, targets, (own) => newMoment(at, own, easing)),
+  );
+}
+
+/** A key with its new position. */
+export interface KeyPosition extends KeyRef {
+  readonly position: number;
+}
+
+export function setPositions(group: ActionGroup, keys: readonly KeyPosition[]): ActionGroup {
+  const wanted = new Map(keys.map(({ frameId, servo, position }) => [nameOf(frameId, servo), position]));
+  return changePositions(
+    group,
+    keys,
+    (position, servo, frame) => wanted.get(nameOf(frame.id, servo)) ?? position,
+  );
+}
+
+const nameOf = (frameId: number, servo: number): string => `${frameId}/${servo}`;
+
+/** Frames left without a key go, unless they carry a note or a colour. */
+export function deleteKeys(group: ActionGroup, refs: readonly KeyRef[]): ActionGroup {
+  const { kept } = lifted(group, refs);
+  return withMoments(
+    group,
+    kept.filter((moment) => !isVacated(moment, group)),
+  );
+}
+
+export interface KeyMove {
+  readonly deltaMs: number;
+  readonly deltaPosition: number;
+}
+
+/** As far as all these keys can go together: not before the beginning, not beyond the numbers a document holds. */
+export function boundedMove(
+  group: ActionGroup,
+  refs: readonly KeyRef[],
+  { deltaMs, deltaPosition }: KeyMove,
+): KeyMove {
+  const { keys } = lifted(group, refs);
+  const positions = keys.flatMap(({ targets }) => targets.map(({ position }) => position));
+  const earliestMs = Math.min(...keys.map(({ atMs }) => atMs));
+  if (positions.length === 0) return { deltaMs: 0, deltaPosition: 0 };
+  const down = -positions.reduce((lowest, position) => Math.min(lowest, position), LARGEST_POSITION);
+  const up = LARGEST_POSITION - positions.reduce((highest, position) => Math.max(highest, position), 0);
+  return {
+    deltaMs: Math.max(-earliestMs, Math.round(deltaMs)),
+    deltaPosition: Math.min(up, Math.max(down, Math.round(deltaPosition))),
+  };
+}
+
+/**
+ * Moves keys in time and place, as far as all of them can go. One that meets another key of its servo takes its place; frames
+ * left without a key go, unless they carry a note or a colour. With `ripple` time itself moves: the frame of the earliest key
+ * takes that much longer or shorter, and everything behind it goes along.
+ */
+export function moveKeys(
+  group: ActionGroup,
+  refs: readonly KeyRef[],
+  move: KeyMove,
+  { ripple }: { readonly ripple: boolean },
+): ActionGroup {
+  const { deltaMs, deltaPosition } = boundedMove(group, refs, move);
+  if (deltaMs === 0 || ripple) {
+    const changed = changePositions(group, refs, (position) => position + deltaPosition);
+    return ripple ? rippled(changed, refs, deltaMs) : changed;
+  }
+  const { kept, keys } = lifted(group, refs);
+  // A frame that loses all its keys goes along with the first of them, so that it keeps its name.
+  const vacated = new Set(kept.filter((moment) => isVacated(moment, group)).map(({ frame }) => frame.id));
+  const staying = kept.filter(({ frame }) => !vacated.has(frame.id));
+  const moved = keys.reduce<readonly Moment[]>((moments, { atMs, frame, targets }) => {
+    const there = targets.map(({ servo, position }) => ({ servo, position: position + deltaPosition }));
+    return placed(moments, atMs + deltaMs, there, (own) =>
+      vacated.has(frame.id)
+        ? { atMs, frame: { ...frame, targets: own } }
+        : newMoment(atMs, own, frame.easing),
+    );
+  }, staying);
+  return withMoments(group, moved);
+}
+
+function rippled(group: ActionGroup, refs: readonly KeyRef[], deltaMs: number): ActionGroup {
+  const frames = new Set(refs.map(({ frameId }) => frameId));
+  const first = group.frames.find(({ id }) => frames.has(id));
+  return first === undefined
+    ? group
+    : setDuration(group, first.id, Math.max(0, first.durationMs + deltaMs), { ripple: true });
+}
+
+/** About where each servo's swing grows or shrinks: the mean of its keys that are meant, or the positions given. */
+export type AmplitudeCentre = 'mean' | ReadonlyMap<number, number>;
+
+/** Servos without a centre stay as they are. */
+export function scaleAmplitude(
+  group: ActionGroup,
+  refs: readonly KeyRef[],
+  factor: number,
+  about: AmplitudeCentre,
+): ActionGroup {
+  const centres = about === 'mean' ? meansOf(group, refs) : about;
+  return changePositions(group, refs, (position, servo) => {
+    const centre = centres.get(servo) ?? position;
+    return centre + (position - centre) * factor;
+  });
+}
+
+function meansOf(group: ActionGroup, refs: readonly KeyRef[]): ReadonlyMap<number, number> {
+  const sums = new Map<number, { readonly sum: number; readonly count: number }>();
+  for (const { servo, position } of lifted(group, refs).keys.flatMap(({ targets }) => targets)) {
+    const { sum, count } = sums.get(servo) ?? { sum: 0, count: 0 };
+    sums.set(servo, { sum: sum + position, count: count + 1 });
+  }
+  return new Map([...sums].map(([servo, { sum, count }]) => [servo, sum / count]));
+}
+
+function changePositions(
+  group: ActionGroup,
+  refs: readonly KeyRef[],
+  change: (position: number, servo: number, frame: GroupFrame) => number,
+): ActionGroup {
+  const meant = servosByFrame(refs);
+  const moments = momentsOf(group).map((moment) => {
+    const servos = meant.get(moment.frame.id);
+    if (servos === undefined) return moment;
+    const targets = moment.frame.targets.map(({ servo, position }) =>
+      servos.has(servo)
+        ? { servo, position: wholePosition(change(position, servo, moment.frame)) }
+        : { servo, position },
+    );
+    return withTargets(moment, targets);
+  });
+  return withMoments(group, moments);
+}

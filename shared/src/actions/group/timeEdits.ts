@@ -1,0 +1,136 @@
+// Edits of a group's time: frames and stretches of it take longer or shorter, go or turn round. Pure functions, the very same
+// object where nothing changes. Markers go along with what they stand on. Knows no key's position.
+
+import { BACKWARDS } from './easings.ts';
+import type { ActionGroup, Marker } from './group.ts';
+import { indexOfFrame } from './groupEdits.ts';
+import { momentsOf, wholeMs, withMoments, type Moment } from './moments.ts';
+
+export interface Ripple {
+  /** Everything behind goes along; otherwise it stays at its time. */
+  readonly ripple: boolean;
+}
+
+/** From the first to the last instant. */
+export interface TimeRange {
+  readonly fromMs: number;
+  readonly toMs: number;
+}
+
+/** Moves a frame's end; its neighbours' are as far as it goes. */
+export function moveBoundary(
+  group: ActionGroup,
+  frameId: number,
+  deltaMs: number,
+  { ripple }: Ripple,
+): ActionGroup {
+  const index = indexOfFrame(group, frameId);
+  const frame = group.frames[index];
+  if (frame === undefined) return group;
+  const nextMs = ripple ? Infinity : (group.frames[index + 1]?.durationMs ?? Infinity);
+  const byMs = Math.min(nextMs, Math.max(-frame.durationMs, Math.round(deltaMs)));
+  const isMoved = (other: number): boolean => other === index || (ripple && other > index);
+  const moments = momentsOf(group);
+  const moved = moments.map((moment, other) => (isMoved(other) ? later(moment, byMs) : moment));
+  const endMs = moments[index]?.atMs ?? 0;
+  const markers = ripple ? markersAt(group.markers, (atMs) => shifted(atMs, endMs, byMs)) : group.markers;
+  return withMoments(group, moved, { markers });
+}
+
+/** What stood within the time that is gone stands at its end. */
+function shifted(atMs: number, endMs: number, byMs: number): number {
+  return atMs >= endMs ? atMs + byMs : Math.min(atMs, endMs + byMs);
+}
+
+export function setDuration(
+  group: ActionGroup,
+  frameId: number,
+  durationMs: number,
+  ripple: Ripple,
+): ActionGroup {
+  const frame = group.frames[indexOfFrame(group, frameId)];
+  return frame === undefined ? group : moveBoundary(group, frameId, durationMs - frame.durationMs, ripple);
+}
+
+/** Everything behind `atMs` comes `durationMs` later: the servos take that much longer to their next keys. */
+export function insertTime(group: ActionGroup, atMs: number, durationMs: number): ActionGroup {
+  return retimed(group, (time) => (time > atMs ? time + durationMs : time));
+}
+
+/** What stands behind the first instant up to the last goes, keys and markers; everything behind it comes so much sooner. */
+export function deleteTime(group: ActionGroup, { fromMs, toMs }: TimeRange): ActionGroup {
+  if (toMs <= fromMs) return group;
+  const isOutside = ({ atMs }: { readonly atMs: number }): boolean => atMs <= fromMs || atMs > toMs;
+  const closed = (atMs: number): number => (atMs > toMs ? atMs - (toMs - fromMs) : atMs);
+  return retimed(group, closed, isOutside);
+}
+
+/** The range takes `factor` times as long. Without `ripple` it grows no farther than to what is behind it. */
+export function stretch(
+  group: ActionGroup,
+  { fromMs, toMs }: TimeRange,
+  factor: number,
+  { ripple }: Ripple,
+): ActionGroup {
+  if (toMs <= fromMs) return group;
+  const next = momentsOf(group).find(({ atMs }) => atMs > toMs);
+  const roomMs = ripple ? Infinity : (next?.atMs ?? Infinity) - fromMs;
+  const by = Math.min(Math.max(0, factor), roomMs / (toMs - fromMs));
+  const growthMs = ripple ? (toMs - fromMs) * (by - 1) : 0;
+  return retimed(group, (atMs) => {
+    if (atMs <= fromMs) return atMs;
+    return atMs <= toMs ? fromMs + (atMs - fromMs) * by : atMs + growthMs;
+  });
+}
+
+/** The whole group takes `factor` times as long. */
+export function scaleTime(group: ActionGroup, factor: number): ActionGroup {
+  return retimed(group, (atMs) => atMs * Math.max(0, factor));
+}
+
+/**
+ * The keys of the range come in the opposite order. Each way is gone as before, the other way round; how a servo comes into the
+ * range stays. Exact where the servos are keyed in all frames of it: a frame has one easing.
+ */
+export function reverse(group: ActionGroup, { fromMs, toMs }: TimeRange): ActionGroup {
+  const isWithin = (atMs: number): boolean => atMs >= fromMs && atMs <= toMs;
+  const turned = (atMs: number): number => (isWithin(atMs) ? fromMs + toMs - atMs : atMs);
+  const moments = momentsOf(group);
+  const within = moments.filter(({ atMs }) => isWithin(atMs));
+  const easings = within.map(({ frame }) => frame.easing);
+  const ways = [
+    easings[0],
+    ...easings
+      .slice(1)
+      .toReversed()
+      .map((easing) => BACKWARDS[easing]),
+  ];
+  const backwards = within.toReversed().map(({ atMs, frame }, index) => {
+    const easing = ways[index] ?? frame.easing;
+    return { atMs: turned(atMs), frame: { ...frame, easing } };
+  });
+  const first = moments.findIndex(({ atMs }) => isWithin(atMs));
+  const all = within.length < 2 ? moments : moments.toSpliced(first, within.length, ...backwards);
+  return withMoments(group, all, { markers: markersAt(group.markers, turned) });
+}
+
+/** Every moment and marker that stays, at its new time. */
+function retimed(
+  group: ActionGroup,
+  at: (atMs: number) => number,
+  stays: (one: { readonly atMs: number }) => boolean = () => true,
+): ActionGroup {
+  const moments = momentsOf(group).filter(stays);
+  const moved = moments.map((moment) => ({ ...moment, atMs: wholeMs(at(moment.atMs)) }));
+  const markers = markersAt(group.markers.filter(stays), at);
+  return withMoments(group, moved, { markers });
+}
+
+const later = (moment: Moment, byMs: number): Moment => ({ ...moment, atMs: moment.atMs + byMs });
+
+function markersAt(markers: readonly Marker[], at: (atMs: number) => number): readonly Marker[] {
+  return markers.map((marker) => {
+    const atMs = wholeMs(at(marker.atMs));
+    return atMs === marker.atMs ? marker : { ...marker, atMs };
+  });
+}

@@ -1,0 +1,123 @@
+// An action group seen servo by servo: the keys of each, and where it is between them. Numbers stay unrounded; what a board
+// makes of them is compile.ts. Knows no board.
+
+import type { Frame } from '../../protocol/commands.ts';
+import { CURVES } from './easings.ts';
+import type { ActionGroup, Easing, GroupFrame } from './group.ts';
+
+/** A key's name in the document. */
+export interface KeyRef {
+  readonly frameId: number;
+  readonly servo: number;
+}
+
+export interface Key extends KeyRef {
+  /** When the servo is there, counted from the beginning of the group. */
+  readonly atMs: number;
+  readonly position: number;
+  /** How it comes here from its key before. */
+  readonly easing: Easing;
+}
+
+/** One servo's keys in the order of time, at least one. */
+export interface Track {
+  readonly servo: number;
+  readonly keys: readonly Key[];
+}
+
+/** In ascending servo order. */
+export type Tracks = ReadonlyMap<number, Track>;
+
+const NO_TRACKS: Tracks = new Map();
+
+/** When each frame is done. */
+export function frameEnds(frames: readonly Frame[]): readonly number[] {
+  let atMs = 0;
+  return frames.map(({ durationMs }) => (atMs += durationMs));
+}
+
+/** A servo whose keys are the same as in `before` keeps its track object. */
+export function tracksOf({ frames }: Pick<ActionGroup, 'frames'>, before = NO_TRACKS): Tracks {
+  const keys = new Map<number, Key[]>();
+  let atMs = 0;
+  for (const frame of frames) {
+    atMs += frame.durationMs;
+    addKeys(keys, frame, atMs);
+  }
+  const servos = [...keys].sort(([one], [other]) => one - other);
+  return new Map(servos.map(([servo, own]) => [servo, trackOf(servo, own, before.get(servo))]));
+}
+
+function addKeys(keys: Map<number, Key[]>, { id: frameId, easing, targets }: GroupFrame, atMs: number): void {
+  for (const { servo, position } of targets) {
+    const key = { frameId, servo, atMs, position, easing };
+    const own = keys.get(servo);
+    if (own === undefined) keys.set(servo, [key]);
+    else own.push(key);
+  }
+}
+
+function trackOf(servo: number, keys: readonly Key[], before: Track | undefined): Track {
+  const isSame =
+    before?.keys.length === keys.length && before.keys.every((key, index) => sameKey(key, keys[index]));
+  return isSame ? before : { servo, keys };
+}
+
+function sameKey(one: Key, other: Key | undefined): boolean {
+  return (
+    one.frameId === other?.frameId &&
+    one.atMs === other.atMs &&
+    one.position === other.position &&
+    one.easing === other.easing
+  );
+}
+
+/**
+ * Null before the first key, unless it is known where the servo stands when the group begins. Of keys at the same instant
+ * the last one counts.
+ */
+export function positionAt({ keys }: Track, atMs: number, startPosition?: number): number | null {
+  const reached = keysUntil(keys, atMs);
+  const from = keys[reached - 1] ?? startOf(startPosition);
+  const to = keys[reached];
+  if (from === null || to === undefined) return from?.position ?? null;
+  const share = (atMs - from.atMs) / (to.atMs - from.atMs);
+  return from.position + (to.position - from.position) * CURVES[to.easing].at(Math.max(0, share));
+}
+
+const startOf = (position: number | undefined) => (position === undefined ? null : { atMs: 0, position });
+
+/** How many keys have come by then. */
+function keysUntil(keys: readonly Key[], atMs: number): number {
+  let low = 0;
+  let high = keys.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((keys[middle]?.atMs ?? Infinity) <= atMs) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** Where every servo is that anything is known of; `start` is where they stand when the group begins. */
+export function poseAtMs(
+  tracks: Tracks,
+  atMs: number,
+  start: ReadonlyMap<number, number> = new Map(),
+): ReadonlyMap<number, number> {
+  const pose = new Map(start);
+  for (const [servo, track] of tracks) {
+    const position = positionAt(track, atMs, start.get(servo));
+    if (position !== null) pose.set(servo, position);
+  }
+  return pose;
+}
+
+/** The keys of these servos at these times, by name; what is not there is left out. */
+export function keysAt(tracks: Tracks, wanted: readonly Pick<Key, 'servo' | 'atMs'>[]): readonly KeyRef[] {
+  return wanted.flatMap(({ servo, atMs }) => {
+    const keys = tracks.get(servo)?.keys ?? [];
+    const key = keys[keysUntil(keys, atMs) - 1];
+    return key?.atMs === atMs ? [{ frameId: key.frameId, servo }] : [];
+  });
+}
