@@ -15,7 +15,7 @@ export const EASINGS = ['linear', 'in', 'out', 'inOut', 'hold'] as const;
 export const GROUP_NAME_LENGTH = 64;
 export const NOTE_LENGTH = 200;
 /** Far above any board; keeps a damaged file from filling the memory. */
-const MAX_FRAMES = 10_000;
+export const MAX_FRAMES = 10_000;
 const MAX_MARKERS = 1000;
 const MAX_TAGS = 20;
 
