@@ -5,10 +5,7 @@ import { positionRange, type Family, type Range } from '../../protocol/families.
 import type { ActionGroup } from '../group/group.ts';
 import { servoOf, type Robot } from '../robot/robot.ts';
 
-export const MISFIT_CODES = [
-  ...(['unit', 'frameCount', 'slot', 'duration', 'servoCount', 'servo', 'position'] as const),
-] as const;
-export type MisfitCode = (typeof MISFIT_CODES)[number];
+export type MisfitCode = 'unit' | 'frameCount' | 'slot' | 'duration' | 'servoCount' | 'servo' | 'position';
 
 export interface Misfit {
   readonly code: MisfitCode;

@@ -9,13 +9,12 @@ export type Unit = ActionGroup['unit'];
 /** Counted from 1. */
 export type Place = { readonly line: number } | { readonly frame: number };
 
-export const PROBLEM_CODES = [
-  ...(['empty', 'tooLarge', 'unknownFormat', 'notOurs', 'noFrames', 'tooManyFrames', 'cutShort'] as const),
-  ...(['badMove', 'badTime', 'badServo', 'badPosition'] as const),
-  ...(['unpaired', 'notClosed', 'encrypted', 'unknownTag'] as const),
-  ...(['noColumn', 'columnTwice', 'cellCount', 'noTable', 'damagedDatabase'] as const),
-] as const;
-export type ProblemCode = (typeof PROBLEM_CODES)[number];
+export type ProblemCode =
+  | ('empty' | 'tooLarge' | 'unreadable' | 'unknownFormat' | 'notOurs')
+  | ('noFrames' | 'tooManyFrames' | 'cutShort')
+  | ('badMove' | 'badTime' | 'badServo' | 'badPosition')
+  | ('unpaired' | 'notClosed' | 'encrypted' | 'unknownTag')
+  | ('noColumn' | 'columnTwice' | 'cellCount' | 'noTable' | 'damagedDatabase');
 
 export interface Problem {
   readonly code: ProblemCode;
@@ -24,11 +23,9 @@ export interface Problem {
   readonly found: string;
 }
 
-export const REMARK_CODES = [
-  ...(['otherEncoding', 'unknownType', 'columnIgnored', 'indexOrder'] as const),
-  ...(['servoTwice', 'bytesBehind', 'nameCut'] as const),
-] as const;
-export type RemarkCode = (typeof REMARK_CODES)[number];
+export type RemarkCode =
+  | ('otherEncoding' | 'unknownType' | 'columnIgnored' | 'indexOrder')
+  | ('servoTwice' | 'bytesBehind' | 'nameCut');
 
 /** What the file has and the group has not, or a choice that was made. */
 export interface Remark extends Omit<Problem, 'code'> {

@@ -18,7 +18,7 @@ import { writeXml } from './xml.ts';
 export const SAVE_FORMATS = ['json', 'xml', 'd6a', 'rob', 'csv', 'python', 'arduino'] as const;
 export type SaveFormat = (typeof SAVE_FORMATS)[number];
 
-const EXTENSIONS: Readonly<Record<SaveFormat, string>> = {
+export const EXTENSIONS: Readonly<Record<SaveFormat, string>> = {
   ...{ json: '.json', xml: '.xml', d6a: '.d6a', rob: '.rob', csv: '.csv' },
   ...{ python: '.py', arduino: '.ino' },
 };
