@@ -37,7 +37,13 @@ export function misfitsOf(group: ActionGroup, family: Family, robot: Robot): rea
 }
 
 const NOTHING: Range = { min: 0, max: 0 };
-const OTHER_UNIT: Misfit = { code: 'unit', servo: null, frames: [], values: NOTHING, allowed: NOTHING };
+export const OTHER_UNIT: Misfit = {
+  code: 'unit',
+  servo: null,
+  frames: [],
+  values: NOTHING,
+  allowed: NOTHING,
+};
 
 function servoMisfits({ frames, unit }: ActionGroup, family: Family, robot: Robot): readonly Misfit[] {
   const positions = new Map<number, Value[]>();

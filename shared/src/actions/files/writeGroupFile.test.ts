@@ -118,14 +118,21 @@ test('XML is what the vendor program reads: a byte order mark, one table, number
   });
 });
 
+test('pulse widths are no steps: a .rob file of them would be read as another motion', async () => {
+  expect(await save('rob', WAVE)).toMatchObject({ misfits: [{ code: 'unit' }] });
+});
+
 test('a servo of which a .rob file knows nothing is refused, with its frames', async () => {
   expect(
     await save(
       'rob',
-      groupOf([
-        [500, { 1: 500 }],
-        [500, { 1: 600, 41: 500 }],
-      ]),
+      groupOf(
+        [
+          [500, { 1: 500 }],
+          [500, { 1: 600, 41: 500 }],
+        ],
+        { unit: 'steps' },
+      ),
     ),
   ).toEqual({
     misfits: [

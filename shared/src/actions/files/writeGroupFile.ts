@@ -8,7 +8,7 @@ import { arduinoOf } from './arduino.ts';
 import { writeCsv } from './csv.ts';
 import { fileNameOf } from './fileName.ts';
 import { filled } from './filled.ts';
-import type { Misfit } from './fit.ts';
+import { OTHER_UNIT, type Misfit } from './fit.ts';
 import { programOf, type Program } from './program.ts';
 import { pythonOf } from './python.ts';
 import { ROB_SERVOS, writeRob } from './rob.ts';
@@ -35,7 +35,7 @@ export interface Board {
 
 export type MakeDatabase = (sheet: Sheet) => Promise<Uint8Array<ArrayBuffer>>;
 
-/** Misfits only where nothing was written: a program must not send what cannot be, a .rob file has 40 servos of a bus. */
+/** Misfits only where nothing was written: a program must not send what cannot be, a .rob file has 40 servos of a bus, in steps. */
 export async function writeGroupFile(
   format: SaveFormat,
   group: ActionGroup,
@@ -66,6 +66,7 @@ function filledFrames(group: ActionGroup): ActionGroup['frames'] {
 }
 
 function robOf(group: ActionGroup): Uint8Array<ArrayBuffer> | { readonly misfits: readonly Misfit[] } {
+  if (group.unit !== 'steps') return { misfits: [OTHER_UNIT] };
   const strangers = group.frames.flatMap(({ targets }, index) =>
     targets
       .filter(({ servo }) => servo < 1 || servo > ROB_SERVOS)
