@@ -25,8 +25,8 @@ export default defineConfig({
     reportCompressedSize: false,
     rolldownOptions: {
       input: ['frontend/index.html', 'frontend/gallery.html'],
-      // The packages change less often than the page: a browser keeps them.
-      output: { codeSplitting: { groups: [{ name: 'packages', test: /node_modules/ }] } },
+      // The packages change less often than the page: a browser keeps them. SQLite is fetched only when it is wanted.
+      output: { codeSplitting: { groups: [{ name: 'packages', test: /node_modules(?!.*sql[.]js)/ }] } },
     },
   },
 });

@@ -16,9 +16,10 @@ BODY_BYTES = 16 * 1024
 STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
 
 CONTENT_POLICY = (
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; font-src 'self'; "
-    "connect-src 'self' ws://{host}; worker-src 'self'; manifest-src 'self'; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    # The page's SQLite is WebAssembly of its own origin; this allows no other evaluation.
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
+    "img-src 'self' data:; font-src 'self'; connect-src 'self' ws://{host}; "
+    "worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
 FIXED_HEADERS = {
     "X-Content-Type-Options": "nosniff",

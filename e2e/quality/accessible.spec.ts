@@ -3,6 +3,7 @@
 
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
+import { at } from '../../scripts/steps.mjs';
 import { dashboardOf } from '../fixtures/dashboard.ts';
 import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import { expect, test } from '../fixtures/test.ts';
@@ -132,6 +133,23 @@ for (const viewport of SIZES) {
     await dashboard.button('Battery settings').click();
     await page.getByRole('radio', { name: 'Go to rest and stop' }).check();
     await expectSound({ page, isDark: false }, 'battery settings');
+  });
+}
+
+for (const viewport of SIZES) {
+  test(`${viewport.width} px: files are accessible and fit`, async ({ page, servers }) => {
+    await page.setViewportSize(viewport);
+    const dashboard = dashboardOf(page);
+    await page.goto((await servers.files()).url);
+    await expect(dashboard.link).toContainText('Ready');
+    if (viewport.width < 700) await page.getByRole('tab', { name: 'Actions' }).click();
+    await dashboard.button('Files').click();
+    const choosing = page.waitForEvent('filechooser');
+    await dashboard.button('Choose files').click();
+    const names = ['No.10 wave.xml', 'step.rob', 'secret.rob'];
+    await (await choosing).setFiles(names.map((name) => at(`shared/vectors/files/${name}`)));
+    await expect(page.getByText('secret.rob was not opened.')).toBeVisible();
+    await expectSound({ page, isDark: false }, 'files');
   });
 }
 

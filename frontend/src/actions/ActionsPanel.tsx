@@ -4,6 +4,7 @@
 import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { redoLabel, undoLabel } from '#shared/actions/history.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
+import { FilesArea, FilesButton } from '../files/FilesArea.tsx';
 import { useDevice, useDocument, useGroup, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
@@ -18,18 +19,25 @@ export function ActionsPanel() {
   const group = useGroup();
   const otherUnit = useDevice((state) => state.family.unit !== group.unit) && group.frames.length > 0;
   return (
-    <Panel
-      title={words.actions.title}
-      tabs={<AuthoringTabs />}
-      note={<GroupName />}
-      tools={<UndoRedo />}
-      className={styles.panel}
-    >
-      {otherUnit && <p className={styles.warning}>{words.actions.otherUnit(group.unit)}</p>}
-      {group.frames.length === 0 ? <Empty /> : <FrameStrip />}
-      <FrameTools />
-      <CaptureBar totalMs={totalDurationMs(group.frames)} />
-    </Panel>
+    <FilesArea>
+      <Panel
+        title={words.actions.title}
+        tabs={<AuthoringTabs />}
+        note={<GroupName />}
+        tools={
+          <>
+            <FilesButton />
+            <UndoRedo />
+          </>
+        }
+        className={styles.panel}
+      >
+        {otherUnit && <p className={styles.warning}>{words.actions.otherUnit(group.unit)}</p>}
+        {group.frames.length === 0 ? <Empty /> : <FrameStrip />}
+        <FrameTools />
+        <CaptureBar totalMs={totalDurationMs(group.frames)} />
+      </Panel>
+    </FilesArea>
   );
 }
 

@@ -46,7 +46,8 @@ function Bars({ servos, pose, changed, family }: PoseThumbProps & { readonly ser
         if (position === undefined) {
           return <rect key={servo} className={styles.unknown} x={x} y={10} width={width * 0.7} height={2} />;
         }
-        const top = 20 - fraction(position, family.position) * 18;
+        // A file may bring positions that no board takes: they stand at the edge.
+        const top = 20 - Math.min(1, Math.max(0, fraction(position, family.position))) * 18;
         const className = changed.includes(servo) ? styles.changed : styles.kept;
         return <rect key={servo} className={className} x={x} y={top} width={width * 0.7} height={22 - top} />;
       })}

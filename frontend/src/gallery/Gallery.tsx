@@ -21,6 +21,7 @@ import { editServoView, StoresContext, type Stores } from '../stores/stores.ts';
 import { useSpokenLocale } from '../ui/useSpokenLocale.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
+import { FileSpecimens } from './FileSpecimens.tsx';
 import { PoseSpecimens } from './PoseSpecimens.tsx';
 import { RobotSpecimens } from './RobotSpecimens.tsx';
 import { PadSpecimens } from './PadSpecimens.tsx';
@@ -53,6 +54,7 @@ export function Gallery() {
             <RawSpecimens />
             <PadSpecimens />
             <PoseSpecimens />
+            <FileSpecimens newStores={() => storesOf(BLANK)} />
             <RobotSpecimens newStores={() => storesOf(BLANK)} />
           </StoresContext>
         )}

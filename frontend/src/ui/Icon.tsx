@@ -17,6 +17,7 @@ const PATHS = {
   up: 'M3 10l5-5 5 5',
   down: 'M3 6l5 5 5-5',
   download: 'M8 2.5v7.5M4.5 7L8 10.5 11.5 7M3 13.5h10',
+  file: 'M4 2h5l3 3v9H4zM9 2v3h3',
   save: 'M3 3h8l2 2v8H3zM5.5 3v3.5h4V3M5.5 13V9.5h5V13',
   rest: 'M3 12.5h10M4.5 9.5h7M6 6.5h4',
   mirror: 'M8 2v12M6 4.5L2.5 11.5H6zM10 4.5l3.5 7H10z',

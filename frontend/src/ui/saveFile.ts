@@ -1,4 +1,4 @@
-// Hands a text to the person as a file, the browser's way.
+// Hands a text or bytes to the person as a file, the browser's way.
 
 export interface TextFile {
   readonly name: string;
@@ -6,7 +6,11 @@ export interface TextFile {
 }
 
 export function saveFile({ name, text }: TextFile): void {
-  const url = URL.createObjectURL(new Blob([text], { type: 'text/plain' }));
+  saveBlob(name, new Blob([text], { type: 'text/plain' }));
+}
+
+export function saveBlob(name: string, content: Blob): void {
+  const url = URL.createObjectURL(content);
   const link = document.createElement('a');
   link.href = url;
   link.download = name;

@@ -17,6 +17,7 @@ import type { PositionUnit } from '../numbers.ts';
 import { batteryWords } from './battery.ts';
 import { calibrationWords } from './calibration.ts';
 import { errorSentence } from './errors.ts';
+import { fileWords } from './files.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { rangeText } from './refusals.ts';
@@ -88,6 +89,7 @@ export const english = {
   },
   pad: padWords,
   poses: poseWords,
+  files: fileWords,
   macros: macroWords,
 
   stop: {

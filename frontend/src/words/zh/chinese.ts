@@ -5,6 +5,7 @@ import { batteryWords } from './battery.ts';
 import { boardName } from './boards.ts';
 import { calibrationWords } from './calibration.ts';
 import { errorSentence } from './errors.ts';
+import { fileWords } from './files.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { macroWords } from './macros.ts';
@@ -86,6 +87,7 @@ export const chinese: Words = {
   },
   pad: padWords,
   poses: poseWords,
+  files: fileWords,
   macros: macroWords,
 
   stop: {

@@ -13,6 +13,11 @@ export const groupFileSchema = z.strictObject({
   content: groupSchema,
 });
 
+/** The schema that other programs may use: docs/group.schema.json. */
+export function publishedGroupSchema(): object {
+  return z.toJSONSchema(groupFileSchema, { target: 'draft-2020-12' });
+}
+
 export const groupToText = (group: ActionGroup): string => versionedText(FORMAT, group);
 
 export function groupFromText(text: string): Read<ActionGroup> {

@@ -1,0 +1,140 @@
+// Groups from the vendors' programs: opened, looked at, undone, saved, and read back the same; a broken file tells where and why.
+
+import { readFileSync } from 'node:fs';
+import { at } from '../../scripts/steps.mjs';
+import type { Dashboard } from '../fixtures/dashboard.ts';
+import { captureGroup } from '../fixtures/group.ts';
+import { expect, test } from '../fixtures/test.ts';
+
+interface Given {
+  readonly name: string;
+  readonly content: Buffer;
+}
+
+const vector = (name: string): Given => ({ name, content: readFileSync(at(`shared/vectors/files/${name}`)) });
+
+function filesDialogOf({ page, button }: Dashboard) {
+  const dialog = page.getByRole('dialog', { name: 'Files' });
+  const file = (name: string) => dialog.getByRole('listitem', { name, exact: true });
+  return {
+    dialog,
+    file,
+
+    async open(...files: readonly Given[]): Promise<void> {
+      if (!(await dialog.isVisible())) await button(/^Files/).click();
+      const choosing = page.waitForEvent('filechooser');
+      await dialog.getByRole('button', { name: 'Choose files' }).click();
+      const mimeType = 'application/octet-stream';
+      await (
+        await choosing
+      ).setFiles(files.map(({ name, content }) => ({ name, mimeType, buffer: content })));
+    },
+
+    async save(format: string): Promise<Given> {
+      if (!(await dialog.isVisible())) await button(/^Files/).click();
+      await dialog.getByRole('radio', { name: format, exact: true }).check();
+      const downloading = page.waitForEvent('download');
+      await dialog.getByRole('button', { name: /^Save / }).click();
+      const download = await downloading;
+      return { name: download.suggestedFilename(), content: readFileSync(await download.path()) };
+    },
+  };
+}
+
+/** What a person reads of each frame. */
+const framesOf = (dashboard: Dashboard) =>
+  dashboard.frames
+    .getByRole('button', { name: /^Frame / })
+    .evaluateAll((faces) => faces.map((face) => face.getAttribute('aria-label')));
+
+test('a vendor’s XML becomes frames in one step, and saved as XML it is read back the same', async ({
+  dashboard,
+}) => {
+  const files = filesDialogOf(dashboard);
+  await files.open(vector('No.10 wave.xml'));
+  const wave = files.file('No.10 wave.xml');
+  await expect(wave).toContainText('4 frames, 2.6 sec, 6 servos, for slot 10');
+  const take = wave.getByRole('button', { name: 'Open wave' });
+  await expect(take).toBeDisabled();
+  await wave.getByRole('button', { name: /^Pulse widths/ }).click();
+  await take.click();
+
+  await expect(files.dialog).toBeHidden();
+  await expect(dashboard.frames).toHaveCount(4);
+  await expect(dashboard.frame(2)).toHaveAccessibleName('Frame 2, 400 ms, moves servo 3 and 6');
+  const frames = await framesOf(dashboard);
+  await dashboard.button('Undo: open wave').click();
+  await expect(dashboard.frames).toHaveCount(0);
+  await dashboard.button('Redo: open wave').click();
+
+  const saved = await files.save('XML');
+  expect(saved.name).toBe('10 wave.xml');
+  await files.open({ ...saved, name: 'again.xml' });
+  await files.file('again.xml').getByRole('button', { name: 'Open again' }).click();
+  await expect(dashboard.field('Name of the group')).toHaveValue('again');
+  expect(await framesOf(dashboard)).toEqual(frames);
+});
+
+test('a .d6a database is opened and saved by the page alone @everyWay', async ({ dashboard }) => {
+  const files = filesDialogOf(dashboard);
+  await files.open(vector('greet.d6a'));
+  const greet = files.file('greet.d6a');
+  await greet.getByRole('button', { name: /^Pulse widths/ }).click();
+  await greet.getByRole('button', { name: 'Open greet' }).click();
+  await expect(dashboard.frames).toHaveCount(3);
+  const saved = await files.save('.d6a');
+  expect(saved.name).toBe('greet.d6a');
+  expect(saved.content.subarray(0, 15).toString()).toBe('SQLite format 3');
+  await files.open({ ...saved, name: 'back.d6a' });
+  await expect(files.file('back.d6a')).toContainText('3 frames, 1.6 sec, 3 servos');
+});
+
+test('several files come at once; a broken one tells where and why, and changes nothing', async ({
+  dashboard,
+}) => {
+  await captureGroup(dashboard, [1000, 1200]);
+  const files = filesDialogOf(dashboard);
+  const broken = vector('nod.xml').content.toString().replace('P1900', 'P19.0');
+  await files.open(
+    vector('secret.rob'),
+    { name: 'broken.xml', content: Buffer.from(broken) },
+    vector('step.rob'),
+  );
+  await expect(files.file('broken.xml')).toContainText('broken.xml was not opened.');
+  await expect(files.file('broken.xml')).toContainText('Line 8: “19.0” is no position');
+  await expect(files.file('secret.rob')).toContainText('It is encrypted.');
+  await expect(files.file('step.rob')).toContainText('It is made for boards that count in another unit.');
+  await files.file('broken.xml').getByRole('button', { name: 'Take broken.xml off the list' }).click();
+  await expect(files.file('broken.xml')).toBeHidden();
+  await dashboard.button('Close').click();
+  await expect(dashboard.frames).toHaveCount(2);
+  await expect(dashboard.button('Files, 2 opened')).toBeVisible();
+});
+
+test('what the board cannot do becomes no program, and says which servo and frame', async ({ dashboard }) => {
+  const files = filesDialogOf(dashboard);
+  const far = vector('nod.xml').content.toString().replace('P1900', 'P2900');
+  await files.open({ name: 'far.xml', content: Buffer.from(far) });
+  await expect(files.file('far.xml')).toContainText('Servo 3 goes to 2900; it takes 500 to 2500. Frame 2.');
+  await files.file('far.xml').getByRole('button', { name: 'Open far' }).click();
+  await dashboard.button('Files').click();
+  await files.dialog.getByRole('radio', { name: 'Python' }).check();
+  await files.dialog.getByRole('button', { name: 'Save far.py' }).click();
+  await expect(files.dialog.getByRole('status')).toContainText('Servo 3 goes to 2900');
+});
+
+test('files dropped anywhere on the panel are opened; beside it a drop does nothing', async ({
+  dashboard,
+  page,
+}) => {
+  const text = vector('nod.xml').content.toString();
+  const carried = await page.evaluateHandle((xml) => {
+    const data = new DataTransfer();
+    data.items.add(new File([xml], 'nod.xml'));
+    return data;
+  }, text);
+  await page.getByRole('banner').dispatchEvent('drop', { dataTransfer: carried });
+  await expect(filesDialogOf(dashboard).dialog).toBeHidden();
+  await page.getByRole('region', { name: 'Action group' }).dispatchEvent('drop', { dataTransfer: carried });
+  await expect(filesDialogOf(dashboard).file('nod.xml')).toContainText('2 frames, 0.8 sec, 6 servos');
+});

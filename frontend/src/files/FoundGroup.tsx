@@ -1,0 +1,84 @@
+// A group as it stands in a file: its picture and measures, the unit asked where nobody said, what does not fit. It is taken
+// over as it is, or converted where the person says so.
+
+import { useMemo, useState } from 'react';
+import { misfitsOf } from '#shared/actions/files/fit.ts';
+import type { Unit } from '#shared/actions/files/reading.ts';
+import { inUnit, toSteps } from '#shared/actions/files/units.ts';
+import { poseAt, totalDurationMs, type ActionGroup } from '#shared/actions/group/group.ts';
+import { PoseThumb } from '../body/PoseThumb.tsx';
+import { useDevice, useRobot } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { Toggle } from '../ui/Toggle.tsx';
+import { words } from '../words/words.ts';
+import { GroupPlot } from './GroupPlot.tsx';
+import { UnitQuestion } from './UnitQuestion.tsx';
+import styles from './FoundGroup.module.css';
+
+export interface FoundGroupProps {
+  readonly found: ActionGroup;
+  readonly asksUnit: boolean;
+  onTake(group: ActionGroup): void;
+}
+
+export function FoundGroup({ found, asksUnit, onTake }: FoundGroupProps) {
+  const family = useDevice((state) => state.family);
+  const [unit, setUnit] = useState<Unit | null>(asksUnit ? null : found.unit);
+  const [converts, setConverts] = useState(false);
+  const named = inUnit(found, unit ?? found.unit);
+  const converted = family.unit === 'steps' ? toSteps(named) : null;
+  const group = converts && converted !== null ? converted : named;
+  const { frames } = group;
+  return (
+    <div className={styles.group}>
+      <div className={styles.row}>
+        {group.unit === family.unit && (
+          <span className={styles.thumb}>
+            <PoseThumb pose={poseAt(frames, Math.floor(frames.length / 2))} changed={[]} family={family} />
+          </span>
+        )}
+        <GroupPlot group={group} />
+        <div className={styles.words}>
+          <p className={styles.name}>{group.name}</p>
+          <p className={styles.dim}>{aboutOf(group)}</p>
+        </div>
+        <Button
+          tone="primary"
+          aria-label={words.files.take(group.name)}
+          isDisabled={unit === null}
+          onPress={() => onTake(group)}
+        >
+          {words.files.takeVerb}
+        </Button>
+      </div>
+      {asksUnit && <UnitQuestion group={found} unit={unit} onUnit={setUnit} />}
+      {unit === 'us' && converted !== null && (
+        <Toggle label={words.files.convert} isOn={converts} onChange={setConverts} />
+      )}
+      {unit !== null && <Misfits group={group} />}
+    </div>
+  );
+}
+
+function aboutOf({ frames, slot }: ActionGroup): string {
+  const servos = new Set(frames.flatMap(({ targets }) => targets.map(({ servo }) => servo)));
+  const about = words.files.about(frames.length, totalDurationMs(frames), servos.size);
+  return slot === null ? about : `${about}, ${words.files.slot(slot)}`;
+}
+
+function Misfits({ group }: { readonly group: ActionGroup }) {
+  const family = useDevice((state) => state.family);
+  const robot = useRobot();
+  const misfits = useMemo(() => misfitsOf(group, family, robot), [group, family, robot]);
+  if (misfits.length === 0) return null;
+  return (
+    <div className={styles.misfits}>
+      <p>{words.files.misfits}</p>
+      <ul>
+        {misfits.map((misfit) => (
+          <li key={`${misfit.code} ${misfit.servo}`}>{words.files.misfit(misfit)}</li>
+        ))}
+      </ul>
+    </div>
+  );
+}

@@ -1,0 +1,62 @@
+// One opened file: each group in it with its picture, what has to be asked and told, and the way to take it over. A file that
+// cannot be read says where and why.
+
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { Remark } from '#shared/actions/files/reading.ts';
+import { IconButton } from '../ui/Button.tsx';
+import { words } from '../words/words.ts';
+import { FoundGroup } from './FoundGroup.tsx';
+import type { OpenedFile } from './openedFiles.ts';
+import styles from './OpenedFileItem.module.css';
+
+export interface OpenedFileItemProps {
+  readonly file: OpenedFile;
+  onTake(groups: readonly ActionGroup[]): void;
+  onDrop(): void;
+}
+
+export function OpenedFileItem({ file: { name, reading }, onTake, onDrop }: OpenedFileItemProps) {
+  return (
+    <li className={styles.file} aria-label={name} aria-busy={reading === null}>
+      <div className={styles.head}>
+        {reading === null && <p className={styles.dim}>{`${words.files.reading} ${name}`}</p>}
+        {reading !== null && 'problem' in reading && (
+          <div>
+            <p className={styles.refused}>{words.files.refused(name)}</p>
+            <p>{words.files.problem(reading.problem)}</p>
+          </div>
+        )}
+        {reading !== null && 'groups' in reading && <p className={styles.dim}>{words.files.from(name)}</p>}
+        <IconButton icon="close" label={words.files.drop(name)} onPress={onDrop} />
+      </div>
+      {reading !== null && 'groups' in reading && (
+        <>
+          {reading.groups.map((group, index) => (
+            <FoundGroup
+              key={index}
+              found={group}
+              asksUnit={reading.asksUnit}
+              onTake={(one) => onTake([one])}
+            />
+          ))}
+          <Remarks remarks={reading.remarks} />
+        </>
+      )}
+    </li>
+  );
+}
+
+/** A file may give the same reason for each of its frames. */
+const SHOWN_REMARKS = 6;
+
+function Remarks({ remarks }: { readonly remarks: readonly Remark[] }) {
+  if (remarks.length === 0) return null;
+  return (
+    <ul className={styles.remarks}>
+      {remarks.slice(0, SHOWN_REMARKS).map((remark, index) => (
+        <li key={index}>{words.files.remark(remark)}</li>
+      ))}
+      {remarks.length > SHOWN_REMARKS && <li>{words.files.moreRemarks(remarks.length - SHOWN_REMARKS)}</li>}
+    </ul>
+  );
+}

@@ -1,0 +1,106 @@
+// What the pure readers of files have to be given: the browser's text decoder, and SQLite for .d6a files, which is fetched when
+// the first such file is opened or saved. Knows tables, no action group.
+
+import type { Means } from '#shared/actions/files/readGroupFile.ts';
+import { Unreadable } from '#shared/actions/files/reading.ts';
+import { INDEX_COLUMN, type Sheet } from '#shared/actions/files/sheet.ts';
+import type { MakeDatabase } from '#shared/actions/files/writeGroupFile.ts';
+import { MAX_FRAMES } from '#shared/actions/group/group.ts';
+import type { Decode } from '#shared/actions/files/text.ts';
+
+/** What of SQLite is used, however it is loaded. */
+export interface Sqlite {
+  readonly Database: new (bytes?: Uint8Array) => Database;
+}
+
+interface Database {
+  exec(sql: string): readonly { readonly columns: readonly string[]; readonly values: readonly Cell[][] }[];
+  run(sql: string, values?: Cell[]): unknown;
+  export(): Uint8Array;
+  close(): void;
+}
+
+type Cell = number | string | Uint8Array | null;
+
+export interface FileMeans extends Means {
+  readonly makeDatabase: MakeDatabase;
+}
+
+export function fileMeans(loadSqlite: () => Promise<Sqlite>): FileMeans {
+  return {
+    decode,
+    openDatabase: async (bytes) => withDatabase(await loadSqlite(), sheetIn, bytes),
+    makeDatabase: async (sheet) =>
+      withDatabase(await loadSqlite(), (database) => {
+        fill(database, sheet);
+        return new Uint8Array(database.export());
+      }),
+  };
+}
+
+const decode: Decode = (bytes, encoding) => {
+  try {
+    return new TextDecoder(encoding, { fatal: true }).decode(bytes);
+  } catch {
+    return null;
+  }
+};
+
+function withDatabase<T>({ Database }: Sqlite, work: (database: Database) => T, bytes?: Uint8Array): T {
+  const database = new Database(bytes);
+  try {
+    return work(database);
+  } finally {
+    database.close();
+  }
+}
+
+const TABLE = 'ActionGroup';
+/** One more than a group may have tells that there are too many, and a file that says it has no end has one. */
+const ROW_LIMIT = MAX_FRAMES + 1;
+
+/** A table alone: a view could compute for ever. */
+function sheetIn(database: Database): Sheet {
+  database.run('PRAGMA trusted_schema = OFF');
+  const named = database.exec(
+    `SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = '${TABLE}' COLLATE NOCASE
+     AND sql NOT LIKE 'CREATE VIRTUAL%'`,
+  );
+  if (named.length === 0) throw new Unreadable('noTable', TABLE);
+  const columns = database
+    .exec(`SELECT name FROM pragma_table_info('${TABLE}')`)
+    .flatMap(({ values }) => values.map(([name]) => textOf(name)));
+  const order = columns.find((column) => column.toLowerCase() === INDEX_COLUMN.toLowerCase());
+  const rows = database.exec(
+    `SELECT * FROM ${TABLE} ORDER BY ${order === undefined ? 'rowid' : '"Index"'} LIMIT ${ROW_LIMIT}`,
+  );
+  return {
+    columns,
+    rows: rows.flatMap(({ values }) =>
+      values.map((cells, index) => ({ place: { frame: index + 1 }, cells: cells.map(textOf) })),
+    ),
+  };
+}
+
+const textOf = (cell: Cell | undefined): string =>
+  typeof cell === 'string' || typeof cell === 'number'
+    ? String(cell)
+    : cell instanceof Uint8Array
+      ? '(bytes)'
+      : '';
+
+/** As the vendors' programs make it. Columns are `Index`, `Time` and `ServoN`: nothing of a person's stands in the SQL. */
+function fill(database: Database, { columns, rows }: Sheet): void {
+  const declared = columns.map((column) =>
+    column === INDEX_COLUMN ? `"${column}" INTEGER PRIMARY KEY AUTOINCREMENT` : `"${column}" INT`,
+  );
+  database.run(`CREATE TABLE ${TABLE} (${declared.join(', ')})`);
+  const places = columns.map(() => '?').join(', ');
+  database.run('BEGIN');
+  for (const { cells } of rows)
+    database.run(
+      `INSERT INTO ${TABLE} VALUES (${places})`,
+      cells.map((cell) => (cell === '' ? null : Number(cell))),
+    );
+  database.run('COMMIT');
+}

@@ -1,0 +1,65 @@
+// What the dialog about files shows: groups of which one asks for its unit, one that does not fit, and broken files.
+
+import { useState } from 'react';
+import type { Reading } from '#shared/actions/files/reading.ts';
+import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
+import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { FilesContent } from '../files/FilesDialog.tsx';
+import type { OpenedFile } from '../files/openedFiles.ts';
+import { StoresContext, type Stores } from '../stores/stores.ts';
+import styles from './Gallery.module.css';
+
+const READINGS: readonly (readonly [name: string, reading: Reading | null])[] = [
+  ['No.10 wave.xml', { groups: [wave('wave', 1500, 10)], asksUnit: true, remarks: [] }],
+  [
+    'nod.xml',
+    {
+      groups: [wave('nod', 600, null)],
+      asksUnit: false,
+      remarks: [{ code: 'servoTwice', place: { frame: 3 }, found: '2' }],
+    },
+  ],
+  ['dance.rob', { problem: { code: 'encrypted', place: null, found: '' } }],
+  ['walk.csv', { problem: { code: 'badPosition', place: { line: 7 }, found: '1500.5' } }],
+  ['greet.d6a', null],
+];
+
+export function FileSpecimens({ newStores }: { newStores(): Stores }) {
+  const [stores] = useState(() => prepared(newStores()));
+  const [list] = useState<readonly OpenedFile[]>(() =>
+    READINGS.map(([name, reading], id) => ({ id, name, reading })),
+  );
+  const files = { list, open: () => undefined, drop: () => undefined };
+  return (
+    <StoresContext value={stores}>
+      <article className={styles.specimen} aria-label="Files">
+        <h2 className={styles.name}>Files</h2>
+        <div className={styles.dialog}>
+          <FilesContent files={files} onTake={() => undefined} />
+        </div>
+      </article>
+    </StoresContext>
+  );
+}
+
+function prepared(stores: Stores): Stores {
+  stores.document.edit(
+    () => 'open',
+    () => wave('Wave', 1500, null),
+  );
+  return stores;
+}
+
+function wave(name: string, centre: number, slot: number | null): ActionGroup {
+  const swings = Array.from({ length: 12 }, (_, index) => ({
+    durationMs: 300,
+    targets: Array.from({ length: index === 4 ? 3 : 6 }, (_, servo) => ({
+      servo: servo + 1,
+      position: Math.round(centre + 380 * Math.sin(index * 0.8) * Math.cos(servo)),
+    })),
+  }));
+  return swings.reduce<ActionGroup>((group, frame, index) => insertFrame(group, index, frame), {
+    ...emptyGroup(name, 'us'),
+    slot,
+  });
+}

@@ -1,0 +1,33 @@
+// What a file's name says of its group, and the name that a group's file gets. Vendor programs name the slot there:
+// `12号`, `No.10 wave`, `10 wave` (boards.md section 7). Knows no content.
+
+import { GROUP_NAME_LENGTH } from '../group/group.ts';
+
+export interface Named {
+  readonly name: string;
+  readonly slot: number | null;
+}
+
+const SLOT_MARKS = [/(\d{1,3})\s*号/, /^\s*No\.?\s*(\d{1,3})(?!\d)/i, /^\s*(\d{1,3})(?=\s|$)/];
+
+export function namedByFile(fileName: string): Named {
+  const stem = fileName.replace(/\.[^.]{0,8}$/, '');
+  for (const mark of SLOT_MARKS) {
+    const found = mark.exec(stem);
+    const slot = Number(found?.[1]);
+    if (found === null || slot > 0xff) continue;
+    const rest = stem.replace(found[0], '').replace(/^[\s._-]+/, '');
+    return { name: nameOf(rest, stem), slot };
+  }
+  return { name: nameOf(stem, fileName), slot: null };
+}
+
+/** Whatever file systems do not bear is left out. */
+export function fileNameOf(group: Named, extension: string): string {
+  const plain = group.name.replaceAll(/[^\p{L}\p{N} ._-]/gu, '').trim();
+  const named = plain === '' ? 'group' : plain;
+  return `${group.slot === null ? '' : `${group.slot} `}${named}${extension}`;
+}
+
+const nameOf = (text: string, otherwise: string): string =>
+  (text.trim() === '' ? otherwise : text).trim().slice(0, GROUP_NAME_LENGTH);

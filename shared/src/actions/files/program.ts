@@ -1,0 +1,48 @@
+// A group as packets that a program of one's own sends: what this page would send, in portions that fit the board, with the
+// robot's trims. Refused where the board or the robot cannot take it. Knows no programming language.
+
+import type { Frame } from '../../protocol/commands.ts';
+import { encodeCommand } from '../../protocol/encode.ts';
+import type { Family } from '../../protocol/families.ts';
+import type { ActionGroup } from '../group/group.ts';
+import { onBoard, type Robot } from '../robot/robot.ts';
+import { filled } from './filled.ts';
+import { misfitsOf, type Misfit } from './fit.ts';
+
+export interface Program {
+  readonly group: ActionGroup;
+  readonly family: Family;
+  /** Whole poses, as the board is to be told. */
+  readonly frames: readonly Frame[];
+}
+
+/** The way to the first frame is gentle: nobody knows where the servos stand. */
+export const FIRST_MOVE_MS = 1500;
+
+export function programOf(
+  group: ActionGroup,
+  family: Family,
+  robot: Robot,
+): { readonly program: Program } | { readonly misfits: readonly Misfit[] } {
+  const misfits = misfitsOf(group, family, robot).filter(({ code }) => !STORED_ONLY.includes(code));
+  if (misfits.length > 0) return { misfits };
+  const frames = filled(group).frames.map(({ durationMs, targets }) => ({
+    durationMs,
+    targets: onBoard(robot, targets),
+  }));
+  return { program: { group, family, frames } };
+}
+
+/** What limits a board's memory limits no program. */
+const STORED_ONLY: readonly Misfit['code'][] = ['frameCount', 'servoCount', 'slot'];
+
+/** One frame's moves in the order they are sent; none for a pause. */
+export function movesOf({ durationMs, targets }: Frame, family: Family): readonly Uint8Array[] {
+  const size = family.servosPerMove;
+  return Array.from({ length: Math.ceil(targets.length / size) }, (_, index) =>
+    encodeCommand(
+      { kind: 'move', durationMs, targets: targets.slice(index * size, (index + 1) * size) },
+      family,
+    ),
+  );
+}

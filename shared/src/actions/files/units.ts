@@ -1,0 +1,45 @@
+// What a group's numbers would mean in either unit, and the one conversion that people use between them. Knows no board:
+// pulse widths and steps are what they are on all of them (boards.md section 2.1).
+
+import type { Range } from '../../protocol/families.ts';
+import { sortedTargets, type ActionGroup } from '../group/group.ts';
+import type { Unit } from './reading.ts';
+
+export const UNIT_RANGE: Readonly<Record<Unit, Range>> = {
+  us: { min: 500, max: 2500 },
+  steps: { min: 0, max: 1000 },
+};
+
+export interface Meaning {
+  /** null where no servo is named. */
+  readonly positions: Range | null;
+  /** How many positions no servo can take. */
+  readonly outside: number;
+}
+
+export function meaningIn(unit: Unit, { frames }: ActionGroup): Meaning {
+  const { min, max } = UNIT_RANGE[unit];
+  let [lowest, highest, outside] = [Infinity, -Infinity, 0];
+  for (const { targets } of frames)
+    for (const { position } of targets) {
+      lowest = Math.min(lowest, position);
+      highest = Math.max(highest, position);
+      if (position < min || position > max) outside += 1;
+    }
+  return { positions: lowest > highest ? null : { min: lowest, max: highest }, outside };
+}
+
+export const inUnit = (group: ActionGroup, unit: Unit): ActionGroup =>
+  group.unit === unit ? group : { ...group, unit };
+
+/** As others rescale it: (p − 500) / 2, to the nearest step. null where a position is no pulse width. */
+export function toSteps(group: ActionGroup): ActionGroup | null {
+  if (group.unit !== 'us' || meaningIn('us', group).outside > 0) return null;
+  const frames = group.frames.map((frame) => ({
+    ...frame,
+    targets: sortedTargets(
+      frame.targets.map(({ servo, position }) => ({ servo, position: Math.round((position - 500) / 2) })),
+    ),
+  }));
+  return { ...group, unit: 'steps', frames };
+}
