@@ -11,6 +11,7 @@ import type { Frame, ServoTarget } from '../../protocol/commands.ts';
 
 /** `hold`: stays at the key before and jumps at the end, as fast as the servo can. */
 export const EASINGS = ['linear', 'in', 'out', 'inOut', 'hold'] as const;
+export type Easing = (typeof EASINGS)[number];
 
 export const GROUP_NAME_LENGTH = 64;
 export const NOTE_LENGTH = 200;
