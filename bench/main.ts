@@ -16,9 +16,11 @@ import { measureRelay } from './relay.ts';
 import { measureStart } from './start.ts';
 import { measureStop } from './stop.ts';
 import { toTable } from './table.ts';
+import { measureTimeline } from './timeline.ts';
 
 const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   codec: measureCodec,
+  timeline: measureTimeline,
   drag: measureDrag,
   download: measureDownload,
   relay: measureRelay,

@@ -5,7 +5,7 @@ import { encodeCommand } from '../../protocol/encode.ts';
 import { FAMILIES, family } from '../../protocol/families.ts';
 import { readyRobot, type RobotNames } from '../robot/readyRobots.ts';
 import { compile } from './compile.ts';
-import type { CompileOptions, CompileProblem } from './compileReport.ts';
+import { rangeOf, type CompileOptions, type CompileProblem } from './compileReport.ts';
 import { EASINGS, emptyGroup, totalDurationMs, type ActionGroup, type Easing } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
 import { someGroup } from './groupsUnderTest.ts';
@@ -186,6 +186,13 @@ describe('a compiled group', () => {
     });
   });
 
+  test('goes straight to a first key that nobody knows the way to', () => {
+    for (const easing of EASINGS)
+      expect(compile(groupOf([[100, { 1: 1000 }, easing]]), { ...FREE, maxErrorUnits: 1 }).frames).toEqual([
+        { durationMs: 100, targets: [{ servo: 1, position: 1000 }] },
+      ]);
+  });
+
   test('takes a time that is longer than a frame in several', () => {
     const group = groupOf([
       [1000, { 1: 1000 }],
@@ -302,6 +309,13 @@ describe('what a group costs and what of it cannot be', () => {
       [{ kind: 'tooFast', servo: 1, atMs: 2000, degreesPerS: 600, limit: 500 }],
     ],
   ])('%s', (_, problems, expected) => expect(problems).toEqual(expected));
+
+  test('a servo may go where both robot and board let it, as the robot counts', () => {
+    const wide = { ...tight, servos: tight.servos.map((servo) => ({ ...servo, min: 100, max: 2000 })) };
+    expect(rangeOf(1, family('learm-esp32'), wide)).toEqual({ min: 480, max: 1480 });
+    expect(rangeOf(1, DOC, tight)).toEqual({ min: 1000, max: 2000 });
+    expect(rangeOf(1, family('xarm'))).toEqual({ min: 0, max: 1000 });
+  });
 
   test('too many frames of whole poses are made fewer where that is no loss', () => {
     const line = Array.from({ length: 300 }, (_, index): Row => [40, { 1: 1000 + index }]);

@@ -3,8 +3,8 @@
 
 import type { ActionGroup, GroupFrame } from './group.ts';
 import { momentsOf, newMoment, placed, wholeMs, withMoments, withTargets, type Moment } from './moments.ts';
-import { isVacated, lifted, servosByFrame } from './lifted.ts';
-import { setDuration } from './timeEdits.ts';
+import { isVacated, lifted, servosByFrame, type LiftedKeys } from './lifted.ts';
+import { setDuration, type Ripple } from './timeEdits.ts';
 import type { KeyRef } from './tracks.ts';
 
 /** What the document can write down; what a board takes is far less. */
@@ -59,20 +59,19 @@ export interface KeyMove {
 }
 
 /** As far as all these keys can go together: not before the beginning, not beyond the numbers a document holds. */
-export function boundedMove(
-  group: ActionGroup,
-  refs: readonly KeyRef[],
-  { deltaMs, deltaPosition }: KeyMove,
-): KeyMove {
-  const { keys } = lifted(group, refs);
+export function boundedMove(group: ActionGroup, refs: readonly KeyRef[], move: KeyMove): KeyMove {
+  return bounded(lifted(group, refs).keys, move);
+}
+
+function bounded(keys: readonly LiftedKeys[], { deltaMs, deltaPosition }: KeyMove): KeyMove {
+  const [first] = keys;
+  if (first === undefined) return { deltaMs: 0, deltaPosition: 0 };
   const positions = keys.flatMap(({ targets }) => targets.map(({ position }) => position));
-  const earliestMs = Math.min(...keys.map(({ atMs }) => atMs));
-  if (positions.length === 0) return { deltaMs: 0, deltaPosition: 0 };
-  const down = -positions.reduce((lowest, position) => Math.min(lowest, position), LARGEST_POSITION);
-  const up = LARGEST_POSITION - positions.reduce((highest, position) => Math.max(highest, position), 0);
+  const lowest = positions.reduce((least, position) => Math.min(least, position));
+  const highest = positions.reduce((most, position) => Math.max(most, position));
   return {
-    deltaMs: Math.max(-earliestMs, Math.round(deltaMs)),
-    deltaPosition: Math.min(up, Math.max(down, Math.round(deltaPosition))),
+    deltaMs: Math.max(-first.atMs, Math.round(deltaMs)),
+    deltaPosition: Math.min(LARGEST_POSITION - highest, Math.max(-lowest, Math.round(deltaPosition))),
   };
 }
 
@@ -85,14 +84,14 @@ export function moveKeys(
   group: ActionGroup,
   refs: readonly KeyRef[],
   move: KeyMove,
-  { ripple }: { readonly ripple: boolean },
+  { ripple }: Ripple,
 ): ActionGroup {
-  const { deltaMs, deltaPosition } = boundedMove(group, refs, move);
+  const { kept, keys } = lifted(group, refs);
+  const { deltaMs, deltaPosition } = bounded(keys, move);
   if (deltaMs === 0 || ripple) {
     const changed = changePositions(group, refs, (position) => position + deltaPosition);
     return ripple ? rippled(changed, refs, deltaMs) : changed;
   }
-  const { kept, keys } = lifted(group, refs);
   // A frame that loses all its keys goes along with the first of them, so that it keeps its name.
   const vacated = new Set(kept.filter((moment) => isVacated(moment, group)).map(({ frame }) => frame.id));
   const staying = kept.filter(({ frame }) => !vacated.has(frame.id));

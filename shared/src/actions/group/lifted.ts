@@ -5,7 +5,7 @@ import type { ActionGroup, GroupFrame } from './group.ts';
 import { momentsOf, withTargets, type Moment } from './moments.ts';
 import type { KeyRef } from './tracks.ts';
 
-interface LiftedKeys {
+export interface LiftedKeys {
   readonly atMs: number;
   readonly frame: GroupFrame;
   readonly targets: readonly ServoTarget[];
