@@ -19,6 +19,8 @@ import type {
 } from './library.generated.ts';
 
 const ANSWER_WITHIN_MS = 10_000;
+/** As much as the gateway takes. */
+const MAX_TEXT_LENGTH = 2 * 1024 * 1024;
 
 const CODES: Readonly<Record<string, LibraryErrorCode>> = {
   conflict: 'conflict',
@@ -48,6 +50,7 @@ export const gatewayKeeper: Keeper = {
   list: () => ask('', 'GET', listingSchema),
   read: (id) => ask(`/${id}`, 'GET', storedSchema),
   async write(id, { text, facts, expected, isRemoved }) {
+    if (text.length > MAX_TEXT_LENGTH) throw new LibraryError('tooLarge', 'the text is too long');
     const wanted: DocumentWrite = { text, facts, expected, isRemoved };
     const { revision } = await ask(`/${id}`, 'PUT', writtenSchema, wanted);
     return revision;
