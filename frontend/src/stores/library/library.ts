@@ -43,6 +43,8 @@ export interface Library extends LibraryFiles {
   /** Looks what others have changed; the group that is shown follows, if nothing of it waits here. */
   refresh(): Promise<void>;
   create(): void;
+  /** Keeps a group as a new document, without showing it. */
+  add(group: ActionGroup): void;
   open(id: string): Promise<void>;
   duplicate(id: string): Promise<void>;
   /** Changes any document; the one that is shown undoably. */
@@ -250,6 +252,7 @@ export function createLibrary(options: LibraryOptions): Library {
     store,
     refresh: look,
     create,
+    add: (group) => put(newId(), groupToText(group)),
     open: (id) => attempt(open(id)),
     change: (id, label, edit) => attempt(change(id, label, edit)),
     duplicate: (id) =>
