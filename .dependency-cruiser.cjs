@@ -101,6 +101,12 @@ module.exports = {
       { path: page, pathNot: `${page}transports/` },
     ),
     forbid(
+      'keepers-know-no-page',
+      'A keeper keeps texts.',
+      { path: `${page}keepers/`, pathNot: test },
+      { path: page, pathNot: `${page}keepers/` },
+    ),
+    forbid(
       'stores-know-no-panel',
       'Stores hold what is; panels show it.',
       { path: `${page}stores/`, pathNot: test },

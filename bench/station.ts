@@ -60,7 +60,8 @@ export async function withPage<Result>(
   work: (page: Page, url: string) => Promise<Result>,
 ): Promise<Result> {
   const lines: string[] = [];
-  const serve = ['-m', 'servodeck', 'serve', '--listen', '127.0.0.1:0', '--serial', device];
+  const listen = ['--listen', '127.0.0.1:0', '--data', temporaryFolder()];
+  const serve = ['-m', 'servodeck', 'serve', ...listen, '--serial', device];
   const gateway = startChild(python, [...serve, '--no-open', '--exit-with-stdin'], (line) =>
     lines.push(line),
   );

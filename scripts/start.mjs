@@ -8,7 +8,7 @@ import { simulatedBoard } from './cable.mjs';
 import { endChildren, isEnding, onEnd, startChild } from './children.mjs';
 import { python } from './python.mjs';
 import { setUp } from './setup.mjs';
-import { main, say } from './steps.mjs';
+import { at, main, say } from './steps.mjs';
 
 const readyLine = /^Servodeck is at (\S+)/;
 
@@ -70,7 +70,7 @@ function listenForEnter(cable) {
  * @returns {string[]}
  */
 function gatewayCommand(address, port, passedOn) {
-  const serve = ['-m', 'servodeck', 'serve', '--listen', textOf(address), ...port];
+  const serve = ['-m', 'servodeck', 'serve', '--listen', textOf(address), '--data', at('data'), ...port];
   // What the person says comes last and so has the last word.
   return [...serve, '--exit-with-stdin', showsPages() ? '--open' : '--no-open', ...passedOn];
 }

@@ -17,17 +17,20 @@ from servodeck.docs import STYLE, docs_page
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
 from servodeck.gate import allowed_hosts
 from servodeck.guard import Guard
+from servodeck.library import Library
+from servodeck.library_api import library_api
 from servodeck.page import STATIC, page
 
 CODE_OF_STATUS: dict[int, ErrorCode] = {
     403: "forbidden",
     404: "notFound",
     405: "methodNotAllowed",
+    413: "tooLarge",
     500: "internal",
 }
 
 
-def create_app(control: Control, port: int, static: Path = STATIC) -> ASGIApp:
+def create_app(control: Control, library: Library, port: int, static: Path = STATIC) -> ASGIApp:
     """The gateway as it answers on that TCP port of this computer, with the page built into `static`."""
     app = FastAPI(
         title="Servodeck gateway",
@@ -38,7 +41,9 @@ def create_app(control: Control, port: int, static: Path = STATIC) -> ASGIApp:
         lifespan=lifespan,
     )
     app.state.control = control
+    app.state.library = library
     app.include_router(api)
+    app.include_router(library_api)
     app.include_router(socket)
     add_docs(app)
     add_errors(app)

@@ -9,6 +9,7 @@ import socket
 import sys
 import time
 import webbrowser
+from pathlib import Path
 from typing import Annotated, NoReturn
 
 import typer
@@ -47,6 +48,9 @@ def serve(
     simulated: Annotated[
         bool, typer.Option("--simulated", help="Tell everyone that the device is no real board.")
     ] = False,
+    data: Annotated[
+        Path | None, typer.Option(help="Folder of the library; left out: one of this user's own.")
+    ] = None,
     open_page: Annotated[
         bool | None,
         typer.Option("--open/--no-open", help="Show the page; by default where a person looks on."),
@@ -59,6 +63,8 @@ def serve(
     from servodeck.app import create_app
     from servodeck.background import BackgroundPorts
     from servodeck.control import Control
+    from servodeck.data_folder import data_folder
+    from servodeck.library import Library
     from servodeck.server import Server, leave_with_stdin
 
     board = board or ("doc" if simulated else UNKNOWN.id)
@@ -73,10 +79,13 @@ def serve(
         if sys.stdout.isatty() if open_page is None else open_page:
             webbrowser.open(url)
 
-    server = Server(create_app(control, listener.getsockname()[1]), control, serial or None, ready)
+    library = Library(data or data_folder())
+    app = create_app(control, library, listener.getsockname()[1])
+    server = Server(app, control, serial or None, ready)
     if exit_with_stdin:
         leave_with_stdin(server.leave)
     server.run([listener])
+    library.close()
 
 
 @app.command()

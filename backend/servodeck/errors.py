@@ -22,6 +22,11 @@ ErrorCode = Literal[
     "forbidden",
     "notFound",
     "methodNotAllowed",
+    "conflict",
+    "tooLarge",
+    "storageFull",
+    "storageBusy",
+    "storageFailed",
     "internal",
 ]
 
@@ -121,3 +126,31 @@ class ForbiddenError(GatewayError):
 
     code: ClassVar[ErrorCode] = "forbidden"
     status: ClassVar[int] = 403
+
+
+class NotFoundError(GatewayError):
+    code: ClassVar[ErrorCode] = "notFound"
+    status: ClassVar[int] = 404
+
+
+class ConflictError(GatewayError):
+    """Somebody else has changed it since it was read."""
+
+    code: ClassVar[ErrorCode] = "conflict"
+    status: ClassVar[int] = 412
+
+
+class StorageError(GatewayError):
+    """The library cannot be read or written; what it holds is unharmed, and each request tries again."""
+
+    code: ClassVar[ErrorCode] = "storageFailed"
+    status: ClassVar[int] = 503
+
+
+class StorageFullError(StorageError):
+    code: ClassVar[ErrorCode] = "storageFull"
+    status: ClassVar[int] = 507
+
+
+class StorageBusyError(StorageError):
+    code: ClassVar[ErrorCode] = "storageBusy"

@@ -13,6 +13,9 @@ from servodeck.errors import ForbiddenError
 from servodeck.gate import judge_handshake
 
 BODY_BYTES = 16 * 1024
+LIBRARY_PATH = "/api/library/"
+# A document as text inside JSON, where every quote of it takes two characters.
+LIBRARY_BODY_BYTES = 3 * 1024 * 1024
 STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
 
 CONTENT_POLICY = (
@@ -44,7 +47,7 @@ class Guard:
             # The Host is not to be trusted here, so it does not appear in the policy.
             refusal = JSONResponse({"code": error.code, "detail": error.detail}, error.status)
             return await refusal(scope, receive, with_headers(send, host="127.0.0.1"))
-        limited = limit_body(receive) if scope["type"] == "http" else receive
+        limited = limit_body(receive, body_bytes(scope["path"])) if scope["type"] == "http" else receive
         return await self._app(scope, limited, with_headers(send, host))
 
 
@@ -60,16 +63,20 @@ def with_headers(send: Send, host: str) -> Send:
     return send_with_headers
 
 
-def limit_body(receive: Receive) -> Receive:
-    """Nothing that anybody may send here is larger than that."""
+def body_bytes(path: str) -> int:
+    """Nothing that anybody may send there is larger than that."""
+    return LIBRARY_BODY_BYTES if path.startswith(LIBRARY_PATH) else BODY_BYTES
+
+
+def limit_body(receive: Receive, limit: int) -> Receive:
     total_bytes = 0
 
     async def receive_limited() -> Message:
         nonlocal total_bytes
         message = await receive()
         total_bytes += len(message.get("body", b""))
-        if total_bytes > BODY_BYTES:
-            raise HTTPException(413, f"The request is larger than {BODY_BYTES} bytes.")
+        if total_bytes > limit:
+            raise HTTPException(413, f"The request is larger than {limit} bytes.")
         return message
 
     return receive_limited

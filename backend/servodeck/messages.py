@@ -196,22 +196,26 @@ class PlainSchema(GenerateJsonSchema):
         return False
 
 
-def json_schema() -> dict[str, Any]:
-    """One schema whose $defs hold ClientMessage, GatewayMessage and all they consist of."""
+def schema_of(title: str, read: dict[str, Any], written: dict[str, Any]) -> dict[str, Any]:
+    """One schema whose $defs hold those named types and all they consist of."""
+    types = [(name, "validation", TypeAdapter(each)) for name, each in read.items()]
+    types += [(name, "serialization", TypeAdapter(each)) for name, each in written.items()]
     names, definitions = TypeAdapter.json_schemas(
-        [
-            ("ClientMessage", "validation", client_message),
-            ("GatewayMessage", "serialization", gateway_message),
-        ],
+        types,  # type: ignore[arg-type]
         ref_template="#/$defs/{model}",
         schema_generator=PlainSchema,
     )
     unions = {name: {**schema, "title": name} for (name, _mode), schema in names.items()}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "Messages",
+        "title": title,
+        "oneOf": [{"$ref": f"#/$defs/{name}"} for name in unions],
         "$defs": {**definitions["$defs"], **unions},
     }
+
+
+def json_schema() -> dict[str, Any]:
+    return schema_of("Message", {"ClientMessage": ClientMessage}, {"GatewayMessage": GatewayMessage})
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """The whole gateway for a test: behind HTTP without a socket, or as a real server on a free port."""
 
 import asyncio
+import os
 import socket
 import time
 from collections.abc import AsyncIterator, Callable
@@ -12,23 +13,31 @@ from httpx2 import ASGITransport, AsyncClient
 
 from servodeck.app import create_app
 from servodeck.control import Control
+from servodeck.library import Library
 from servodeck.link import Ports
 from servodeck.page import STATIC
 from servodeck.server import Server
 
 PORT = 8300
 DEVICE = "/dev/board"
+# Below a device, where no folder can be: whoever keeps something without asking for a library fails.
+NO_LIBRARY = Library(Path(os.devnull) / "none")
 
 
 @asynccontextmanager
 async def http_to(
-    ports: Ports, now: Callable[[], float], device: str | None = DEVICE, static: Path = STATIC
+    ports: Ports,
+    now: Callable[[], float],
+    device: str | None = DEVICE,
+    static: Path = STATIC,
+    library: Library | None = None,
 ) -> AsyncIterator[tuple[AsyncClient, Control]]:
     """A client of the application itself, and what stands behind it; its port is open when it starts."""
     control = Control(ports, now, "doc", device)
     if device:
         await control.use_port(device)
-    transport = ASGITransport(create_app(control, PORT, static), raise_app_exceptions=False)
+    app = create_app(control, library or NO_LIBRARY, PORT, static)
+    transport = ASGITransport(app, raise_app_exceptions=False)
     async with AsyncClient(transport=transport, base_url=f"http://127.0.0.1:{PORT}") as client:
         yield client, control
     await control.link.close()
@@ -57,7 +66,7 @@ async def server_on(ports: Ports, device: str | None = DEVICE) -> AsyncIterator[
     port = listener.getsockname()[1]
     control = Control(ports, time.monotonic, "doc", device)
     ready = asyncio.Event()
-    server = Server(create_app(control, port), control, device, ready.set)
+    server = Server(create_app(control, NO_LIBRARY, port), control, device, ready.set)
     life = asyncio.create_task(server.serve([listener]))
     await ready.wait()
     try:

@@ -14,8 +14,9 @@ from servodeck.api import api, socket
 from servodeck.app import create_app
 from servodeck.control import Control
 from servodeck.errors import PortMissingError
+from servodeck.library_api import library_api
 from tests.fake_port import FakePorts
-from tests.running import PORT, http_to
+from tests.running import NO_LIBRARY, PORT, http_to
 from tests.test_gate import HOSTS, ORIGINS, PASSING, headers_of
 
 NOWHERE = FakePorts(PortMissingError("There is no such port."))
@@ -23,7 +24,7 @@ NOWHERE = FakePorts(PortMissingError("There is no such port."))
 
 def all_routes() -> Iterator[tuple[str, str, str]]:
     """Type, method and path of everything that answers, read from the routers, and what they do not know."""
-    for route in api.routes:
+    for route in [*api.routes, *library_api.routes]:
         assert isinstance(route, APIRoute)
         yield from (("http", method, route.path) for method in route.methods or ())
     yield from (("websocket", "GET", getattr(route, "path", "")) for route in socket.routes)
@@ -71,7 +72,7 @@ def scope_of(kind: str, method: str, path: str, headers: list[tuple[bytes, bytes
 
 @pytest.mark.parametrize(("kind", "method", "path"), list(all_routes()))
 async def test_every_route_lets_in_exactly_whom_the_table_names(kind: str, method: str, path: str) -> None:
-    app = create_app(Control(NOWHERE, time.monotonic, "doc"), PORT)
+    app = create_app(Control(NOWHERE, time.monotonic, "doc"), NO_LIBRARY, PORT)
     for host in HOSTS:
         for origin in ORIGINS:
             status = await knock(app, scope_of(kind, method, path, headers_of(host, origin)))
@@ -82,7 +83,7 @@ async def test_every_route_lets_in_exactly_whom_the_table_names(kind: str, metho
     ("method", "path"), [(method, path) for _, method, path in all_routes() if path.startswith("/api/")]
 )
 async def test_a_link_of_another_site_reaches_no_route_that_acts(method: str, path: str) -> None:
-    app = create_app(Control(NOWHERE, time.monotonic, "doc"), PORT)
+    app = create_app(Control(NOWHERE, time.monotonic, "doc"), NO_LIBRARY, PORT)
     followed = [(b"sec-fetch-site", b"cross-site"), (b"sec-fetch-mode", b"navigate")]
     headers = headers_of(f"127.0.0.1:{PORT}", None) + followed
     assert await knock(app, scope_of("http", method, path, headers)) == 403
@@ -130,7 +131,7 @@ async def test_every_answer_carries_the_security_headers() -> None:
             "malformed",
         ),
         ("PUT", "/api/port", {"content": b'{"device": "/dev/x"}'}, 422, "malformed"),
-        ("PUT", "/api/port", {"json": {"device": "x" * 20_000}}, 413, "malformed"),
+        ("PUT", "/api/port", {"json": {"device": "x" * 20_000}}, 413, "tooLarge"),
         ("PUT", "/api/port", {"json": {"device": "/dev/x"}}, 503, "portMissing"),
         ("POST", "/api/stop", {}, 409, "closed"),
     ],

@@ -5,6 +5,7 @@ import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { at } from '../../scripts/steps.mjs';
 import { dashboardOf } from '../fixtures/dashboard.ts';
+import { libraryOf } from '../fixtures/library.ts';
 import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import { expect, test } from '../fixtures/test.ts';
 
@@ -87,6 +88,21 @@ async function expectRobotsSound(look: Look): Promise<void> {
   await look.page.mouse.move(0, 400);
 }
 
+async function expectLibrarySound(look: Look): Promise<void> {
+  const { page } = look;
+  const library = libraryOf(page);
+  if (await page.getByRole('tablist').isVisible()) await page.getByRole('tab', { name: 'Actions' }).click();
+  await library.show();
+  await expectSound(look, 'empty library');
+  await library.close();
+  await library.call('Wave');
+  await library.show();
+  await library.more('Wave');
+  await library.write('Name of the version', 'First');
+  await expect(library.button('Go back to First')).toBeVisible();
+  await expectSound(look, 'library');
+}
+
 for (const colorScheme of ['light', 'dark'] as const) {
   for (const viewport of SIZES) {
     test.describe(`${viewport.width} px, ${colorScheme}`, () => {
@@ -112,6 +128,12 @@ for (const colorScheme of ['light', 'dark'] as const) {
         await dashboard.button('Disconnect').click();
         await expect(dashboard.link).toContainText('Not connected');
         await expectSound(look, 'disconnected');
+      });
+
+      test('the library is accessible and fits', async ({ page, servers }) => {
+        await page.goto((await servers.files()).url);
+        await expect(dashboardOf(page).link).toContainText('Ready');
+        await expectLibrarySound({ page, isDark: colorScheme === 'dark' });
       });
 
       test('poses, buttons and the kiosk are accessible and fit', async ({ page, servers }) => {

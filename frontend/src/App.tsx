@@ -13,6 +13,7 @@ import { ConnectDialog } from './connect/ConnectDialog.tsx';
 import type { Page } from './connect/page.ts';
 import { LogDrawer } from './console/LogDrawer.tsx';
 import { LogPanel } from './console/LogPanel.tsx';
+import { LibraryDialog } from './library/LibraryDialog.tsx';
 import { RobotDialog } from './robots/RobotDialog.tsx';
 import { Authoring } from './authoring/Authoring.tsx';
 import { ButtonsPage } from './macros/ButtonsPage.tsx';
@@ -66,6 +67,7 @@ function Dashboard({ page }: { readonly page: Page }) {
       </p>
       <ConnectDialog connector={page.connector} />
       <RobotDialog />
+      <LibraryDialog />
     </div>
   );
 }

@@ -19,6 +19,7 @@ const mayKnow: Record<string, readonly string[]> = {
   'frontend/words': ['shared'],
   'frontend/ui': ['frontend/words'],
   'frontend/transports': ['shared'],
+  'frontend/keepers': ['shared'],
   'frontend/stores': ['frontend/words', 'shared'],
 };
 const importStatement =

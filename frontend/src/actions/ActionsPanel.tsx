@@ -5,6 +5,7 @@ import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { redoLabel, undoLabel } from '#shared/actions/history.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { FilesArea, FilesButton } from '../files/FilesArea.tsx';
+import { LibraryButton } from '../library/LibraryButton.tsx';
 import { useDevice, useDocument, useGroup, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
@@ -23,7 +24,12 @@ export function ActionsPanel() {
       <Panel
         title={words.actions.title}
         tabs={<AuthoringTabs />}
-        note={<GroupName />}
+        note={
+          <span className={styles.named}>
+            <LibraryButton />
+            <GroupName />
+          </span>
+        }
         tools={
           <>
             <FilesButton />

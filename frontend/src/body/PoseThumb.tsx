@@ -1,5 +1,6 @@
 // A pose as a small picture: the body where it is described, and a bar per servo. Servos that move are marked below it.
 
+import type { Robot } from '#shared/actions/robot/robot.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import { useRobot } from '../stores/stores.ts';
 import { ArmFigure } from './ArmFigure.tsx';
@@ -14,8 +15,16 @@ export interface PoseThumbProps {
   readonly family: Family;
 }
 
-export function PoseThumb({ pose, changed, family }: PoseThumbProps) {
-  const robot = useRobot();
+export function PoseThumb(props: PoseThumbProps) {
+  return <RobotThumb robot={useRobot()} {...props} />;
+}
+
+export interface RobotThumbProps extends PoseThumbProps {
+  readonly robot: Robot;
+}
+
+/** Of any robot, not only the one at hand. */
+export function RobotThumb({ robot, pose, changed, family }: RobotThumbProps) {
   const servos = robot.servos.map(({ servo }) => servo);
   const bones = bonesOf(robot, (servo) => pose.get(servo) ?? null);
   return (
@@ -32,6 +41,15 @@ export function PoseThumb({ pose, changed, family }: PoseThumbProps) {
         </svg>
       )}
       <Bars servos={servos} pose={pose} changed={changed} family={family} />
+    </span>
+  );
+}
+
+/** Of servos that no robot is known to. */
+export function BarThumb(props: PoseThumbProps) {
+  return (
+    <span className={styles.thumb} data-body={false} aria-hidden="true">
+      <Bars servos={[...props.pose.keys()]} {...props} />
     </span>
   );
 }

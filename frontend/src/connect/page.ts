@@ -8,8 +8,12 @@ import { pollBattery } from '../stores/batteryPoll.ts';
 import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
+import type { Keeper } from '#shared/actions/library/keeper.ts';
+import { createBrowserKeeper } from '../keepers/browserKeeper.ts';
+import { gatewayKeeper } from '../keepers/gatewayKeeper.ts';
 import { watchInputs } from '../pad/watchInputs.ts';
 import { followLanguage } from '../stores/language.ts';
+import { createLibrary } from '../stores/library/library.ts';
 import { createMacroRun } from '../stores/macroRun.ts';
 import { createMacros } from '../stores/macros.ts';
 import { createMappings } from '../stores/mappings.ts';
@@ -20,6 +24,7 @@ import { createRobots } from '../stores/robots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createView } from '../stores/view.ts';
 import { browserClock } from '../transports/browserClock.ts';
+import { readGateway } from './gatewayApi.ts';
 import { watchLeaving } from './leaving.ts';
 import { createConnector, type Connector } from './connector.ts';
 
@@ -46,11 +51,15 @@ export async function openPage(): Promise<Page> {
   const pad = createPad({ device, robots, mappings, notices, clock: pageClock, readPads });
   const poses = createPoses({ storage, notices, robots, device });
   const macroRun = createMacroRun({ device, poses, robots, notices, clock: pageClock });
+  const written = createDocument(storage, notices);
+  const library = createLibrary({
+    ...{ document: written, storage, notices, robots, view, clock: pageClock },
+    ...{ keeper: chooseKeeper(), epochMs: Date.now, newId },
+  });
   const stores = {
-    ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun },
+    ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
     macros: createMacros(storage, notices, robots),
-    document: createDocument(storage, notices),
-    view,
+    document: written,
   };
   const connector = createConnector({ device, notices, boards, storage, isWatched });
   connector.start().catch(notices.tellError);
@@ -65,7 +74,19 @@ export async function openPage(): Promise<Page> {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(false);
   });
   pollBattery(device, isWatched);
+  window.addEventListener('focus', () => void library.refresh());
   return { stores, connector };
+}
+
+/** The gateway of the page's own address, where there is one. */
+async function chooseKeeper(): Promise<Keeper> {
+  return (await readGateway()) === null ? createBrowserKeeper('servodeck', Date.now) : gatewayKeeper;
+}
+
+/** Not `randomUUID`, which is there only at secure addresses. */
+function newId(): string {
+  const bytes = crypto.getRandomValues(new Uint8Array(16));
+  return [...bytes].map((byte) => byte.toString(16).padStart(2, '0')).join('');
 }
 
 const isWatched = (): boolean => document.visibilityState === 'visible';

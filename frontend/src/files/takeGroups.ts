@@ -1,18 +1,21 @@
-// What becomes of groups that a person takes from files: the first becomes the document, as one step that can be undone.
+// What becomes of groups that a person takes from files: each is a document of the library, and the first is shown, as one step
+// that can be undone. A group that was being written stays as it is.
 
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 
 export function takeGroups(
-  { document, view }: Pick<Stores, 'document' | 'view'>,
-  [group]: readonly ActionGroup[],
+  { document, library, view }: Pick<Stores, 'document' | 'library' | 'view'>,
+  [group, ...others]: readonly ActionGroup[],
 ): void {
   if (group === undefined) return;
+  if (document.store.getState().present.frames.length > 0) library.create();
   document.edit(
     () => words.files.step(group.name),
     () => group,
   );
+  others.forEach(library.add);
   const said = words.files.taken(group.name, group.frames.length);
   view.setState({ selectedFrame: null, playFrom: 0, said });
 }

@@ -22,6 +22,7 @@ import { useSpokenLocale } from '../ui/useSpokenLocale.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
 import { FileSpecimens } from './FileSpecimens.tsx';
+import { LibrarySpecimens } from './LibrarySpecimens.tsx';
 import { PoseSpecimens } from './PoseSpecimens.tsx';
 import { RobotSpecimens } from './RobotSpecimens.tsx';
 import { PadSpecimens } from './PadSpecimens.tsx';
@@ -55,6 +56,7 @@ export function Gallery() {
             <PadSpecimens />
             <PoseSpecimens />
             <FileSpecimens newStores={() => storesOf(BLANK)} />
+            <LibrarySpecimens />
             <RobotSpecimens newStores={() => storesOf(BLANK)} />
           </StoresContext>
         )}

@@ -2,10 +2,12 @@
 
 import type { Family } from '#shared/protocol/families.ts';
 import { pageClock } from '../connect/page.ts';
+import { createMemoryKeeper } from '../keepers/memoryKeeper.ts';
 import { createBattery } from '../stores/battery.ts';
 import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
+import { createLibrary } from '../stores/library/library.ts';
 import { createMacroRun } from '../stores/macroRun.ts';
 import { createMacros } from '../stores/macros.ts';
 import { createMappings } from '../stores/mappings.ts';
@@ -25,12 +27,19 @@ export function specimenStores(family: Family, held: Gamepadlike | null = null):
   const poses = createPoses({ storage: NO_STORAGE, notices, robots, device });
   const mappings = createMappings(NO_STORAGE, notices, robots);
   const readPads = () => [held];
+  const document = createDocument(NO_STORAGE, notices);
+  const view = createView(NO_STORAGE);
+  let ids = 0;
+  const library = createLibrary({
+    ...{ document, storage: NO_STORAGE, notices, robots, view, clock: pageClock },
+    keeper: Promise.resolve(createMemoryKeeper()),
+    epochMs: Date.now,
+    newId: () => `specimen-${++ids}`,
+  });
   return {
-    ...{ notices, robots, device, poses, mappings },
+    ...{ notices, robots, device, poses, mappings, document, view, library },
     pad: createPad({ device, robots, mappings, notices, clock: pageClock, readPads }),
     battery: createBattery(device, robots),
-    document: createDocument(NO_STORAGE, notices),
-    view: createView(NO_STORAGE),
     boards: createBoards(NO_STORAGE),
     macros: createMacros(NO_STORAGE, notices, robots),
     macroRun: createMacroRun({ device, poses, robots, notices, clock: pageClock }),

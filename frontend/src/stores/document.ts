@@ -9,7 +9,11 @@ import type { Notices } from './notices.ts';
 import { createUndoable, type Undoable } from './undoable.ts';
 
 export type DocumentState = History<ActionGroup>;
-export type Document = Undoable<ActionGroup>;
+
+export interface Document extends Undoable<ActionGroup> {
+  /** Shows another group, with the steps that it was left with. */
+  take(history: History<ActionGroup>): void;
+}
 
 /** The part of the browser's Storage that is needed; it may throw, as it does where storage is forbidden or full. */
 export interface TextStorage {
@@ -33,7 +37,14 @@ export function createDocument(storage: TextStorage, notices: Notices): Document
     }
   }
 
-  return createUndoable(load(storage, notices), save);
+  const document = createUndoable(load(storage, notices), save);
+  return {
+    ...document,
+    take(history) {
+      document.store.setState(history, true);
+      save(history.present);
+    },
+  };
 }
 
 function load(storage: TextStorage, notices: Notices): ActionGroup {

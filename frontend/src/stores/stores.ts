@@ -20,11 +20,13 @@ import type { Pad, PadState } from './pad.ts';
 import type { MacroRun } from './macroRun.ts';
 import type { Poses } from './poses.ts';
 import type { Undoable } from './undoable.ts';
+import type { Library, LibraryState } from './library/library.ts';
 import type { View, ViewState } from './view.ts';
 
 export interface Stores {
   readonly device: Device;
   readonly document: Document;
+  readonly library: Library;
   readonly view: View;
   readonly notices: Notices;
   readonly boards: Boards;
@@ -59,6 +61,10 @@ export function useDocument<T>(select: (state: DocumentState) => T): T {
 
 export function useGroup(): ActionGroup {
   return useDocument((state) => state.present);
+}
+
+export function useLibrary<T>(select: (state: LibraryState) => T): T {
+  return useStore(useStores().library.store, select);
 }
 
 export function usePoses<T>(select: (state: History<PoseBook>) => T): T {

@@ -26,6 +26,7 @@ export interface ViewState {
   readonly kiosk: 'on' | 'off';
   readonly authoring: 'group' | 'poses' | 'pad';
   readonly connectOpen: boolean;
+  readonly libraryOpen: boolean;
   /** What of the robots is open; null: nothing. */
   readonly robotView: 'list' | 'edit' | 'calibrate' | null;
   /** How far the calibration of one robot, by its id, has come. */
@@ -72,6 +73,7 @@ export const INITIAL_VIEW: ViewState = {
   kiosk: 'off',
   authoring: 'group',
   connectOpen: false,
+  libraryOpen: false,
   robotView: null,
   calibration: null,
   logOpen: false,

@@ -111,6 +111,11 @@ export interface PortState {
         | 'forbidden'
         | 'notFound'
         | 'methodNotAllowed'
+        | 'conflict'
+        | 'tooLarge'
+        | 'storageFull'
+        | 'storageBusy'
+        | 'storageFailed'
         | 'internal'
       )
     | null;
@@ -150,6 +155,11 @@ export interface RefusedMessage {
     | 'forbidden'
     | 'notFound'
     | 'methodNotAllowed'
+    | 'conflict'
+    | 'tooLarge'
+    | 'storageFull'
+    | 'storageBusy'
+    | 'storageFailed'
     | 'internal';
   detail: string;
 }

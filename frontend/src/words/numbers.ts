@@ -16,6 +16,12 @@ interface Locale {
   readonly gap: string;
 }
 
+const LONGER: readonly (readonly [Intl.RelativeTimeFormatUnit, number])[] = [
+  ['day', 86_400_000],
+  ['hour', 3_600_000],
+  ['minute', 60_000],
+];
+
 export function numbersIn({ locale, units, gap }: Locale) {
   const whole = new Intl.NumberFormat(locale, { useGrouping: false });
   const degrees = [0, 1].map(
@@ -35,6 +41,7 @@ export function numbersIn({ locale, units, gap }: Locale) {
   const grouped = new Intl.NumberFormat(locale);
   const ago = new Intl.RelativeTimeFormat(locale, { style: 'short' });
   const list = new Intl.ListFormat(locale);
+  const when = new Intl.DateTimeFormat(locale, { dateStyle: 'medium', timeStyle: 'short' });
   const elapsed = new Intl.DateTimeFormat(locale, {
     timeZone: 'UTC',
     minute: '2-digit',
@@ -73,6 +80,15 @@ export function numbersIn({ locale, units, gap }: Locale) {
         ? ago.format(-ageSeconds, 'second')
         : ago.format(-Math.round(ageSeconds / 60), 'minute');
     },
+
+    /** `3 min. ago`, `2 days ago`, in the largest unit that fits. */
+    formatLongAge: (ms: number): string => {
+      const [unit, unitMs] = LONGER.find(([, each]) => ms >= each) ?? ['second', 1000];
+      return ago.format(-Math.max(0, Math.floor(ms / unitMs)), unit);
+    },
+
+    /** `21 Nov 2026, 14:05`, from milliseconds since 1970. */
+    formatWhen: (epochMs: number): string => when.format(epochMs),
 
     /** Time since the page was opened, `02:07.345`. */
     formatElapsed: (ms: number): string => elapsed.format(ms),

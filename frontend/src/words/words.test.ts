@@ -137,4 +137,14 @@ describe('numbers', () => {
     expect(english.numbers.formatAge(2600)).toBe('3 sec. ago');
     expect(english.numbers.formatAge(180_000)).toBe('3 min. ago');
   });
+
+  test.each([
+    [0, '0 sec. ago'],
+    [59_999, '59 sec. ago'],
+    [60_000, '1 min. ago'],
+    [7_199_999, '1 hr. ago'],
+    [50 * 3_600_000, '2 days ago'],
+  ])('a long age of %i ms is in its largest unit', (ms, text) => {
+    expect(english.numbers.formatLongAge(ms)).toBe(text);
+  });
 });

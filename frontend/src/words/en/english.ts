@@ -20,6 +20,7 @@ import { errorSentence } from './errors.ts';
 import { fileWords } from './files.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
+import { libraryWords } from './library.ts';
 import { rangeText } from './refusals.ts';
 import { robotEditorWords } from './robotEditor.ts';
 import { padWords } from './pad.ts';
@@ -319,6 +320,7 @@ export const english = {
   },
 
   battery: batteryWords,
+  library: libraryWords,
 
   log: {
     title: 'Log',

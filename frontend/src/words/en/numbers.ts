@@ -12,6 +12,7 @@ export const {
   formatAge,
   formatCount,
   formatList,
+  formatLongAge,
   formatMs,
   formatNames,
   formatPercent,
@@ -20,6 +21,7 @@ export const {
   formatTick,
   formatTimeOfDay,
   formatVolts,
+  formatWhen,
   formatWhole,
   unitSymbol,
 } = numbers;

@@ -8,6 +8,7 @@ import { errorSentence } from './errors.ts';
 import { fileWords } from './files.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
+import { libraryWords } from './library.ts';
 import { macroWords } from './macros.ts';
 import {
   formatAge,
@@ -298,6 +299,7 @@ export const chinese: Words = {
   },
 
   battery: batteryWords,
+  library: libraryWords,
 
   log: {
     title: '日志',

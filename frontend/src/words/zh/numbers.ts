@@ -13,6 +13,7 @@ export const {
   formatAge,
   formatCount,
   formatList,
+  formatLongAge,
   formatMs,
   formatNames,
   formatPercent,
@@ -21,6 +22,7 @@ export const {
   formatTick,
   formatTimeOfDay,
   formatVolts,
+  formatWhen,
   formatWhole,
   unitSymbol,
 } = numbers;

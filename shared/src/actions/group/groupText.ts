@@ -20,6 +20,11 @@ export function publishedGroupSchema(): object {
 
 export const groupToText = (group: ActionGroup): string => versionedText(FORMAT, group);
 
+/** By what they say, whoever made the objects. */
+export const sameGroup = (one: ActionGroup, other: ActionGroup): boolean => plain(one) === plain(other);
+
+const plain = (group: ActionGroup): string => JSON.stringify(groupSchema.safeParse(group).data);
+
 export function groupFromText(text: string): Read<ActionGroup> {
   return readVersioned(text, 'action group', groupFileSchema, flawOfGroup);
 }

@@ -1,0 +1,104 @@
+"""What pages and the library say to each other over HTTP, as strict models.
+
+The only description of it: `python -m servodeck.library_messages` prints the JSON schema from which the
+page's types are generated. Knows no file and no route.
+"""
+
+import json
+import sys
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from servodeck.messages import Message, schema_of
+
+MAX_SAFE = 2**53 - 1
+MAX_TEXT = 2 * 1024 * 1024
+
+Id = Annotated[str, Field(pattern=r"^[A-Za-z0-9-]{1,64}$")]
+Name = Annotated[str, Field(max_length=64)]
+Whole = Annotated[int, Field(ge=0, le=MAX_SAFE)]
+Text = Annotated[
+    str, Field(max_length=MAX_TEXT, description="The document as JSON; only the page knows what it means.")
+]
+
+
+class PoseTarget(Message):
+    servo: Annotated[int, Field(ge=0, le=0xFF)]
+    position: Annotated[int, Field(ge=0, le=0xFFFF)]
+
+
+class Facts(Message):
+    """What a list says of a document without reading it; `pose` is its picture."""
+
+    name: Name
+    robot: Name
+    tags: Annotated[list[Name], Field(max_length=20)]
+    updated_at_ms: Whole
+    frames: Whole
+    duration_ms: Whole
+    unit: Literal["us", "steps"]
+    pose: Annotated[list[PoseTarget], Field(max_length=256)]
+
+
+class ListedDocument(Message):
+    id: Id
+    revision: Whole
+    is_removed: bool
+    facts: Facts
+
+
+class LibraryListing(Message):
+    """`setAside` names a damaged file that was found and kept."""
+
+    documents: list[ListedDocument]
+    set_aside: str | None
+
+
+class StoredDocument(Message):
+    text: Text
+    revision: Whole
+
+
+class DocumentWrite(Message):
+    """`expected` is the revision it was read at, 0 for a new one. With `isRemoved` it goes to the trash at
+    once: several that shall appear together are written so and then restored together.
+    """
+
+    text: Text
+    facts: Facts
+    expected: Whole
+    is_removed: bool
+
+
+class DocumentWritten(Message):
+    revision: Whole
+
+
+class DocumentIds(Message):
+    ids: Annotated[list[Id], Field(max_length=5000)]
+
+
+class ListedVersion(Message):
+    id: Id
+    name: Name
+    at_ms: Whole
+
+
+class VersionText(Message):
+    text: Text
+
+
+class VersionWrite(Message):
+    name: Name
+    at_ms: Whole
+    text: Text
+
+
+if __name__ == "__main__":
+    said = {"LibraryRequest": DocumentWrite | DocumentIds | VersionWrite}
+    answered = {
+        "LibraryAnswer": LibraryListing | StoredDocument | DocumentWritten | list[ListedVersion] | VersionText
+    }
+    json.dump(schema_of("Library", said, answered), sys.stdout, indent=2)
+    sys.stdout.write("\n")

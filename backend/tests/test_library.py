@@ -1,0 +1,265 @@
+"""The library on a real SQLite file: what is kept and refused, and what trouble on the disk does to it."""
+
+import sqlite3
+import tempfile
+from collections.abc import Callable
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+from hypothesis import strategies as st
+from hypothesis.stateful import Bundle, RuleBasedStateMachine, initialize, invariant, rule
+
+from servodeck.errors import (
+    ConflictError,
+    NotFoundError,
+    OutOfRangeError,
+    StorageBusyError,
+    StorageError,
+    StorageFullError,
+)
+from servodeck.library import MAX_VERSIONS, TRASH_MS, Library, Listed, Version
+from servodeck.library_file import FILE, STEPS
+
+DAY_MS = 24 * 3600 * 1000
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Library:
+    return Library(tmp_path)
+
+
+def reopened(folder: Path) -> Library:
+    return Library(folder)
+
+
+def test_what_was_written_is_there_after_a_restart(library: Library, tmp_path: Path) -> None:
+    assert library.write("a", "{}", "facts", 0) == 1
+    assert library.write("a", '{"x":1}', "newer", 1) == 2
+    library.keep_version("a", Version("v", "First", 5), "{}")
+    library.close()
+    again = reopened(tmp_path)
+    assert again.list() == [Listed("a", 2, False, "newer")]
+    assert again.read("a") == ('{"x":1}', 2)
+    assert again.versions("a") == [Version("v", "First", 5)]
+    assert again.read_version("a", "v") == "{}"
+
+
+def test_what_a_process_was_told_is_kept_survives_its_sudden_end(library: Library, tmp_path: Path) -> None:
+    library.write("a", "{}", "facts", 0)
+    assert reopened(tmp_path).read("a") == ("{}", 1)  # nobody has closed the first
+
+
+def test_a_write_at_an_old_revision_changes_nothing(library: Library) -> None:
+    library.write("a", "one", "f", 0)
+    library.write("a", "two", "f", 1)
+    with pytest.raises(ConflictError):
+        library.write("a", "three", "f", 1)
+    assert library.read("a") == ("two", 2)
+
+
+def test_the_same_write_sent_again_is_no_conflict(library: Library) -> None:
+    assert library.write("a", "one", "f", 0) == 1
+    assert library.write("a", "one", "f", 0) == 1
+    assert library.write("a", "two", "f", 1) == 2
+    assert library.write("a", "two", "f", 1) == 2
+
+
+def test_a_document_that_was_read_elsewhere_is_taken_in(library: Library) -> None:
+    assert library.write("a", "one", "f", 7) == 8
+
+
+def test_removed_documents_come_back_with_restore_or_a_write(library: Library) -> None:
+    for document in ("a", "b"):
+        library.write(document, "text", "f", 0)
+    library.remove(["a", "b"])
+    assert all(one.is_removed for one in library.list())
+    library.restore(["a"])
+    library.write("b", "more", "f", 1)
+    assert not any(one.is_removed for one in library.list())
+
+
+def test_removing_and_restoring_is_all_or_nothing(library: Library) -> None:
+    library.write("a", "text", "f", 0)
+    with pytest.raises(NotFoundError):
+        library.remove(["a", "missing"])
+    assert library.list() == [Listed("a", 1, False, "f")]
+    library.write("b", "text", "f", 0, is_removed=True)
+    with pytest.raises(NotFoundError):
+        library.restore(["b", "missing"])
+    assert library.list()[1].is_removed
+
+
+def test_the_trash_is_emptied_after_a_month(tmp_path: Path) -> None:
+    library = Library(tmp_path, now_ms=lambda: DAY_MS)
+    for document in ("a", "b"):
+        library.write(document, "text", "f", 0)
+    library.keep_version("b", Version("v", "Kept", 1), "{}")
+    library.remove(["b"])
+    library.close()
+    assert len(Library(tmp_path, now_ms=lambda: DAY_MS + TRASH_MS).list()) == 2
+    late = Library(tmp_path, now_ms=lambda: DAY_MS + TRASH_MS + 1)
+    assert [one.id for one in late.list()] == ["a"]
+    assert late.versions("b") == []
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda library: library.read("x"),
+        lambda library: library.remove(["x"]),
+        lambda library: library.read_version("x", "v"),
+        lambda library: library.keep_version("x", Version("v", "", 0), ""),
+    ],
+)
+def test_what_is_not_there_is_not_found(library: Library, ask: Callable[[Library], object]) -> None:
+    with pytest.raises(NotFoundError):
+        ask(library)
+
+
+def test_a_document_takes_so_many_versions_and_no_more(library: Library) -> None:
+    library.write("a", "text", "f", 0)
+    for number in range(MAX_VERSIONS):
+        library.keep_version("a", Version(str(number), "", number), "{}")
+    with pytest.raises(OutOfRangeError):
+        library.keep_version("a", Version("more", "", 0), "{}")
+
+
+def test_a_full_disk_refuses_and_keeps_what_was_there(tmp_path: Path) -> None:
+    library = Library(tmp_path)
+    library.write("a", "small", "f", 0)
+    database = library._db
+    assert database
+    pages = database.execute("PRAGMA page_count").fetchone()[0]
+    database.execute(f"PRAGMA max_page_count = {pages + 1}")
+    with pytest.raises(StorageFullError) as refused:
+        library.write("a", "x" * 1_000_000, "f", 1)
+    assert (refused.value.code, refused.value.status) == ("storageFull", 507)
+    assert library.read("a") == ("small", 1)
+    database.execute("PRAGMA max_page_count = 100000")
+    assert library.write("a", "x" * 1_000_000, "f", 1) == 2
+
+
+def test_a_file_that_another_program_holds_is_busy_and_free_again(
+    library: Library, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("servodeck.library_file.BUSY_S", 0.0)
+    library.write("a", "one", "f", 0)
+    with closing(sqlite3.connect(tmp_path / FILE, isolation_level=None)) as other:
+        other.execute("BEGIN IMMEDIATE")
+        with pytest.raises(StorageBusyError):
+            library.write("a", "two", "f", 1)
+        assert library.read("a") == ("one", 1)
+        other.execute("ROLLBACK")
+    assert library.write("a", "two", "f", 1) == 2
+
+
+def test_a_damaged_file_is_set_aside_and_told(library: Library, tmp_path: Path) -> None:
+    library.write("a", "x" * 100_000, "f", 0)
+    library.close()
+    damaged = (tmp_path / FILE).read_bytes()[:5000] + b"\xa5" * 40_000
+    (tmp_path / FILE).write_bytes(damaged)
+    again = reopened(tmp_path)
+    assert again.list() == []
+    assert again.set_aside
+    assert (tmp_path / again.set_aside).read_bytes() == damaged
+    assert again.write("b", "text", "f", 0) == 1
+
+
+def test_a_file_that_is_no_database_is_set_aside(tmp_path: Path) -> None:
+    (tmp_path / FILE).write_text("not a database at all " * 100)
+    library = Library(tmp_path)
+    assert library.list() == []
+    assert library.set_aside
+
+
+def test_an_upgrade_keeps_a_copy_from_before(library: Library, tmp_path: Path) -> None:
+    library.write("a", "text", "f", 0)
+    library.close()
+    newer = Library(tmp_path, steps=[*STEPS, ["ALTER TABLE document ADD COLUMN note TEXT"]])
+    with pytest.raises(StorageError):  # this version writes five columns
+        newer.write("b", "text", "f", 0)
+    assert newer.read("a") == ("text", 1)
+    with closing(sqlite3.connect(tmp_path / "library-before-version-2.sqlite")) as copy:
+        assert copy.execute("SELECT id, text FROM document").fetchall() == [("a", "text")]
+    newer.close()
+    with pytest.raises(StorageError, match="newer Servodeck"):
+        library.list()
+
+
+def test_an_upgrade_that_fails_leaves_the_old_file_as_it_was(library: Library, tmp_path: Path) -> None:
+    library.write("a", "text", "f", 0)
+    library.close()
+    steps = [*STEPS, ["ALTER TABLE document ADD COLUMN note TEXT", "NO SUCH STATEMENT"]]
+    with pytest.raises(StorageError):
+        Library(tmp_path, steps=steps).list()
+    assert library.read("a") == ("text", 1)
+
+
+def test_a_folder_that_cannot_be_is_an_error_until_it_can(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("in the way")
+    library = Library(tmp_path / "file")
+    with pytest.raises(StorageError):
+        library.list()
+    (tmp_path / "file").unlink()
+    assert library.list() == []
+
+
+class AgainstADict(RuleBasedStateMachine):
+    """Any order of calls leaves the library saying what a dict would say, across restarts."""
+
+    documents = Bundle("documents")
+    texts = st.sampled_from(["one", "two", "three"])
+
+    @initialize()
+    def begin(self) -> None:
+        self.folder = tempfile.TemporaryDirectory()
+        self.library = Library(Path(self.folder.name))
+        self.model: dict[str, tuple[int, str, bool]] = {}
+
+    @rule(target=documents, name=st.sampled_from("abc"), text=texts)
+    def create(self, name: str, text: str) -> str:
+        if name not in self.model:
+            assert self.library.write(name, text, text, 0) == 1
+            self.model[name] = (1, text, False)
+        return name
+
+    @rule(name=documents, text=texts, behind=st.integers(0, 2))
+    def write(self, name: str, text: str, behind: int) -> None:
+        revision, present, _ = self.model[name]
+        expected = max(0, revision - behind)
+        if text == present:
+            assert self.library.write(name, text, text, expected) == revision
+            self.model[name] = (revision, text, False)
+        elif expected == revision:
+            assert self.library.write(name, text, text, expected) == revision + 1
+            self.model[name] = (revision + 1, text, False)
+        else:
+            with pytest.raises(ConflictError):
+                self.library.write(name, text, text, expected)
+
+    @rule(name=documents, is_removed=st.booleans())
+    def mark(self, name: str, is_removed: bool) -> None:
+        (self.library.remove if is_removed else self.library.restore)([name])
+        revision, text, _ = self.model[name]
+        self.model[name] = (revision, text, is_removed)
+
+    @rule()
+    def restart(self) -> None:
+        self.library.close()
+        self.library = Library(Path(self.folder.name))
+
+    @invariant()
+    def says_the_same(self) -> None:
+        listed = {one.id: one for one in self.library.list()}
+        assert listed.keys() == self.model.keys()
+        for name, (revision, text, is_removed) in self.model.items():
+            assert listed[name] == Listed(name, revision, is_removed, text)
+            assert self.library.read(name) == (text, revision)
+
+    def teardown(self) -> None:
+        self.library.close()
+        self.folder.cleanup()
+
+
+TestAgainstADict = AgainstADict.TestCase

@@ -1,0 +1,178 @@
+// The library: groups are kept by themselves, found again, brought back, moved, and never lost to somebody else's change.
+
+import { readFile } from 'node:fs/promises';
+import { bundle } from '../fixtures/robotInPage.ts';
+import { captureGroup } from '../fixtures/group.ts';
+import { dashboardOf } from '../fixtures/dashboard.ts';
+import { libraryOf } from '../fixtures/library.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+
+test('groups are kept by themselves, and a reload finds them with what is open @everyWay', async ({
+  dashboard,
+  page,
+}) => {
+  const library = libraryOf(page);
+  await captureGroup(dashboard, [1500, 1700]);
+  await library.call('Wave one');
+  await library.show();
+  await library.button('New group').click();
+  await captureGroup(dashboard, [1200]);
+  await library.call('Bow one');
+  await library.show();
+  await poll(library.names).toEqual(expect.arrayContaining(['Bow one', 'Wave one']));
+  await expect(library.dialog).not.toContainText('Not all changes');
+
+  await page.reload();
+  await expect(library.groupName).toHaveValue('Bow one');
+  await expect(dashboard.frames).toHaveCount(1);
+  await library.show();
+  await expect(library.card('Wave one')).toContainText('2 frames');
+  await library.open('Wave one');
+  await expect(dashboard.frames).toHaveCount(2);
+});
+
+test('each group keeps its own undo; versions, tags, copies and the trash work from the list', async ({
+  dashboard,
+  page,
+}) => {
+  const library = libraryOf(page);
+  await captureGroup(dashboard, [1500]);
+  await library.call('Salute');
+  await library.show();
+  await library.more('Salute');
+  await library.write('Name of the version', 'One frame');
+  await expect(library.button('Go back to One frame')).toBeVisible();
+  await library.write('Tags of Salute', 'army, show');
+  await library.dialog.getByRole('combobox', { name: 'Tag' }).selectOption('army');
+  await poll(library.names).toEqual(['Salute']);
+  await library.button('Duplicate').click();
+  await poll(library.names).toEqual(['Salute, copy', 'Salute']);
+  await library.open('Salute, copy');
+  await dashboard.button('Capture frame').click();
+  await expect(dashboard.frames).toHaveCount(2);
+
+  await library.show();
+  await library.open('Salute');
+  await expect(dashboard.button('Undo: change tags')).toBeEnabled();
+  await library.show();
+  await library.open('Salute, copy');
+  await dashboard.button('Undo: capture a frame').click();
+  await expect(dashboard.frames).toHaveCount(1);
+
+  await library.show();
+  await library.more('Salute');
+  await library.button('Delete').click();
+  await expect(library.button('Open Salute')).toBeHidden();
+  await dashboard.notices.getByRole('button', { name: 'Undo' }).click();
+  await expect(library.button('Open Salute')).toBeVisible();
+  await library.more('Salute, copy');
+  await library.button('Delete').click();
+  await library.dialog.getByRole('switch', { name: 'Deleted' }).check();
+  await library.card('Salute, copy').getByRole('button', { name: 'Bring back' }).click();
+  await library.dialog.getByRole('switch', { name: 'Deleted' }).uncheck();
+  await library.open('Salute, copy');
+});
+
+test.describe('two browsers at one gateway', () => {
+  test.use({ expectedComplaint: /412/ });
+
+  test('changes made at the same time are both kept, and the later one is told', async ({
+    dashboard,
+    page,
+    browser,
+    robot,
+  }) => {
+    const library = libraryOf(page);
+    await captureGroup(dashboard, [1500]);
+    await library.call('Duet');
+    await library.show();
+    await poll(library.names).toContain('Duet');
+    await library.close();
+
+    const context = await browser.newContext({ locale: 'en-GB', viewport: page.viewportSize() });
+    const other = dashboardOf(await context.newPage());
+    const theirs = libraryOf(other.page);
+    await robot.open(other.page);
+    await expect(other.link).toHaveText(/^Ready/);
+    await theirs.show();
+    await theirs.open('Duet');
+
+    await other.type(other.frameTime(1), 700);
+    await theirs.show();
+    await expect(theirs.dialog).not.toContainText('Not all changes');
+    await expect(theirs.card('Duet')).toContainText('0.7 sec');
+    // The focus that would make this page follow stays away from it: it changes what it still shows.
+    await dashboard.type(dashboard.frameTime(1), 900);
+
+    await expect(dashboard.notices).toContainText('changed elsewhere at the same time');
+    await expect(library.groupName).toHaveValue('Duet, other version');
+    await expect(dashboard.frameTime(1)).toHaveValue('900');
+    await library.show();
+    await expect(library.card('Duet')).toContainText('0.7 sec');
+    await expect(library.card('Duet, other version')).toContainText('0.9 sec');
+    await expect(theirs.card('Duet, other version')).toContainText('0.9 sec');
+    await context.close();
+  });
+});
+
+test('the whole library moves from the gateway into a browser as one file', async ({
+  dashboard,
+  page,
+  browser,
+  servers,
+}) => {
+  const library = libraryOf(page);
+  await captureGroup(dashboard, [1500, 1600]);
+  await library.call('Travelling');
+  await library.show();
+  await poll(library.names).toContain('Travelling');
+  const downloading = page.waitForEvent('download');
+  await library.button('Export').click();
+  const file = await (await downloading).path();
+
+  const context = await browser.newContext({ locale: 'en-GB', viewport: page.viewportSize() });
+  const there = await context.newPage();
+  await there.goto((await servers.files()).url);
+  const away = libraryOf(there);
+  await away.show();
+  await expect(away.dialog).toContainText('Kept in this browser');
+  await expect(away.dialog).toContainText('No groups in the library yet');
+  const take = async (name: string, buffer: Buffer): Promise<void> => {
+    const choosing = there.waitForEvent('filechooser');
+    await away.button('Import').click();
+    await (await choosing).setFiles({ name, mimeType: 'application/json', buffer });
+  };
+  const text = await readFile(file);
+  await take('half.json', text.subarray(0, text.length / 2));
+  await expect(there.getByRole('region', { name: 'Notices' })).toContainText('Nothing was taken');
+  await take('library.json', text);
+  await away.open('Travelling');
+  await there.reload();
+  await expect(away.groupName).toHaveValue('Travelling');
+  await expect(dashboardOf(there).frames).toHaveCount(2);
+  await context.close();
+});
+
+test.describe('the contract', () => {
+  test.use({ expectedComplaint: /40[04]|412/ });
+
+  for (const place of ['gateway', 'browser'] as const) {
+    test(`every keeper does the same: ${place}`, async ({ newGateway, page }) => {
+      const gateway = await newGateway();
+      await page.addInitScript({
+        content: await bundle('frontend/src/keepers/keepersUnderTest.ts', 'keepers'),
+      });
+      await page.goto(`${gateway.url}/docs`);
+      const outcomes = await page.evaluate(
+        (which) => (window as unknown as CheckWindow).checkKeeper(which),
+        place,
+      );
+      expect(Object.keys(outcomes).length).toBeGreaterThan(5);
+      expect(outcomes).toEqual(Object.fromEntries(Object.keys(outcomes).map((title) => [title, ''])));
+    });
+  }
+});
+
+interface CheckWindow {
+  checkKeeper(which: 'gateway' | 'browser'): Promise<Record<string, string>>;
+}

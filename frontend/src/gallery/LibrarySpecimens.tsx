@@ -1,0 +1,66 @@
+// The library in each of its states, fed by a library that lives as long as the page.
+
+import { useState } from 'react';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { insertFrame, rename } from '#shared/actions/group/groupEdits.ts';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { LibraryView } from '../library/LibraryView.tsx';
+import { StoresContext, type Stores } from '../stores/stores.ts';
+import styles from './Gallery.module.css';
+import { specimenStores } from './specimenStores.ts';
+
+const GROUPS = ['Wave to the visitors at the door', 'Bow', 'Pick up the red cube and put it down', 'Dance'];
+const TAGS = [['greeting', 'show'], [], ['work'], ['show']];
+
+async function fill({ library, document, robots }: Stores): Promise<void> {
+  for (const [index, name] of GROUPS.entries()) {
+    library.create();
+    document.edit(
+      () => 'fill',
+      (empty) => {
+        const frames = Array.from({ length: 3 + 4 * index }, (_, frame) => ({
+          durationMs: 400,
+          targets: [1, 2, 3, 4, 5, 6].map((servo) => ({
+            servo,
+            position: Math.round(1500 + 700 * Math.sin(index * 1.7 + frame * 0.4 + servo)),
+          })),
+        }));
+        const tagged = { ...rename(empty, name), tags: TAGS[index] ?? [] };
+        const robot = index === 1 ? 'A robot of somebody else' : robots.current().robot.name;
+        return frames.reduce<ActionGroup>((group, frame, at) => insertFrame(group, at, frame), {
+          ...tagged,
+          robot,
+        });
+      },
+    );
+    await library.refresh();
+  }
+  await library.keepVersion(library.store.getState().openId, 'Before the show');
+}
+
+export function LibrarySpecimens() {
+  return (
+    <>
+      <Shown name="Library, empty" isEmpty />
+      <Shown name="Library" isEmpty={false} />
+    </>
+  );
+}
+
+function Shown({ name, isEmpty }: { readonly name: string; readonly isEmpty: boolean }) {
+  const [stores] = useState(() => {
+    const made = specimenStores(FAMILIES.doc);
+    if (!isEmpty) void fill(made);
+    return made;
+  });
+  return (
+    <StoresContext value={stores}>
+      <article className={styles.specimen} aria-label={name}>
+        <h2 className={styles.name}>{name}</h2>
+        <div className={styles.dialog}>
+          <LibraryView onDone={() => undefined} />
+        </div>
+      </article>
+    </StoresContext>
+  );
+}

@@ -1,0 +1,108 @@
+// What every keeper does, as cases that run wherever it lives: under Node, or in a browser against IndexedDB and a gateway. Uses
+// documents of its own names, so that a keeper may hold others.
+
+import {
+  LibraryError,
+  type Facts,
+  type Keeper,
+  type Listed,
+  type Writing,
+} from '#shared/actions/library/keeper.ts';
+
+const FACTS: Facts = {
+  ...{ name: 'Wave', robot: 'Arm', tags: ['greeting'], updatedAtMs: 1_790_000_000_000 },
+  ...{ frames: 2, durationMs: 1500, unit: 'us', pose: [{ servo: 1, position: 1500 }] },
+};
+
+const writing = (x: number, expected: number, isRemoved = false): Writing => ({
+  ...{ text: `{"x":${x}}`, facts: FACTS, expected, isRemoved },
+});
+
+type Case = (keeper: Keeper, name: (short: string) => string) => Promise<void>;
+
+export const KEEPER_CASES: Readonly<Record<string, Case>> = {
+  'a document is kept, listed and read': async (keeper, name) => {
+    same(await keeper.write(name('a'), writing(1, 0)), 1);
+    same(await keeper.write(name('a'), writing(2, 1)), 2);
+    same(await keeper.read(name('a')), { text: '{"x":2}', revision: 2 });
+    const expected: Listed = { id: name('a'), revision: 2, isRemoved: false, facts: FACTS };
+    same(await listed(keeper, name('a')), expected);
+  },
+  'a write at an old revision is refused and changes nothing': async (keeper, name) => {
+    await keeper.write(name('a'), writing(1, 0));
+    await keeper.write(name('a'), writing(2, 1));
+    same(await codeOf(keeper.write(name('a'), writing(3, 1))), 'conflict');
+    same(await codeOf(keeper.write(name('a'), writing(3, 0))), 'conflict');
+    same(await keeper.read(name('a')), { text: '{"x":2}', revision: 2 });
+  },
+  'the same text sent again is no conflict': async (keeper, name) => {
+    await keeper.write(name('a'), writing(1, 0));
+    same(await keeper.write(name('a'), writing(1, 0)), 1);
+  },
+  'a document of another place is taken in': async (keeper, name) => {
+    same(await keeper.write(name('a'), writing(1, 7)), 8);
+  },
+  'removing and restoring is all or nothing, and a write restores': async (keeper, name) => {
+    await keeper.write(name('a'), writing(1, 0));
+    await keeper.write(name('b'), writing(1, 0, true));
+    same(await codeOf(keeper.remove([name('a'), name('c')])), 'notFound');
+    same(await codeOf(keeper.restore([name('b'), name('c')])), 'notFound');
+    same(await removed(keeper, name('a'), name('b')), [false, true]);
+    await keeper.remove([name('a')]);
+    same(await removed(keeper, name('a'), name('b')), [true, true]);
+    await keeper.restore([name('a'), name('b')]);
+    same(await removed(keeper, name('a'), name('b')), [false, false]);
+    await keeper.remove([name('a')]);
+    await keeper.write(name('a'), writing(2, 1));
+    same(await removed(keeper, name('a')), [false]);
+  },
+  'versions stay as they were, oldest first': async (keeper, name) => {
+    const version = { id: name('v'), name: 'Later', atMs: 9 };
+    same(await codeOf(keeper.keepVersion(name('a'), version, '{}')), 'notFound');
+    await keeper.write(name('a'), writing(1, 0));
+    const older = { id: name('u'), name: 'Older', atMs: 5 };
+    await keeper.keepVersion(name('a'), version, '{"x":1}');
+    await keeper.keepVersion(name('a'), older, '{"x":0}');
+    await keeper.write(name('a'), writing(2, 1));
+    same(await keeper.versions(name('a')), [older, version]);
+    same(await keeper.readVersion(name('a'), name('v')), '{"x":1}');
+    same(await keeper.versions(name('b')), []);
+    same(await codeOf(keeper.readVersion(name('a'), name('w'))), 'notFound');
+  },
+  'what is not there is not found': async (keeper, name) => {
+    same(await codeOf(keeper.read(name('a'))), 'notFound');
+    same(await listed(keeper, name('a')), undefined);
+  },
+};
+
+async function listed(keeper: Keeper, id: string): Promise<Listed | undefined> {
+  const { documents } = await keeper.list();
+  return documents.find((one) => one.id === id);
+}
+
+async function removed(keeper: Keeper, ...ids: readonly string[]): Promise<unknown> {
+  return Promise.all(ids.map(async (id) => (await listed(keeper, id))?.isRemoved));
+}
+
+async function codeOf(refused: Promise<unknown>): Promise<string> {
+  try {
+    await refused;
+    return 'not refused';
+  } catch (error) {
+    return error instanceof LibraryError ? error.code : String(error);
+  }
+}
+
+function same(found: unknown, expected: unknown): void {
+  const [one, other] = [found, expected].map((value) => JSON.stringify(ordered(value)));
+  if (one !== other) throw new Error(`expected ${other}, found ${one}`);
+}
+
+/** With the keys of each object in one order. */
+function ordered(value: unknown): unknown {
+  if (Array.isArray(value)) return value.map(ordered);
+  if (typeof value !== 'object' || value === null) return value;
+  return Object.entries(value)
+    .sort(([one], [other]) => one.localeCompare(other))
+    .map(([key, each]) => [key, ordered(each)]);
+}

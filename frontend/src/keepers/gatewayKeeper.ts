@@ -1,0 +1,98 @@
+// The library in the gateway's data folder, over HTTP. Trusts no answer's shape; every failure is a LibraryError.
+
+import * as z from 'zod/mini';
+import {
+  factsSchema,
+  LibraryError,
+  type Keeper,
+  type LibraryErrorCode,
+} from '#shared/actions/library/keeper.ts';
+import type {
+  DocumentIds,
+  DocumentWrite,
+  DocumentWritten,
+  LibraryListing,
+  ListedVersion,
+  StoredDocument,
+  VersionText,
+  VersionWrite,
+} from './library.generated.ts';
+
+const ANSWER_WITHIN_MS = 10_000;
+/** As much as the gateway takes. */
+const MAX_TEXT_LENGTH = 2 * 1024 * 1024;
+
+const CODES: Readonly<Record<string, LibraryErrorCode>> = {
+  conflict: 'conflict',
+  notFound: 'notFound',
+  storageFull: 'full',
+  storageBusy: 'busy',
+  tooLarge: 'tooLarge',
+};
+
+const whole = z.number().check(z.int());
+const listingSchema: z.ZodMiniType<LibraryListing> = z.object({
+  documents: z.array(
+    z.object({ id: z.string(), revision: whole, isRemoved: z.boolean(), facts: factsSchema }),
+  ),
+  setAside: z.nullable(z.string()),
+});
+const storedSchema: z.ZodMiniType<StoredDocument> = z.object({ text: z.string(), revision: whole });
+const writtenSchema: z.ZodMiniType<DocumentWritten> = z.object({ revision: whole });
+const versionsSchema: z.ZodMiniType<ListedVersion[]> = z.array(
+  z.object({ id: z.string(), name: z.string(), atMs: whole }),
+);
+const versionTextSchema: z.ZodMiniType<VersionText> = z.object({ text: z.string() });
+const nothing = z.unknown();
+
+export const gatewayKeeper: Keeper = {
+  place: 'gateway',
+  list: () => ask('', 'GET', listingSchema),
+  read: (id) => ask(`/${id}`, 'GET', storedSchema),
+  async write(id, { text, facts, expected, isRemoved }) {
+    if (text.length > MAX_TEXT_LENGTH) throw new LibraryError('tooLarge', 'the text is too long');
+    const wanted: DocumentWrite = { text, facts, expected, isRemoved };
+    const { revision } = await ask(`/${id}`, 'PUT', writtenSchema, wanted);
+    return revision;
+  },
+  remove: (ids) => mark('remove', ids),
+  restore: (ids) => mark('restore', ids),
+  versions: (id) => ask(`/${id}/versions`, 'GET', versionsSchema),
+  readVersion: async (id, version) =>
+    (await ask(`/${id}/versions/${version}`, 'GET', versionTextSchema)).text,
+  async keepVersion(id, { id: version, name, atMs }, text) {
+    const wanted: VersionWrite = { name, atMs, text };
+    await ask(`/${id}/versions/${version}`, 'PUT', nothing, wanted);
+  },
+};
+
+async function mark(verb: 'remove' | 'restore', ids: readonly string[]): Promise<void> {
+  const wanted: DocumentIds = { ids: [...ids] };
+  await ask(`/${verb}`, 'POST', nothing, wanted);
+}
+
+async function ask<T>(path: string, method: string, schema: z.ZodMiniType<T>, body?: object): Promise<T> {
+  const response = await fetch(`api/library${path}`, {
+    method,
+    signal: AbortSignal.timeout(ANSWER_WITHIN_MS),
+    ...(body !== undefined && {
+      headers: { 'content-type': 'application/json' },
+      body: JSON.stringify(body),
+    }),
+  }).catch((error: unknown) => {
+    throw new LibraryError('unreachable', 'the gateway does not answer', { cause: error });
+  });
+  const answer: unknown = await response.json().catch(() => null);
+  if (!response.ok) throw problem(answer);
+  const read = schema.safeParse(answer);
+  if (!read.success) throw new LibraryError('failed', 'the gateway’s answer is none');
+  return read.data;
+}
+
+const problemSchema = z.object({ code: z.string(), detail: z.string() });
+
+function problem(answer: unknown): LibraryError {
+  const read = problemSchema.safeParse(answer);
+  if (!read.success) return new LibraryError('unreachable', 'no gateway is at this address');
+  return new LibraryError(CODES[read.data.code] ?? 'failed', read.data.detail);
+}

@@ -1,0 +1,63 @@
+// One group of the library: its picture opens it, and more about it unfolds in place.
+
+import type { Listed } from '#shared/actions/library/keeper.ts';
+import { useLibrary, useStores } from '../stores/stores.ts';
+import { Button, IconButton } from '../ui/Button.tsx';
+import { cx } from '../ui/cx.ts';
+import { words } from '../words/words.ts';
+import { DocumentDetails } from './DocumentDetails.tsx';
+import { DocumentThumb } from './DocumentThumb.tsx';
+import styles from './Library.module.css';
+
+export interface DocumentCardProps {
+  readonly document: Listed;
+  readonly nowMs: number;
+  readonly isUnfolded: boolean;
+  onUnfold(isUnfolded: boolean): void;
+  onDone(): void;
+}
+
+export function DocumentCard({ document, nowMs, isUnfolded, onUnfold, onDone }: DocumentCardProps) {
+  const { library } = useStores();
+  const { id, facts, isRemoved } = document;
+  const isOpen = useLibrary((state) => state.openId === id);
+  const { name, frames, durationMs, robot, tags } = facts;
+  const open = (): void => void library.open(id).then(onDone);
+  return (
+    <li className={cx(styles.card, isUnfolded && styles.unfolded, isOpen && styles.current)}>
+      <div className={styles.front}>
+        <button
+          type="button"
+          data-card-face=""
+          className={styles.face}
+          aria-label={words.library.open(name)}
+          aria-current={isOpen}
+          disabled={isRemoved}
+          onClick={open}
+        >
+          <DocumentThumb facts={facts} />
+        </button>
+        <div className={styles.foot}>
+          <span className={styles.name}>{name}</span>
+          {isRemoved ? (
+            <Button onPress={() => void library.restore(id)}>{words.library.restore}</Button>
+          ) : (
+            <IconButton
+              icon="more"
+              label={words.library.more(name)}
+              aria-expanded={isUnfolded}
+              onPress={() => onUnfold(!isUnfolded)}
+            />
+          )}
+          <span className={styles.about}>
+            {isOpen ? words.library.isOpen : words.library.age(nowMs - facts.updatedAtMs)}
+            {' · '}
+            {words.library.about(frames, durationMs)}
+          </span>
+          <span className={styles.about}>{[robot, ...tags].filter((word) => word !== '').join(' · ')}</span>
+        </div>
+      </div>
+      {isUnfolded && !isRemoved && <DocumentDetails document={document} onDone={onDone} />}
+    </li>
+  );
+}

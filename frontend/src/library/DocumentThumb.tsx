@@ -1,0 +1,28 @@
+// The picture of a group: its robot in the pose of the middle frame, or bars where that robot is not known here.
+
+import { useStore } from 'zustand';
+import type { Facts } from '#shared/actions/library/keeper.ts';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { BarThumb, RobotThumb } from '../body/PoseThumb.tsx';
+import { useStores } from '../stores/stores.ts';
+
+export function DocumentThumb({ facts }: { readonly facts: Facts }) {
+  const { robots } = useStores();
+  const robot = useStore(
+    robots.store,
+    ({ present }) => present.own.find((one) => one.robot.name === facts.robot)?.robot,
+  );
+  const pose = new Map(facts.pose.map(({ servo, position }) => [servo, position]));
+  const isFitting = robot !== undefined && FAMILIES[robot.board].unit === facts.unit;
+  const rest = { pose, changed: [...pose.keys()], family: familyOf(facts.unit) };
+  return isFitting ? (
+    <RobotThumb {...rest} robot={robot} family={FAMILIES[robot.board]} />
+  ) : (
+    <BarThumb {...rest} />
+  );
+}
+
+/** Any that counts like that. */
+function familyOf(unit: Facts['unit']) {
+  return Object.values(FAMILIES).find((family) => family.unit === unit) ?? FAMILIES.doc;
+}

@@ -1,0 +1,17 @@
+// The library over the page, for as long as a group is looked for.
+
+import { useStores, useView } from '../stores/stores.ts';
+import { Dialog } from '../ui/Dialog.tsx';
+import { words } from '../words/words.ts';
+import { LibraryView } from './LibraryView.tsx';
+
+export function LibraryDialog() {
+  const { view } = useStores();
+  const isOpen = useView((state) => state.libraryOpen);
+  const close = (): void => view.setState({ libraryOpen: false });
+  return (
+    <Dialog full title={words.library.title} closeLabel={words.close} isOpen={isOpen} onClose={close}>
+      <LibraryView onDone={close} />
+    </Dialog>
+  );
+}

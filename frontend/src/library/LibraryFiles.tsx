@@ -1,0 +1,45 @@
+// A new group, and the whole library to a file and from one. An import adds to what is there.
+
+import { FileTrigger } from 'react-aria-components/FileTrigger';
+import { useLibrary, useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { saveFile } from '../ui/saveFile.ts';
+import { words } from '../words/words.ts';
+import styles from './Library.module.css';
+
+export function LibraryFiles({ onDone }: { onDone(): void }) {
+  const { library, notices } = useStores();
+  const isEmpty = useLibrary(({ documents }) => documents.every(({ isRemoved }) => isRemoved));
+
+  const take = (files: FileList | null): void =>
+    void files?.[0]
+      ?.text()
+      .then(library.importText, () => notices.tell('warning', words.library.unreadableFile));
+
+  async function save(): Promise<void> {
+    const text = await library.exportText();
+    if (text !== null) saveFile({ name: `${words.library.fileName}.json`, text });
+  }
+
+  return (
+    <div className={styles.files}>
+      <Button
+        tone="primary"
+        icon="plus"
+        onPress={() => {
+          library.create();
+          onDone();
+        }}
+      >
+        {words.library.create}
+      </Button>
+      <span className={styles.gap} />
+      <FileTrigger acceptedFileTypes={['.json', 'application/json']} onSelect={take}>
+        <Button icon="upload">{words.library.import}</Button>
+      </FileTrigger>
+      <Button icon="save" isDisabled={isEmpty} onPress={() => void save()}>
+        {words.library.export}
+      </Button>
+    </div>
+  );
+}

@@ -1,0 +1,72 @@
+// Named versions of a group: keeping one as it is now, and going back to one.
+
+import { useEffect, useState, type SubmitEvent } from 'react';
+import type { Version } from '#shared/actions/library/keeper.ts';
+import { useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../words/words.ts';
+import styles from './Library.module.css';
+
+const MAX_NAME_LENGTH = 64;
+
+export function Versions({ id, onDone }: { readonly id: string; onDone(): void }) {
+  const { library } = useStores();
+  const [versions, setVersions] = useState<readonly Version[]>([]);
+  const [name, setName] = useState('');
+
+  useEffect(() => {
+    let isGone = false;
+    void library.versions(id).then((found) => {
+      if (!isGone) setVersions(found);
+    });
+    return () => {
+      isGone = true;
+    };
+  }, [library, id]);
+
+  async function keep(event: SubmitEvent): Promise<void> {
+    event.preventDefault();
+    const wanted = name.trim();
+    if (wanted === '') return;
+    await library.keepVersion(id, wanted);
+    setName('');
+    setVersions(await library.versions(id));
+  }
+
+  return (
+    <section className={styles.versions} aria-label={words.library.versions}>
+      <form className={styles.keep} onSubmit={(event) => void keep(event)}>
+        <input
+          className={styles.field}
+          aria-label={words.library.versionName}
+          placeholder={words.library.versionHint}
+          maxLength={MAX_NAME_LENGTH}
+          autoComplete="off"
+          value={name}
+          onChange={({ target }) => setName(target.value)}
+        />
+        <Button type="submit" isDisabled={name.trim() === ''}>
+          {words.library.keepVersion}
+        </Button>
+      </form>
+      {versions.length === 0 ? (
+        <p className={styles.hint}>{words.library.noVersions}</p>
+      ) : (
+        <ul>
+          {versions.toReversed().map((version) => (
+            <li key={version.id} className={styles.version}>
+              <span className={styles.name}>{version.name}</span>
+              <span className={styles.about}>{words.library.at(version.atMs)}</span>
+              <Button
+                aria-label={words.library.restoreVersion(version.name)}
+                onPress={() => void library.restoreVersion(id, version).then(onDone)}
+              >
+                {words.library.goBack}
+              </Button>
+            </li>
+          ))}
+        </ul>
+      )}
+    </section>
+  );
+}

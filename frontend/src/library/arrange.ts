@@ -1,0 +1,44 @@
+// Which documents of the library are shown and in which order. Knows no page.
+
+import type { Listed } from '#shared/actions/library/keeper.ts';
+
+export const SORTS = ['updated', 'name', 'duration'] as const;
+export type Sort = (typeof SORTS)[number];
+
+export interface Wish {
+  readonly search: string;
+  readonly sort: Sort;
+  /** Empty: every tag. */
+  readonly tag: string;
+  /** Those in the trash instead of the others. */
+  readonly isRemoved: boolean;
+}
+
+type Order = (one: Listed, other: Listed) => number;
+
+const byName: Order = (one, other) =>
+  one.facts.name.localeCompare(other.facts.name, undefined, { numeric: true });
+
+const ORDERS: Readonly<Record<Sort, Order>> = {
+  updated: (one, other) => other.facts.updatedAtMs - one.facts.updatedAtMs,
+  name: byName,
+  duration: (one, other) => other.facts.durationMs - one.facts.durationMs,
+};
+
+export function arranged(documents: readonly Listed[], wish: Wish): readonly Listed[] {
+  const parts = wish.search.toLocaleLowerCase().split(/\s+/u);
+  return documents
+    .filter(({ isRemoved }) => isRemoved === wish.isRemoved)
+    .filter(({ facts }) => wish.tag === '' || facts.tags.includes(wish.tag))
+    .filter((document) => parts.every((part) => searchedIn(document).includes(part)))
+    .sort((one, other) => ORDERS[wish.sort](one, other) || byName(one, other));
+}
+
+/** In alphabetical order, each once. */
+export function tagsIn(documents: readonly Listed[]): readonly string[] {
+  const tags = documents.filter(({ isRemoved }) => !isRemoved).flatMap(({ facts }) => facts.tags);
+  return [...new Set(tags)].sort((one, other) => one.localeCompare(other));
+}
+
+const searchedIn = ({ facts }: Listed): string =>
+  [facts.name, facts.robot, ...facts.tags].join('\n').toLocaleLowerCase();

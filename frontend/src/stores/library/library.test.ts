@@ -1,0 +1,329 @@
+import { describe, expect, test } from 'vitest';
+import { rename } from '#shared/actions/group/groupEdits.ts';
+import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
+import { emptyGroup } from '#shared/actions/group/group.ts';
+import { LibraryError, type Keeper } from '#shared/actions/library/keeper.ts';
+import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createMemoryKeeper } from '../../keepers/memoryKeeper.ts';
+import { words } from '../../words/words.ts';
+import { createVisit } from './libraryUnderTest.ts';
+
+const called = (name: string) => (group: Parameters<typeof rename>[0]) => rename(group, name);
+
+function createPlace(keeper: Keeper = createMemoryKeeper()) {
+  const clock = createVirtualClock();
+  const visit = (texts?: Map<string, string>) => createVisit(keeper, clock, texts);
+  return { keeper, clock, visit };
+}
+
+/** Goes away and comes back, as a gateway does. */
+function unreliable(keeper: Keeper) {
+  const state = { isAway: false };
+  const away = <T>(ask: () => Promise<T>): Promise<T> =>
+    state.isAway ? Promise.reject(new LibraryError('unreachable', 'away')) : ask();
+  const flaky: Keeper = {
+    ...keeper,
+    list: () => away(keeper.list),
+    read: (id) => away(() => keeper.read(id)),
+    write: (id, writing) => away(() => keeper.write(id, writing)),
+  };
+  return { flaky, state };
+}
+
+const textAt = async (keeper: Keeper, id: string) => {
+  const read = groupFromText((await keeper.read(id)).text);
+  return 'value' in read ? read.value : null;
+};
+
+describe('keeping', () => {
+  test('what is captured is in the library after a pause, with what a list says of it', async () => {
+    const { visit, clock, keeper } = createPlace();
+    const page = visit();
+    await page.later();
+    page.capture(1500);
+    page.capture(1800);
+    await clock.advance(499);
+    expect((await keeper.list()).documents).toEqual([]);
+    await clock.advance(1);
+    expect((await keeper.list()).documents).toHaveLength(1);
+    await page.library.refresh();
+    const [listed] = page.library.store.getState().documents;
+    expect(listed).toMatchObject({ id: page.openId(), revision: 1 });
+    expect(listed!.facts).toMatchObject({
+      frames: 2,
+      durationMs: 1000,
+      pose: [{ servo: 1, position: 1800 }],
+    });
+    expect(listed!.facts.robot).not.toBe('');
+  });
+
+  test('a page that only looks writes nothing', async () => {
+    const { visit, keeper } = createPlace();
+    const page = visit();
+    await page.later();
+    expect((await keeper.list()).documents).toEqual([]);
+  });
+
+  test('the next visit shows the same document, and its changes go on from its revision', async () => {
+    const { visit, keeper } = createPlace();
+    const first = visit();
+    first.capture(1500);
+    await first.later();
+    const second = visit(first.texts);
+    await second.later();
+    second.capture(1600);
+    await second.later();
+    expect(second.openId()).toBe(first.openId());
+    expect((await keeper.list()).documents).toMatchObject([{ revision: 2 }]);
+    expect(second.told()).toEqual([]);
+  });
+
+  test('a group from before there was a library goes into it', async () => {
+    const { visit } = createPlace();
+    const before = { ...emptyGroup('Old', 'us'), nextId: 2 };
+    const frame = { id: 1, durationMs: 1, targets: [], easing: 'linear', note: '', colour: null } as const;
+    const text = groupToText({ ...before, frames: [frame] });
+    const page = visit(new Map([['servodeck.group', text]]));
+    await page.later();
+    expect(page.names()).toEqual(['Old']);
+  });
+
+  test('what a crash cut off is kept at the next visit, which is told', async () => {
+    const { visit } = createPlace();
+    const first = visit();
+    first.document.edit(() => 'name', called('Wave'));
+    first.capture(1500);
+    const second = visit(first.texts);
+    await second.later();
+    expect(second.names()).toEqual(['Wave']);
+    expect(second.told()).toEqual([words.library.recovered(['Wave'])]);
+    expect(second.group().frames).toHaveLength(1);
+  });
+
+  test('while the keeper is away everything waits here, is told once, and is kept when it is back', async () => {
+    const { flaky, state } = unreliable(createMemoryKeeper());
+    const { visit } = createPlace(flaky);
+    const page = visit();
+    await page.later();
+    state.isAway = true;
+    page.capture(1500);
+    await page.later();
+    await page.later();
+    expect(page.told()).toEqual([words.library.problem('unreachable', '')]);
+    expect(page.library.store.getState().isKept).toBe(false);
+    page.library.create();
+    page.capture(1700);
+    state.isAway = false;
+    await page.later();
+    await page.library.refresh();
+    expect(page.names()).toHaveLength(2);
+    expect(page.library.store.getState().isKept).toBe(true);
+  });
+
+  test('a drag is one write, and none while it lasts', async () => {
+    const { visit, keeper } = createPlace();
+    const page = visit();
+    page.capture(1500);
+    page.document.begin(() => 'drag');
+    page.document.preview(called('Half way'));
+    await page.later();
+    expect((await textAt(keeper, page.openId()))!.name).not.toBe('Half way');
+    page.document.commit();
+    await page.later();
+    expect((await textAt(keeper, page.openId()))!.name).toBe('Half way');
+  });
+
+  test('a group that is refused keeps no other waiting', async () => {
+    const keeper = createMemoryKeeper();
+    const write: Keeper['write'] = (id, writing) =>
+      writing.facts.name === 'Huge'
+        ? Promise.reject(new LibraryError('tooLarge', 'too large'))
+        : keeper.write(id, writing);
+    const { visit } = createPlace({ ...keeper, write });
+    const page = visit();
+    page.document.edit(() => 'name', called('Huge'));
+    page.library.create();
+    page.document.edit(() => 'name', called('Small'));
+    await page.later();
+    expect((await keeper.list()).documents.map(({ facts }) => facts.name)).toEqual(['Small']);
+  });
+});
+
+describe('two pages at one library', () => {
+  async function bothOpen() {
+    const { visit, keeper } = createPlace();
+    const one = visit();
+    one.document.edit(() => 'name', called('Wave'));
+    await one.later();
+    const other = visit();
+    await other.later();
+    await other.library.open(one.openId());
+    return { one, other, keeper };
+  }
+
+  test('changes at the same time are both kept, and the later one is told', async () => {
+    const { one, other, keeper } = await bothOpen();
+    const id = one.openId();
+    one.capture(1111);
+    other.capture(2222);
+    await one.later();
+    await one.library.refresh();
+    const copy = words.library.otherVersion('Wave');
+    expect(one.names()).toEqual(['Wave', copy]);
+    expect((await textAt(keeper, id))!.frames[0]!.targets[0]!.position).toBe(1111);
+    expect((await textAt(keeper, other.openId()))!.frames[0]!.targets[0]!.position).toBe(2222);
+    expect(other.group().name).toBe(copy);
+    expect(other.told()).toEqual([words.library.conflict('Wave', copy)]);
+    expect(one.told()).toEqual([]);
+  });
+
+  test('a page without changes of its own follows the other, and may undo that', async () => {
+    const { one, other } = await bothOpen();
+    other.capture(1500);
+    await other.later();
+    await one.library.refresh();
+    expect(one.group().frames).toHaveLength(1);
+    one.document.undo();
+    expect(one.group().frames).toHaveLength(0);
+    await one.later();
+    await other.library.refresh();
+    expect(other.group().frames).toHaveLength(0);
+    expect([...one.told(), ...other.told()]).toEqual([]);
+  });
+
+  test('a change during a conflict is not lost', async () => {
+    const { one, other, keeper } = await bothOpen();
+    one.capture(1);
+    await one.later();
+    other.capture(2);
+    const flushed = other.library.refresh();
+    other.capture(3);
+    await flushed;
+    await other.later();
+    expect((await textAt(keeper, other.openId()))!.frames).toHaveLength(2);
+  });
+});
+
+describe('several documents', () => {
+  test('each keeps its own steps while the page lives', async () => {
+    const { visit } = createPlace();
+    const page = visit();
+    page.capture(1500);
+    const first = page.openId();
+    await page.later();
+    page.library.create();
+    expect(page.group().frames).toHaveLength(0);
+    page.document.edit(() => 'name', called('Second'));
+    await page.later();
+    await page.library.open(first);
+    expect(page.group().frames).toHaveLength(1);
+    page.document.undo();
+    expect(page.group().frames).toHaveLength(0);
+    page.document.redo();
+    expect(page.document.store.getState().past.map(({ label }) => label())).toEqual(['capture']);
+  });
+
+  test('a document is duplicated, renamed from the list, deleted and brought back', async () => {
+    const { visit } = createPlace();
+    const page = visit();
+    page.document.edit(() => 'name', called('Wave'));
+    await page.later();
+    await page.library.duplicate(page.openId());
+    expect(page.names()).toEqual(['Wave', words.library.copyOf('Wave')]);
+    const { documents, openId } = page.library.store.getState();
+    const copy = documents.find(({ id }) => id !== openId)!.id;
+    await page.library.change(copy, () => 'rename', called('Bow'));
+    expect(page.names()).toEqual(['Bow', 'Wave']);
+    await page.library.remove(copy);
+    expect(page.names()).toEqual(['Wave']);
+    page.act();
+    await page.later();
+    expect(page.names()).toEqual(['Bow', 'Wave']);
+  });
+
+  test('deleting the open one opens a new one; undo brings it back with its steps', async () => {
+    const { visit } = createPlace();
+    const page = visit();
+    page.capture(1500);
+    await page.later();
+    const id = page.openId();
+    await page.library.remove(id);
+    expect(page.openId()).not.toBe(id);
+    expect(page.group().frames).toEqual([]);
+    page.act();
+    await page.later();
+    expect(page.openId()).toBe(id);
+    expect(page.document.store.getState().past).toHaveLength(1);
+  });
+
+  test('a named version stays as it was, and going back to it is a step', async () => {
+    const { visit } = createPlace();
+    const page = visit();
+    page.capture(1500);
+    await page.library.keepVersion(page.openId(), 'Before the show');
+    page.capture(1600);
+    const [version] = await page.library.versions(page.openId());
+    await page.library.restoreVersion(page.openId(), version!);
+    expect(page.group().frames).toHaveLength(1);
+    page.document.undo();
+    expect(page.group().frames).toHaveLength(2);
+  });
+});
+
+describe('files', () => {
+  async function twoGroups() {
+    const place = createPlace();
+    const page = place.visit();
+    page.document.edit(() => 'name', called('Wave'));
+    await page.library.keepVersion(page.openId(), 'First');
+    page.library.create();
+    page.document.edit(() => 'name', called('Bow'));
+    page.capture(1500);
+    await page.later();
+    return { ...place, page, text: (await page.library.exportText())! };
+  }
+
+  test('all of a library moves to another place, with its versions', async () => {
+    const { text } = await twoGroups();
+    const elsewhere = createPlace();
+    const other = elsewhere.visit();
+    await other.library.importText(text);
+    expect(other.names()).toEqual(['Bow', 'Wave']);
+    expect(other.told()).toEqual([words.library.imported(2, 0, 0)]);
+    const wave = other.library.store.getState().documents.find(({ facts }) => facts.name === 'Wave')!;
+    expect((await other.library.versions(wave.id)).map(({ name }) => name)).toEqual(['First']);
+    expect(JSON.parse((await other.library.exportText())!)).toEqual(JSON.parse(text));
+  });
+
+  test('what is there already stays; what differs comes beside it', async () => {
+    const { text, page } = await twoGroups();
+    page.capture(1700);
+    await page.library.importText(text);
+    expect(page.names()).toEqual(['Bow', 'Bow', 'Wave']);
+    expect(page.told()).toContain(words.library.imported(0, 1, 1));
+  });
+
+  test('a file that breaks off in the middle brings nothing in', async () => {
+    const { text } = await twoGroups();
+    const keeper = createMemoryKeeper();
+    let writes = 0;
+    const write: Keeper['write'] = (id, writing) =>
+      ++writes > 1 ? Promise.reject(new LibraryError('full', 'no room')) : keeper.write(id, writing);
+    const other = createPlace({ ...keeper, write }).visit();
+    await other.library.importText(text);
+    await other.library.refresh();
+    expect(other.names()).toEqual([]);
+    expect(other.told()).toEqual([words.library.problem('full', '')]);
+  });
+
+  test.each(['', '{}', '[]', '{"format":"servodeck-library","version":2,"content":{"documents":[]}}'])(
+    'a file that is no library changes nothing: %s',
+    async (text) => {
+      const { visit, keeper } = createPlace();
+      const page = visit();
+      await page.library.importText(text);
+      expect((await keeper.list()).documents).toEqual([]);
+      expect(page.told()).toHaveLength(1);
+    },
+  );
+});

@@ -1,0 +1,299 @@
+// The library of action groups: the group that is shown is always one of it, and each settled change goes there by itself.
+// Nothing is lost: until the keeper has a text it waits in the browser's storage, and of two that were changed at the same
+// time both are kept. Never moves the robot.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { Clock } from '#shared/clock.ts';
+import { emptyGroup, GROUP_NAME_LENGTH, type ActionGroup } from '#shared/actions/group/group.ts';
+import { rename } from '#shared/actions/group/groupEdits.ts';
+import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
+import type { Label } from '#shared/actions/history.ts';
+import { factsOf } from '#shared/actions/library/facts.ts';
+import {
+  LibraryError,
+  type Facts,
+  type Keeper,
+  type Listed,
+  type Stored,
+  type Version,
+} from '#shared/actions/library/keeper.ts';
+import { words } from '../../words/words.ts';
+import type { Document, TextStorage } from '../document.ts';
+import type { Notices } from '../notices.ts';
+import type { RobotStore } from '../robots.ts';
+import type { View } from '../view.ts';
+import { createLibraryFiles, type LibraryFiles } from './libraryFiles.ts';
+import { createOpenDocument } from './openDocument.ts';
+import { createOutbox } from './outbox.ts';
+import { createShelving } from './shelving.ts';
+
+export interface LibraryState {
+  /** Where it lies; null until that is known. */
+  readonly place: Keeper['place'] | null;
+  /** Those in the trash too, in no order. */
+  readonly documents: readonly Listed[];
+  readonly openId: string;
+  /** The keeper has every change. */
+  readonly isKept: boolean;
+}
+
+/** What cannot be done is told to the person; nothing rejects. */
+export interface Library extends LibraryFiles {
+  readonly store: StoreApi<LibraryState>;
+  /** Looks what others have changed; the group that is shown follows, if nothing of it waits here. */
+  refresh(): Promise<void>;
+  create(): void;
+  /** Keeps a group as a new document, without showing it. */
+  add(group: ActionGroup): void;
+  open(id: string): Promise<void>;
+  duplicate(id: string): Promise<void>;
+  /** Changes any document; the one that is shown undoably. */
+  change(id: string, label: Label, edit: (group: ActionGroup) => ActionGroup): Promise<void>;
+  remove(id: string): Promise<void>;
+  restore(id: string): Promise<void>;
+  versions(id: string): Promise<readonly Version[]>;
+  keepVersion(id: string, name: string): Promise<void>;
+  /** Opens the document and goes back to that version, undoably. */
+  restoreVersion(id: string, version: Version): Promise<void>;
+}
+
+export interface LibraryOptions {
+  readonly keeper: Promise<Keeper>;
+  readonly document: Document;
+  readonly storage: TextStorage;
+  readonly notices: Notices;
+  readonly robots: RobotStore;
+  readonly view: View;
+  readonly clock: Clock;
+  /** Milliseconds since 1970. */
+  epochMs(): number;
+  newId(): string;
+}
+
+export function createLibrary(options: LibraryOptions): Library {
+  const { document, storage, notices, robots, view, epochMs, newId } = options;
+  const outbox = createOutbox(storage);
+  const opened = createOpenDocument(document, storage, newId);
+  const store = createStore<LibraryState>(() => ({
+    ...{ place: null, documents: [], openId: opened.id(), isKept: true },
+  }));
+  const shown = (): ActionGroup => document.store.getState().present;
+  /** What waits or is kept already; anything else that is shown is a change. */
+  let noted = shown();
+  let isShowing = false;
+  let hasToldSetAside = false;
+  let isFound = true;
+
+  const shelving = createShelving({
+    ...{ keeper: options.keeper, outbox, clock: options.clock },
+    factsOf: factsOfText,
+    onKept(id, revision) {
+      opened.setRevision(id, revision);
+      tellKept();
+    },
+    onConflict: keepBoth,
+    onFailure: tell,
+  });
+
+  function factsOfText(text: string): Facts | null {
+    const read = groupFromText(text);
+    if ('problem' in read) return null;
+    return factsOf(read.value, { updatedAtMs: epochMs(), robot: robots.current().robot.name });
+  }
+
+  function tell(error: unknown): void {
+    const { code, message } =
+      error instanceof LibraryError ? error : new LibraryError('failed', String(error), { cause: error });
+    notices.tell('warning', words.library.problem(code, message));
+  }
+
+  const attempt = (work: Promise<void>): Promise<void> => work.catch(tell);
+
+  const tellKept = (): void => store.setState({ openId: opened.id(), isKept: outbox.entries().length === 0 });
+
+  function put(id: string, text: string): void {
+    outbox.put(id, { text, revision: opened.revisionOf(id) });
+    shelving.soon();
+    tellKept();
+  }
+
+  document.store.subscribe(({ present, gesture }) => {
+    if (isShowing || gesture !== null || present === noted) return;
+    noted = present;
+    put(opened.id(), groupToText(present));
+  });
+
+  /** The newer text stays under its name; ours goes on as a document of its own. */
+  function keepBoth(id: string, { text }: Stored): void {
+    const ours = groupOf(text);
+    const room = GROUP_NAME_LENGTH - words.library.otherVersion('').length;
+    const copy = words.library.otherVersion(ours.name.slice(0, room));
+    const copyId = newId();
+    if (id === opened.id()) {
+      opened.become(copyId);
+      document.edit(
+        () => words.library.steps.rename,
+        (group) => rename(group, copy),
+      );
+      put(copyId, groupToText(shown()));
+    } else put(copyId, groupToText(rename(ours, copy)));
+    notices.tell('warning', words.library.conflict(ours.name, copy));
+  }
+
+  /** As it is here, if something of it waits here; else as the keeper has it. */
+  async function read(id: string): Promise<ActionGroup> {
+    if (id === opened.id()) return shown();
+    const unkept = outbox.get(id);
+    if (unkept !== undefined) return groupOf(unkept.text);
+    const { text, revision } = await (await options.keeper).read(id);
+    opened.setRevision(id, revision);
+    return groupOf(text);
+  }
+
+  function show(id: string, group: ActionGroup): void {
+    isShowing = true;
+    opened.show(id, group, () => words.library.steps.elsewhere);
+    isShowing = false;
+    noted = shown();
+    view.setState({ selectedFrame: null, playFrom: 0 });
+    tellKept();
+  }
+
+  function create(): void {
+    const { robot } = robots.current();
+    const group = emptyGroup(words.actions.defaultName, document.store.getState().present.unit);
+    show(newId(), { ...group, robot: robot.name });
+  }
+
+  async function open(id: string): Promise<void> {
+    if (id !== opened.id()) show(id, await read(id));
+  }
+
+  async function refresh(): Promise<void> {
+    const keeper = await options.keeper;
+    const { documents, setAside } = await keeper.list();
+    if (setAside !== null && !hasToldSetAside) notices.tell('warning', words.library.setAside(setAside));
+    hasToldSetAside ||= setAside !== null;
+    store.setState({ place: keeper.place, documents });
+    await follow(documents);
+  }
+
+  /** What is shown follows the keeper, unless a change of it waits here. */
+  async function follow(documents: readonly Listed[]): Promise<void> {
+    const id = opened.id();
+    const listed = documents.find((one) => one.id === id);
+    if (outbox.get(id) !== undefined) return;
+    if (listed === undefined && opened.revisionOf(id) > 0) put(id, groupToText(shown()));
+    if (listed === undefined || listed.revision === opened.revisionOf(id)) return;
+    const { text, revision } = await (await options.keeper).read(id);
+    const { gesture } = document.store.getState();
+    if (id !== opened.id() || gesture !== null || outbox.get(id) !== undefined) return;
+    opened.setRevision(id, revision);
+    show(id, groupOf(text));
+  }
+
+  async function change(id: string, label: Label, edit: (group: ActionGroup) => ActionGroup): Promise<void> {
+    if (id === opened.id()) document.edit(label, edit);
+    else put(id, groupToText(edit(await read(id))));
+    await flushAndRefresh();
+  }
+
+  async function flushAndRefresh(): Promise<void> {
+    if (await shelving.flush()) await refresh();
+  }
+
+  /** Asked for again and again: a keeper that stays away is told of once. */
+  async function look(): Promise<void> {
+    try {
+      await flushAndRefresh();
+      isFound = true;
+    } catch (error) {
+      if (isFound) tell(error);
+      isFound = false;
+    }
+  }
+
+  async function remove(id: string): Promise<void> {
+    const { name } = await read(id);
+    if (!(await shelving.flush())) return;
+    const wasOpen = id === opened.id();
+    await (await options.keeper).remove([id]);
+    if (wasOpen) create();
+    const undo = (): void => void attempt(restore(id).then(() => (wasOpen ? open(id) : undefined)));
+    notices.tell('info', words.library.removed(name), { label: words.library.undo, act: undo });
+    await refresh();
+  }
+
+  async function restore(id: string): Promise<void> {
+    await (await options.keeper).restore([id]);
+    await refresh();
+  }
+
+  async function start(): Promise<void> {
+    const waiting = outbox.entries().map(([id, { text }]) => ({ id, text }));
+    const own = waiting.find(({ id }) => id === opened.id());
+    if (own !== undefined && own.text !== groupToText(shown())) show(own.id, groupOf(own.text));
+    else if (own === undefined && !opened.wasRemembered && shown().frames.length > 0)
+      put(opened.id(), groupToText(shown()));
+    tellKept();
+    if (!(await shelving.flush())) return;
+    if (waiting.length > 0)
+      notices.tell('info', words.library.recovered(waiting.map(({ text }) => groupOf(text).name)));
+    await refresh();
+  }
+
+  void attempt(start());
+
+  return {
+    ...createLibraryFiles({
+      ...{ keeper: options.keeper, notices, newId, tell, refresh, flush: shelving.flush },
+      factsOf: (group, updatedAtMs) => factsOf(group, { updatedAtMs, robot: '' }),
+    }),
+    store,
+    refresh: look,
+    create,
+    add: (group) => put(newId(), groupToText(group)),
+    open: (id) => attempt(open(id)),
+    change: (id, label, edit) => attempt(change(id, label, edit)),
+    duplicate: (id) =>
+      attempt(
+        read(id).then((group) => {
+          put(newId(), groupToText(rename(group, words.library.copyOf(group.name))));
+          return flushAndRefresh();
+        }),
+      ),
+    remove: (id) => attempt(remove(id)),
+    restore: (id) => attempt(restore(id)),
+    versions: async (id) =>
+      (await options.keeper).versions(id).catch((error: unknown) => {
+        tell(error);
+        return [];
+      }),
+    keepVersion: (id, name) =>
+      attempt(
+        (async () => {
+          const text = groupToText(await read(id));
+          if (!(await shelving.flush())) return;
+          await (await options.keeper).keepVersion(id, { id: newId(), name, atMs: epochMs() }, text);
+          view.setState({ said: words.library.versionKept(name) });
+        })(),
+      ),
+    restoreVersion: (id, { id: version, name }) =>
+      attempt(
+        (async () => {
+          const group = groupOf(await (await options.keeper).readVersion(id, version));
+          await open(id);
+          document.edit(
+            () => words.library.steps.version(name),
+            () => group,
+          );
+        })(),
+      ),
+  };
+}
+
+function groupOf(text: string): ActionGroup {
+  const read = groupFromText(text);
+  if ('problem' in read) throw new LibraryError('failed', read.problem);
+  return read.value;
+}

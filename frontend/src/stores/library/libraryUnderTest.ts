@@ -1,0 +1,52 @@
+// Pages at one keeper, in virtual time, for tests: each has its own stores; `texts` is what its browser kept.
+
+import type { Keeper } from '#shared/actions/library/keeper.ts';
+import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import type { VirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createDocument } from '../document.ts';
+import { createNotices } from '../notices.ts';
+import { createRobots } from '../robots.ts';
+import { createView } from '../view.ts';
+import { createLibrary } from './library.ts';
+
+export const EPOCH_MS = 1_790_000_000_000;
+
+export function createVisit(keeper: Keeper, clock: VirtualClock, texts = new Map<string, string>()) {
+  const storage = {
+    getItem: (key: string) => texts.get(key) ?? null,
+    setItem: (key: string, text: string) => void texts.set(key, text),
+  };
+  const notices = createNotices(clock);
+  const document = createDocument(storage, notices);
+  const view = createView(storage);
+  const robots = createRobots(storage, notices);
+  const library = createLibrary({
+    ...{ keeper: Promise.resolve(keeper), document, storage, notices, robots, view, clock },
+    epochMs: () => EPOCH_MS,
+    newId: nextId,
+  });
+  const names = () =>
+    library.store
+      .getState()
+      .documents.filter(({ isRemoved }) => !isRemoved)
+      .map(({ facts }) => facts.name)
+      .sort();
+  return {
+    ...{ texts, document, library, names, view },
+    told: () => notices.store.getState().map(({ text }) => text),
+    act: () => notices.store.getState().at(-1)?.action?.act(),
+    group: () => document.store.getState().present,
+    openId: () => library.store.getState().openId,
+    capture: (position: number) =>
+      document.edit(
+        () => 'capture',
+        (group) =>
+          insertFrame(group, group.frames.length, { durationMs: 500, targets: [{ servo: 1, position }] }),
+      ),
+    /** Long enough for what was written to be kept, or tried again. */
+    later: () => clock.advance(5800),
+  };
+}
+
+let ids = 0;
+const nextId = (): string => `id-${++ids}`;

@@ -1,0 +1,87 @@
+// Brings what waits in the outbox to the library: soon after a change, one at a time, again and again where it fails. Knows
+// texts and revisions; what becomes of a conflict is decided by whoever asked.
+
+import type { Clock } from '#shared/clock.ts';
+import { LibraryError, type Facts, type Keeper, type Stored } from '#shared/actions/library/keeper.ts';
+import type { Outbox } from './outbox.ts';
+
+export interface ShelvingOptions {
+  readonly keeper: Promise<Keeper>;
+  readonly outbox: Outbox;
+  readonly clock: Clock;
+  /** null for a text that this version cannot read: it goes on waiting. */
+  factsOf(text: string): Facts | null;
+  onKept(id: string, revision: number): void;
+  /** Must put `unkept` elsewhere; it is forgotten here. */
+  onConflict(id: string, unkept: Stored): void;
+  /** Once, until it has succeeded again. */
+  onFailure(error: unknown): void;
+}
+
+export interface Shelving {
+  /** After the next pause in the changes. */
+  soon(): void;
+  /** Now. True when nothing that can be kept waits any more. */
+  flush(): Promise<boolean>;
+}
+
+/** A pause in the writing; long enough that a drag or a held key is one write. */
+const PAUSE_MS = 500;
+const RETRY_MS = 5000;
+
+export function createShelving(options: ShelvingOptions): Shelving {
+  const { keeper, outbox, clock, factsOf } = options;
+  let cancelTimer = (): void => undefined;
+  let turn = Promise.resolve(true);
+  let hasFailed = false;
+
+  function after(delayMs: number): void {
+    cancelTimer();
+    cancelTimer = clock.after(delayMs, () => void flush());
+  }
+
+  function flush(): Promise<boolean> {
+    cancelTimer();
+    turn = turn.then(keepAll);
+    return turn;
+  }
+
+  async function keepAll(): Promise<boolean> {
+    const failures: unknown[] = [];
+    for (let round = readable(); round.length > 0 && failures.length === 0; round = readable()) {
+      // One that is refused must not keep the others waiting.
+      for (const unkept of round) await keep(unkept).catch((error: unknown) => failures.push(error));
+    }
+    const isFirst = !hasFailed;
+    hasFailed = failures.length > 0;
+    if (hasFailed) after(RETRY_MS);
+    if (hasFailed && isFirst) options.onFailure(failures[0]);
+    return !hasFailed;
+  }
+
+  function readable(): readonly Unkept[] {
+    return outbox.entries().flatMap(([id, { text, revision }]) => {
+      const facts = factsOf(text);
+      return facts === null ? [] : [{ id, text, revision, facts }];
+    });
+  }
+
+  async function keep({ id, text, facts, revision: expected }: Unkept): Promise<void> {
+    try {
+      const revision = await (await keeper).write(id, { text, facts, expected, isRemoved: false });
+      outbox.settle(id, { text, revision });
+      options.onKept(id, revision);
+    } catch (error) {
+      if (!(error instanceof LibraryError) || error.code !== 'conflict') throw error;
+      options.onConflict(id, outbox.get(id) ?? { text, revision: expected });
+      outbox.drop(id);
+    }
+  }
+
+  return { soon: () => after(PAUSE_MS), flush };
+}
+
+interface Unkept extends Stored {
+  readonly id: string;
+  readonly facts: Facts;
+}

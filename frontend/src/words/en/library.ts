@@ -1,0 +1,99 @@
+// Words about the library: where action groups are kept, found again and brought back.
+
+import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
+import { formatCount, formatLongAge, formatNames, formatSeconds, formatWhen } from './numbers.ts';
+
+const frames = (count: number): string => `${formatCount(count)} ${count === 1 ? 'frame' : 'frames'}`;
+const groups = (count: number): string => `${formatCount(count)} ${count === 1 ? 'group' : 'groups'}`;
+
+const PROBLEMS: Readonly<Record<LibraryErrorCode, string>> = {
+  conflict: 'Somebody else has changed this group meanwhile. Try again.',
+  notFound: 'This group is not in the library any more.',
+  full: 'The disk of the library is full. What you write stays in this browser; free some space.',
+  busy: 'Another program holds the library. What you write stays in this browser until it lets go.',
+  tooLarge: 'This group is too large for the library. It stays in this browser alone; make it shorter.',
+  unreachable: 'The gateway does not answer. What you write stays in this browser until it does.',
+  failed: 'The library cannot be used',
+};
+
+export const libraryWords = {
+  title: 'Library',
+  button: 'Library',
+  list: 'Action groups',
+  place: {
+    gateway: 'Kept by the gateway, for every browser at it. Each change is kept by itself.',
+    browser: 'Kept in this browser. Each change is kept by itself; export it now and then.',
+  },
+  looking: 'Looking for the library',
+  waiting: 'Not all changes are in the library yet.',
+  empty: 'No groups in the library yet',
+  emptyHint:
+    'Close this and capture a frame: the group goes into the library by itself, with every change. Or import a file.',
+  nothingFound: 'No group is like that.',
+
+  search: 'Find a group',
+  searchHint: 'Name, robot or tag',
+  sort: 'Sort by',
+  sorts: { updated: 'Last changed', name: 'Name', duration: 'Length' },
+  tag: 'Tag',
+  everyTag: 'Every tag',
+  showRemoved: 'Deleted',
+
+  create: 'New group',
+  import: 'Import',
+  export: 'Export',
+  fileName: 'servodeck library',
+
+  open: (name: string): string => `Open ${name}`,
+  isOpen: 'Open now',
+  about: (count: number, durationMs: number): string => `${frames(count)}, ${formatSeconds(durationMs)}`,
+  age: (ms: number): string => formatLongAge(ms),
+  more: (name: string): string => `More about ${name}`,
+  name: (name: string): string => `Name of ${name}`,
+  tags: (name: string): string => `Tags of ${name}`,
+  tagsLabel: 'Tags',
+  tagsHint: 'Separated by commas',
+  duplicate: 'Duplicate',
+  remove: 'Delete',
+  restore: 'Bring back',
+  undo: 'Undo',
+  copyOf: (name: string): string => `${name}, copy`,
+  otherVersion: (name: string): string => `${name}, other version`,
+
+  versions: 'Versions',
+  versionName: 'Name of the version',
+  versionHint: 'For example: before the show',
+  keepVersion: 'Keep version',
+  noVersions: 'A version stays as it is while you go on changing the group.',
+  restoreVersion: (name: string): string => `Go back to ${name}`,
+  goBack: 'Go back to it',
+  at: (epochMs: number): string => formatWhen(epochMs),
+  versionKept: (name: string): string => `Version kept: ${name}.`,
+
+  removed: (name: string): string => `Deleted: ${name}.`,
+  recovered: (names: readonly string[]): string =>
+    `Changes that were not in the library yet are there now: ${formatNames(names)}.`,
+  conflict: (name: string, copy: string): string =>
+    `${name} was changed elsewhere at the same time. Both are kept: the other one under its name, yours as “${copy}”.`,
+  setAside: (file: string): string =>
+    `The library’s file was damaged. It was set aside unharmed as ${file}, and a new library begun.`,
+  problem: (code: LibraryErrorCode, detail: string): string =>
+    code === 'failed' ? `${PROBLEMS.failed}: ${detail}.` : PROBLEMS[code],
+
+  notImported: (problem: string): string => `Nothing was taken from the file: ${problem}.`,
+  unreadableFile: 'The file could not be read.',
+  imported: (added: number, changed: number, same: number): string =>
+    [
+      `${groups(added)} added.`,
+      changed === 0 ? '' : ` ${groups(changed)} differ from yours and stand beside them.`,
+      same === 0 ? '' : ` ${groups(same)} were here already.`,
+    ].join(''),
+  exported: (count: number): string => `${groups(count)} exported.`,
+
+  steps: {
+    rename: 'rename group',
+    tags: 'change tags',
+    elsewhere: 'changes made elsewhere',
+    version: (name: string): string => `go back to ${name}`,
+  },
+};

@@ -1,0 +1,60 @@
+// A whole library as one text with a version, and back, all or nothing. Reading trusts nothing and names the document it
+// stumbles over. Knows no keeper's place.
+
+import * as z from 'zod/mini';
+import { flawOfGroup, groupSchema, type ActionGroup } from '../group/group.ts';
+import { readVersioned, versionedText, type Read } from '../versionedText.ts';
+
+const FORMAT = 'servodeck-library';
+
+const count = z.number().check(z.int(), z.gte(0));
+const versionSchema = z.strictObject({
+  name: z.string().check(z.maxLength(64)),
+  atMs: count,
+  group: groupSchema,
+});
+const documentSchema = z.strictObject({
+  id: z.string().check(z.regex(/^[A-Za-z0-9-]{1,64}$/)),
+  updatedAtMs: count,
+  group: groupSchema,
+  versions: z.array(versionSchema).check(z.maxLength(200)),
+});
+
+export const libraryFileSchema = z.strictObject({
+  format: z.literal(FORMAT),
+  version: z.literal(1),
+  content: z.strictObject({ documents: z.array(documentSchema).check(z.maxLength(5000)) }),
+});
+
+export interface BundledVersion {
+  readonly name: string;
+  readonly atMs: number;
+  readonly group: ActionGroup;
+}
+
+export interface BundledDocument {
+  readonly id: string;
+  readonly updatedAtMs: number;
+  readonly group: ActionGroup;
+  readonly versions: readonly BundledVersion[];
+}
+
+export interface Bundle {
+  readonly documents: readonly BundledDocument[];
+}
+
+export const libraryToText = (bundle: Bundle): string => versionedText(FORMAT, bundle);
+
+export const libraryFromText = (text: string): Read<Bundle> =>
+  readVersioned<Bundle>(text, 'library', libraryFileSchema, flawOfBundle);
+
+function flawOfBundle({ documents }: Bundle): string | null {
+  if (new Set(documents.map(({ id }) => id)).size < documents.length) return 'a document is there twice';
+  for (const { group, versions } of documents) {
+    for (const one of [group, ...versions.map((version) => version.group)]) {
+      const flaw = flawOfGroup(one);
+      if (flaw !== null) return `${group.name}: ${flaw}`;
+    }
+  }
+  return null;
+}
