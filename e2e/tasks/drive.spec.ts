@@ -54,10 +54,51 @@ test('in a set time the move takes that time', async ({ dashboard, robot, page }
   expect(ofKind(await robot.bus(), 'move').at(-1)?.durationMs).toBe(700);
 });
 
-test('all servos go to the middle at once, slowly', async ({ dashboard, robot }) => {
+test('all servos go to the middle, slowly and one after another', async ({ dashboard, robot, page }) => {
   await dashboard.button('Centre all').click();
-  await poll(async () => ofKind(await robot.bus(), 'move')).toHaveLength(1);
-  const [move] = ofKind(await robot.bus(), 'move');
-  expect(move?.durationMs).toBeGreaterThanOrEqual(1500);
-  expect(move?.targets).toEqual([1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 1500 })));
+  await expect(page.getByText(/^Starting slowly, one after another\. Still to start:/)).toBeVisible();
+  await poll(async () => ofKind(await robot.bus(), 'move')).toHaveLength(6);
+  const moves = ofKind(await robot.bus(), 'move');
+  expect(moves.flatMap(({ targets }) => targets)).toEqual(
+    [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 1500 })),
+  );
+  expect(Math.min(...moves.map(({ durationMs }) => durationMs))).toBeGreaterThanOrEqual(1500);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
+});
+
+test('Stop while servos start one after another keeps the others where they are', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  await dashboard.button('Centre all').click();
+  await expect(page.getByText(/Still to start: 3/)).toBeVisible();
+  await page.keyboard.press('Escape');
+  await expect(dashboard.button('Resume')).toBeVisible();
+  await dashboard.button('Resume').click();
+  await expect(page.getByText(/Still to start/)).toBeHidden();
+  await dashboard.type(dashboard.target(1), 1600);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1600');
+  expect(await lastTarget(robot.bus, 6)).toBeUndefined();
+});
+
+test('at the next visit the last pose is a guess, and only a press takes the robot there', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  await dashboard.type(dashboard.target(2), 1700);
+  await expect(dashboard.estimate(2)).toHaveText('≈ 1700');
+  await page.reload();
+  await expect(dashboard.slider(2)).toHaveValue('1700');
+  await expect(dashboard.slider(2)).toHaveAttribute('aria-valuetext', /^Unknown; last known 1700 µs/);
+  await expect(dashboard.target(2)).toHaveValue('');
+  await expect(dashboard.estimate(2)).toBeHidden();
+  const before = ofKind(await robot.bus(), 'move').length;
+  await dashboard.button('Go to the last known pose').click();
+  await expect(dashboard.estimate(2)).toHaveText('≈ 1700');
+  const after = ofKind(await robot.bus(), 'move').slice(before);
+  expect(after.map(({ targets }) => targets)).toEqual([[{ servo: 2, position: 1700 }]]);
+  expect(after[0]?.durationMs).toBeGreaterThanOrEqual(1500);
+  await expect(dashboard.button('Go to the last known pose')).toBeHidden();
 });

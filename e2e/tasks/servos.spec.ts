@@ -14,7 +14,7 @@ test('servos selected together turn together, the other way when mirrored @every
   await dashboard.type(dashboard.target(3), 1700);
   await poll(() => lastTarget(robot.bus, 5)).toBe(1300);
   const moves = ofKind(await robot.bus(), 'move');
-  expect(moves.map(({ targets }) => targets.length)).toEqual([2]);
+  expect(moves.map(({ targets }) => targets.length)).toEqual([1, 1]);
 
   await dashboard.button('Unbind all').click();
   await dashboard.type(dashboard.target(3), 1600);

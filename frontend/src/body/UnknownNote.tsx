@@ -1,23 +1,69 @@
-// Says which servos nobody knows the position of, before their first move is made. Keeps its line when all are known.
+// Says which servos nobody knows the position of, before their first move is made and while they wait for it, and offers to
+// take them to where this board was last seen. Keeps its line when all are known.
 
-import { useDevice, useRobot, useStores } from '../stores/stores.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
+import type { ServoTarget } from '#shared/protocol/commands.ts';
+import type { Device, DeviceState } from '../stores/device.ts';
+import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { motionHindrance } from '../stores/readiness.ts';
+import { isHeld } from '../stores/servoView.ts';
+import {
+  guessesNow,
+  servoViewOf,
+  useDevice,
+  useIsGuessing,
+  useRobot,
+  useSnapshot,
+  useStores,
+  type Stores,
+} from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import styles from './UnknownNote.module.css';
 
 export function UnknownNote() {
   const { device } = useStores();
-  const { servos } = useRobot();
+  const robot = useRobot();
   // Moved by nobody, and nothing told by the board: the motion changes with the store.
-  const text = useDevice(({ targets }) => {
-    const unknown = servos.filter(
-      ({ servo }) => targets[servo] === undefined && device.motion(servo).estimated === null,
-    );
-    return textOf(
-      unknown.map(({ servo }) => servo),
-      servos.length,
-    );
-  });
-  return <p className={styles.note}>{text}</p>;
+  const text = useDevice(({ targets, snapshot }) =>
+    snapshot.waitingToStart.length > 0
+      ? words.firstMoves.waiting(snapshot.waitingToStart)
+      : textOf(unknownOf(robot, targets, device), robot.servos.length),
+  );
+  const isOffered = useIsGuessing();
+  return (
+    <div className={styles.note}>
+      <p aria-live="polite">{text}</p>
+      {isOffered && <GoToGuess />}
+    </div>
+  );
+}
+
+function GoToGuess() {
+  const stores = useStores();
+  const isDisabled = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
+  return (
+    <Button
+      hint={words.firstMoves.goToGuessHint}
+      isDisabled={isDisabled}
+      onPress={() => stores.device.move(guessed(stores), GENTLE_MOVE_MS)}
+    >
+      {words.firstMoves.goToGuess}
+    </Button>
+  );
+}
+
+function guessed(stores: Stores): readonly ServoTarget[] {
+  const view = servoViewOf(stores);
+  return Object.entries(guessesNow(stores))
+    .map(([servo, position]) => ({ servo: Number(servo), position }))
+    .filter(({ servo }) => !isHeld(view, servo));
+}
+
+function unknownOf({ servos }: Robot, targets: DeviceState['targets'], device: Device): readonly number[] {
+  return servos
+    .map(({ servo }) => servo)
+    .filter((servo) => targets[servo] === undefined && device.motion(servo).estimated === null);
 }
 
 function textOf(unknown: readonly number[], count: number): string {

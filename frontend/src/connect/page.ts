@@ -14,6 +14,7 @@ import { gatewayKeeper } from '../keepers/gatewayKeeper.ts';
 import { watchInputs } from '../pad/watchInputs.ts';
 import { followLanguage } from '../stores/language.ts';
 import { createLibrary } from '../stores/library/library.ts';
+import { createLastPoses } from '../stores/lastPoses.ts';
 import { createMacroRun } from '../stores/macroRun.ts';
 import { createMacros } from '../stores/macros.ts';
 import { createMappings } from '../stores/mappings.ts';
@@ -60,6 +61,7 @@ export async function openPage(): Promise<Page> {
     ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
     macros: createMacros(storage, notices, robots),
     document: written,
+    lastPoses: createLastPoses(storage, device),
   };
   const connector = createConnector({ device, notices, boards, storage, isWatched });
   connector.start().catch(notices.tellError);

@@ -16,6 +16,7 @@ import { LogPanel } from '../console/LogPanel.tsx';
 import { ThisBoard } from '../identity/ThisBoard.tsx';
 import { LivePanel } from '../servos/LivePanel.tsx';
 import type { BatteryStore } from '../stores/battery.ts';
+import { nameOf } from '../stores/boards.ts';
 import type { RobotStore } from '../stores/robots.ts';
 import { editServoView, StoresContext, type Stores } from '../stores/stores.ts';
 import { useSpokenLocale } from '../ui/useSpokenLocale.ts';
@@ -110,9 +111,12 @@ const BLANK: Specimen = { name: '', way: null, state: INITIAL_STATE, pose: 'unkn
 function storesOf(specimen: Specimen): Stores {
   const family = specimen.isUnknown === true ? UNKNOWN_BOARD : FAMILIES[specimen.board ?? 'doc'];
   const stores = specimenStores(family);
-  const { device, document, view, boards, robots, battery } = stores;
+  const { device, document, view, boards, lastPoses, robots, battery } = stores;
   if (specimen.robot !== undefined) robots.add(() => '', specimen.robot.robot);
   const motions = motionsOf(specimen);
+  const { way, lastPositions: positions } = specimen;
+  if (way !== null && positions !== undefined && family.id !== 'unknown')
+    lastPoses.setState({ [nameOf(way)]: { family: family.id, positions } });
   if (specimen.way !== null) device.attach(frozenSession(family, specimen.state, motions), specimen.way);
   device.refreshTargets();
   if (specimen.feed !== undefined) feed(specimen.feed, robots, battery);

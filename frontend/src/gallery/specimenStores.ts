@@ -8,6 +8,7 @@ import { createBoards } from '../stores/boards.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import { createLibrary } from '../stores/library/library.ts';
+import { createLastPoses } from '../stores/lastPoses.ts';
 import { createMacroRun } from '../stores/macroRun.ts';
 import { createMacros } from '../stores/macros.ts';
 import { createMappings } from '../stores/mappings.ts';
@@ -41,6 +42,7 @@ export function specimenStores(family: Family, held: Gamepadlike | null = null):
     pad: createPad({ device, robots, mappings, notices, clock: pageClock, readPads }),
     battery: createBattery(device, robots),
     boards: createBoards(NO_STORAGE),
+    lastPoses: createLastPoses(NO_STORAGE, device),
     macros: createMacros(NO_STORAGE, notices, robots),
     macroRun: createMacroRun({ device, poses, robots, notices, clock: pageClock }),
   };

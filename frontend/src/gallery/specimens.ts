@@ -23,6 +23,8 @@ export interface Specimen {
   readonly frames: number;
   readonly selectedFrame?: number;
   readonly feed?: BatteryFeed;
+  /** Where the board's servos were last sent, at an earlier visit. */
+  readonly lastPositions?: Readonly<Record<number, number>>;
 }
 
 /** What feeds the robot, and what was read until now, one reading every five seconds. */
@@ -138,6 +140,21 @@ export const SPECIMENS: readonly Specimen[] = [
     name: 'Ready, nothing known',
     way: SIMULATED,
     state: { ...READY, battery: { kind: 'unread' } },
+    pose: 'unknown',
+    frames: 0,
+  },
+  {
+    name: 'Ready, last pose known',
+    way: USB,
+    state: READY,
+    pose: 'unknown',
+    frames: 0,
+    lastPositions: { 1: 1450, 2: 1500, 3: 1950, 4: 2050, 5: 1150, 6: 1700 },
+  },
+  {
+    name: 'Starting one after another',
+    way: USB,
+    state: { ...READY, waitingToStart: [4, 5, 6] },
     pose: 'unknown',
     frames: 0,
   },

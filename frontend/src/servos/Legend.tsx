@@ -1,7 +1,7 @@
 // The marks of a position in words, once, where they are used most, and the unit positions are shown in.
 
 import { tellsPositions } from '../stores/readiness.ts';
-import { useDevice, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useIsGuessing, useStores, useView } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { Choice } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
@@ -10,6 +10,7 @@ import styles from './Legend.module.css';
 export function Legend() {
   const { view } = useStores();
   const isTelling = useDevice((state) => tellsPositions(state.family));
+  const isGuessing = useIsGuessing();
   const unit = useDevice((state) => state.family.unit);
   const positionsIn = useView((state) => state.positionsIn);
   return (
@@ -20,6 +21,11 @@ export function Legend() {
             <Chip truth={truth}>{words.truth[truth]}</Chip>
           </li>
         ))}
+        {isGuessing && (
+          <li>
+            <Chip truth="guessed">{words.firstMoves.guess}</Chip>
+          </li>
+        )}
       </ul>
       <Choice
         label={words.servoPanel.positionsIn}

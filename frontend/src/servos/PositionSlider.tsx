@@ -17,6 +17,8 @@ export interface PositionSliderProps {
   readonly family: Family;
   readonly scale: Scale;
   readonly target: number | null;
+  /** Where it may stand while nobody knows. */
+  readonly guess: number | null;
   readonly blocked: boolean;
   onMove(position: number): void;
   onHome(): void;
@@ -27,6 +29,7 @@ export function PositionSlider({
   family,
   scale,
   target,
+  guess,
   blocked,
   onMove,
   onHome,
@@ -34,7 +37,7 @@ export function PositionSlider({
   const input = useRef<HTMLInputElement>(null);
   const held = useRef(false);
   const { min, max, home } = servo;
-  const shown = target ?? home;
+  const shown = target ?? guess ?? home;
 
   useEffect(() => {
     if (input.current !== null && !held.current) input.current.value = String(shown);
@@ -57,13 +60,14 @@ export function PositionSlider({
     <div className={cx(styles.slider, blocked && styles.blocked, target === null && styles.unknown)}>
       <Track servo={servo} range={family.position} scale={scale} />
       <EstimateMark servo={servo.servo} range={family.position} />
+      {guess !== null && <GuessMark share={fraction(guess, family.position)} />}
       <input
         ref={input}
         type="range"
         className={styles.input}
         style={between(servo, family.position)}
         aria-label={words.servos.position(servo.servo)}
-        aria-valuetext={target === null ? words.servos.unknownValue : scale.text(target)}
+        aria-valuetext={valueText(scale, target, guess)}
         aria-disabled={blocked}
         min={min}
         max={max}
@@ -78,6 +82,11 @@ export function PositionSlider({
       />
     </div>
   );
+}
+
+function valueText(scale: Scale, target: number | null, guess: number | null): string {
+  if (target !== null) return scale.text(target);
+  return guess === null ? words.servos.unknownValue : words.firstMoves.guessedValue(scale.text(guess));
 }
 
 function release(held: RefObject<boolean>, input: HTMLInputElement | null, shown: number): void {
@@ -116,6 +125,14 @@ function EstimateMark({ servo, range }: { readonly servo: number; readonly range
   return (
     <div className={styles.whole} aria-hidden="true">
       <div ref={mark} className={styles.estimate} hidden />
+    </div>
+  );
+}
+
+function GuessMark({ share }: { readonly share: number }) {
+  return (
+    <div className={styles.whole} aria-hidden="true">
+      <div className={styles.guess} style={{ insetInlineStart: percent(share) }} />
     </div>
   );
 }

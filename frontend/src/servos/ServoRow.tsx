@@ -5,7 +5,7 @@ import { memo, useRef } from 'react';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { motionHindrance, tellsPositions } from '../stores/readiness.ts';
 import { isHeld } from '../stores/servoView.ts';
-import { useDevice, useServoView, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useGuess, useServoView, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { useWords, words } from '../words/words.ts';
@@ -42,6 +42,7 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
   const hand = useHand();
   const family = useDevice((state) => state.family);
   const target = useDevice((state) => state.targets[servo] ?? null);
+  const guess = useGuess(own);
   const scale = scaleOf(
     own,
     family,
@@ -55,13 +56,13 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
 
   const area = useRef<HTMLDivElement>(null);
   useWheelSteps(area, (change, isFar) => {
-    if (!blocked) move(stepped(scale, target ?? own.home, change * (isFar ? 10 : 1)));
+    if (!blocked) move(stepped(scale, target ?? guess ?? own.home, change * (isFar ? 10 : 1)));
   });
 
   return (
     <div ref={area} className={cx(styles.controls, isTelling && styles.telling)}>
       <PositionSlider
-        {...{ servo: own, family, scale, target, blocked }}
+        {...{ servo: own, family, scale, target, guess, blocked }}
         onMove={move}
         onHome={() => hand.home([servo])}
       />
@@ -70,7 +71,8 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
         size="large"
         value={target === null ? null : scale.shown(target)}
         {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals }}
-        placeholder={words.servos.unknown}
+        placeholder={guess === null ? words.servos.unknown : words.firstMoves.guessed(scale.digits(guess))}
+        start={scale.shown(guess ?? own.home)}
         isReadOnly={blocked}
         onChange={(shown) => move(scale.position(shown))}
         onRefused={(shown) => notices.tell('warning', refusal(own, shown, scale))}

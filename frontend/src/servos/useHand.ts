@@ -2,7 +2,7 @@
 
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { editServoView, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
+import { editServoView, guessesNow, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
 import { isHeld, type ServoView } from '../stores/servoView.ts';
 import { moveGang, weightOf, type Member } from './gang.ts';
 
@@ -35,7 +35,7 @@ function together(stores: Stores, servo: number, position: number): readonly Ser
   const view = servoViewOf(stores);
   const members = membersOf(stores, view, servo);
   if (members === null) return [{ servo, position }];
-  const { targets: now } = stores.device.store.getState();
+  const now = { ...guessesNow(stores), ...stores.device.store.getState().targets };
   const { targets, gang } = moveGang(members, servo, position, now, view.gang);
   editServoView(stores, (before) => ({ ...before, gang }));
   return targets;

@@ -50,7 +50,22 @@ describe('a device with a session', () => {
     );
     expect(device.waiting()).toBe(2);
     await draw(200);
+    expect(device.waiting()).toBe(1);
+    await draw(200);
     expect(device.waiting()).toBe(0);
+  });
+
+  test('shows what was asked of a servo for as long as it waits for its first move', async () => {
+    const { device, state, draw } = await createDesk();
+    device.move(
+      [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 1600 })),
+      300,
+    );
+    for (let step = 0; step < 100; step++) {
+      await draw(20);
+      expect(state().targets[6]).toBe(1600);
+    }
+    expect(state().snapshot.waitingToStart).toEqual([]);
   });
 
   test('knows nothing of a servo that nobody moved', async () => {

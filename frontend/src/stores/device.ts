@@ -164,9 +164,9 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   function refreshTargets(): void {
-    const { targets } = store.getState();
+    const { targets, snapshot } = store.getState();
     const servos = robot().servos.map(({ servo }) => servo);
-    const next = book.read(servos, motion, targets);
+    const next = book.read(servos, motion, snapshot.waitingToStart, targets);
     if (next !== targets) store.setState({ targets: next });
   }
 

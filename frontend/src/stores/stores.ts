@@ -3,7 +3,7 @@
 
 import { createContext, use } from 'react';
 import { useStore } from 'zustand';
-import type { Robot } from '#shared/actions/robot/robot.ts';
+import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { History } from '#shared/actions/history.ts';
 import type { MacroPage } from '#shared/actions/macros/macro.ts';
@@ -14,8 +14,9 @@ import type { Mapping } from '#shared/actions/mapping/mapping.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { Document, DocumentState } from './document.ts';
 import { currentOf, type RobotStore } from './robots.ts';
+import { guessesOf, guessOf, type LastPoses } from './lastPoses.ts';
 import type { Notices } from './notices.ts';
-import { servoViewFor, type ServoView } from './servoView.ts';
+import { servoViewFor, type ServoView, type Stand } from './servoView.ts';
 import type { Pad, PadState } from './pad.ts';
 import type { MacroRun } from './macroRun.ts';
 import type { Poses } from './poses.ts';
@@ -30,6 +31,7 @@ export interface Stores {
   readonly view: View;
   readonly notices: Notices;
   readonly boards: Boards;
+  readonly lastPoses: LastPoses;
   readonly robots: RobotStore;
   readonly battery: BatteryStore;
   readonly mappings: Undoable<Mapping>;
@@ -82,6 +84,28 @@ export function useRobot(): Robot {
 
 export function useBattery<T>(select: (state: BatteryState) => T): T {
   return useStore(useStores().battery, select);
+}
+
+/** Where the servo may stand, while nobody knows. */
+export function useGuess(servo: RobotServo): number | null {
+  const { lastPoses } = useStores();
+  // Of a servo whose pose is being remembered anew the target is known.
+  return useDevice((state) => guessOf(lastPoses.getState(), state, servo));
+}
+
+/** There is a guess of some servo. */
+export function useIsGuessing(): boolean {
+  const { lastPoses } = useStores();
+  const robot = useRobot();
+  return useDevice((state) => Object.keys(guessesOf(lastPoses.getState(), state, robot)).length > 0);
+}
+
+export function guessesNow({
+  lastPoses,
+  device,
+  robots,
+}: Pick<Stores, 'lastPoses' | 'device' | 'robots'>): Stand {
+  return guessesOf(lastPoses.getState(), device.store.getState(), robots.current().robot);
 }
 
 /** What pad and keys do to it. */

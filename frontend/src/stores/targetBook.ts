@@ -12,15 +12,25 @@ export interface TargetBook {
   clear(): void;
   /** How many servos were asked for something, at the last reading, that has not left yet. */
   waiting(): number;
-  /** Targets of these servos; the very same object where nothing changed. */
-  read(servos: readonly number[], motion: (servo: number) => ServoMotion, before: Targets): Targets;
+  /** Targets of these servos; the very same object where nothing changed. Those that `queue` for their turn wait longer. */
+  read(
+    servos: readonly number[],
+    motion: (servo: number) => ServoMotion,
+    queue: readonly number[],
+    before: Targets,
+  ): Targets;
 }
 
-/** Longer than any packet waits for the wire; a wish that has not left by then was dropped. */
+/** Longer than any packet waits for the wire once its turn has come; a wish that has not left by then was dropped. */
 const WISH_LASTS_MS = 1000;
 
 export function createTargetBook(clock: Clock): TargetBook {
   const wishes = new Map<number, { readonly position: number; readonly untilMs: number }>();
+
+  function prolong(servo: number): void {
+    const wish = wishes.get(servo);
+    if (wish !== undefined) wishes.set(servo, { ...wish, untilMs: clock.now() + WISH_LASTS_MS });
+  }
 
   function targetOf(servo: number, sent: number | null): number | null {
     const wish = wishes.get(servo);
@@ -36,7 +46,8 @@ export function createTargetBook(clock: Clock): TargetBook {
     },
     clear: () => wishes.clear(),
     waiting: () => wishes.size,
-    read(servos, motion, before) {
+    read(servos, motion, queue, before) {
+      queue.forEach(prolong);
       const next: Record<number, number> = {};
       for (const servo of servos) {
         const target = targetOf(servo, motion(servo).target);

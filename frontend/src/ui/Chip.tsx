@@ -3,7 +3,8 @@
 import { cx } from './cx.ts';
 import styles from './Chip.module.css';
 
-export type Truth = 'neutral' | 'commanded' | 'estimated' | 'confirmed' | 'unknown' | 'warning' | 'danger';
+export type Truth =
+  'neutral' | 'commanded' | 'estimated' | 'confirmed' | 'unknown' | 'guessed' | 'warning' | 'danger';
 
 export function Mark({ truth }: { readonly truth: Truth }) {
   return (
@@ -28,6 +29,7 @@ const SHAPES: Readonly<Record<Truth, React.ReactNode>> = {
   estimated: <path d="M4.5 1h3v10h-3z" className={styles.solid} />,
   confirmed: <path d="M1.5 6.5l3 3L10.5 2.5" className={styles.outline} />,
   unknown: <path d="M2 10L10 2M2 6l4-4M6 10l4-4" className={styles.outline} />,
+  guessed: <path d="M6 2l4 4-4 4-4-4z" className={styles.outline} />,
   warning: <path d="M6 1l5.5 10H.5z" className={styles.solid} />,
   danger: <path d="M2.5 2.5l7 7M9.5 2.5l-7 7" className={styles.outline} />,
 };

@@ -16,6 +16,8 @@ export interface NumberFieldProps {
   readonly decimals?: 0 | 1;
   readonly unit?: string;
   readonly placeholder?: string;
+  /** Where steps begin while the value is not known. */
+  readonly start?: number;
   readonly size?: 'plain' | 'large' | 'small';
   readonly isDisabled?: boolean;
   /** Takes nothing for now, yet keeps its place and the focus. */
@@ -47,7 +49,7 @@ export function NumberField(props: NumberFieldProps) {
     if (change === 0 || isDisabled || isReadOnly) return;
     event.preventDefault();
     event.stopPropagation();
-    const from = value ?? props.min;
+    const from = value ?? props.start ?? props.min;
     take(Math.min(props.max, Math.max(props.min, from + change)));
   }
 

@@ -17,6 +17,7 @@ import type { Replies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { setSpeed } from './speed.ts';
+import { createTurns } from './turns.ts';
 
 export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
   readonly replies: Replies;
@@ -46,14 +47,19 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
   const core: Core = {
     ...{ family, clock, store, robot, lanes },
     exchange: createExchange(family, clock, lanes, replies),
-    unsettled: () => !moves.isEmpty() || groups.isStopping() || isMotion(lanes.unfinished()),
+    unsettled: () => moves.servos().length > 0 || groups.isStopping() || isMotion(lanes.unfinished()),
   };
   const moves = createMoveBuffer(family);
-  const live = createLive(core, moves);
+  const turns = createTurns({ clock, isUnknown: robot.isUnknown, due: lanes.wake, waiting });
+  const live = createLive(core, moves, turns);
   const groups = createGroups(core, slotMemory);
   const readBattery = createBatteryReader(core);
   const readings = createReadings(core);
   const releaseServos = (servos: readonly number[]): Promise<void> => release(core, servos);
+
+  function waiting(waitingToStart: readonly number[]): void {
+    if (!sameList(waitingToStart, store.state.waitingToStart)) store.update({ waitingToStart });
+  }
 
   return {
     core,
@@ -69,17 +75,22 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
       readings.applied(command);
     },
     takeMove() {
-      const move = moves.take();
-      return move && encodeOrRefuse(robot.softened(move), family);
+      const servos = turns.next(moves.servos());
+      return servos.length === 0 ? null : encodeOrRefuse(robot.softened(moves.take(servos)), family);
     },
     drop(error) {
       live.drop();
+      waiting([]);
       groups.drop();
       lanes.purge(error);
       replies.fail(error);
       store.update({ activity: { kind: 'idle' } });
     },
   };
+}
+
+function sameList(one: readonly number[], other: readonly number[]): boolean {
+  return one.length === other.length && one.every((servo, index) => servo === other[index]);
 }
 
 function isMotion(packet: Uint8Array | null): boolean {

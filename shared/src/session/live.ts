@@ -8,6 +8,7 @@ import { LinkError } from './linkError.ts';
 import type { MoveBuffer } from './moveBuffer.ts';
 import { play, type Playing } from './player.ts';
 import type { Activity } from './state.ts';
+import type { Turns } from './turns.ts';
 
 export interface Live {
   move(targets: readonly ServoTarget[], durationMs: number): void;
@@ -16,7 +17,7 @@ export interface Live {
   drop(): void;
 }
 
-export function createLive(core: Core, moves: MoveBuffer): Live {
+export function createLive(core: Core, moves: MoveBuffer, turns: Turns): Live {
   let playing: Playing | null = null;
 
   const activityIs = (kind: Activity['kind']): boolean => core.store.state.activity.kind === kind;
@@ -29,6 +30,11 @@ export function createLive(core: Core, moves: MoveBuffer): Live {
     core.lanes.wake();
   }
 
+  /** Others may be waiting for their turn already. */
+  function startsWithinMs({ targets }: Frame): number {
+    return turns.startsWithinMs([...new Set([...moves.servos(), ...targets.map(({ servo }) => servo)])]);
+  }
+
   async function playFrames(frames: readonly Frame[], times: number): Promise<void> {
     requireReleased(core);
     if (!activityIs('idle')) throw new LinkError('busy', 'something else is running');
@@ -36,6 +42,7 @@ export function createLive(core: Core, moves: MoveBuffer): Live {
       clock: core.clock,
       frames,
       times,
+      startsWithinMs,
       move: (frame) => move(frame.targets, frame.durationMs),
       frameBegan: (frameIndex) =>
         setActivity(core, { kind: 'playing', frameIndex, frameCount: frames.length }),

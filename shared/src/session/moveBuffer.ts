@@ -8,41 +8,34 @@ import { wireMs } from '../protocol/packet.ts';
 export type MoveCommand = Extract<Command, { kind: 'move' }>;
 
 export interface MoveBuffer {
-  /** `durationMs` 0: as fast as the link allows. Merged wishes take the longest duration of any of them. */
+  /** `durationMs` 0: as fast as the link allows. */
   put(targets: readonly ServoTarget[], durationMs: number): void;
-  take(): MoveCommand | null;
-  isEmpty(): boolean;
+  /** Servos with a wish, in the order they were first asked. */
+  servos(): readonly number[];
+  /** As many wishes of these servos as one packet takes, in the longest duration of any of them. */
+  take(servos: readonly number[]): MoveCommand;
   clear(): void;
 }
 
 export function createMoveBuffer(family: Family): MoveBuffer {
-  const wishes = new Map<number, number>();
-  let durationMs = 0;
+  const wishes = new Map<number, { readonly position: number; readonly durationMs: number }>();
 
   return {
-    put(targets, wantedMs) {
-      for (const { servo, position } of targets) wishes.set(servo, position);
-      durationMs = Math.max(durationMs, wantedMs);
+    put(targets, durationMs) {
+      for (const { servo, position } of targets) wishes.set(servo, { position, durationMs });
     },
-    take() {
-      if (wishes.size === 0) return null;
-      const targets = [...wishes]
+    servos: () => [...wishes.keys()],
+    take(servos) {
+      const taken = [...wishes]
+        .filter(([servo]) => servos.includes(servo))
         .slice(0, family.servosPerMove)
-        .map(([servo, position]) => ({ servo, position }));
-      for (const { servo } of targets) wishes.delete(servo);
-      const move: MoveCommand = {
-        kind: 'move',
-        targets,
-        durationMs: Math.max(durationMs, intervalMs(targets, family)),
-      };
-      if (wishes.size === 0) durationMs = 0;
-      return move;
+        .map(([servo, wish]) => ({ servo, ...wish }));
+      for (const { servo } of taken) wishes.delete(servo);
+      const targets = taken.map(({ servo, position }) => ({ servo, position }));
+      const durationMs = Math.max(...taken.map((wish) => wish.durationMs), intervalMs(targets, family));
+      return { kind: 'move', targets, durationMs };
     },
-    isEmpty: () => wishes.size === 0,
-    clear() {
-      wishes.clear();
-      durationMs = 0;
-    },
+    clear: () => wishes.clear(),
   };
 }
 

@@ -10,6 +10,8 @@ export interface PlayerOptions {
   readonly frames: readonly Frame[];
   /** 0: until stopped. */
   readonly times: number;
+  /** Until the last servo of the first frame may start. */
+  startsWithinMs(first: Frame): number;
   move(frame: Frame): void;
   /** Frame `index` begins. */
   frameBegan(index: number): void;
@@ -21,7 +23,7 @@ export interface Playing {
   stop(): void;
 }
 
-export function play({ clock, frames, times, move, frameBegan }: PlayerOptions): Playing {
+export function play({ clock, frames, times, startsWithinMs, move, frameBegan }: PlayerOptions): Playing {
   let cancelTimer = (): void => undefined;
   let finish = (): void => undefined;
   let failed: (error: unknown) => void = () => undefined;
@@ -36,7 +38,9 @@ export function play({ clock, frames, times, move, frameBegan }: PlayerOptions):
     const index = begun % frames.length;
     const frame = frames[index];
     if (frame === undefined || (times > 0 && begun === times * frames.length)) return finish();
-    const durationMs = begun === 0 ? Math.max(frame.durationMs, FIRST_MOVE_MS) : frame.durationMs;
+    const isFirst = begun === 0;
+    const durationMs = isFirst ? Math.max(frame.durationMs, FIRST_MOVE_MS) : frame.durationMs;
+    const waitMs = durationMs + (isFirst ? startsWithinMs(frame) : 0);
     try {
       move({ ...frame, durationMs });
     } catch (error) {
@@ -44,7 +48,7 @@ export function play({ clock, frames, times, move, frameBegan }: PlayerOptions):
     }
     frameBegan(index);
     begun += 1;
-    deadlineMs += Math.max(1, durationMs);
+    deadlineMs += Math.max(1, waitMs);
     cancelTimer = clock.after(Math.max(0, deadlineMs - clock.now()), beginNext);
   }
 

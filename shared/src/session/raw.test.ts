@@ -45,6 +45,14 @@ describe('a packet sent by hand', () => {
     expect(await send(rig, MOVE_FAST)).toBeNull();
   });
 
+  test('does not make two servos nobody knows start at once', async () => {
+    const rig = await createRig();
+    expect(await send(rig, '55 55 0B 03 02 D0 07 01 DC 05 02 DC 05')).toBe('outOfRange');
+    expect(rig.heard).toEqual([]);
+    await send(rig, MOVE_SLOWLY);
+    expect(await send(rig, '55 55 0B 03 02 D0 07 01 DC 05 02 DC 05')).toBeNull();
+  });
+
   test('asks the battery as the page does', async () => {
     const rig = await createRig();
     expect(await send(rig, '55 55 02 0F')).toBeNull();

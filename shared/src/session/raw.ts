@@ -58,8 +58,11 @@ export function createRaw(core: Core, operations: RawOperations): (bytes: Uint8A
     return lanes.request(bytes);
   }
 
-  /** The bytes are not changed on the way, so what would be slowed down elsewhere is refused here. */
+  /** The bytes are not changed on the way, so what would be slowed down or taken apart elsewhere is refused here. */
   function requireGentle(move: Extract<Command, { kind: 'move' }>): void {
+    const unknown = move.targets.map(({ servo }) => servo).filter(robot.isUnknown);
+    if (unknown.length > 1)
+      throw new LinkError('outOfRange', `servos ${unknown.join(', ')} make their first moves one by one`);
     const { durationMs } = robot.softened(move);
     if (durationMs === move.durationMs) return;
     const reason = `the first move of a servo takes ${FIRST_MOVE_MS} ms, this one at least ${durationMs}`;

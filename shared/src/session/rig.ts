@@ -11,6 +11,7 @@ import type { BoardOptions } from '../simulator/board.ts';
 import { createSimulatedTransport, type SimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock, type VirtualClock } from '../simulator/virtualClock.ts';
 import { createSession, type Session, type SessionOptions } from './session.ts';
+import { FIRST_MOVE_MS, FIRST_MOVE_STAGGER_MS } from './timings.ts';
 
 export interface HeardCommand {
   /** When its last byte had arrived at the board. */
@@ -25,6 +26,11 @@ export interface Rig {
   readonly heard: readonly HeardCommand[];
   /** Heard commands of one kind, oldest first. */
   ofKind<K extends Command['kind']>(kind: K): readonly Extract<Command, { kind: K }>[];
+}
+
+/** Until that many servos, asked all at once for their first move, have surely arrived. */
+export function firstMovesMs(servoCount: number): number {
+  return (servoCount - 1) * FIRST_MOVE_STAGGER_MS + FIRST_MOVE_MS + 500;
 }
 
 /** Opened and ready; the board has been on for a while and knows its battery. */

@@ -32,6 +32,8 @@ export interface RobotEstimate {
   /** The board said something just now; the end of a group is told by `groupEnded`. */
   heard(report: Report): void;
   motion(servo: number): ServoMotion;
+  /** Nobody has moved it, and the board has not said where it stands. */
+  isUnknown(servo: number): boolean;
   /** The move with the duration its unknown servos need (safety.md: first move). */
   softened(move: MoveCommand): MoveCommand;
   hold(): MoveCommand | null;
@@ -63,7 +65,6 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     change();
   }
 
-  /** Nobody has moved it, and the board has not said where it stands. */
   function isUnknown(servo: number): boolean {
     return targetOf(now(), servo) === null && positionAt(now(), servo, clock.now()) === null;
   }
@@ -75,6 +76,7 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     },
     heard: (report) => (motion = afterReport(motion, report, clock.now(), board)),
     motion: (servo) => ({ target: targetOf(now(), servo), estimated: positionAt(now(), servo, clock.now()) }),
+    isUnknown,
     softened(move) {
       const servos = move.targets.map(({ servo }) => servo);
       const isNew = servos.some((servo) => isUnknown(servo));

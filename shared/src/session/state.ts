@@ -72,6 +72,8 @@ export interface SessionState {
   readonly identity: Identity;
   readonly latch: Latch | null;
   readonly activity: Activity;
+  /** Asked to move, but nobody knows where they stand: they start one after another, in this order (safety.md). */
+  readonly waitingToStart: readonly number[];
   readonly battery: Battery;
   /** Where servos stand by the board's own word, the newest one for each servo number. */
   readonly reported: Readonly<Record<number, Reading>>;

@@ -24,6 +24,7 @@ export const INITIAL_STATE: SessionState = {
   identity: NOTHING_HEARD,
   latch: null,
   activity: { kind: 'idle' },
+  waitingToStart: [],
   battery: { kind: 'unread' },
   ...NOTHING_READ,
   brokenSlots: [],

@@ -32,6 +32,8 @@ export const DETAIL_TIMEOUT_MS = 300;
 
 /** A servo whose position nobody knows is moved at least this slowly (safety.md section 2). */
 export const FIRST_MOVE_MS = 1_500;
+/** Such servos start this far apart: enough to see which one moves, and not all of them draw their starting current at once. */
+export const FIRST_MOVE_STAGGER_MS = 250;
 
 /** A group whose end the board did not report is taken to have ended this long after its computed end. */
 export const RUN_END_GRACE_MS = 2_000;

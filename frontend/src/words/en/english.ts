@@ -18,6 +18,7 @@ import { batteryWords } from './battery.ts';
 import { calibrationWords } from './calibration.ts';
 import { errorSentence } from './errors.ts';
 import { fileWords } from './files.ts';
+import { firstMoveWords } from './firstMoves.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { libraryWords } from './library.ts';
@@ -80,6 +81,7 @@ export const english = {
   robots: robotWords,
   robotEditor: robotEditorWords,
   calibration: calibrationWords,
+  firstMoves: firstMoveWords,
   servoPanel: servoPanelWords,
   authoring: {
     label: 'What to work on',

@@ -6,6 +6,7 @@ import { boardName } from './boards.ts';
 import { calibrationWords } from './calibration.ts';
 import { errorSentence } from './errors.ts';
 import { fileWords } from './files.ts';
+import { firstMoveWords } from './firstMoves.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { libraryWords } from './library.ts';
@@ -78,6 +79,7 @@ export const chinese: Words = {
   robots: robotWords,
   robotEditor: robotEditorWords,
   calibration: calibrationWords,
+  firstMoves: firstMoveWords,
   servoPanel: servoPanelWords,
   authoring: {
     label: '编辑什么',

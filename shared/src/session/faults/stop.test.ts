@@ -5,7 +5,7 @@ import type { Frame } from '../../protocol/commands.ts';
 import { encodeCommand } from '../../protocol/encode.ts';
 import { wireMs } from '../../protocol/packet.ts';
 import { createRandom } from '../../simulator/random.ts';
-import { createRig, type HeardCommand, type Rig } from '../rig.ts';
+import { createRig, firstMovesMs, type HeardCommand, type Rig } from '../rig.ts';
 import { named, seeds } from './amount.ts';
 
 const FILE = 'stop.test.ts';
@@ -101,7 +101,7 @@ async function stopInState(enter: (rig: Rig) => Promise<number>, seed: number): 
   const random = createRandom(seed);
   const rig = await createRig();
   rig.session.move(pose(1_500).targets, 0);
-  await rig.clock.advance(1_600);
+  await rig.clock.advance(firstMovesMs(SERVOS.length));
   const withinMs = await enter(rig);
   await rig.clock.advance(random() * withinMs);
 

@@ -3,7 +3,7 @@
 import { expect, test } from 'vitest';
 import { wireMs } from '../../protocol/packet.ts';
 import { createRandom } from '../../simulator/random.ts';
-import { createRig, type Rig } from '../rig.ts';
+import { createRig, firstMovesMs, type Rig } from '../rig.ts';
 import { caseOf, named, seeds } from './amount.ts';
 
 const FILE = 'truncated.test.ts';
@@ -20,7 +20,7 @@ async function runningRig(): Promise<Rig> {
     Array.from({ length: SERVOS }, (_, at) => ({ servo: at + 1, position: 2_200 })),
     0,
   );
-  await clock.advance(2_000);
+  await clock.advance(firstMovesMs(SERVOS));
   session.move(
     Array.from({ length: SERVOS }, (_, at) => ({ servo: at + 1, position: REST })),
     0,
