@@ -73,9 +73,10 @@ test('a locked servo stays, a hidden one is out of sight and can be brought back
   await dashboard.button('Lock').click();
   await expect(dashboard.slider(6)).toHaveAttribute('aria-disabled', 'true');
   await dashboard.button('Centre all').click();
-  await poll(async () => ofKind(await robot.bus(), 'move')).toHaveLength(1);
-  const [move] = ofKind(await robot.bus(), 'move');
-  expect(move?.targets.map(({ servo }) => servo)).toEqual([1, 2, 3, 4, 5]);
+  await poll(async () => ofKind(await robot.bus(), 'move')).toHaveLength(5);
+  await expect(dashboard.estimate(5)).toHaveText('≈ 1500');
+  const moved = ofKind(await robot.bus(), 'move').flatMap(({ targets }) => targets);
+  expect(moved.map(({ servo }) => servo)).toEqual([1, 2, 3, 4, 5]);
 
   await dashboard.button('Hide').click();
   await expect(dashboard.slider(6)).toBeHidden();
