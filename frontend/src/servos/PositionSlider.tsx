@@ -10,6 +10,7 @@ import type { Family, Range } from '#shared/protocol/families.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
 import { stepped, type Scale } from './scale.ts';
+import { useRawDrag } from './useRawDrag.ts';
 import styles from './PositionSlider.module.css';
 
 export interface PositionSliderProps {
@@ -21,6 +22,8 @@ export interface PositionSliderProps {
   readonly guess: number | null;
   readonly blocked: boolean;
   onMove(position: number): void;
+  /** Between two frames, more often than the input itself tells. */
+  onDrag(position: number): void;
   onHome(): void;
 }
 
@@ -32,6 +35,7 @@ export function PositionSlider({
   guess,
   blocked,
   onMove,
+  onDrag,
   onHome,
 }: PositionSliderProps) {
   const input = useRef<HTMLInputElement>(null);
@@ -39,6 +43,7 @@ export function PositionSlider({
   const { min, max, home } = servo;
   const shown = target ?? guess ?? home;
 
+  useRawDrag(input, (position) => blocked || onDrag(position));
   useEffect(() => {
     if (input.current !== null && !held.current) input.current.value = String(shown);
   }, [shown]);

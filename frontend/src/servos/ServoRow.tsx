@@ -64,6 +64,7 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
       <PositionSlider
         {...{ servo: own, family, scale, target, guess, blocked }}
         onMove={move}
+        onDrag={(position) => hand.drag(servo, position)}
         onHome={() => hand.home([servo])}
       />
       <NumberField

@@ -8,6 +8,8 @@ import { moveGang, weightOf, type Member } from './gang.ts';
 
 export interface Hand {
   move(servo: number, position: number): void;
+  /** The same between two frames, while a pointer holds the slider. */
+  drag(servo: number, position: number): void;
   /** Each to its own home; `durationMs` is left out for the set move time. */
   home(servos: readonly number[], durationMs?: number): void;
 }
@@ -15,8 +17,9 @@ export interface Hand {
 export function useHand(): Hand {
   const stores = useStores();
   return {
-    move: (servo, position) => send(stores, together(stores, servo, position)),
-    home: (servos, durationMs) => send(stores, homes(stores, servos), durationMs),
+    move: (servo, position) => send(stores, 'move', together(stores, servo, position)),
+    drag: (servo, position) => send(stores, 'drag', together(stores, servo, position)),
+    home: (servos, durationMs) => send(stores, 'move', homes(stores, servos), durationMs),
   };
 }
 
@@ -35,7 +38,7 @@ function together(stores: Stores, servo: number, position: number): readonly Ser
   const view = servoViewOf(stores);
   const members = membersOf(stores, view, servo);
   if (members === null) return [{ servo, position }];
-  const now = { ...guessesNow(stores), ...stores.device.store.getState().targets };
+  const now = { ...guessesNow(stores), ...stores.device.targetsNow() };
   const { targets, gang } = moveGang(members, servo, position, now, view.gang);
   editServoView(stores, (before) => ({ ...before, gang }));
   return targets;
@@ -46,8 +49,13 @@ function homes({ robots }: Stores, servos: readonly number[]): readonly ServoTar
   return own.map(({ servo, home }) => ({ servo, position: home }));
 }
 
-function send(stores: Stores, targets: readonly ServoTarget[], durationMs?: number): void {
+function send(
+  stores: Stores,
+  how: 'move' | 'drag',
+  targets: readonly ServoTarget[],
+  durationMs?: number,
+): void {
   const view = servoViewOf(stores);
   const free = targets.filter(({ servo }) => !isHeld(view, servo));
-  if (free.length > 0) stores.device.move(free, durationMs ?? stores.view.getState().moveTime);
+  if (free.length > 0) stores.device[how](free, durationMs ?? stores.view.getState().moveTime);
 }

@@ -42,6 +42,17 @@ describe('a device with a session', () => {
     }
   });
 
+  test('sends a drag at once and shows it with the next frame', async () => {
+    const { device, state, clock, transport } = await createDesk();
+    device.drag([{ servo: 3, position: 1700 }], 500);
+    expect(state().targets).toEqual({});
+    expect(device.targetsNow()).toEqual({ 3: 1700 });
+    await clock.advance(15);
+    expect(transport.board.target(3)).toBe(1700);
+    device.refreshTargets();
+    expect(state().targets).toEqual({ 3: 1700 });
+  });
+
   test('counts the servos whose newest target has not left yet', async () => {
     const { device, draw } = await createDesk();
     device.move(

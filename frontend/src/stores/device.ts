@@ -17,7 +17,7 @@ import { moveDurationMs, type MoveTime } from './moveTime.ts';
 import type { Notices } from './notices.ts';
 import { followRobot } from './robotOfLink.ts';
 import type { RobotStore } from './robots.ts';
-import { createTargetBook } from './targetBook.ts';
+import { createTargetBook, type Targets } from './targetBook.ts';
 import { createTrafficLog, type TrafficLog } from './traffic.ts';
 
 /** Which way leads to the robot, and the name of the port or machine for people. */
@@ -33,7 +33,7 @@ export interface DeviceState {
   readonly way: Way | null;
   readonly snapshot: SessionState;
   /** What each servo was last asked for; a servo without an entry is where nobody knows. */
-  readonly targets: Readonly<Record<number, number>>;
+  readonly targets: Targets;
 }
 
 export interface Device {
@@ -54,8 +54,12 @@ export interface Device {
   refreshTargets(): void;
   /** Servos whose newest target has not left yet. */
   waiting(): number;
+  /** What each servo was last asked for, as of now; the store has it once a frame. */
+  targetsNow(): Targets;
   /** False where it was refused; then the person was told why. */
   move(targets: readonly ServoTarget[], time: MoveTime): boolean;
+  /** As `move`, between two frames: the page shows it with its next one. */
+  drag(targets: readonly ServoTarget[], time: MoveTime): boolean;
   /** This servo's limits are looked for: `creep` moves it, past the present ones too. null: no longer. */
   calibrate(servo: number | null): void;
   /** Moves the servo that is calibrated, as far as its board can. */
@@ -163,11 +167,15 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     return kept;
   }
 
-  function refreshTargets(): void {
+  function targetsNow(): Targets {
     const { targets, snapshot } = store.getState();
     const servos = robot().servos.map(({ servo }) => servo);
-    const next = book.read(servos, motion, snapshot.waitingToStart, targets);
-    if (next !== targets) store.setState({ targets: next });
+    return book.read(servos, motion, snapshot.waitingToStart, targets);
+  }
+
+  function refreshTargets(): void {
+    const targets = targetsNow();
+    if (targets !== store.getState().targets) store.setState({ targets });
   }
 
   /** What a latch or a failure swallowed will not come. */
@@ -195,12 +203,15 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     try {
       session.move(onBoard(robot(), targets), moveDurationMs(time, targets, session.state.family, motion));
       book.wish(targets);
-      refreshTargets();
       return true;
     } catch (error) {
       notices.tellError(error);
       return false;
     }
+  }
+
+  function drag(targets: readonly ServoTarget[], time: MoveTime): boolean {
+    return session !== null && allowed(targets) !== null && send(targets, time);
   }
 
   function attempt(
@@ -278,15 +289,19 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     guardRuns: (guard) => (mayBegin = guard),
     refreshTargets,
     waiting: book.waiting,
+    targetsNow,
     move(targets, time) {
-      return session !== null && allowed(targets) !== null && send(targets, time);
+      const isSent = drag(targets, time);
+      if (isSent) refreshTargets();
+      return isSent;
     },
+    drag,
     calibrate(servo) {
       calibrated = servo;
       session?.calibrate(servo);
     },
     creep(position, durationMs) {
-      if (calibrated !== null) send([{ servo: calibrated, position }], durationMs);
+      if (calibrated !== null && send([{ servo: calibrated, position }], durationMs)) refreshTargets();
     },
     halt: () => attempt((current) => current.halt()),
     resume: () => attempt((current) => current.resume()),
