@@ -20,7 +20,7 @@ const ROBOT = readyRobot('plain32', 'doc', {
   role: (role, servo) => `${role} ${servo}`,
   limb: (limb) => limb,
 });
-const ROBOTS = JSON.stringify({ files: [{ id: 1, file: robotToText(ROBOT) }], currentId: 1 });
+const ROBOTS = JSON.stringify({ files: [{ id: 1, file: robotToText(ROBOT) }], currentId: 1, nextId: 2 });
 
 export function measureFrames(): Promise<Figure[]> {
   return withBoard([], (board) =>
@@ -76,7 +76,8 @@ async function centre(page: Page): Promise<void> {
   await page
     .getByText(/^≈ 1500$/)
     .nth(ROBOT.servos.length - 1)
-    .waitFor();
+    // A row scrolled out of sight is not painted.
+    .waitFor({ state: 'attached' });
 }
 
 async function moveAll(page: Page): Promise<void> {

@@ -13,8 +13,12 @@ import styles from './Dial.module.css';
 export function Dial({ servo, family }: { readonly servo: number; readonly family: Family }) {
   const { device } = useStores();
   const dial = useRef<SVGSVGElement>(null);
+  const drawn = useRef('');
   useMotion(servo, (motion) => {
-    if (dial.current !== null) drawDial(dial.current, motion, family);
+    const look = `${turn(motion.target, family)} ${turn(motion.estimated, family)}`;
+    if (dial.current === null || look === drawn.current) return;
+    drawn.current = look;
+    drawDial(dial.current, motion, family);
   });
   return (
     <DialFace
@@ -75,4 +79,7 @@ const RIM = 'M-16.45 9.5A19 19 0 1 1 16.45 9.5';
 const visible = (shown: boolean): 'visible' | 'hidden' => (shown ? 'visible' : 'hidden');
 
 const turn = (position: number | null, family: Family): string =>
-  position === null ? 'rotate(0)' : `rotate(${dialDegrees(position, family).toFixed(2)})`;
+  position === null ? '' : `rotate(${halfDegree(dialDegrees(position, family))})`;
+
+/** A sixth of a pixel at the needle's tip: finer turns are painted for nobody. */
+const halfDegree = (degrees: number): string => (Math.round(degrees * 2) / 2).toFixed(1);

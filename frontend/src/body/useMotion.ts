@@ -5,12 +5,13 @@ import { useRef } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
 import { useStores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
+import { motionInFrame } from './motionInFrame.ts';
 
 export function useMotion(servo: number, draw: (motion: ServoMotion) => void): void {
   const { device } = useStores();
   const drawn = useRef<ServoMotion | null>(null);
   useEachFrame(() => {
-    const motion = device.motion(servo);
+    const motion = motionInFrame(device, servo);
     if (drawn.current !== null && sameMotion(drawn.current, motion)) return;
     drawn.current = motion;
     draw(motion);
@@ -22,7 +23,7 @@ export function useMotions(servos: readonly number[], draw: () => void): void {
   const { device } = useStores();
   const drawn = useRef<readonly ServoMotion[]>([]);
   useEachFrame(() => {
-    const motions = servos.map(device.motion);
+    const motions = servos.map((servo) => motionInFrame(device, servo));
     const isSame =
       motions.length === drawn.current.length &&
       motions.every((motion, index) => {

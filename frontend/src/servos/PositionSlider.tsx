@@ -122,10 +122,13 @@ function Track({ servo, range, scale }: { servo: RobotServo; range: Range; scale
 
 function EstimateMark({ servo, range }: { readonly servo: number; readonly range: Range }) {
   const mark = useRef<HTMLDivElement>(null);
+  const drawn = useRef('');
   useMotion(servo, ({ estimated }) => {
-    if (mark.current === null) return;
-    mark.current.hidden = estimated === null;
-    if (estimated !== null) mark.current.style.translate = `${percent(fraction(estimated, range))} 0`;
+    const place = estimated === null ? '' : `${thousandths(fraction(estimated, range))} 0`;
+    if (mark.current === null || place === drawn.current) return;
+    drawn.current = place;
+    mark.current.hidden = place === '';
+    mark.current.style.translate = place;
   });
   return (
     <div className={styles.whole} aria-hidden="true">
@@ -147,6 +150,9 @@ const between = ({ min, max }: Range, range: Range): CSSProperties => ({
   ['--from' as string]: Math.max(0, fraction(min, range)).toFixed(4),
   ['--to' as string]: Math.min(1, fraction(max, range)).toFixed(4),
 });
+
+/** A third of a pixel of the widest track: a shorter way is painted for nobody. */
+const thousandths = (share: number): string => `${(share * 100).toFixed(1)}%`;
 
 const percent = (share: number): string => `${(share * 100).toFixed(2)}%`;
 

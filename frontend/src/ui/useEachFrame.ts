@@ -1,15 +1,26 @@
 // Calls a function on each animation frame while a component is on screen: for needles that move by themselves, outside
-// React's own rounds.
+// React's own rounds. The browser is asked once a frame, however many there are.
 
 import { useEffect, useEffectEvent } from 'react';
 
+const drawers = new Set<() => void>();
+let request = 0;
+
+function drawAll(): void {
+  request = requestAnimationFrame(drawAll);
+  for (const draw of drawers) draw();
+}
+
+function add(draw: () => void): () => void {
+  if (drawers.size === 0) request = requestAnimationFrame(drawAll);
+  drawers.add(draw);
+  return () => {
+    drawers.delete(draw);
+    if (drawers.size === 0) cancelAnimationFrame(request);
+  };
+}
+
 export function useEachFrame(draw: () => void): void {
   const drawNow = useEffectEvent(draw);
-  useEffect(() => {
-    let request = requestAnimationFrame(function again() {
-      drawNow();
-      request = requestAnimationFrame(again);
-    });
-    return () => cancelAnimationFrame(request);
-  }, []);
+  useEffect(() => add(() => drawNow()), []);
 }
