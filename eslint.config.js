@@ -34,6 +34,8 @@ const house = {
   'no-else-return': 'error',
 };
 
+const WORDS_AT_LOAD = 'Words are read while drawing, not when a module is loaded: their language changes.';
+
 const typed = {
   // Objects here are closures: no method uses `this`, so taking one off its object is safe.
   '@typescript-eslint/unbound-method': 'off',
@@ -78,7 +80,12 @@ export default defineConfig(
         ...house['no-restricted-syntax'],
         {
           selector: 'Identifier[name="words"]:not(:function *, ImportSpecifier *)',
-          message: 'Words are read while drawing, not when a module is loaded: their language changes.',
+          message: WORDS_AT_LOAD,
+        },
+        {
+          selector:
+            'CallExpression[callee.property.name=/^(map|flatMap|reduce|from)$/]:not(:function *) Identifier[name="words"]',
+          message: WORDS_AT_LOAD,
         },
       ],
     },

@@ -33,7 +33,9 @@ export function FileSpecimens({ newStores }: { newStores(): Stores }) {
   return (
     <StoresContext value={stores}>
       <article className={styles.specimen} aria-label="Files">
-        <h2 className={styles.name}>Files</h2>
+        <h2 className={styles.name} lang="en">
+          Files
+        </h2>
         <div className={styles.dialog}>
           <FilesContent files={files} onTake={() => undefined} />
         </div>

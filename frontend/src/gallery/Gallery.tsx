@@ -32,6 +32,7 @@ import { frozenSession } from './frozen.ts';
 import { specimenStores } from './specimenStores.ts';
 import { motionsOf, SPECIMENS, type BatteryFeed, type Specimen } from './specimens.ts';
 import { SAMPLE_TRAFFIC } from './traffic.ts';
+import { words } from '../words/words.ts';
 import styles from './Gallery.module.css';
 
 export function Gallery() {
@@ -112,7 +113,7 @@ function storesOf(specimen: Specimen): Stores {
   const family = specimen.isUnknown === true ? UNKNOWN_BOARD : FAMILIES[specimen.board ?? 'doc'];
   const stores = specimenStores(family);
   const { device, document, view, boards, lastPoses, robots, battery } = stores;
-  if (specimen.robot !== undefined) robots.add(() => '', specimen.robot.robot);
+  if (specimen.robot !== undefined) robots.add(() => words.robots.steps.add, specimen.robot.robot());
   const motions = motionsOf(specimen);
   const { way, lastPositions: positions } = specimen;
   if (way !== null && positions !== undefined && family.id !== 'unknown')
@@ -123,7 +124,7 @@ function storesOf(specimen: Specimen): Stores {
   if (specimen.pose !== 'unknown') for (const entry of SAMPLE_TRAFFIC) device.traffic.add(entry, family.id);
   for (let number = 1; number <= specimen.frames; number++) {
     document.edit(
-      () => 'frame',
+      () => words.actions.steps.capture,
       (group) => insertFrame(group, group.frames.length, sampleFrame(number, family), family.unit),
     );
   }
@@ -140,7 +141,7 @@ const READ_EVERY_MS = 5000;
 
 function feed({ kind, volts }: BatteryFeed, robots: RobotStore, battery: BatteryStore): void {
   robots.edit(
-    () => 'feed',
+    () => words.battery.steps.kind,
     (robot) => fedBy(robot, kind),
   );
   const sinceMs = pageClock.now() - volts.length * READ_EVERY_MS;

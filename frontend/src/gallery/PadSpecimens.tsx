@@ -10,6 +10,7 @@ import { StoresContext, type Stores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { frozenSession } from './frozen.ts';
 import { specimenStores } from './specimenStores.ts';
+import { words } from '../words/words.ts';
 import styles from './Gallery.module.css';
 
 interface PadSpecimen {
@@ -71,7 +72,7 @@ function storesOf({ pad: held, isDriving = false, more = [] }: PadSpecimen): Sto
     ...{ kind: 'simulated', label: 'Simulated board', isSimulated: true },
   });
   mappings.edit(
-    () => 'bind',
+    () => words.pad.steps.ready,
     (mapping) => ({ ...mapping, bindings: [...mapping.bindings, ...more] }),
   );
   pad.drive(isDriving);

@@ -9,6 +9,7 @@ import { ButtonsPage } from '../macros/ButtonsPage.tsx';
 import { Kiosk } from '../macros/Kiosk.tsx';
 import { PosesPanel } from '../poses/PosesPanel.tsx';
 import { StoresContext, type Stores } from '../stores/stores.ts';
+import { words } from '../words/words.ts';
 import styles from './Gallery.module.css';
 import { specimenStores } from './specimenStores.ts';
 
@@ -18,7 +19,7 @@ function fill({ poses, macros, view }: Stores, edits: boolean): void {
   const targets = (share: number) =>
     [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 700 + Math.round(share * servo * 260) }));
   poses.book.edit(
-    () => 'fill',
+    () => words.poses.steps.import,
     (empty) => {
       const book = Object.entries(POSES).reduce<PoseBook>(
         (sum, [name, share]) => addPose(sum, { name, unit: 'us', targets: targets(share) }),
@@ -30,12 +31,12 @@ function fill({ poses, macros, view }: Stores, edits: boolean): void {
   Object.keys(POSES).forEach((name, index) => {
     const go = { kind: 'pose', pose: index + 1, durationMs: 1500 } as const;
     macros.edit(
-      () => 'fill',
+      () => words.poses.steps.import,
       (page) => addMacro(page, name, [go, { kind: 'wait', waitMs: 500 }]),
     );
   });
   macros.edit(
-    () => 'fill',
+    () => words.poses.steps.import,
     (page) => changeMacro(addMacro(page, 'Dance', []), 1, { key: 'g' }),
   );
   view.setState({ authoring: 'poses', selectedPose: 1, selectedButton: 1, editsButtons: edits });

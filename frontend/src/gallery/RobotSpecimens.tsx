@@ -12,6 +12,7 @@ import { freshRobot } from '../stores/robots.ts';
 import { StoresContext, type Stores } from '../stores/stores.ts';
 import { frozenSession } from './frozen.ts';
 import { motionsOf } from './specimens.ts';
+import { words } from '../words/words.ts';
 import styles from './Gallery.module.css';
 
 const BOARD = 'lsc-16';
@@ -65,7 +66,7 @@ function RobotSpecimen({ specimen, newStores }: RobotSpecimensProps & { readonly
 
 function prepared(stores: Stores, { state = READY, isUnknown = false, at }: Case): Stores {
   const { robots, device, view } = stores;
-  robots.add(() => 'robot', freshRobot('humanoid16', BOARD));
+  robots.add(() => words.robots.steps.add, freshRobot('humanoid16', BOARD));
   const motions = isUnknown ? {} : motionsOf({ board: BOARD, pose: 'still' });
   const way = { kind: 'simulated', label: 'Simulated board', isSimulated: true } as const;
   device.attach(frozenSession(FAMILY, state, motions), way);

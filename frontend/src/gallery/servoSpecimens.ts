@@ -7,7 +7,8 @@ import type { ServoView } from '../stores/servoView.ts';
 import type { ViewState } from '../stores/view.ts';
 
 export interface ServoSpecimen {
-  readonly robot: Robot;
+  /** Named in the language in use. */
+  robot(): Robot;
   readonly servos?: Partial<ServoView>;
   readonly view?: Partial<ViewState>;
 }
@@ -30,24 +31,24 @@ interface Named {
 }
 
 export const SERVO_SPECIMENS: readonly Named[] = [
-  { name: 'Limits, degrees', robot: { robot: describedArm(), view: { positionsIn: 'degrees' } } },
+  { name: 'Limits, degrees', robot: { robot: describedArm, view: { positionsIn: 'degrees' } } },
   {
     name: 'Together, weighted',
     robot: {
-      robot: describedArm(),
+      robot: describedArm,
       servos: { selected: [3, 4], locked: [6], hidden: [1], together: 'weighted', weights: { 4: -50 } },
     },
   },
   ...(['hand', 'humanoid18', 'hexapod18'] as const).map((id): Named => {
     const board: FamilyId = id === 'hand' ? 'doc' : 'lsc-24';
-    return { name: `List of ${id}`, board, robot: { robot: freshRobot(id, board) } };
+    return { name: `List of ${id}`, board, robot: { robot: () => freshRobot(id, board) } };
   }),
   ...(['arm', 'hand', 'humanoid18', 'hexapod18', 'plain16'] as const).map((id): Named => {
     const board: FamilyId = id === 'arm' || id === 'hand' ? 'doc' : 'lsc-24';
     return {
       name: `Body of ${id}`,
       board,
-      robot: { robot: freshRobot(id, board), servos: { selected: [3] }, view: { servoLayout: 'body' } },
+      robot: { robot: () => freshRobot(id, board), servos: { selected: [3] }, view: { servoLayout: 'body' } },
     };
   }),
 ];

@@ -75,7 +75,7 @@ function Selected({ selected }: SelectedProps) {
         <Choice
           label={words.servoPanel.together}
           value={together}
-          options={WAYS}
+          options={TOGETHER.map((value) => ({ value, label: words.servoPanel.ways[value] }))}
           onChange={(way) => edit((view) => ({ ...view, together: way, gang: null }))}
         />
       ) : (
@@ -119,8 +119,6 @@ const unlocked = (view: ServoView, servos: readonly number[]): ServoView => ({
   locked: view.locked.filter((one) => !servos.includes(one)),
   solo: view.solo.length === 0 ? [] : [...new Set([...view.solo, ...servos])],
 });
-
-const WAYS = TOGETHER.map((value) => ({ value, label: words.servoPanel.ways[value] }));
 
 function Weights({ selected }: SelectedProps) {
   const stores = useStores();
