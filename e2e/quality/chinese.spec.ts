@@ -13,7 +13,15 @@ const NAMES = `
 /** What people call their own things in the gallery, and what a browser calls a pad. */
 const GIVEN = [
   ...['Shelf arm', 'Desk arm', 'Greet the visitor', 'Look down', 'Sit', 'Dance', 'wave', 'nod'],
-  ...['dev/ttyUSB', 'dev/ttyACM', 'Wireless Controller', 'detail of the failure'],
+  ...[
+    'Pick up the red cube and put it down',
+    'Wave to the visitors at the door',
+    'Bow',
+    'greeting',
+    'show',
+    'work',
+  ],
+  ...['A robot of somebody else', 'dev/ttyUSB', 'dev/ttyACM', 'Wireless Controller', 'detail of the failure'],
 ];
 
 /** What opens each, and what closes it. */

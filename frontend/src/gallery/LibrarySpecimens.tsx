@@ -56,7 +56,9 @@ function Shown({ name, isEmpty }: { readonly name: string; readonly isEmpty: boo
   return (
     <StoresContext value={stores}>
       <article className={styles.specimen} aria-label={name}>
-        <h2 className={styles.name}>{name}</h2>
+        <h2 className={styles.name} lang="en">
+          {name}
+        </h2>
         <div className={styles.dialog}>
           <LibraryView onDone={() => undefined} />
         </div>
