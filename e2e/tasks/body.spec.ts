@@ -61,7 +61,8 @@ test.describe('of a humanoid', () => {
 
   test('a limb is folded away and selected as a whole', async ({ dashboard, page }) => {
     await dashboard.button('Select leftLeg').click();
-    await expect(page.getByRole('button', { pressed: true })).toHaveCount(5);
+    const servos = page.getByRole('region', { name: 'Servos' });
+    await expect(servos.getByRole('button', { pressed: true })).toHaveCount(5);
     await dashboard.button('leftLeg, 5 servos').click();
     await expect(dashboard.slider(3)).toBeHidden();
     await expect(dashboard.slider(9)).toBeVisible();

@@ -1,6 +1,8 @@
-// The action group being written: its name, its frames, and what can be done with them. Edits go to the document alone;
+// The action group being written: its name, its keys over time, its frames, and what can be done with them. A phone shows the
+// frames first. Edits go to the document alone;
 // the robot moves only by Play and by loading a pose.
 
+import { Fragment } from 'react';
 import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { redoLabel, undoLabel } from '#shared/actions/history.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
@@ -8,17 +10,30 @@ import { FilesArea, FilesButton } from '../files/FilesArea.tsx';
 import { LibraryButton } from '../library/LibraryButton.tsx';
 import { useDevice, useDocument, useGroup, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
+import { useLayout } from '../ui/useLayout.ts';
 import { Panel } from '../ui/Panel.tsx';
 import { words } from '../words/words.ts';
 import { CaptureBar } from './CaptureBar.tsx';
 import { FrameStrip } from './FrameStrip.tsx';
 import { FrameTools } from './FrameTools.tsx';
+import { Timeline } from '../timeline/Timeline.tsx';
+import { usePlay } from './usePlay.ts';
 import { GroupName } from './GroupName.tsx';
 import styles from './ActionsPanel.module.css';
 
 export function ActionsPanel() {
   const group = useGroup();
+  const play = usePlay();
+  const layout = useLayout();
   const otherUnit = useDevice((state) => state.family.unit !== group.unit) && group.frames.length > 0;
+  const timeline = <Timeline key="timeline" onPlay={play.toggle} />;
+  const frames = (
+    <Fragment key="frames">
+      {group.frames.length === 0 ? <Empty /> : <FrameStrip />}
+      <FrameTools />
+      <CaptureBar totalMs={totalDurationMs(group.frames)} />
+    </Fragment>
+  );
   return (
     <FilesArea>
       <Panel
@@ -39,9 +54,7 @@ export function ActionsPanel() {
         className={styles.panel}
       >
         {otherUnit && <p className={styles.warning}>{words.actions.otherUnit(group.unit)}</p>}
-        {group.frames.length === 0 ? <Empty /> : <FrameStrip />}
-        <FrameTools />
-        <CaptureBar totalMs={totalDurationMs(group.frames)} />
+        {layout === 'phone' ? [frames, timeline] : [timeline, frames]}
       </Panel>
     </FilesArea>
   );

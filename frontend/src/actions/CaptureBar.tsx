@@ -3,11 +3,11 @@
 import { indexOfFrame, insertFrame } from '#shared/actions/group/groupEdits.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { motionHindrance } from '../stores/readiness.ts';
-import { useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useGroup, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import { commandedPose } from './pose.ts';
+import { usePlay } from './usePlay.ts';
 import styles from './CaptureBar.module.css';
 
 const USUAL_FRAME_MS = 1000;
@@ -66,35 +66,16 @@ function captured(
 }
 
 function Play() {
-  const { device, view } = useStores();
-  const { frames, unit } = useGroup();
-  const sameUnit = useDevice((state) => state.family.unit === unit);
-  const playFrom = useView((state) => state.playFrom);
-  const playingIndex = useSnapshot(({ activity }) =>
-    activity.kind === 'playing' ? activity.frameIndex : null,
-  );
-  const mayPlay = useSnapshot(
-    (snapshot) => motionHindrance(snapshot) === null && snapshot.activity.kind === 'idle',
-  );
-  const from = playFrom < frames.length ? playFrom : 0;
-
-  if (playingIndex !== null) {
-    const pause = (): void => {
-      view.setState({ playFrom: from + playingIndex });
-      device.stopPlaying();
-    };
+  const { isPlaying, mayPlay, from, toggle } = usePlay();
+  if (isPlaying) {
     return (
-      <Button icon="pause" onPress={pause}>
+      <Button icon="pause" onPress={toggle}>
         {words.actions.pause}
       </Button>
     );
   }
-  const play = (): void => {
-    view.setState({ playFrom: from });
-    device.play(frames.slice(from), () => view.setState({ playFrom: 0 }));
-  };
   return (
-    <Button icon="play" isDisabled={!mayPlay || !sameUnit || frames.length === 0} onPress={play}>
+    <Button icon="play" isDisabled={!mayPlay} onPress={toggle}>
       {from === 0 ? words.actions.play : words.actions.playOn(from + 1)}
     </Button>
   );

@@ -2,12 +2,13 @@
 
 import type { KeyboardEvent } from 'react';
 import { setDuration } from '#shared/actions/group/groupEdits.ts';
-import { changedServos, poseAt, type GroupFrame } from '#shared/actions/group/group.ts';
+import type { GroupFrame } from '#shared/actions/group/group.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
-import { useDevice, useGroup, useStores } from '../stores/stores.ts';
+import { useDevice, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
+import { showFrame } from '../timeline/inStep.ts';
 import { words } from '../words/words.ts';
 import { useFrameDrag } from './useFrameDrag.ts';
 import styles from './FrameCard.module.css';
@@ -15,18 +16,20 @@ import styles from './FrameCard.module.css';
 export interface FrameCardProps {
   readonly frame: GroupFrame;
   readonly index: number;
+  readonly pose: ReadonlyMap<number, number>;
+  /** Servos that it moves. */
+  readonly changed: readonly number[];
   readonly isSelected: boolean;
   readonly isTabStop: boolean;
   readonly isPlaying: boolean;
   onKey(event: KeyboardEvent, id: number): void;
 }
 
-export function FrameCard({ frame, index, isSelected, isTabStop, isPlaying, onKey }: FrameCardProps) {
-  const { view } = useStores();
+export function FrameCard(props: FrameCardProps) {
+  const { frame, index, pose, changed, isSelected, isTabStop, isPlaying, onKey } = props;
+  const stores = useStores();
   const family = useDevice((state) => state.family);
-  const { frames } = useGroup();
   const { isDragged, startDrag } = useFrameDrag(frame.id, index);
-  const changed = changedServos(frames, index);
   const number = index + 1;
   return (
     <li
@@ -46,12 +49,12 @@ export function FrameCard({ frame, index, isSelected, isTabStop, isPlaying, onKe
         aria-pressed={isSelected}
         aria-current={isPlaying ? 'step' : undefined}
         tabIndex={isTabStop ? 0 : -1}
-        onClick={() => view.setState({ selectedFrame: frame.id })}
+        onClick={() => showFrame(stores, frame.id)}
         onKeyDown={(event) => onKey(event, frame.id)}
       >
         <span className={styles.number}>{number}</span>
         {isPlaying && <span className={styles.now}>{words.actions.playingFrame}</span>}
-        <PoseThumb pose={poseAt(frames, index)} changed={changed} family={family} />
+        <PoseThumb pose={pose} changed={changed} family={family} />
       </button>
       <div className={styles.foot}>
         <FrameTime frame={frame} number={number} isTabStop={isTabStop} />

@@ -1,21 +1,27 @@
-// The frames in order, one card each; they wrap like a contact sheet. The frame that plays is marked.
+// The frames in order, one card each, for people who think in poses. The frame that plays is marked, and those with keys that
+// are selected in the timeline.
 
+import { useMemo } from 'react';
 import { deleteFrame, indexOfFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
 import { useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { showFrame } from '../timeline/inStep.ts';
 import { words } from '../words/words.ts';
 import { FrameCard } from './FrameCard.tsx';
+import { framePoses } from './framePoses.ts';
 import { useCards } from './useCards.ts';
+import { useStripWindow } from './useStripWindow.ts';
 import styles from './FrameStrip.module.css';
 
 export function FrameStrip() {
-  const { document, view } = useStores();
+  const stores = useStores();
+  const { document, view } = stores;
   const group = useGroup();
   const selected = useView((state) => state.selectedFrame);
   const playFrom = useView((state) => state.playFrom);
   const playing = useSnapshot(({ activity }) => (activity.kind === 'playing' ? activity.frameIndex : null));
   const { list, tabStop, key } = useCards<HTMLOListElement>({
     ...{ ids: group.frames.map(({ id }) => id), selected, attribute: 'data-frame' },
-    select: (id) => view.setState({ selectedFrame: id }),
+    select: (id) => showFrame(stores, id),
     move(id, to) {
       const from = indexOfFrame(group, id);
       document.edit(
@@ -31,19 +37,32 @@ export function FrameStrip() {
       ),
   });
 
+  const { first, end, roomBeforePx, roomBehindPx } = useStripWindow(
+    list,
+    group.frames.length,
+    indexOfFrame(group, selected ?? -1),
+  );
+  const poses = useMemo(() => framePoses(group.frames, first, end), [group.frames, first, end]);
+
   return (
-    <ol ref={list} className={styles.strip} aria-label={words.actions.frames}>
-      {group.frames.map((frame, index) => (
+    <ol
+      ref={list}
+      className={styles.strip}
+      aria-label={words.actions.frames}
+      style={{ paddingInline: `calc(var(--s4) + ${roomBeforePx}px) calc(var(--s4) + ${roomBehindPx}px)` }}
+    >
+      {group.frames.slice(first, end).map((frame, index) => (
         <FrameCard
           key={frame.id}
-          frame={frame}
-          index={index}
+          {...{ frame, index: first + index, ...(poses[index] ?? NO_POSE) }}
           isSelected={frame.id === selected}
           isTabStop={frame.id === tabStop}
-          isPlaying={playing !== null && playFrom + playing === index}
+          isPlaying={playing !== null && playFrom + playing === first + index}
           onKey={key}
         />
       ))}
     </ol>
   );
 }
+
+const NO_POSE = { pose: new Map<number, number>(), changed: [] };

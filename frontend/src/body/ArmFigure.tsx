@@ -9,7 +9,10 @@ import styles from './figure.module.css';
 export const UPPER = 92;
 export const FORE = 84;
 
-export type FigureLook = 'solid' | 'ghost' | 'small';
+/** `ghost`: where it was asked to be; `preview`: where a group would have it. Both are outlines. */
+export type FigureLook = 'solid' | 'ghost' | 'preview' | 'small';
+
+export const isOutline = (look: FigureLook): boolean => look === 'ghost' || look === 'preview';
 
 export function ArmFigure({ picture, look }: { readonly picture: ArmPicture; readonly look: FigureLook }) {
   const linkClass = (known: boolean) => cx(styles.link, styles[look], !known && styles.unknown);
@@ -27,12 +30,12 @@ export function ArmFigure({ picture, look }: { readonly picture: ArmPicture; rea
                 <Jaw side={-1} degrees={picture.jaw.degrees} className={linkClass(picture.jaw.known)} />
               </g>
             </g>
-            {look !== 'ghost' && <circle className={styles.pin} r={3.5} />}
+            {!isOutline(look) && <circle className={styles.pin} r={3.5} />}
           </g>
-          {look !== 'ghost' && <circle className={styles.pin} r={4.5} />}
+          {!isOutline(look) && <circle className={styles.pin} r={4.5} />}
         </g>
       </g>
-      {look !== 'ghost' && <circle className={styles.pin} r={6} />}
+      {!isOutline(look) && <circle className={styles.pin} r={6} />}
     </g>
   );
 }

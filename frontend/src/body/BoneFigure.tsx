@@ -2,7 +2,7 @@
 // one past React. Draws what it is given.
 
 import { cx } from '../ui/cx.ts';
-import type { FigureLook } from './ArmFigure.tsx';
+import { isOutline, type FigureLook } from './ArmFigure.tsx';
 import type { BonePicture, Point } from './bones.ts';
 import styles from './figure.module.css';
 
@@ -11,7 +11,7 @@ const RADIUS = 2.4;
 export function BoneFigure({ picture, look }: { readonly picture: BonePicture; readonly look: FigureLook }) {
   return (
     <g>
-      {look !== 'ghost' && <polygon data-trunk="" className={styles.trunk} points={corners(picture.trunk)} />}
+      {!isOutline(look) && <polygon data-trunk="" className={styles.trunk} points={corners(picture.trunk)} />}
       {picture.bones.map(({ servo, from, to, known }) => (
         <path
           key={servo}

@@ -1,5 +1,5 @@
 // The six-servo arm from the side, its base from above and its hand from the front, as the session's motion goes. Solid is
-// where it is by the estimate, the outline is where it was asked to go.
+// where it is by the estimate, the outline is where it was asked to go, the dotted one where the group at hand would have it.
 
 import { useRef } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
@@ -8,6 +8,7 @@ import { words } from '../words/words.ts';
 import { ArmFigure, drawArm } from './ArmFigure.tsx';
 import { BaseView, drawBase, drawHand, HandView } from './insets.tsx';
 import { armPicture, JOINT, samePicture, type ArmPicture, type Pose } from './pose.ts';
+import { usePreview } from './usePreview.ts';
 import { useMotions } from './useMotion.ts';
 import styles from './LiveArm.module.css';
 
@@ -27,6 +28,12 @@ export function LiveArm() {
     if (frame.current !== null) draw(frame.current, estimated(), commanded());
   });
 
+  usePreview((pose) => {
+    const figure = frame.current?.querySelector<SVGGElement>("[data-figure='preview']");
+    figure?.setAttribute('visibility', pose === null ? 'hidden' : 'visible');
+    if (pose !== null && figure instanceof SVGGElement) drawArm(figure, armPicture(pose, family));
+  });
+
   return (
     <div className={styles.views} ref={frame}>
       <svg className={styles.side} viewBox="-250 -252 500 304" role="img" aria-label={words.body.figure}>
@@ -36,6 +43,9 @@ export function LiveArm() {
         </g>
         <g data-figure="commanded">
           <ArmFigure picture={commanded()} look="ghost" />
+        </g>
+        <g data-figure="preview" visibility="hidden">
+          <ArmFigure picture={commanded()} look="preview" />
         </g>
       </svg>
       <div className={styles.insets}>

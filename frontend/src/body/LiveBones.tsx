@@ -1,4 +1,5 @@
-// A body by bones as the session's motion goes: solid is where it is by the estimate, the outline where it was asked to go.
+// A body by bones as the session's motion goes: solid is where it is by the estimate, the outline where it was asked to go, the
+// dotted one where the group at hand would have it.
 
 import { useRef } from 'react';
 import type { Robot } from '#shared/actions/robot/robot.ts';
@@ -8,6 +9,7 @@ import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
 import { BoneFigure, drawBones } from './BoneFigure.tsx';
 import { bonesOf, type BonePicture } from './bones.ts';
+import { usePreview } from './usePreview.ts';
 import { useMotions } from './useMotion.ts';
 import styles from './LiveBones.module.css';
 
@@ -32,6 +34,12 @@ export function LiveBones({ className }: { readonly className?: string | undefin
       }
     },
   );
+  usePreview((pose) => {
+    const figure = picture.current?.querySelector<SVGGElement>("[data-figure='preview']");
+    const bones = pose === null ? null : bonesOf(robot, pose);
+    figure?.setAttribute('visibility', bones === null ? 'hidden' : 'visible');
+    if (bones !== null && figure instanceof SVGGElement) drawBones(figure, bones);
+  });
   const [estimated, target] = [now('estimated'), now('target')];
   if (estimated === null || target === null) return null;
   return (
@@ -47,6 +55,9 @@ export function LiveBones({ className }: { readonly className?: string | undefin
       </g>
       <g data-figure="target" visibility={ghostVisibility(robot, device.motion)}>
         <BoneFigure picture={target} look="ghost" />
+      </g>
+      <g data-figure="preview" visibility="hidden">
+        <BoneFigure picture={target} look="preview" />
       </g>
     </svg>
   );

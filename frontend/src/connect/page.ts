@@ -23,6 +23,7 @@ import { createPad } from '../stores/pad.ts';
 import { createPoses } from '../stores/poses.ts';
 import { createRobots } from '../stores/robots.ts';
 import type { Stores } from '../stores/stores.ts';
+import { createTimeline } from '../stores/timeline.ts';
 import { createView } from '../stores/view.ts';
 import { browserClock } from '../transports/browserClock.ts';
 import { readGateway } from './gatewayApi.ts';
@@ -62,6 +63,7 @@ export async function openPage(): Promise<Page> {
     macros: createMacros(storage, notices, robots),
     document: written,
     lastPoses: createLastPoses(storage, device),
+    timeline: createTimeline(),
   };
   const connector = createConnector({ device, notices, boards, storage, isWatched });
   connector.start().catch(notices.tellError);

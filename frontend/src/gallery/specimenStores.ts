@@ -17,6 +17,7 @@ import { createPad, type Gamepadlike } from '../stores/pad.ts';
 import { createPoses } from '../stores/poses.ts';
 import { createRobots } from '../stores/robots.ts';
 import type { Stores } from '../stores/stores.ts';
+import { createTimeline } from '../stores/timeline.ts';
 import { createView } from '../stores/view.ts';
 
 const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined };
@@ -41,6 +42,7 @@ export function specimenStores(family: Family, held: Gamepadlike | null = null):
     ...{ notices, robots, device, poses, mappings, document, view, library },
     pad: createPad({ device, robots, mappings, notices, clock: pageClock, readPads }),
     battery: createBattery(device, robots),
+    timeline: createTimeline(),
     boards: createBoards(NO_STORAGE),
     lastPoses: createLastPoses(NO_STORAGE, device),
     macros: createMacros(NO_STORAGE, notices, robots),

@@ -23,6 +23,8 @@ export interface ServoView {
   /** Not empty: all others are as if locked. */
   readonly solo: readonly number[];
   readonly hidden: readonly number[];
+  /** Their keys stay in the group and move nothing. */
+  readonly muted: readonly number[];
   /** Groups of which only the header is shown. */
   readonly folded: readonly string[];
   readonly together: Together;
@@ -37,6 +39,7 @@ const FRESH: ServoView = {
   locked: [],
   solo: [],
   hidden: [],
+  muted: [],
   folded: [],
   together: 'straight',
   weights: {},

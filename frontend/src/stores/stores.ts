@@ -22,6 +22,7 @@ import type { MacroRun } from './macroRun.ts';
 import type { Poses } from './poses.ts';
 import type { Undoable } from './undoable.ts';
 import type { Library, LibraryState } from './library/library.ts';
+import type { Timeline, TimelineState } from './timeline.ts';
 import type { View, ViewState } from './view.ts';
 
 export interface Stores {
@@ -29,6 +30,7 @@ export interface Stores {
   readonly document: Document;
   readonly library: Library;
   readonly view: View;
+  readonly timeline: Timeline;
   readonly notices: Notices;
   readonly boards: Boards;
   readonly lastPoses: LastPoses;
@@ -119,6 +121,10 @@ export function usePad<T>(select: (state: PadState) => T): T {
 
 export function useView<T>(select: (state: ViewState) => T): T {
   return useStore(useStores().view, select);
+}
+
+export function useTimeline<T>(select: (state: TimelineState) => T): T {
+  return useStore(useStores().timeline, select);
 }
 
 /** How the servos of the robot at hand are shown. */

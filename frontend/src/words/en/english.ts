@@ -30,6 +30,7 @@ import { poseWords } from './poses.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
 import { packetWords, timesWords } from './packets.ts';
+import { timelineWords } from './timeline.ts';
 
 export const english = {
   /** For `lang` and for whatever speaks or sorts. */
@@ -93,6 +94,7 @@ export const english = {
   pad: padWords,
   poses: poseWords,
   files: fileWords,
+  timeline: timelineWords,
   macros: macroWords,
 
   stop: {
@@ -174,7 +176,8 @@ export const english = {
   body: {
     base: 'Base, from above',
     hand: 'Hand, from the front',
-    figure: 'Arm from the side; solid is estimated, outline is commanded, dashed is unknown',
+    figure:
+      'Arm from the side; solid is estimated, outline is commanded, dashed is unknown, dotted is a preview',
     allUnknown: 'Positions are unknown until each servo is moved once. The first move is slow.',
     gaugeFigure: (servo: number): string => `Dial of servo ${formatWhole(servo)}`,
   },

@@ -6,7 +6,8 @@ const servosText = (servos: readonly number[]): string =>
   `${servos.length === 1 ? 'Servo' : 'Servos'} ${formatList(servos)}`;
 
 export const servoPanelWords = {
-  figure: (robot: string): string => `${robot}; solid is estimated, outline is commanded, dashed is unknown`,
+  figure: (robot: string): string =>
+    `${robot}; solid is estimated, outline is commanded, dashed is unknown, dotted is a preview`,
   someUnknown: (servos: readonly number[]): string =>
     `${servosText(servos)}: position unknown, the first move may be slow.`,
   estimated: (position: string): string => `≈ ${position}`,

@@ -28,6 +28,7 @@ import { rangeText } from './refusals.ts';
 import { robotEditorWords } from './robotEditor.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
+import { timelineWords } from './timeline.ts';
 
 const UNSURE = '先要弄清这是哪种控制板。';
 
@@ -91,6 +92,7 @@ export const chinese: Words = {
   pad: padWords,
   poses: poseWords,
   files: fileWords,
+  timeline: timelineWords,
   macros: macroWords,
 
   stop: {
@@ -164,7 +166,7 @@ export const chinese: Words = {
   body: {
     base: '底座，俯视',
     hand: '手，正视',
-    figure: '机械臂侧视；实线是估算，轮廓是目标，虚线是未知',
+    figure: '机械臂侧视；实线是估算，轮廓是目标，虚线是未知，点线是预览',
     allUnknown: '每个舵机移动一次之前，位置是未知的。第一次移动很慢。',
     gaugeFigure: (servo) => `${formatWhole(servo)}号舵机的表盘`,
   },

@@ -6,7 +6,7 @@ import { formatCount, formatList, formatWhole } from './numbers.ts';
 const servosText = (servos: readonly number[]): string => `${formatList(servos)}号舵机`;
 
 export const servoPanelWords: typeof english = {
-  figure: (robot) => `${robot}；实线是估算，轮廓是目标，虚线是未知`,
+  figure: (robot) => `${robot}；实线是估算，轮廓是目标，虚线是未知，点线是预览`,
   someUnknown: (servos) => `${servosText(servos)}：位置未知，第一次移动可能很慢。`,
   estimated: (position) => `≈ ${position}`,
   positionsIn: '位置单位',

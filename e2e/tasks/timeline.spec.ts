@@ -1,0 +1,177 @@
+// Working on keys over time: by mouse, by keyboard alone, by touch.
+
+import { ofKind } from '../fixtures/bus.ts';
+import { dashboardOf } from '../fixtures/dashboard.ts';
+import { expect, test } from '../fixtures/test.ts';
+import { keepGroup, timelineOf } from '../fixtures/timeline.ts';
+
+test.beforeEach(async ({ page }) => {
+  await keepGroup(page);
+});
+
+test('a key is dragged in time and value, in one step, and moves no robot', async ({
+  dashboard,
+  page,
+  robot,
+}) => {
+  const timeline = timelineOf(page);
+  await expect(timeline.key('Gripper, 1.00 s, 1200 µs, linear')).toBeVisible();
+  const before = ofKind(await robot.bus(), 'move').length;
+  const alone = await timeline.middleOf(timeline.key('Gripper, 1.00 s, 1200 µs, linear'));
+  const next = await timeline.middleOf(timeline.key('Gripper, 1.50 s, 1400 µs, linear'));
+  await timeline.drag('Gripper, 1.00 s, 1200 µs, linear', (next.x - alone.x) / 2, -45);
+  await page.mouse.up();
+  const moved = timeline.grid.getByRole('gridcell', { name: /^Gripper, 1\.2\d s, 16\d\d µs, linear$/ });
+  await expect(moved).toHaveAttribute('aria-selected', 'true');
+  await expect(timeline.key('Elbow, 1.00 s, 1500 µs, linear')).toBeVisible();
+  await expect(dashboard.frames).toHaveCount(4);
+  await dashboard.button('Undo: move keys').click();
+  await expect(timeline.key('Gripper, 1.00 s, 1200 µs, linear')).toBeVisible();
+  await expect(dashboard.frames).toHaveCount(3);
+  expect(ofKind(await robot.bus(), 'move')).toHaveLength(before);
+});
+
+test('Escape calls a drag off, and stops the robot', async ({ dashboard, page }) => {
+  const timeline = timelineOf(page);
+  await timeline.drag('Gripper, 1.00 s, 1200 µs, linear', 40, 0);
+  await expect(timeline.key('Gripper, 1.00 s, 1200 µs, linear')).toBeHidden();
+  await page.keyboard.press('Escape');
+  await expect(timeline.key('Gripper, 1.00 s, 1200 µs, linear')).toBeVisible();
+  await expect(dashboard.resume).toBeVisible();
+  await page.mouse.up();
+  await expect(dashboard.button('Undo')).toBeDisabled();
+});
+
+test('clicks, boxes, rows and frames select, and the strip is in step', async ({ dashboard, page }) => {
+  const timeline = timelineOf(page);
+  await timeline.click('Gripper, 0.50 s, 1000 µs, linear');
+  await timeline.click('Elbow, 1.50 s, 1500 µs, linear', ['Control']);
+  // The row of all servos says "selected" only where all of a frame is.
+  await expect(timeline.selected).toHaveCount(2);
+  await timeline.click('Gripper, 0.50 s, 1000 µs, linear');
+  await expect(timeline.selected).toHaveCount(1);
+  await timeline.click('Elbow, 1.00 s, 1500 µs, linear', ['Shift']);
+  await expect(timeline.selected).toHaveCount(6);
+  await dashboard.button('Select the keys of Gripper').click();
+  await expect(timeline.selected).toHaveCount(3);
+  await dashboard.frame(2).click();
+  await expect(timeline.key('All servos, frame 2, 1.00 s, 2 keys')).toHaveAttribute('aria-selected', 'true');
+  await timeline.click('All servos, frame 3, 1.50 s, 2 keys');
+  await expect(dashboard.frame(3)).toHaveAttribute('aria-pressed', 'true');
+});
+
+test('a second click on a key opens its number in place', async ({ page, dashboard }) => {
+  const timeline = timelineOf(page);
+  await timeline.click('Gripper, 1.00 s, 1200 µs, linear');
+  await timeline.click('Gripper, 1.00 s, 1200 µs, linear');
+  const field = page.getByRole('textbox', { name: 'Position of the selected keys' });
+  await expect(field).toHaveValue('1200');
+  await field.fill('2600');
+  await field.press('Enter');
+  await expect(dashboard.notices).toContainText('2600 is out of range; it takes 500 to 2500.');
+  await timeline.grid.press('F2');
+  await field.fill('1720');
+  await field.press('Enter');
+  await expect(timeline.key('Gripper, 1.00 s, 1720 µs, linear')).toBeVisible();
+  await expect(timeline.grid).toBeFocused();
+});
+
+test('everything is done by keyboard alone', async ({ page, dashboard }) => {
+  const timeline = timelineOf(page);
+  const { keyboard } = page;
+  await timeline.grid.focus();
+  await keyboard.press('ArrowDown');
+  await keyboard.press('Control+ArrowRight');
+  await expect(timeline.selected).toHaveAccessibleName('Gripper, 1.00 s, 1200 µs, linear');
+  await keyboard.press('ArrowRight');
+  await keyboard.press('Shift+ArrowUp');
+  await expect(timeline.key('Gripper, 1.02 s, 1210 µs, linear')).toHaveAttribute('aria-selected', 'true');
+  await keyboard.press('Control+Shift+a');
+  await keyboard.press('Home');
+  await keyboard.press('.');
+  await keyboard.press('.');
+  await keyboard.press('Enter');
+  await expect(timeline.key('Gripper, 1.00 s, 1202 µs, linear')).toBeVisible();
+  await keyboard.press('Delete');
+  await expect(timeline.key('Gripper, 1.00 s, 1202 µs, linear')).toBeHidden();
+  await keyboard.press('Control+a');
+  await keyboard.press('Shift+F10');
+  await page.getByRole('menuitem', { name: 'Easing' }).press('ArrowRight');
+  await page.getByRole('menuitem', { name: 'hold', exact: true }).press('Enter');
+  await expect(timeline.key('Elbow, 1.50 s, 1500 µs, hold')).toBeVisible();
+  await expect(dashboard.button('Undo: hold')).toBeEnabled();
+});
+
+test('keys are copied to the clipboard of the system and come back at the playhead', async ({
+  page,
+  dashboard,
+}) => {
+  await expect(dashboard.frames).toHaveCount(3);
+  const timeline = timelineOf(page);
+  await timeline.click('Gripper, 1.50 s, 1400 µs, linear');
+  await page.keyboard.press('Control+c');
+  await page.keyboard.press('Home');
+  await page.keyboard.press('Control+v');
+  await expect(timeline.key('Gripper, 0.00 s, 1400 µs, linear')).toHaveAttribute('aria-selected', 'true');
+  await page.keyboard.press('Control+x');
+  await expect(timeline.key('Gripper, 0.00 s, 1400 µs, linear')).toBeHidden();
+});
+
+test('a locked row keeps its keys', async ({ page, dashboard }) => {
+  const timeline = timelineOf(page);
+  await dashboard.button('Row of Gripper').click();
+  await page.getByRole('menuitem', { name: 'Lock', exact: true }).click();
+  await timeline.drag('Gripper, 1.00 s, 1200 µs, linear', 40, 0);
+  await expect(timeline.region).toContainText('This row is locked.');
+  await page.mouse.up();
+  await expect(timeline.key('Gripper, 1.00 s, 1200 µs, linear')).toBeVisible();
+});
+
+test('the wheel zooms where the pointer is, and all of it fits again', async ({ page, dashboard }) => {
+  const timeline = timelineOf(page);
+  const name = 'Gripper, 1.50 s, 1400 µs, linear';
+  const before = await timeline.middleOf(timeline.key(name));
+  await page.mouse.move(before.x, before.y);
+  await page.mouse.wheel(0, -600);
+  await expect(timeline.key('Gripper, 0.50 s, 1000 µs, linear')).toBeHidden();
+  expect((await timeline.middleOf(timeline.key(name))).x).toBeCloseTo(before.x, -1);
+  await dashboard.button('Fit all').click();
+  await expect(timeline.key('Gripper, 0.50 s, 1000 µs, linear')).toBeVisible();
+});
+
+test('Space plays the group while the timeline has the focus', async ({ page, dashboard }) => {
+  await timelineOf(page).grid.focus();
+  await page.keyboard.press('Space');
+  await expect(dashboard.status).toContainText('Playing frame 1 of 3');
+});
+
+test.describe('with fingers', () => {
+  test.use({ hasTouch: true, viewport: { width: 390, height: 844 } });
+
+  test('a finger that rests opens the menu, two fingers zoom', async ({ page, robot }) => {
+    await robot.open(page);
+    await expect(dashboardOf(page).link).toContainText('Ready');
+    await page.getByRole('tab', { name: 'Actions' }).click();
+    const timeline = timelineOf(page);
+    const name = 'Gripper, 1.00 s, 1200 µs, linear';
+    await timeline.key(name).scrollIntoViewIfNeeded();
+    const at = await timeline.middleOf(timeline.key(name));
+    const fingers = await page.context().newCDPSession(page);
+    const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...points: { x: number; y: number }[]) =>
+      fingers.send('Input.dispatchTouchEvent', {
+        type,
+        touchPoints: points.map((point, id) => ({ ...point, id })),
+      });
+    await touch('touchStart', at, { x: at.x + 40, y: at.y });
+    await touch('touchMove', { x: at.x - 40, y: at.y }, { x: at.x + 120, y: at.y });
+    await touch('touchEnd');
+    await expect(timeline.key('Gripper, 1.50 s, 1400 µs, linear')).toBeHidden();
+    await page.getByRole('button', { name: 'Fit all' }).tap();
+    await expect(timeline.key('Gripper, 1.50 s, 1400 µs, linear')).toBeVisible();
+    await touch('touchStart', at);
+    await expect(timeline.region).toContainText('Lift for the menu');
+    await touch('touchEnd');
+    await page.getByRole('menuitem', { name: 'Delete', exact: true }).tap();
+    await expect(timeline.key(name)).toBeHidden();
+  });
+});

@@ -1,0 +1,195 @@
+// The timeline: a grid for keyboard and ears, lanes for eye and hand, both of the same keys. Changes the document alone; the
+// playhead moves nothing but the picture of a pose.
+
+import {
+  useCallback,
+  useEffect,
+  useId,
+  useLayoutEffect,
+  useRef,
+  useState,
+  type ClipboardEvent,
+  type KeyboardEvent,
+} from 'react';
+import { useStore } from 'zustand';
+import { useStores } from '../stores/stores.ts';
+import { words } from '../words/words.ts';
+import { AskBox } from './AskBox.tsx';
+import { copy, cut, paste } from './changes.ts';
+import { clipFromText, clipToText } from './clipText.ts';
+import { deskOf } from './desk.ts';
+import type { StatusName } from './gestures.ts';
+import { keepInStep } from './inStep.ts';
+import { actionOf } from './keymap.ts';
+import { bringToLife, sizesNow } from './lanes.ts';
+import { Minimap } from './Minimap.tsx';
+import { cellId, Rows } from './Rows.tsx';
+import { heightOf, placedRows } from './rows.ts';
+import { topOfRows } from './sizes.ts';
+import { StatusText } from './StatusText.tsx';
+import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
+import { TimelineTools } from './TimelineTools.tsx';
+import { useDesk } from './useDesk.ts';
+import styles from './Timeline.module.css';
+
+/** `onPlay`: the play key was pressed here. */
+export function Timeline({ onPlay }: { onPlay(): void }) {
+  const stores = useStores();
+  const desk = useDesk();
+  const id = useId();
+  const [menu, setMenu] = useState<OpenMenu | null>(null);
+  const [status, setStatus] = useState<StatusName | null>(null);
+  const scroller = useRef<HTMLDivElement>(null);
+  const grid = useRef<HTMLDivElement>(null);
+  const lanes = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const playhead = useRef<HTMLDivElement>(null);
+  const box = useRef<HTMLDivElement>(null);
+  const menuSpot = useRef<HTMLSpanElement>(null);
+  const { state, rows } = desk;
+  const sizes = sizesNow(state);
+  const totalPx = topOfRows(sizes) + heightOf(placedRows(rows.slice(1), sizes));
+  const openMenu = useCallback((kind: OpenMenu['kind'], anchor: Element | null) => {
+    setMenu({ kind, anchor: { current: anchor } });
+  }, []);
+
+  useLayoutEffect(() => {
+    const [area, lane] = [scroller.current, lanes.current];
+    if (area === null || lane === null) return undefined;
+    const measure = (): void =>
+      stores.timeline.setState({
+        widthPx: lane.clientWidth,
+        heightPx: area.clientHeight,
+        scrollTop: area.scrollTop,
+      });
+    measure();
+    const observer = new ResizeObserver(measure);
+    observer.observe(area);
+    observer.observe(lane);
+    return () => observer.disconnect();
+  }, [stores]);
+
+  useEffect(() => keepInStep(stores), [stores]);
+
+  useEffect(() => {
+    const parts = {
+      ...{ scroller: scroller.current, stage: grid.current, lanes: lanes.current },
+      ...{ canvas: canvas.current, playhead: playhead.current, box: box.current },
+    };
+    if (!areThere(parts)) return undefined;
+    return bringToLife(parts, stores, {
+      openMenu({ x, y }) {
+        if (menuSpot.current === null) return;
+        Object.assign(menuSpot.current.style, { left: `${x}px`, top: `${y}px` });
+        openMenu('keys', menuSpot.current);
+      },
+      say: setStatus,
+    });
+  }, [stores, openMenu]);
+
+  function key(event: KeyboardEvent): void {
+    if (event.target !== grid.current) return;
+    const isMenuKey = event.key === 'ContextMenu' || (event.key === 'F10' && event.shiftKey);
+    const action = actionOf(event.nativeEvent);
+    if (isMenuKey) openMenu('keys', cellAtCursor());
+    else if (event.key === ' ' && !event.ctrlKey && !event.shiftKey) onPlay();
+    else if (action === undefined) return;
+    else action(deskOf(stores));
+    event.preventDefault();
+  }
+
+  const active = cellId(id, state.cursor.row, state.cursor.frameId);
+  const cellAtCursor = (): Element | null =>
+    window.document.getElementById(active) ??
+    window.document.getElementById(cellId(id, state.cursor.row, null));
+
+  function put(event: ClipboardEvent, clip: ReturnType<typeof copy>): void {
+    if (clip === null) return;
+    event.clipboardData.setData('text/plain', clipToText(clip));
+    event.preventDefault();
+  }
+
+  function take(event: ClipboardEvent): void {
+    const text = event.clipboardData.getData('text/plain');
+    paste(deskOf(stores), (text === '' ? null : clipFromText(text)) ?? state.clip);
+    event.preventDefault();
+  }
+
+  const takeFocus = (): void => grid.current?.focus({ preventScroll: true });
+
+  return (
+    <section className={styles.timeline} aria-label={words.timeline.title}>
+      <TimelineTools desk={desk} openMenu={(button) => openMenu('keys', button)} />
+      <div
+        ref={scroller}
+        className={styles.scroller}
+        style={{ height: totalPx }}
+        onScroll={(event) => stores.timeline.setState({ scrollTop: event.currentTarget.scrollTop })}
+      >
+        <div style={{ height: totalPx }}>
+          <div className={styles.stage} style={{ height: state.heightPx }}>
+            <div
+              ref={grid}
+              id={`${id}lanes`}
+              role="grid"
+              tabIndex={0}
+              className={styles.grid}
+              aria-label={words.timeline.grid}
+              aria-rowcount={rows.length}
+              aria-colcount={desk.times.frames.length}
+              aria-multiselectable="true"
+              aria-activedescendant={active}
+              onKeyDown={key}
+              onCopy={(event) => put(event, copy(deskOf(stores)))}
+              onCut={(event) => put(event, cut(deskOf(stores)))}
+              onPaste={take}
+              onPointerDown={takeFocus}
+            >
+              <div ref={lanes} className={styles.lanes} role="presentation">
+                <canvas ref={canvas} className={styles.canvas} aria-hidden="true" />
+                <div ref={playhead} className={styles.playhead} aria-hidden="true" />
+                <div ref={box} className={styles.box} aria-hidden="true" hidden />
+                <span ref={menuSpot} className={styles.menuSpot} aria-hidden="true" />
+              </div>
+              <Rows
+                {...{ desk, sizes, id }}
+                openRowMenu={(row, button) => {
+                  stores.timeline.setState({ cursor: { row, frameId: null } });
+                  openMenu('row', button);
+                }}
+              />
+            </div>
+            <Corner />
+            <AskBox onClose={takeFocus} />
+          </div>
+        </div>
+      </div>
+      <Minimap desk={desk} lanes={`${id}lanes`} />
+      <StatusText desk={desk} status={status} />
+      <TimelineMenu
+        menu={menu}
+        onClose={() => {
+          setMenu(null);
+        }}
+      />
+    </section>
+  );
+}
+
+function areThere<Parts extends object>(
+  parts: Parts,
+): parts is { [Name in keyof Parts]: NonNullable<Parts[Name]> } {
+  return Object.values(parts).every((part) => part !== null);
+}
+
+/** Above the names: where the playhead is. */
+function Corner() {
+  const { timeline } = useStores();
+  const playheadMs = useStore(timeline, (state) => state.playheadMs);
+  return (
+    <p className={styles.corner}>
+      <span className={styles.cornerName}>{words.timeline.playhead}</span>
+      {words.timeline.instant(playheadMs)}
+    </p>
+  );
+}

@@ -1,0 +1,154 @@
+// The menu of the timeline, at the pointer or below its button: the verbs that fit what is selected, or what is done to a row.
+
+import { Menu, MenuItem, MenuSection, SubmenuTrigger } from 'react-aria-components/Menu';
+import { Popover } from 'react-aria-components/Popover';
+import { Separator } from 'react-aria-components/Separator';
+import { COLOURS } from '#shared/actions/colours.ts';
+import { EASINGS } from '#shared/actions/group/group.ts';
+import { toggled, type ServoView } from '../stores/servoView.ts';
+import { editServoView, useServoView, useStores } from '../stores/stores.ts';
+import { Icon } from '../ui/Icon.tsx';
+import { words } from '../words/words.ts';
+import { colour, ease } from './changes.ts';
+import { deskOf, rowOf } from './desk.ts';
+import { mayRun, VERBS, type VerbName } from './verbs.ts';
+import styles from './TimelineMenu.module.css';
+
+export interface OpenMenu {
+  readonly kind: 'keys' | 'row';
+  /** What it hangs on. */
+  readonly anchor: { readonly current: Element | null };
+}
+
+const SECTIONS: readonly (readonly VerbName[])[] = [
+  ['setKey', 'editValue', 'marker'],
+  ['cut', 'copy', 'paste', 'duplicate', 'remove', 'removeTime'],
+  ['reverse', 'mirror', 'scaleTime', 'scaleAmplitude', 'insertTime', 'note'],
+  ['selectAll', 'fitSelection', 'range'],
+];
+
+export function TimelineMenu({ menu, onClose }: { readonly menu: OpenMenu | null; onClose(): void }) {
+  return (
+    <Popover
+      className={styles.popover ?? ''}
+      triggerRef={menu?.anchor ?? { current: null }}
+      isOpen={menu !== null}
+      placement="bottom start"
+      onOpenChange={(isOpen) => !isOpen && onClose()}
+    >
+      {menu?.kind === 'row' ? <RowMenu onClose={onClose} /> : <KeysMenu onClose={onClose} />}
+    </Popover>
+  );
+}
+
+function KeysMenu({ onClose }: { onClose(): void }) {
+  const stores = useStores();
+  const desk = deskOf(stores);
+  return (
+    <Menu className={styles.menu ?? ''} aria-label={words.timeline.menu} autoFocus="first" onClose={onClose}>
+      {SECTIONS.map((verbs, index) => (
+        <MenuSection key={verbs[0]} className={styles.section ?? ''} aria-label={words.timeline.menu}>
+          {index > 0 && <Separator className={styles.separator ?? ''} />}
+          {verbs.map((verb) => (
+            <MenuItem
+              key={verb}
+              className={styles.item ?? ''}
+              isDisabled={!mayRun(desk, VERBS[verb])}
+              onAction={() => VERBS[verb].run(deskOf(stores))}
+            >
+              <Icon name={VERBS[verb].icon} />
+              {words.timeline.verbs[verb]}
+              <kbd className={styles.keys}>{VERBS[verb].keys}</kbd>
+            </MenuItem>
+          ))}
+        </MenuSection>
+      ))}
+      <Submenu label={words.timeline.easing} isDisabled={desk.state.selected.size === 0}>
+        {EASINGS.map((easing) => (
+          <MenuItem key={easing} className={styles.item ?? ''} onAction={() => ease(deskOf(stores), easing)}>
+            {words.timeline.easings[easing]}
+          </MenuItem>
+        ))}
+      </Submenu>
+      <Submenu label={words.timeline.colour} isDisabled={desk.state.selected.size === 0}>
+        {[...COLOURS, null].map((one) => (
+          <MenuItem
+            key={one ?? ''}
+            className={styles.item ?? ''}
+            onAction={() => colour(deskOf(stores), one)}
+          >
+            {one === null ? words.timeline.noColour : words.timeline.colours[one]}
+          </MenuItem>
+        ))}
+      </Submenu>
+      <Submenu label={words.timeline.rows.menu} isDisabled={false}>
+        {rowItems(desk.servoView, rowOf(desk, desk.state.cursor.row)?.servos ?? [], (change) =>
+          editServoView(stores, change),
+        )}
+      </Submenu>
+    </Menu>
+  );
+}
+
+function Submenu(props: {
+  readonly label: string;
+  readonly isDisabled: boolean;
+  readonly children: readonly React.ReactElement[];
+}) {
+  return (
+    <SubmenuTrigger>
+      <MenuItem className={styles.item ?? ''} isDisabled={props.isDisabled}>
+        {props.label}
+        <span className={styles.more}>
+          <Icon name="later" />
+        </span>
+      </MenuItem>
+      <Popover className={styles.popover ?? ''}>
+        <Menu className={styles.menu ?? ''} aria-label={props.label}>
+          {props.children}
+        </Menu>
+      </Popover>
+    </SubmenuTrigger>
+  );
+}
+
+function RowMenu({ onClose }: { onClose(): void }) {
+  const stores = useStores();
+  const view = useServoView((servoView) => servoView);
+  const desk = deskOf(stores);
+  const servos = rowOf(desk, desk.state.cursor.row)?.servos ?? [];
+  return (
+    <Menu
+      className={styles.menu ?? ''}
+      aria-label={words.timeline.rows.menu}
+      autoFocus="first"
+      onClose={onClose}
+    >
+      {rowItems(view, servos, (change) => editServoView(stores, change))}
+    </Menu>
+  );
+}
+
+type ChangeView = (change: (view: ServoView) => ServoView) => void;
+
+function rowItems(view: ServoView, servos: readonly number[], change: ChangeView): React.ReactElement[] {
+  const { rows } = words.timeline;
+  const isAll = (list: readonly number[]): boolean =>
+    servos.length > 0 && servos.every((servo) => list.includes(servo));
+  const items = [
+    { list: 'locked', icon: 'lock', label: isAll(view.locked) ? rows.unlock : rows.lock },
+    { list: 'muted', icon: 'mute', label: isAll(view.muted) ? rows.unmute : rows.mute },
+    { list: 'solo', icon: 'solo', label: isAll(view.solo) ? rows.unsolo : rows.solo },
+    { list: 'hidden', icon: 'hide', label: rows.hide },
+  ] as const;
+  return items.map(({ list, icon, label }) => (
+    <MenuItem
+      key={list}
+      className={styles.item ?? ''}
+      onAction={() => change((before) => ({ ...before, [list]: toggled(before[list], servos) }))}
+    >
+      <Icon name={icon} />
+      {label}
+    </MenuItem>
+  ));
+}

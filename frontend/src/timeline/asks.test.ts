@@ -1,0 +1,55 @@
+import { expect, test } from 'vitest';
+import { answer } from './asks.ts';
+import { createTimelineDesk } from './timelineUnderTest.ts';
+
+test('a number within what the servos can do is taken for all selected keys', async () => {
+  const { desk, select, keys } = await createTimelineDesk();
+  select([1, 1], [2, 2]);
+  expect(answer(desk(), 'value', '1720')).toBeNull();
+  expect([keys(1)[0], keys(2)[1]]).toEqual([
+    [500, 1720],
+    [1000, 1720],
+  ]);
+});
+
+test('any other is refused in words, and changes nothing', async () => {
+  const { desk, select, group } = await createTimelineDesk();
+  select([1, 1]);
+  const before = group();
+  expect(answer(desk(), 'value', '2600')).toBe(
+    'Position of the selected keys: 2600 is out of range; it takes 500 to 2500.',
+  );
+  answer(desk(), 'value', '');
+  expect(group()).toBe(before);
+});
+
+test('a swing grows about its mean, not beyond the limits', async () => {
+  const { desk, select, keys, told } = await createTimelineDesk();
+  select([1, 1], [2, 1], [3, 1]);
+  answer(desk(), 'scaleAmplitude', '200');
+  expect(keys(1).map(([, position]) => position)).toEqual([800, 1200, 1600]);
+  answer(desk(), 'scaleAmplitude', '900');
+  expect(told()).toEqual(['Not scaled: servo 1 would go beyond its limits.']);
+});
+
+test('a single frame is stretched from its beginning', async () => {
+  const { desk, select, keys, stores } = await createTimelineDesk();
+  stores.timeline.setState({ ripples: true });
+  select([2, 1]);
+  answer(desk(), 'scaleTime', '300');
+  expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 2000, 2500]);
+});
+
+test('time, notes and markers', async () => {
+  const { desk, select, group, stores } = await createTimelineDesk();
+  select([2, 1]);
+  answer(desk(), 'note', ' look up ');
+  expect(group().frames[1]?.note).toBe('look up');
+  stores.timeline.setState({ playheadMs: 600 });
+  answer(desk(), 'insertTime', '400');
+  expect(group().frames.map(({ durationMs }) => durationMs)).toEqual([500, 900, 500]);
+  answer(desk(), 'marker', 'Bow');
+  stores.timeline.setState({ marker: group().markers[0]?.id ?? null });
+  answer(desk(), 'marker', 'Deep bow');
+  expect(group().markers).toMatchObject([{ atMs: 600, text: 'Deep bow' }]);
+});

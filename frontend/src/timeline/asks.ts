@@ -1,0 +1,163 @@
+// What a person is asked for in place, one field at a time: what stands in it at first, and what is done with the answer.
+
+import { renameMarker, addMarker } from '#shared/actions/group/markerEdits.ts';
+import { GROUP_NAME_LENGTH, NOTE_LENGTH } from '#shared/actions/group/group.ts';
+import { scaleAmplitude, setPositions } from '#shared/actions/group/keyEdits.ts';
+import { setNote } from '#shared/actions/group/frameEdits.ts';
+import { insertTime, stretch } from '#shared/actions/group/timeEdits.ts';
+import type { Ask } from '../stores/timeline.ts';
+import { numberIn } from '../ui/NumberField.tsx';
+import { words } from '../words/words.ts';
+import { apply, changeable, rangeOf, selectedFrames, type Desk } from './desk.ts';
+import { keyOf, selectedKeys, spanOf, timesOf } from './groupTimes.ts';
+
+interface Range {
+  readonly min: number;
+  readonly max: number;
+}
+
+interface NumberAsk {
+  readonly kind: 'number';
+  unit(desk: Desk): string;
+  range(desk: Desk): Range;
+  initial(desk: Desk): number;
+  take(desk: Desk, value: number): void;
+}
+
+interface TextAsk {
+  readonly kind: 'text';
+  readonly maxLength: number;
+  initial(desk: Desk): string;
+  take(desk: Desk, text: string): void;
+}
+
+export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
+  value: {
+    kind: 'number',
+    unit: ({ group }) => words.numbers.unitSymbol(group.unit),
+    range: commonRange,
+    initial: (desk) => changeableAtCursor(desk)?.position ?? 0,
+    take(desk, position) {
+      const keys = changeable(desk).map((ref) => ({ ...ref, position }));
+      apply(desk, { label: () => words.timeline.steps.value, edit: (group) => setPositions(group, keys) });
+    },
+  },
+  scaleTime: {
+    kind: 'number',
+    unit: () => words.timeline.percent,
+    range: () => ({ min: 1, max: 10_000 }),
+    initial: () => 100,
+    take(desk, value) {
+      const span = stretchedSpan(desk);
+      if (span === null) return;
+      const { ripples: ripple } = desk.state;
+      apply(desk, {
+        label: () => words.timeline.steps.scaleTime,
+        edit: (group) => stretch(group, span, value / 100, { ripple }),
+      });
+    },
+  },
+  scaleAmplitude: {
+    kind: 'number',
+    unit: () => words.timeline.percent,
+    range: () => ({ min: -1000, max: 1000 }),
+    initial: () => 100,
+    take: swing,
+  },
+  insertTime: {
+    kind: 'number',
+    unit: () => words.servos.ms,
+    range: ({ family }) => ({ min: 1, max: family.durationMs.max }),
+    initial: () => 500,
+    take(desk, durationMs) {
+      const { playheadMs } = desk.state;
+      apply(desk, {
+        label: () => words.timeline.steps.insertTime,
+        edit: (group) => insertTime(group, playheadMs, durationMs),
+      });
+    },
+  },
+  note: {
+    kind: 'text',
+    maxLength: NOTE_LENGTH,
+    initial: (desk) => desk.times.frames.find(({ id }) => id === selectedFrames(desk)[0])?.note ?? '',
+    take(desk, text) {
+      const [frame] = selectedFrames(desk);
+      if (frame !== undefined)
+        apply(desk, { label: () => words.timeline.steps.note, edit: (group) => setNote(group, frame, text) });
+    },
+  },
+  marker: {
+    kind: 'text',
+    maxLength: GROUP_NAME_LENGTH,
+    initial: ({ group, state }) =>
+      group.markers.find(({ id }) => id === state.marker)?.text ??
+      words.timeline.newMarker(group.markers.length + 1),
+    take(desk, text) {
+      const { marker, playheadMs } = desk.state;
+      if (marker === null)
+        apply(desk, {
+          label: () => words.timeline.steps.addMarker,
+          edit: (group) => addMarker(group, playheadMs, text),
+        });
+      else
+        apply(desk, {
+          label: () => words.timeline.steps.renameMarker,
+          edit: (group) => renameMarker(group, marker, text),
+        });
+    },
+  },
+};
+
+/** The answer taken; what is wrong with it where it cannot be. */
+export function answer(desk: Desk, ask: Ask, text: string): string | null {
+  const asked = ASKED[ask];
+  if (asked.kind === 'text') {
+    asked.take(desk, text.trim());
+    return null;
+  }
+  const value = numberIn(text, 0);
+  const { min, max } = asked.range(desk);
+  if (Number.isNaN(value)) return null;
+  if (value < min || value > max) return words.refused(words.timeline.asks[ask], value, min, max);
+  asked.take(desk, value);
+  return null;
+}
+
+/** All of it or nothing: none of the keys may go beyond what its servo can do. */
+function swing(desk: Desk, percent: number): void {
+  const refs = changeable(desk);
+  const next = scaleAmplitude(desk.group, refs, percent / 100, 'mean');
+  const times = timesOf(next);
+  const outside = refs.find(({ servo, frameId }) => {
+    const { min, max } = rangeOf(desk, servo);
+    const position = keyOf(times, { servo, frameId })?.position ?? min;
+    return position < min || position > max;
+  });
+  if (outside !== undefined)
+    return desk.stores.notices.tell('warning', words.timeline.swingsTooFar(outside.servo));
+  apply(desk, { label: () => words.timeline.steps.scaleAmplitude, edit: () => next });
+}
+
+function changeableAtCursor(desk: Desk) {
+  const refs = changeable(desk);
+  const ref = refs.find(({ frameId }) => frameId === desk.state.cursor.frameId) ?? refs[0];
+  return ref === undefined ? undefined : keyOf(desk.times, ref);
+}
+
+/** What all of the selected servos can do. */
+function commonRange(desk: Desk): Range {
+  const ranges = changeable(desk).map(({ servo }) => rangeOf(desk, servo));
+  return {
+    min: ranges.reduce((most, { min }) => Math.max(most, min), 0),
+    max: ranges.reduce((least, { max }) => Math.min(least, max), desk.family.position.max),
+  };
+}
+
+/** One frame is stretched from its beginning. */
+function stretchedSpan(desk: Desk): { readonly fromMs: number; readonly toMs: number } | null {
+  const span = spanOf(selectedKeys(desk.times, desk.state.selected));
+  if (span === null || span.toMs > span.fromMs) return span;
+  const index = desk.times.ends.findIndex((endMs) => endMs === span.toMs);
+  return { fromMs: desk.times.ends[index - 1] ?? 0, toMs: span.toMs };
+}

@@ -1,0 +1,205 @@
+// The verbs that change the group: keys set, deleted, copied, turned round, eased. Each is one step of the history.
+
+import type { Colour } from '#shared/actions/colours.ts';
+import { duplicateKeys, copyKeys, pasteKeys, type Clip, type Pasted } from '#shared/actions/group/clip.ts';
+import { mirror, setColour, setEasing } from '#shared/actions/group/frameEdits.ts';
+import type { Easing } from '#shared/actions/group/group.ts';
+import { deleteKeys, setKey } from '#shared/actions/group/keyEdits.ts';
+import { deleteMarker } from '#shared/actions/group/markerEdits.ts';
+import { deleteTime, reverse } from '#shared/actions/group/timeEdits.ts';
+import type { Label } from '#shared/actions/history.ts';
+import { keysAt, positionAt, type KeyRef } from '#shared/actions/group/tracks.ts';
+import { keySet, NO_KEYS } from '../stores/keySet.ts';
+import { isHeld } from '../stores/servoView.ts';
+import { words } from '../words/words.ts';
+import {
+  apply,
+  changeable,
+  hasChangeable,
+  rangeOf,
+  rowOf,
+  select,
+  selectedFrames,
+  type Desk,
+} from './desk.ts';
+import { allKeys, selectedKeys, spanOf, type GroupTimes } from './groupTimes.ts';
+
+/** The servos of the cursor's row get a key where the playhead is, so that their motion stays as it is there. */
+export function setKeys(desk: Desk): void {
+  setKeysAt(desk, rowOf(desk, desk.state.cursor.row)?.servos ?? [], desk.state.playheadMs);
+}
+
+export function setKeysAt(desk: Desk, servos: readonly number[], atMs: number, position?: number): void {
+  const placed = servos
+    .filter((servo) => !isHeld(desk.servoView, servo))
+    .flatMap((servo) => {
+      const there = position ?? positionNow(desk, servo, atMs);
+      return there === null ? [] : [{ servo, position: there }];
+    });
+  if (placed.length === 0) return desk.stores.notices.tell('info', words.timeline.nothingToSet);
+  const { unit } = desk.family;
+  apply(desk, {
+    label: () => words.timeline.steps.setKey,
+    edit: (group) =>
+      placed.reduce(
+        (sum, { servo, position: there }) => setKey(sum, servo, atMs, there),
+        group.frames.length === 0 ? { ...group, unit } : group,
+      ),
+    selects: ({ tracks }) =>
+      keysAt(
+        tracks,
+        placed.map(({ servo }) => ({ servo, atMs: Math.round(atMs) })),
+      ),
+  });
+}
+
+/** On its way at that time; else where the robot was asked to be; null where neither is known. */
+function positionNow({ times, stores, group, family }: Desk, servo: number, atMs: number): number | null {
+  const track = times.tracks.get(servo);
+  const onItsWay = track === undefined ? null : positionAt(track, atMs);
+  if (onItsWay !== null) return onItsWay;
+  const fits = group.unit === family.unit || group.frames.length === 0;
+  return fits ? (stores.device.store.getState().targets[servo] ?? null) : null;
+}
+
+export function remove(desk: Desk): void {
+  const { marker } = desk.state;
+  if (marker !== null) {
+    apply(desk, {
+      label: () => words.timeline.steps.deleteMarker,
+      edit: (group) => deleteMarker(group, marker),
+    });
+  } else if (hasChangeable(desk)) {
+    const refs = changeable(desk);
+    apply(desk, {
+      label: () => words.timeline.steps.delete(refs.length),
+      edit: (group) => deleteKeys(group, refs),
+    });
+  }
+}
+
+/** The keys of the selected stretch go with their time. */
+export function removeTime(desk: Desk): void {
+  const span = spanOf(selectedKeys(desk.times, desk.state.selected));
+  if (span === null) return;
+  apply(desk, { label: () => words.timeline.steps.deleteTime, edit: (group) => deleteTime(group, span) });
+}
+
+/** null where nothing is selected. */
+function clipOf({ group, times, state }: Desk): Clip | null {
+  const keys = selectedKeys(times, state.selected);
+  return keys.length === 0 ? null : copyKeys(group, keys);
+}
+
+export function copy(desk: Desk): Clip | null {
+  const clip = clipOf(desk);
+  if (clip !== null) {
+    desk.stores.timeline.setState({ clip });
+    desk.stores.view.setState({ said: words.timeline.copied(desk.state.selected.size) });
+  }
+  return clip;
+}
+
+/** Keys on locked rows are copied and stay. */
+export function cut(desk: Desk): Clip | null {
+  const clip = copy(desk);
+  const refs = changeable(desk);
+  if (clip !== null)
+    apply(desk, {
+      label: () => words.timeline.steps.cut(refs.length),
+      edit: (group) => deleteKeys(group, refs),
+    });
+  return clip;
+}
+
+export function paste(desk: Desk, clip: Clip | null): void {
+  if (clip === null) return desk.stores.notices.tell('info', words.timeline.nothingToPaste);
+  const { playheadMs, ripples } = desk.state;
+  put(
+    desk,
+    () => words.timeline.steps.paste,
+    pasteKeys(desk.group, clip, playheadMs, { ripple: ripples, rangeOf: (servo) => rangeOf(desk, servo) }),
+    ({ tracks }) => keysAt(tracks, clipKeys(clip, playheadMs)),
+  );
+}
+
+const clipKeys = ({ moments }: Clip, atMs: number) =>
+  moments.flatMap(({ atMs: afterMs, targets }) =>
+    targets.map(({ servo }) => ({ servo, atMs: Math.round(atMs) + afterMs })),
+  );
+
+/** Right behind the selection, in the rhythm of its first frame. */
+export function duplicate(desk: Desk): void {
+  const keys = selectedKeys(desk.times, desk.state.selected);
+  const span = spanOf(keys);
+  if (span === null) return;
+  const first = desk.times.frames.find(({ id }) => keys.some(({ frameId }) => frameId === id));
+  const deltaMs = span.toMs - span.fromMs + Math.max(desk.family.motion.tickMs, first?.durationMs ?? 0);
+  put(
+    desk,
+    () => words.timeline.steps.duplicate,
+    duplicateKeys(desk.group, keys, deltaMs, { ripple: desk.state.ripples }),
+    ({ tracks }) =>
+      keysAt(
+        tracks,
+        keys.map(({ servo, atMs }) => ({ servo, atMs: atMs + deltaMs })),
+      ),
+  );
+}
+
+/** All of it or nothing: what the robot must not do is not put into the group either. */
+function put(
+  desk: Desk,
+  label: Label,
+  { group, problems }: Pasted,
+  selects: (times: GroupTimes) => readonly KeyRef[],
+): void {
+  const [problem] = problems;
+  if (problem !== undefined) desk.stores.notices.tell('warning', words.timeline.notPasted(problem));
+  else apply(desk, { label, edit: () => group, selects });
+}
+
+export function turnRound(desk: Desk): void {
+  const keys = selectedKeys(desk.times, desk.state.selected);
+  const span = spanOf(keys);
+  if (span === null) return;
+  const places = keys.map(({ servo, atMs }) => ({ servo, atMs: span.fromMs + span.toMs - atMs }));
+  apply(desk, {
+    label: () => words.timeline.steps.reverse,
+    edit: (group) => reverse(group, span),
+    selects: ({ tracks }) => keysAt(tracks, places),
+  });
+}
+
+export function mirrorFrames(desk: Desk): void {
+  const frameIds = selectedFrames(desk);
+  const { group, held } = mirror(desk.group, desk.robot, frameIds);
+  if (held.length > 0)
+    desk.stores.notices.tell('warning', words.timeline.heldAtLimit(held.map(({ servo }) => servo)));
+  apply(desk, { label: () => words.timeline.steps.mirror, edit: () => group });
+}
+
+export function ease(desk: Desk, easing: Easing): void {
+  const frames = selectedFrames(desk);
+  apply(desk, {
+    label: () => words.timeline.steps.ease(words.timeline.easings[easing]),
+    edit: (group) => setEasing(group, frames, easing),
+  });
+}
+
+export function colour(desk: Desk, wanted: Colour | null): void {
+  const frames = selectedFrames(desk);
+  apply(desk, {
+    label: () => words.timeline.steps.colour,
+    edit: (group) => setColour(group, frames, wanted),
+  });
+}
+
+export function selectAll(desk: Desk): void {
+  const servos = desk.rows.find(({ kind }) => kind === 'all')?.servos ?? [];
+  select(desk.stores, keySet(allKeys(desk.times, servos)));
+}
+
+export function selectNone({ stores }: Desk): void {
+  select(stores, NO_KEYS);
+}

@@ -1,0 +1,19 @@
+import { expect, test } from 'vitest';
+import { copyKeys } from '#shared/actions/group/clip.ts';
+import { setEasing } from '#shared/actions/group/frameEdits.ts';
+import { clipFromText, clipToText } from './clipText.ts';
+import { smallGroup } from './timelineUnderTest.ts';
+
+test('copied keys come back from the text that stands for them', () => {
+  const refs = [
+    { frameId: 2, servo: 1 },
+    { frameId: 3, servo: 1 },
+    { frameId: 3, servo: 3 },
+  ];
+  const clip = copyKeys(setEasing(smallGroup(), [3], 'hold'), refs);
+  expect(clipFromText(clipToText(clip))).toEqual(clip);
+});
+
+test('any other text is no clip', () => {
+  expect(clipFromText('55 55 02 0F')).toBeNull();
+});

@@ -1,0 +1,94 @@
+// What a verb of the timeline works with, gathered anew each time, and how it leaves the selection. Edits go to the document
+// alone, as one step each.
+
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { Label } from '#shared/actions/history.ts';
+import type { KeyRef } from '#shared/actions/group/tracks.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
+import { servoOf } from '#shared/actions/robot/robot.ts';
+import { positionRange, type Family, type Range } from '#shared/protocol/families.ts';
+import { keyName, keySet, type KeySet } from '../stores/keySet.ts';
+import { isHeld, type ServoView } from '../stores/servoView.ts';
+import { servoViewOf, type Stores } from '../stores/stores.ts';
+import type { TimelineState } from '../stores/timeline.ts';
+import { words } from '../words/words.ts';
+import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
+import { rowsOf, type Row } from './rows.ts';
+
+export type DeskStores = Pick<Stores, 'device' | 'document' | 'view' | 'notices' | 'robots' | 'timeline'>;
+
+export interface Desk {
+  readonly stores: DeskStores;
+  readonly group: ActionGroup;
+  readonly times: GroupTimes;
+  readonly state: TimelineState;
+  readonly rows: readonly Row[];
+  readonly robot: Robot;
+  readonly family: Family;
+  readonly servoView: ServoView;
+}
+
+export function deskOf(stores: DeskStores): Desk {
+  const { robot } = stores.robots.current();
+  const group = stores.document.store.getState().present;
+  const times = timesOf(group);
+  const servoView = servoViewOf(stores);
+  return {
+    ...{ stores, group, times, robot, servoView },
+    state: stores.timeline.getState(),
+    rows: rowsOf(robot, times.tracks, servoView),
+    family: stores.device.store.getState().family,
+  };
+}
+
+export const rowOf = ({ rows }: Pick<Desk, 'rows'>, id: string): Row | undefined =>
+  rows.find((row) => row.id === id);
+
+/** Selected, and not locked. */
+export function changeable({ times, state, servoView }: Desk): readonly KeyRef[] {
+  return selectedKeys(times, state.selected).filter(({ servo }) => !isHeld(servoView, servo));
+}
+
+/** The frames of the selected keys, in the order of time. */
+export function selectedFrames({ times, state }: Desk): readonly number[] {
+  const wanted = new Set(selectedKeys(times, state.selected).map(({ frameId }) => frameId));
+  return times.frames.map(({ id }) => id).filter((id) => wanted.has(id));
+}
+
+/** How far a servo may go in this group. */
+export function rangeOf({ robot, family }: Pick<Desk, 'robot' | 'family'>, servo: number): Range {
+  return servoOf(robot, servo) ?? positionRange(family, servo);
+}
+
+export interface Change {
+  readonly label: Label;
+  edit(group: ActionGroup): ActionGroup;
+  /** What is selected afterwards; left out: what is still there of the selection. */
+  selects?(times: GroupTimes): readonly KeyRef[];
+}
+
+export function apply({ stores }: Pick<Desk, 'stores'>, { label, edit, selects }: Change): void {
+  stores.document.edit(label, edit);
+  const times = timesOf(stores.document.store.getState().present);
+  select(stores, selects === undefined ? null : keySet(selects(times)));
+}
+
+/** Null: what is still there. The frame strip goes along. */
+export function select(stores: DeskStores, wanted: KeySet | null, cursor?: TimelineState['cursor']): void {
+  const times = timesOf(stores.document.store.getState().present);
+  const before = stores.timeline.getState();
+  const keys = selectedKeys(times, wanted ?? before.selected);
+  const selected = new Set(keys.map(keyName));
+  stores.timeline.setState({ selected, marker: null, ...(cursor !== undefined && { cursor }) });
+  const frames = new Set(keys.map(({ frameId }) => frameId));
+  const at = (cursor ?? before.cursor).frameId;
+  const [first = null] = frames;
+  stores.view.setState({ selectedFrame: at !== null && frames.has(at) ? at : first });
+}
+
+/** False where nothing may be changed; then the person is told why. */
+export function hasChangeable(desk: Desk): boolean {
+  if (changeable(desk).length > 0) return true;
+  if (desk.state.selected.size > 0) desk.stores.notices.tell('warning', words.timeline.allLocked);
+  return false;
+}

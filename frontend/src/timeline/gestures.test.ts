@@ -1,0 +1,207 @@
+import { describe, expect, test } from 'vitest';
+import { addMarker } from '#shared/actions/group/markerEdits.ts';
+import { editServoView } from '../stores/stores.ts';
+import { createTimelineDesk, smallGroup } from './timelineUnderTest.ts';
+
+const HEADS_Y = 33;
+
+describe('a press on a key', () => {
+  test('selects it, with Ctrl beside others, with Shift up to it', async () => {
+    const { click, spotOf, selected } = await createTimelineDesk();
+    click(spotOf(1, 1));
+    expect(selected()).toEqual([[1, 1]]);
+    click(spotOf(2, 3), { ctrl: true });
+    expect(selected()).toEqual([
+      [1, 1],
+      [3, 2],
+    ]);
+    click(spotOf(2, 3), { ctrl: true });
+    expect(selected()).toEqual([[1, 1]]);
+    click(spotOf(1, 1));
+    click(spotOf(2, 2), { shift: true });
+    expect(selected()).toEqual([
+      [1, 1],
+      [2, 1],
+      [1, 2],
+      [2, 2],
+    ]);
+  });
+
+  test('a click on a selected one asks for its number', async () => {
+    const { click, spotOf, stores } = await createTimelineDesk();
+    click(spotOf(1, 1));
+    expect(stores.timeline.getState().asks).toBeNull();
+    click(spotOf(1, 1));
+    expect(stores.timeline.getState().asks).toBe('value');
+  });
+
+  test('in the row of all servos selects the whole frame, and the strip goes along', async () => {
+    const { click, selected, stores } = await createTimelineDesk();
+    click({ x: 100, y: 22 + 22 + 13 });
+    expect(selected()).toEqual([
+      [2, 1],
+      [2, 2],
+    ]);
+    expect(stores.view.getState().selectedFrame).toBe(2);
+  });
+});
+
+describe('dragging keys', () => {
+  test('moves them in time, on the raster of the board, in one step; others keep theirs', async () => {
+    const { drag, spotOf, keys, steps, selected, group } = await createTimelineDesk();
+    drag(spotOf(1, 2), 12.3, 0);
+    expect(keys(1)).toEqual([
+      [500, 1000],
+      [1120, 1200],
+      [1500, 1400],
+    ]);
+    expect(keys(2)).toEqual([
+      [500, 1500],
+      [1000, 1500],
+      [1500, 1600],
+    ]);
+    expect(steps()).toBe(1);
+    expect(selected()).toEqual([[group().frames[2]?.id, 1]]);
+  });
+
+  test('comes to rest at what is near, unless Alt is held', async () => {
+    const { drag, spotOf, keys, stores } = await createTimelineDesk();
+    stores.timeline.setState({ playheadMs: 1113 });
+    drag(spotOf(1, 2), 11.6, 0);
+    expect(keys(1)[1]).toEqual([1113, 1200]);
+    stores.document.undo();
+    drag(spotOf(1, 2), 11.6, 0, { alt: true });
+    expect(keys(1)[1]).toEqual([1116, 1200]);
+  });
+
+  test('turns values, and stops where the servo must not go on', async () => {
+    const { drag, spotOf, keys } = await createTimelineDesk();
+    drag(spotOf(1, 2), 0, -25);
+    expect(keys(1)[1]).toEqual([1000, 1400]);
+    drag(spotOf(1, 2), 0, -2000);
+    expect(keys(1)[1]).toEqual([1000, 2500]);
+  });
+
+  test('with Shift keeps to one direction', async () => {
+    const { drag, spotOf, keys } = await createTimelineDesk();
+    drag(spotOf(1, 2), 10, -30, { shift: true });
+    expect(keys(1)[1]?.[0]).toBe(1000);
+  });
+
+  test('takes what is behind along with ripple', async () => {
+    const { drag, spotOf, keys, stores } = await createTimelineDesk();
+    stores.timeline.setState({ ripples: true });
+    drag(spotOf(1, 2), 20, 0);
+    expect(keys(2).map(([atMs]) => atMs)).toEqual([500, 1200, 1700]);
+  });
+
+  test('called off leaves everything as it was', async () => {
+    const { press, spotOf, select, selected, group, steps } = await createTimelineDesk();
+    const before = group();
+    select([2, 1], [2, 2]);
+    const gesture = press(spotOf(1, 2));
+    gesture.by(30, -30);
+    expect(group()).not.toBe(before);
+    gesture.cancel();
+    expect(group()).toBe(before);
+    expect(selected()).toEqual([
+      [2, 1],
+      [2, 2],
+    ]);
+    expect(steps()).toBe(0);
+  });
+
+  test('leaves locked rows alone', async () => {
+    const { drag, spotOf, stores, group } = await createTimelineDesk();
+    const before = group();
+    editServoView(stores, (view) => ({ ...view, locked: [1] }));
+    drag(spotOf(1, 2), 30, 30);
+    expect(group()).toBe(before);
+  });
+});
+
+describe('dragging other things', () => {
+  test('an edge changes its frame, with ripple what is behind too', async () => {
+    const { drag, group, stores } = await createTimelineDesk();
+    drag({ x: 100, y: HEADS_Y }, 10, 0);
+    expect(group().frames.map(({ durationMs }) => durationMs)).toEqual([500, 600, 400]);
+    stores.document.undo();
+    stores.timeline.setState({ ripples: true });
+    drag({ x: 100, y: HEADS_Y }, 10, 0);
+    expect(group().frames.map(({ durationMs }) => durationMs)).toEqual([500, 600, 500]);
+  });
+
+  test('a frame never takes longer than the board can', async () => {
+    const { drag, group, stores } = await createTimelineDesk();
+    stores.timeline.setState({ ripples: true, time: { fromMs: 0, msPerPx: 1000 } });
+    drag({ x: 1.5, y: HEADS_Y }, 90, 0);
+    expect(Math.max(...group().frames.map(({ durationMs }) => durationMs))).toBe(30_000);
+  });
+
+  test('heads select frames, one after the other', async () => {
+    const { press, selected } = await createTimelineDesk();
+    const gesture = press({ x: 25, y: HEADS_Y });
+    gesture.by(50, 0);
+    gesture.end(false);
+    expect(selected()).toEqual([
+      [1, 1],
+      [2, 1],
+      [1, 2],
+      [2, 2],
+      [1, 3],
+    ]);
+  });
+
+  test('the handle behind a selected stretch makes it longer', async () => {
+    const { drag, select, keys, stores } = await createTimelineDesk();
+    select([1, 1], [2, 1]);
+    stores.timeline.setState({ ripples: true });
+    drag({ x: 112, y: 57 }, 50, 0);
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1500, 2000]);
+  });
+
+  test('a box from an empty place selects what is in it; a click there nothing', async () => {
+    const { press, selected, spotOf, click } = await createTimelineDesk();
+    const from = { x: 80, y: spotOf(1, 1).y - 8 };
+    const gesture = press(from);
+    gesture.by(80, 40);
+    expect(selected()).toEqual([
+      [2, 1],
+      [3, 1],
+      [2, 2],
+      [3, 2],
+    ]);
+    gesture.end(false);
+    click({ x: 700, y: 90 });
+    expect(selected()).toEqual([]);
+  });
+
+  test('the ruler takes the playhead along, and with Shift sets what is looped', async () => {
+    const { press, stores } = await createTimelineDesk();
+    const scrub = press({ x: 30, y: 5 });
+    scrub.by(20, 0);
+    expect(stores.timeline.getState().playheadMs).toBe(500);
+    const range = press({ x: 30, y: 5 }, { shift: true });
+    range.by(20, 0);
+    range.end(false);
+    expect(stores.timeline.getState().range).toEqual({ fromMs: 300, toMs: 500 });
+  });
+
+  test('a marker goes where it is dragged', async () => {
+    const { drag, group, stores } = await createTimelineDesk();
+    stores.document.edit(
+      () => 'mark',
+      (before) => addMarker(before, 700, 'Bow'),
+    );
+    drag({ x: 70, y: 5 }, 12, 0);
+    expect(group().markers).toMatchObject([{ atMs: 820, text: 'Bow' }]);
+  });
+
+  test('a finger drags the lanes about', async () => {
+    const { press, stores, group } = await createTimelineDesk();
+    const gesture = press({ x: 500, y: 90 }, {}, true);
+    gesture.by(-40, 0);
+    expect(stores.timeline.getState().time.fromMs).toBe(400);
+    expect(group()).toEqual(smallGroup());
+  });
+});

@@ -1,0 +1,77 @@
+// What the timeline reads from a group's frames, worked out once for each state of them: tracks, ends, places by id.
+
+import type { GroupFrame } from '#shared/actions/group/group.ts';
+import { frameEnds, tracksOf, type Key, type KeyRef, type Tracks } from '#shared/actions/group/tracks.ts';
+import type { KeySet } from '../stores/keySet.ts';
+import { keyName } from '../stores/keySet.ts';
+
+export interface GroupTimes {
+  readonly frames: readonly GroupFrame[];
+  readonly tracks: Tracks;
+  /** When each frame is done. */
+  readonly ends: readonly number[];
+  readonly lengthMs: number;
+  /** A frame's place in the list by its id. */
+  readonly places: ReadonlyMap<number, number>;
+}
+
+const known = new WeakMap<readonly GroupFrame[], GroupTimes>();
+let latest: Tracks | undefined;
+
+export function timesOf({ frames }: { readonly frames: readonly GroupFrame[] }): GroupTimes {
+  const before = known.get(frames);
+  if (before !== undefined) return before;
+  const ends = frameEnds(frames);
+  const times = {
+    frames,
+    tracks: tracksOf({ frames }, latest),
+    ends,
+    lengthMs: ends.at(-1) ?? 0,
+    places: new Map(frames.map(({ id }, index) => [id, index])),
+  };
+  latest = times.tracks;
+  known.set(frames, times);
+  return times;
+}
+
+/** When the frame is done; null where there is none. */
+export function endOfFrame({ ends, places }: GroupTimes, frameId: number | null): number | null {
+  return frameId === null ? null : (ends[places.get(frameId) ?? -1] ?? null);
+}
+
+export function allKeys({ tracks }: GroupTimes, servos: readonly number[]): readonly Key[] {
+  return servos.flatMap((servo) => tracks.get(servo)?.keys ?? []);
+}
+
+export function keysOfFrame(
+  { frames, ends, places }: GroupTimes,
+  servos: readonly number[],
+  frameId: number,
+): readonly Key[] {
+  const place = places.get(frameId) ?? -1;
+  const [frame, atMs] = [frames[place], ends[place]];
+  if (frame === undefined || atMs === undefined) return [];
+  return frame.targets
+    .filter(({ servo }) => servos.includes(servo))
+    .map((target) => ({ ...target, frameId, atMs, easing: frame.easing }));
+}
+
+export function keyOf({ tracks }: GroupTimes, { frameId, servo }: KeyRef): Key | undefined {
+  return tracks.get(servo)?.keys.find((key) => key.frameId === frameId);
+}
+
+/** Those of the set that are there. */
+export function selectedKeys(times: GroupTimes, selected: KeySet): readonly Key[] {
+  if (selected.size === 0) return [];
+  return allKeys(times, [...times.tracks.keys()]).filter((key) => selected.has(keyName(key)));
+}
+
+/** The times of these keys, first and last; null where there are none. */
+export function spanOf(keys: readonly Key[]): { readonly fromMs: number; readonly toMs: number } | null {
+  const [first] = keys;
+  if (first === undefined) return null;
+  return keys.reduce(
+    ({ fromMs, toMs }, { atMs }) => ({ fromMs: Math.min(fromMs, atMs), toMs: Math.max(toMs, atMs) }),
+    { fromMs: first.atMs, toMs: first.atMs },
+  );
+}

@@ -1,0 +1,56 @@
+// Keeps the timeline in step with the rest of the page: what is gone from the group is no longer selected, a frame that was
+// selected elsewhere is selected here, and all of the group stays in sight until the person looks closer.
+
+import { deskOf, type DeskStores } from './desk.ts';
+import { endOfFrame, timesOf } from './groupTimes.ts';
+import { fitAll, lookAt, selectFrame } from './looking.ts';
+import { keyName, refsOf, type KeySet } from '../stores/keySet.ts';
+import { selectedKeys } from './groupTimes.ts';
+
+export function keepInStep(stores: DeskStores): () => void {
+  const { document, view, timeline } = stores;
+  const ends = [
+    document.store.subscribe(({ present, gesture }, before) => {
+      if (gesture !== null || (present === before.present && before.gesture === null)) return;
+      forgetGone(stores);
+      takeUpFrame(stores);
+      if (timeline.getState().followsGroup) fitAll(deskOf(stores));
+    }),
+    view.subscribe(({ selectedFrame }, before) => {
+      if (selectedFrame !== before.selectedFrame) takeUpFrame(stores);
+    }),
+    timeline.subscribe(({ widthPx, followsGroup }, before) => {
+      if (widthPx !== before.widthPx && followsGroup) fitAll(deskOf(stores));
+    }),
+  ];
+  takeUpFrame(stores);
+  fitAll(deskOf(stores));
+  return () => {
+    for (const end of ends) end();
+  };
+}
+
+function forgetGone({ document, timeline }: DeskStores): void {
+  const { selected } = timeline.getState();
+  const left = selectedKeys(timesOf(document.store.getState().present), selected);
+  if (left.length < selected.size) timeline.setState({ selected: new Set(left.map(keyName)) });
+}
+
+/** A frame is chosen somewhere else: all of its keys are selected, and its pose is looked at. Null: nothing is. */
+export function showFrame(stores: DeskStores, frameId: number | null): void {
+  const desk = deskOf(stores);
+  const endMs = endOfFrame(desk.times, frameId);
+  if (frameId === null || endMs === null) return stores.view.setState({ selectedFrame: frameId });
+  selectFrame(desk, frameId, 'replaces');
+  lookAt(desk, endMs);
+}
+
+function takeUpFrame(stores: DeskStores): void {
+  const { selectedFrame } = stores.view.getState();
+  const isKnown = endOfFrame(deskOf(stores).times, selectedFrame) !== null;
+  if (selectedFrame === null || !isKnown) return;
+  if (!hasKeyOf(stores.timeline.getState().selected, selectedFrame)) showFrame(stores, selectedFrame);
+}
+
+const hasKeyOf = (selected: KeySet, frame: number): boolean =>
+  refsOf(selected).some(({ frameId }) => frameId === frame);

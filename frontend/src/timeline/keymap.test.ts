@@ -1,0 +1,140 @@
+import { describe, expect, test } from 'vitest';
+import { editServoView } from '../stores/stores.ts';
+import { chordOf } from './keymap.ts';
+import { keepInStep } from './inStep.ts';
+import { VERBS } from './verbs.ts';
+import { createTimelineDesk } from './timelineUnderTest.ts';
+
+test('a key is named by what is held with it, Command like Ctrl, and Shift only where it makes no other sign', () => {
+  const plain = { ctrlKey: false, metaKey: false, shiftKey: false, altKey: false };
+  expect(chordOf({ ...plain, key: 'A', metaKey: true, shiftKey: true })).toBe('Ctrl+Shift+a');
+  expect(chordOf({ ...plain, key: '+', shiftKey: true })).toBe('+');
+  expect(chordOf({ ...plain, key: 'ArrowLeft', shiftKey: true })).toBe('Shift+ArrowLeft');
+});
+
+describe('arrows', () => {
+  test('with nothing selected go from key to key and change nothing', async () => {
+    const { key, stores, steps, selected } = await createTimelineDesk();
+    keepInStep(stores);
+    key('ArrowDown');
+    key('ArrowRight');
+    expect(stores.timeline.getState().cursor).toEqual({ row: 'servo 1', frameId: 2 });
+    key('ArrowDown', { ctrlKey: true });
+    expect(selected()).toEqual([[2, 2]]);
+    key('ArrowRight', { ctrlKey: true, shiftKey: true });
+    expect(selected()).toEqual([
+      [2, 2],
+      [3, 2],
+    ]);
+    expect(steps()).toBe(0);
+  });
+
+  test('nudge what is selected by one of the board’s ticks, with Shift by ten', async () => {
+    const { key, keys, select } = await createTimelineDesk();
+    select([2, 1]);
+    key('ArrowRight');
+    key('ArrowRight', { shiftKey: true });
+    key('ArrowUp');
+    key('ArrowDown', { shiftKey: true });
+    expect(keys(1)[1]).toEqual([1220, 1191]);
+  });
+
+  test('keep the cursor on the key they nudge', async () => {
+    const { key, stores, selected } = await createTimelineDesk();
+    key('ArrowDown');
+    key('ArrowDown', { ctrlKey: true });
+    key('ArrowRight');
+    const { cursor } = stores.timeline.getState();
+    expect(selected()).toEqual([[cursor.frameId, 2]]);
+    expect(stores.view.getState().said).toMatch(/^Wrist roll, 0\.52 s, 1500 µs, linear$/);
+  });
+
+  test('go no farther than all of the selected keys can', async () => {
+    const { key, keys, select } = await createTimelineDesk();
+    select([1, 1], [2, 1]);
+    for (let presses = 0; presses < 4; presses++) key('ArrowLeft', { shiftKey: true });
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([0, 500, 1500]);
+  });
+});
+
+describe('keys', () => {
+  test('walk the playhead: frames, keys, both ends', async () => {
+    const { key, stores, selected } = await createTimelineDesk();
+    const at = () => stores.timeline.getState().playheadMs;
+    key('.');
+    expect(at()).toBe(500);
+    key('.');
+    key(',');
+    expect(at()).toBe(500);
+    key('End');
+    expect(at()).toBe(1500);
+    key('j');
+    expect(at()).toBe(1000);
+    expect(selected()).toEqual([
+      [2, 1],
+      [2, 2],
+    ]);
+    key('Home');
+    expect(at()).toBe(0);
+  });
+
+  test('Enter sets a key where the servo passes just then, and moves nothing else', async () => {
+    const { key, stores, keys, selected } = await createTimelineDesk();
+    stores.timeline.setState({ playheadMs: 750, cursor: { row: 'servo 1', frameId: null } });
+    key('Enter');
+    expect(keys(1)).toEqual([
+      [500, 1000],
+      [750, 1100],
+      [1000, 1200],
+      [1500, 1400],
+    ]);
+    expect(keys(2)).toHaveLength(3);
+    expect(selected()).toHaveLength(1);
+  });
+
+  test('copy, paste and duplicate; each is one step', async () => {
+    const { key, keys, select, stores, desk, steps } = await createTimelineDesk();
+    select([1, 3], [3, 3]);
+    VERBS.copy.run(desk());
+    stores.timeline.setState({ playheadMs: 2000 });
+    VERBS.paste.run(desk());
+    expect(keys(3)).toEqual([
+      [500, 2000],
+      [1500, 1000],
+      [2000, 2000],
+      [3000, 1000],
+    ]);
+    key('d', { ctrlKey: true });
+    expect(keys(3).map(([atMs]) => atMs)).toEqual([500, 1500, 2000, 3000, 3500, 4500]);
+    expect(steps()).toBe(2);
+  });
+
+  test('reverse turns the selected stretch round', async () => {
+    const { key, keys, stores } = await createTimelineDesk();
+    key('a', { ctrlKey: true });
+    key('r');
+    expect(keys(1).map(([, position]) => position)).toEqual([1400, 1200, 1000]);
+    stores.document.undo();
+    expect(keys(1).map(([, position]) => position)).toEqual([1000, 1200, 1400]);
+  });
+
+  test('delete takes what is selected, but nothing of a locked row, and says so', async () => {
+    const { key, keys, select, stores, told } = await createTimelineDesk();
+    editServoView(stores, (view) => ({ ...view, locked: [1] }));
+    select([2, 1], [2, 2]);
+    key('Delete');
+    expect([keys(1).length, keys(2).length]).toEqual([3, 2]);
+    key('Delete');
+    expect(told()).toEqual(['The selected keys are on locked rows.']);
+  });
+
+  test('nothing is pasted that the robot must not do', async () => {
+    const { stores, desk, group, told } = await createTimelineDesk();
+    const moments = [{ atMs: 0, easing: 'linear' as const, targets: [{ servo: 1, position: 2600 }] }];
+    stores.timeline.setState({ clip: { unit: 'us', moments } });
+    const before = group();
+    VERBS.paste.run(desk());
+    expect(group()).toBe(before);
+    expect(told()).toEqual(['Not pasted: servo 1 at 2600 is out of range; it takes 500 to 2500.']);
+  });
+});

@@ -1,0 +1,57 @@
+// What each key does while the timeline has the focus. Escape is not among them: it is STOP everywhere. Copy, cut and paste come
+// as events of their own, because only those may touch the clipboard of the system.
+
+import type { Desk } from './desk.ts';
+import { lookAt, toggleAtCursor, walk, selectRow } from './looking.ts';
+import { nudge } from './moving.ts';
+import { VERBS, mayRun } from './verbs.ts';
+import type { Direction } from './walk.ts';
+
+export type KeyAction = (desk: Desk) => void;
+type Pressed = Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'shiftKey' | 'altKey'>;
+
+/** `Ctrl+Shift+a`; Command on a Mac is Ctrl. Shift counts only where it does not make another sign. */
+export function chordOf({ key, ctrlKey, metaKey, shiftKey, altKey }: Pressed): string {
+  const name = key.length === 1 ? key.toLowerCase() : key;
+  const isLetter = key.length > 1 || /[a-z ]/.test(name);
+  const held = [ctrlKey || metaKey ? 'Ctrl' : '', altKey ? 'Alt' : '', shiftKey && isLetter ? 'Shift' : ''];
+  return [...held.filter((one) => one !== ''), name].join('+');
+}
+
+const FAR = 10;
+const ARROWS: readonly { key: string; direction: Direction; ticks: number; units: number }[] = [
+  { key: 'ArrowLeft', direction: 'left', ticks: -1, units: 0 },
+  { key: 'ArrowRight', direction: 'right', ticks: 1, units: 0 },
+  { key: 'ArrowUp', direction: 'up', ticks: 0, units: 1 },
+  { key: 'ArrowDown', direction: 'down', ticks: 0, units: -1 },
+];
+
+/** With nothing selected the arrows go about; with keys selected they move these. */
+function arrow({ direction, ticks, units }: (typeof ARROWS)[number], far: number): KeyAction {
+  return (desk) => {
+    if (desk.state.selected.size === 0) walk(desk, direction, null);
+    else nudge(desk, ticks * far, units * far);
+  };
+}
+
+const OF_CLIPBOARD: readonly string[] = ['Ctrl+c', 'Ctrl+x', 'Ctrl+v'];
+
+const ACTIONS: ReadonlyMap<string, KeyAction> = new Map<string, KeyAction>([
+  ...ARROWS.flatMap((one): [string, KeyAction][] => [
+    [one.key, arrow(one, 1)],
+    [`Shift+${one.key}`, arrow(one, FAR)],
+    [`Ctrl+${one.key}`, (desk) => walk(desk, one.direction, 'replaces')],
+    [`Ctrl+Shift+${one.key}`, (desk) => walk(desk, one.direction, 'adds')],
+  ]),
+  ['Ctrl+ ', toggleAtCursor],
+  ['Shift+ ', (desk) => selectRow(desk, desk.state.cursor.row, 'toggles')],
+  ['Home', (desk) => lookAt(desk, 0)],
+  ['End', (desk) => lookAt(desk, desk.times.lengthMs)],
+  ['Backspace', VERBS.remove.run],
+  ['=', VERBS.zoomIn.run],
+  ...Object.values(VERBS)
+    .filter(({ keys }) => !OF_CLIPBOARD.includes(keys))
+    .map((verb): [string, KeyAction] => [verb.keys, (desk) => mayRun(desk, verb) && verb.run(desk)]),
+]);
+
+export const actionOf = (pressed: Pressed): KeyAction | undefined => ACTIONS.get(chordOf(pressed));

@@ -1,0 +1,162 @@
+// Brings the lanes to life outside of React's rounds: paints them when something changed, follows pointer and wheel, moves the
+// playhead. Knows elements and stores, no edit.
+
+import { positionAt } from '#shared/actions/group/tracks.ts';
+import { words } from '../words/words.ts';
+import { setKeysAt } from './changes.ts';
+import { deskOf, select, type Desk, type DeskStores } from './desk.ts';
+import type { StatusName } from './gestures.ts';
+import { hasAll, hitAt, type Spot } from './hit.ts';
+import { keySet } from '../stores/keySet.ts';
+import { lookOf } from './look.ts';
+import { setTime } from './looking.ts';
+import { paint } from './paint.ts';
+import { followPointer } from './pointer.ts';
+import { sceneOf } from './scene.ts';
+import { sizesOf, type Sizes } from './sizes.ts';
+import { panned, pinched, xOf, zoomedAt } from './timeScale.ts';
+import { followWheel } from './wheel.ts';
+
+export interface LaneParts {
+  readonly scroller: HTMLElement;
+  /** Where rows show the positions at the playhead, by `data-value`. */
+  readonly stage: HTMLElement;
+  readonly lanes: HTMLElement;
+  readonly canvas: HTMLCanvasElement;
+  readonly playhead: HTMLElement;
+  readonly box: HTMLElement;
+}
+
+export interface LaneHost {
+  openMenu(spot: Spot): void;
+  say(status: StatusName | null): void;
+}
+
+export const sizesNow = ({ isTall }: { readonly isTall: boolean }): Sizes =>
+  sizesOf(matchMedia('(pointer: coarse)').matches, isTall);
+
+export function bringToLife(parts: LaneParts, stores: DeskStores, host: LaneHost): () => void {
+  const sizes = (): Sizes => sizesNow(stores.timeline.getState());
+  const painting = paintOnChange(parts, stores, sizes);
+  const scroll = (byPx: number): void => void (parts.scroller.scrollTop += byPx);
+  const change = (to: Parameters<typeof setTime>[1]): void => setTime({ stores }, to);
+  const pointing = followPointer(parts.lanes, {
+    press: (spot, held, isTouch) => ({
+      ...{ stores, spot, held, isTouch, scroll, sizes: sizes() },
+      showBox: (box) => showBox(parts.box, box),
+    }),
+    pinch(before, now) {
+      const [one, other] = [before.map(({ x }) => x), now.map(({ x }) => x)];
+      change((time) => pinched(time, [one[0] ?? 0, one[1] ?? 0], [other[0] ?? 0, other[1] ?? 0]));
+      scroll(middle(before) - middle(now));
+    },
+    openMenu(spot) {
+      selectForMenu(stores, sizes(), spot);
+      host.openMenu(spot);
+    },
+    doubleClick: (spot) => setKeyAt(stores, sizes(), spot),
+    say: host.say,
+  });
+  const turning = followWheel(parts.lanes, {
+    zoom: (x, factor) => change((time) => zoomedAt(time, x, factor)),
+    pan: (byPx) => change((time) => panned(time, byPx)),
+    scroll,
+  });
+  return () => {
+    painting();
+    pointing();
+    turning();
+  };
+}
+
+const middle = (spots: readonly Spot[]): number => spots.reduce((sum, { y }) => sum + y, 0) / spots.length;
+
+function paintOnChange(parts: LaneParts, stores: DeskStores, sizes: () => Sizes): () => void {
+  let request = 0;
+  let isOld = true;
+  const round = (): void => {
+    request = 0;
+    const desk = deskOf(stores);
+    if (isOld) paintLanes(parts, desk, sizes());
+    isOld = false;
+    showPlayhead(parts, desk);
+  };
+  const later = (repaints: boolean): void => {
+    isOld ||= repaints;
+    if (request === 0) request = requestAnimationFrame(round);
+  };
+  const repaint = (): void => later(true);
+  const schemes = [matchMedia('(prefers-color-scheme: dark)'), matchMedia('(prefers-contrast: more)')];
+  for (const scheme of schemes) scheme.addEventListener('change', repaint);
+  const ends = [
+    stores.timeline.subscribe(({ playheadMs: _, ...state }, before) =>
+      later(Object.entries(state).some(([name, value]) => value !== before[name as keyof typeof before])),
+    ),
+    stores.document.store.subscribe(repaint),
+    stores.robots.store.subscribe(repaint),
+    stores.view.subscribe((state, before) =>
+      later(state.servos !== before.servos || state.theme !== before.theme),
+    ),
+    stores.device.store.subscribe(({ family }, before) => family !== before.family && repaint()),
+  ];
+  repaint();
+  return () => {
+    cancelAnimationFrame(request);
+    for (const end of ends) end();
+    for (const scheme of schemes) scheme.removeEventListener('change', repaint);
+  };
+}
+
+function paintLanes({ canvas }: LaneParts, desk: Desk, sizes: Sizes): void {
+  const { widthPx, heightPx } = desk.state;
+  const ctx = canvas.getContext('2d');
+  if (ctx === null || widthPx === 0) return;
+  const ratio = devicePixelRatio;
+  const [width, height] = [Math.round(widthPx * ratio), Math.round(heightPx * ratio)];
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  paint({ ctx, look: lookOf(canvas), scene: sceneOf(desk, sizes) });
+}
+
+function showPlayhead({ stage, playhead }: LaneParts, { state, times }: Desk): void {
+  const x = xOf(state.time, state.playheadMs);
+  playhead.style.transform = `translateX(${x.toFixed(1)}px)`;
+  playhead.hidden = x < 0 || x > state.widthPx;
+  for (const value of stage.querySelectorAll<HTMLElement>('[data-value]')) {
+    const track = times.tracks.get(Number(value.dataset.value));
+    const position = track === undefined ? null : positionAt(track, state.playheadMs);
+    value.textContent = position === null ? '' : words.numbers.formatWhole(Math.round(position));
+  }
+}
+
+function showBox(element: HTMLElement, box: { readonly from: Spot; readonly to: Spot } | null): void {
+  element.hidden = box === null;
+  if (box === null) return;
+  const { from, to } = box;
+  Object.assign(element.style, {
+    left: `${Math.min(from.x, to.x)}px`,
+    top: `${Math.min(from.y, to.y)}px`,
+    width: `${Math.abs(from.x - to.x)}px`,
+    height: `${Math.abs(from.y - to.y)}px`,
+  });
+}
+
+/** What the menu is about is selected, unless it was already. */
+function selectForMenu(stores: DeskStores, sizes: Sizes, spot: Spot): void {
+  const desk = deskOf(stores);
+  const hit = hitAt(sceneOf(desk, sizes), spot);
+  if (hit.kind === 'key' && !hasAll(desk.state.selected, hit.refs))
+    select(stores, keySet(hit.refs), { row: hit.row.id, frameId: hit.frameId });
+  if (hit.kind === 'marker') stores.timeline.setState({ marker: hit.id });
+  if (hit.kind === 'empty' && hit.row !== null)
+    stores.timeline.setState({ cursor: { row: hit.row.row.id, frameId: null } });
+}
+
+function setKeyAt(stores: DeskStores, sizes: Sizes, spot: Spot): void {
+  const desk = deskOf(stores);
+  const hit = hitAt(sceneOf(desk, sizes), spot);
+  const { tickMs } = desk.family.motion;
+  if (hit.kind === 'empty' && hit.row !== null && hit.atMs >= 0)
+    setKeysAt(desk, hit.row.row.servos, Math.round(hit.atMs / tickMs) * tickMs);
+}

@@ -1,0 +1,16 @@
+// The page's colours for a canvas, which cannot read them from a style sheet by itself.
+
+import { COLOURS, type Colour } from '#shared/actions/colours.ts';
+
+const NAMES = ['ink', 'ink-dim', 'line', 'edge', 'panel', 'raised', 'well', 'commanded', ...COLOURS] as const;
+export type LookName = (typeof NAMES)[number];
+export type Look = Readonly<Record<LookName, string>> & { readonly font: string };
+
+export function lookOf(element: Element): Look {
+  const style = getComputedStyle(element);
+  const colours = Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`)]));
+  return { ...(colours as Record<LookName, string>), font: style.fontFamily };
+}
+
+export const colourOf = (look: Look, colour: Colour | null): string | null =>
+  colour === null ? null : look[colour];

@@ -1,0 +1,115 @@
+// The verbs that change what is looked at: playhead, cursor, zoom, loop range. None of them changes the group.
+
+import type { Key } from '#shared/actions/group/tracks.ts';
+import { ALL_ROW, type Cursor, type TimeView } from '../stores/timeline.ts';
+import { withKeys, type SelectMode } from '../stores/keySet.ts';
+import { rowOf, select, type Desk } from './desk.ts';
+import { allKeys, endOfFrame, keysOfFrame, selectedKeys, spanOf } from './groupTimes.ts';
+import { fitted, showing, zoomedAt, type Span } from './timeScale.ts';
+import { beside, walked, type Cell, type Direction, type Grid } from './walk.ts';
+
+const ZOOM = 1.5;
+
+/** Brings the instant into sight. */
+export function lookAt({ stores }: Desk, atMs: number): void {
+  const playheadMs = Math.max(0, Math.round(atMs));
+  stores.timeline.setState(({ time, widthPx }) => ({ playheadMs, time: showing(time, playheadMs, widthPx) }));
+}
+
+function gridOf({ rows, times }: Desk): Grid {
+  return {
+    rows: rows.map(({ id }) => id),
+    cellsOf: (id) => cellsOf(rows.find((row) => row.id === id)?.servos ?? [], times, id === ALL_ROW),
+  };
+}
+
+function cellsOf(servos: readonly number[], times: Desk['times'], isAll: boolean): readonly Cell[] {
+  const frames = new Set(allKeys(times, servos).map(({ frameId }) => frameId));
+  return times.frames.flatMap(({ id: frameId }, index) =>
+    isAll || frames.has(frameId) ? [{ frameId, atMs: times.ends[index] ?? 0 }] : [],
+  );
+}
+
+export function keysAtCursor(
+  { rows, times }: Pick<Desk, 'rows' | 'times'>,
+  { row, frameId }: Cursor,
+): readonly Key[] {
+  return frameId === null ? [] : keysOfFrame(times, rowOf({ rows }, row)?.servos ?? [], frameId);
+}
+
+/** Null: the cursor goes alone, the selection stays. */
+export function walk(desk: Desk, direction: Direction, mode: SelectMode | null): void {
+  goTo(desk, walked(gridOf(desk), desk.state.cursor, direction, desk.state.playheadMs), mode);
+}
+
+function goTo(desk: Desk, cursor: Cursor, mode: SelectMode | null): void {
+  const keys = keysAtCursor(desk, cursor);
+  const selected = mode === null ? null : withKeys(desk.state.selected, keys, mode);
+  select(desk.stores, selected, cursor);
+  const endMs = endOfFrame(desk.times, cursor.frameId);
+  if (endMs !== null)
+    desk.stores.timeline.setState(({ time, widthPx }) => ({ time: showing(time, endMs, widthPx) }));
+}
+
+export function toggleAtCursor(desk: Desk): void {
+  goTo(desk, desk.state.cursor, 'toggles');
+}
+
+/** From the playhead to the next key of the cursor's row, which is selected then. */
+export function goToKey(desk: Desk, side: -1 | 1): void {
+  const { row } = desk.state.cursor;
+  const cell = beside(gridOf(desk).cellsOf(row), desk.state.playheadMs, side);
+  if (cell === null) return;
+  goTo(desk, { row, frameId: cell.frameId }, 'replaces');
+  lookAt(desk, cell.atMs);
+}
+
+/** From frame to frame, with the beginning as the first stop. */
+export function goToFrame(desk: Desk, side: -1 | 1): void {
+  const stops = [0, ...desk.times.ends].map((atMs) => ({ atMs, frameId: 0 }));
+  lookAt(desk, beside(stops, desk.state.playheadMs, side)?.atMs ?? desk.state.playheadMs);
+}
+
+export function selectRow(desk: Desk, id: string, mode: SelectMode): void {
+  const keys = allKeys(desk.times, rowOf(desk, id)?.servos ?? []);
+  select(desk.stores, withKeys(desk.state.selected, keys, mode), {
+    row: id,
+    frameId: keys[0]?.frameId ?? null,
+  });
+}
+
+export function selectFrame(desk: Desk, frameId: number, mode: SelectMode): void {
+  const keys = keysOfFrame(desk.times, rowOf(desk, ALL_ROW)?.servos ?? [], frameId);
+  select(desk.stores, withKeys(desk.state.selected, keys, mode), { row: ALL_ROW, frameId });
+  // A frame without keys is selected too, though nothing of it is.
+  if (mode === 'replaces') desk.stores.view.setState({ selectedFrame: frameId });
+}
+
+export function setTime({ stores }: Pick<Desk, 'stores'>, change: (time: TimeView) => TimeView): void {
+  stores.timeline.setState(({ time }) => ({ time: change(time), followsGroup: false }));
+}
+
+export function zoom(desk: Desk, step: 1 | -1): void {
+  setTime(desk, (time) => zoomedAt(time, desk.state.widthPx / 2, ZOOM ** -step));
+}
+
+export function fitAll({ stores, times }: Pick<Desk, 'stores' | 'times'>): void {
+  stores.timeline.setState(({ widthPx }) => ({
+    time: fitted({ fromMs: 0, toMs: times.lengthMs }, widthPx),
+    followsGroup: true,
+  }));
+}
+
+const selectedSpan = ({ times, state }: Desk): Span | null => spanOf(selectedKeys(times, state.selected));
+
+export function fitSelection(desk: Desk): void {
+  const span = selectedSpan(desk);
+  if (span !== null) setTime(desk, () => fitted(span, desk.state.widthPx));
+}
+
+/** The selected stretch, or none any more. */
+export function toggleRange(desk: Desk): void {
+  const span = selectedSpan(desk);
+  const isNew = span !== null && span.toMs > span.fromMs && desk.state.range === null;
+  desk.stores.timeline.setState({ range: isNew ? span : null });
+}

@@ -1,0 +1,59 @@
+// Keys moved in time and place: by arrow keys and by dragging alike. The keys go as far as all of them can go together.
+
+import { moveKeys, boundedMove, type KeyMove } from '#shared/actions/group/keyEdits.ts';
+import { keysAt, type Key, type KeyRef } from '#shared/actions/group/tracks.ts';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { words } from '../words/words.ts';
+import type { Cursor } from '../stores/timeline.ts';
+import { cellName } from './cellName.ts';
+import { apply, changeable, hasChangeable, rangeOf, rowOf, type Desk } from './desk.ts';
+import { keyOf, timesOf, type GroupTimes } from './groupTimes.ts';
+
+export interface Move {
+  edit(group: ActionGroup): ActionGroup;
+  /** The moved keys, as they are named then. */
+  selects(times: GroupTimes): readonly KeyRef[];
+}
+
+/** `group` is what the move begins from. */
+export function moveOf(desk: Desk, group: ActionGroup, refs: readonly KeyRef[], wanted: KeyMove): Move {
+  const times = timesOf(group);
+  const keys = refs.flatMap((ref) => keyOf(times, ref) ?? []);
+  const within = { ...wanted, deltaPosition: withinLimits(desk, keys, wanted.deltaPosition) };
+  const { deltaMs } = boundedMove(group, refs, within);
+  const { ripples } = desk.state;
+  const moved = keys.map(({ servo, atMs }) => ({ servo, atMs: atMs + deltaMs }));
+  return {
+    edit: (before) => moveKeys(before, refs, within, { ripple: ripples }),
+    selects: (after) => (ripples ? refs : keysAt(after.tracks, moved)),
+  };
+}
+
+/** All together stop where the first of them meets its limit. Keys beyond their limits may come back. */
+function withinLimits(desk: Desk, keys: readonly Key[], delta: number): number {
+  return keys.reduce((least, { servo, position }) => {
+    const { min, max } = rangeOf(desk, servo);
+    const room = delta > 0 ? Math.max(0, max - position) : Math.min(0, min - position);
+    return Math.abs(room) < Math.abs(least) ? room : least;
+  }, delta);
+}
+
+/** Where the cursor is then: on the same key, whatever it is called. */
+export function cursorAfter(desk: Desk, refs: readonly KeyRef[], moved: readonly KeyRef[]): Cursor {
+  const { cursor } = desk.state;
+  const servos = rowOf(desk, cursor.row)?.servos ?? [];
+  const index = refs.findIndex((ref) => ref.frameId === cursor.frameId && servos.includes(ref.servo));
+  return { ...cursor, frameId: moved[index]?.frameId ?? cursor.frameId };
+}
+
+export function nudge(desk: Desk, ticks: number, units: number): void {
+  if (!hasChangeable(desk)) return;
+  const deltaMs = ticks * desk.family.motion.tickMs;
+  const refs = changeable(desk);
+  const move = moveOf(desk, desk.group, refs, { deltaMs, deltaPosition: units });
+  apply(desk, { label: () => words.timeline.steps.move, ...move });
+  const times = timesOf(desk.stores.document.store.getState().present);
+  const cursor = cursorAfter(desk, refs, move.selects(times));
+  desk.stores.timeline.setState({ cursor });
+  desk.stores.view.setState({ said: cellName({ ...desk, times }, cursor) });
+}

@@ -1,0 +1,127 @@
+// The pointer on the lanes, whatever it is: one press at a time becomes a gesture, two fingers zoom and pan, a finger that rests
+// opens the menu or, dragged on, draws a box. Escape, a lost pointer and a lost window call a gesture off. Knows no edits.
+
+import type { Spot } from './hit.ts';
+import { boxFrom, gestureOf, type Gesture, type Held, type Press, type StatusName } from './gestures.ts';
+
+export interface PointerHost {
+  /** What a press begins with; `isTouch` tells fingers from mice and pens. */
+  press(spot: Spot, held: Held, isTouch: boolean): Press;
+  pinch(before: readonly [Spot, Spot], now: readonly [Spot, Spot]): void;
+  openMenu(spot: Spot): void;
+  doubleClick(spot: Spot): void;
+  say(status: StatusName | null): void;
+}
+
+/** Less is a click. */
+const CLICK_PX = 4;
+const REST_MS = 500;
+
+export function followPointer(lanes: HTMLElement, host: PointerHost): () => void {
+  const fingers = new Map<number, Spot>();
+  let gesture: Gesture | null = null;
+  let press: Press | null = null;
+  let hasMoved = false;
+  let rest: ReturnType<typeof setTimeout> | undefined;
+  let hasRested = false;
+  const listening = new AbortController();
+  const { signal } = listening;
+
+  const spotOf = ({ clientX, clientY }: MouseEvent): Spot => {
+    const { left, top } = lanes.getBoundingClientRect();
+    return { x: clientX - left, y: clientY - top };
+  };
+  const heldOf = ({ ctrlKey, metaKey, shiftKey, altKey }: MouseEvent): Held => ({
+    ...{ ctrl: ctrlKey || metaKey, shift: shiftKey, alt: altKey },
+  });
+
+  function finish(done: (gesture: Gesture) => void): void {
+    clearTimeout(rest);
+    const ended = gesture;
+    gesture = null;
+    press = null;
+    if (ended === null) return;
+    done(ended);
+    host.say(null);
+  }
+  const callOff = (): void => finish((ended) => ended.cancel());
+
+  function down(event: PointerEvent): void {
+    if (event.button !== 0 || !(event.target instanceof HTMLCanvasElement)) return;
+    const isTouch = event.pointerType === 'touch';
+    lanes.setPointerCapture(event.pointerId);
+    if (isTouch) fingers.set(event.pointerId, spotOf(event));
+    if (fingers.size > 1) return callOff();
+    hasMoved = false;
+    hasRested = false;
+    press = host.press(spotOf(event), heldOf(event), isTouch);
+    gesture = gestureOf(press);
+    host.say(gesture.status);
+    if (isTouch) rest = setTimeout(rested, REST_MS);
+  }
+
+  function rested(): void {
+    hasRested = true;
+    host.say('rested');
+  }
+
+  function move(event: PointerEvent): void {
+    const spot = spotOf(event);
+    if (fingers.size > 1) return pinch(event.pointerId, spot);
+    fingers.forEach((_, id) => id === event.pointerId && fingers.set(id, spot));
+    if (gesture === null || press === null) return;
+    if (!hasMoved && Math.hypot(spot.x - press.spot.x, spot.y - press.spot.y) < CLICK_PX) return;
+    if (!hasMoved && hasRested) draw(press);
+    hasMoved = true;
+    clearTimeout(rest);
+    gesture.move(spot, heldOf(event));
+  }
+
+  function draw(from: Press): void {
+    gesture?.cancel();
+    gesture = boxFrom(from);
+    host.say(gesture.status);
+  }
+
+  function pinch(id: number, spot: Spot): void {
+    if (!fingers.has(id)) return;
+    const before = [...fingers.values()];
+    fingers.set(id, spot);
+    const now = [...fingers.values()];
+    const [one, other, oneNow, otherNow] = [before[0], before[1], now[0], now[1]];
+    if (one && other && oneNow && otherNow) host.pinch([one, other], [oneNow, otherNow]);
+  }
+
+  function up(event: PointerEvent): void {
+    fingers.delete(event.pointerId);
+    const isMenu = hasRested && !hasMoved && gesture !== null;
+    finish((ended) => ended.end(!hasMoved && !isMenu));
+    if (isMenu) host.openMenu(spotOf(event));
+  }
+
+  function lost(event: PointerEvent): void {
+    fingers.delete(event.pointerId);
+    callOff();
+  }
+
+  lanes.addEventListener('pointerdown', down, { signal });
+  lanes.addEventListener('pointermove', move, { signal });
+  lanes.addEventListener('pointerup', up, { signal });
+  lanes.addEventListener('pointercancel', lost, { signal });
+  lanes.addEventListener('dblclick', (event) => host.doubleClick(spotOf(event)), { signal });
+  lanes.addEventListener(
+    'contextmenu',
+    (event) => {
+      event.preventDefault();
+      // A finger that rests also asks for a menu here; it gets ours when it is lifted.
+      if (!(event instanceof PointerEvent && event.pointerType === 'touch')) host.openMenu(spotOf(event));
+    },
+    { signal },
+  );
+  window.addEventListener('blur', callOff, { signal });
+  window.addEventListener('keydown', ({ key }) => key === 'Escape' && callOff(), { signal, capture: true });
+  return () => {
+    callOff();
+    listening.abort();
+  };
+}

@@ -1,0 +1,185 @@
+// Words of the timeline: its verbs and steps, what is asked for in place, and what each key and row is called for ears.
+
+import type { Colour } from '#shared/actions/colours.ts';
+import type { PasteProblem } from '#shared/actions/group/clip.ts';
+import type { Easing } from '#shared/actions/group/group.ts';
+import { markText, secondsText } from '../instants.ts';
+import type { PositionUnit } from '../numbers.ts';
+import {
+  formatCount,
+  formatList,
+  formatPercent,
+  formatPosition,
+  formatWhole,
+  unitSymbol,
+} from './numbers.ts';
+
+const keysText = (count: number): string => `${formatCount(count)} ${count === 1 ? 'key' : 'keys'}`;
+
+const formatInstant = (atMs: number): string => `${secondsText(atMs)} s`;
+
+const easings: Readonly<Record<Easing, string>> = {
+  linear: 'linear',
+  in: 'ease in',
+  out: 'ease out',
+  inOut: 'ease in and out',
+  hold: 'hold',
+};
+
+const colours: Readonly<Record<Colour, string>> = {
+  slate: 'Slate',
+  indigo: 'Indigo',
+  violet: 'Violet',
+  plum: 'Plum',
+  clay: 'Clay',
+  olive: 'Olive',
+};
+
+const pasteProblem = (problem: PasteProblem): string => {
+  switch (problem.kind) {
+    case 'unit':
+      return `its positions are in ${unitSymbol(problem.clip)}, this group counts in ${unitSymbol(problem.group)}`;
+    case 'tooManyFrames':
+      return `${formatCount(problem.count)} frames are more than the ${formatCount(problem.limit)} a group holds`;
+    case 'position':
+      return `servo ${formatWhole(problem.servo)} at ${formatWhole(problem.position)} is out of range; it takes ${formatWhole(problem.min)} to ${formatWhole(problem.max)}`;
+  }
+};
+
+export const timelineWords = {
+  title: 'Timeline',
+  grid: 'Timeline: servos down, time across',
+  toolbar: 'Change the timeline',
+  menu: 'What to do here',
+  rowAll: 'All servos',
+  noName: (servo: number): string => `Servo ${formatWhole(servo)}`,
+  mark: markText,
+  instant: formatInstant,
+  playhead: 'Playhead',
+  seen: (from: number, to: number): string => `${formatPercent(from)} to ${formatPercent(to)}`,
+  minimap: 'The whole group; drag to look elsewhere',
+  easings,
+  easing: 'Easing',
+  colours,
+  colour: 'Colour',
+  noColour: 'No colour',
+
+  /** What a key says of itself. */
+  key: (row: string, atMs: number, position: number, unit: PositionUnit, easing: Easing): string =>
+    `${row}, ${formatInstant(atMs)}, ${formatPosition(position, unit)}, ${easings[easing]}`,
+  summary: (row: string, frame: number, atMs: number, count: number): string =>
+    `${row}, frame ${formatWhole(frame)}, ${formatInstant(atMs)}, ${keysText(count)}`,
+  noKey: (row: string): string => `${row}, no key`,
+
+  verbs: {
+    setKey: 'Set key',
+    editValue: 'Edit value',
+    remove: 'Delete',
+    removeTime: 'Delete with its time',
+    cut: 'Cut',
+    copy: 'Copy',
+    paste: 'Paste',
+    duplicate: 'Duplicate keys',
+    insertTime: 'Insert time',
+    reverse: 'Reverse',
+    mirror: 'Mirror left and right',
+    scaleTime: 'Scale time',
+    scaleAmplitude: 'Scale amplitude',
+    note: 'Note on frame',
+    marker: 'Set marker',
+    selectAll: 'Select all keys',
+    selectNone: 'Select nothing',
+    zoomIn: 'Zoom in',
+    zoomOut: 'Zoom out',
+    fitAll: 'Fit all',
+    fitSelection: 'Fit selection',
+    range: 'Loop selection',
+    frameBefore: 'Frame before',
+    frameAfter: 'Frame after',
+    keyBefore: 'Key before',
+    keyAfter: 'Key after',
+  },
+  more: 'More',
+  switches: { snaps: 'Snap', ripples: 'Ripple', showsPreview: 'Preview', isTall: 'Tall rows' },
+  snapsHint: 'To frames, keys, markers, playhead and the board’s raster; hold Alt to suspend',
+  ripplesHint: 'What is behind a change moves along',
+  previewHint: 'Shows the pose at the playhead on the body. Moves nothing.',
+  tallHint: 'Room to turn values by hand',
+
+  rows: {
+    fold: (limb: string, count: number): string => `Rows of ${limb}, ${formatCount(count)} servos`,
+    select: (row: string): string => `Select the keys of ${row}`,
+    tools: (row: string): string => `Row of ${row}`,
+    menu: 'Row',
+    lock: 'Lock',
+    unlock: 'Unlock',
+    mute: 'Mute',
+    unmute: 'Unmute',
+    solo: 'Lock all others',
+    unsolo: 'Unlock all others',
+    hide: 'Hide',
+    showHidden: (count: number): string => `Show ${formatCount(count)} hidden`,
+    locked: 'locked',
+    muted: 'muted',
+  },
+
+  asks: {
+    value: 'Position of the selected keys',
+    scaleTime: 'New length of the stretch in percent',
+    scaleAmplitude: 'New amplitude about the mean in percent',
+    insertTime: 'Time to insert at the playhead in milliseconds',
+    note: 'Note on the frame',
+    marker: 'Text of the marker',
+  },
+  percent: '%',
+  newMarker: (number: number): string => `Marker ${formatWhole(number)}`,
+
+  steps: {
+    setKey: 'set key',
+    move: 'move keys',
+    value: 'position of keys',
+    delete: (count: number): string => `delete ${keysText(count)}`,
+    deleteTime: 'delete time',
+    paste: 'paste keys',
+    cut: (count: number): string => `cut ${keysText(count)}`,
+    duplicate: 'duplicate keys',
+    reverse: 'reverse',
+    mirror: 'mirror',
+    ease: (easing: string): string => easing,
+    colour: 'colour of frames',
+    note: 'note',
+    duration: (frame: number): string => `time of frame ${formatWhole(frame)}`,
+    stretch: 'stretch',
+    scaleTime: 'scale time',
+    scaleAmplitude: 'scale amplitude',
+    insertTime: 'insert time',
+    addMarker: 'set marker',
+    moveMarker: 'move marker',
+    renameMarker: 'marker',
+    deleteMarker: 'delete marker',
+  },
+
+  copied: (count: number): string => `${keysText(count)} copied`,
+  allLocked: 'The selected keys are on locked rows.',
+  nothingToSet: 'Nothing is known of these servos yet. Move them first.',
+  nothingToPaste: 'Copy some keys first.',
+  notPasted: (problem: PasteProblem): string => `Not pasted: ${pasteProblem(problem)}.`,
+  swingsTooFar: (servo: number): string =>
+    `Not scaled: servo ${formatWhole(servo)} would go beyond its limits.`,
+  heldAtLimit: (servos: readonly number[]): string =>
+    `Servo ${formatList(servos)} would go beyond its limit and stands at it.`,
+
+  /** What keys and pointer do right now. */
+  status: {
+    nothing: 'Arrows go from key to key. Enter sets a key. Drag over an empty place to select.',
+    selected: (count: number, tickMs: number): string =>
+      `${keysText(count)}. Arrows nudge by ${formatWhole(tickMs)} ms or 1; Shift: ten times. Ctrl and arrows go to a key.`,
+    move: 'Alt suspends snapping. Shift keeps to one direction. Esc calls off, and stops the robot.',
+    box: 'Shift or Ctrl adds to the selection.',
+    scrub: 'Shift sets the loop range.',
+    duration: 'Alt suspends snapping. Ripple decides about what is behind.',
+    stretch: 'Alt suspends snapping. Ripple carries what is behind along.',
+    rested: 'Lift for the menu, or drag to select.',
+    locked: 'This row is locked.',
+  },
+};
