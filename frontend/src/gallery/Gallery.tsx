@@ -25,6 +25,7 @@ import { ConnectSpecimens } from './ConnectSpecimens.tsx';
 import { FileSpecimens } from './FileSpecimens.tsx';
 import { LibrarySpecimens } from './LibrarySpecimens.tsx';
 import { PoseSpecimens } from './PoseSpecimens.tsx';
+import { TimelineSpecimens } from './TimelineSpecimens.tsx';
 import { RobotSpecimens } from './RobotSpecimens.tsx';
 import { PadSpecimens } from './PadSpecimens.tsx';
 import { RawSpecimens } from './RawSpecimens.tsx';
@@ -59,6 +60,7 @@ export function Gallery() {
             <PoseSpecimens />
             <FileSpecimens newStores={() => storesOf(BLANK)} />
             <LibrarySpecimens />
+            <TimelineSpecimens />
             <RobotSpecimens newStores={() => storesOf(BLANK)} />
           </StoresContext>
         )}

@@ -1,0 +1,121 @@
+// The action group's timeline in each of its states, fed by plain values.
+
+import { useState } from 'react';
+import { addMarker } from '#shared/actions/group/markerEdits.ts';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { insertFrame, type NewFrame } from '#shared/actions/group/groupEdits.ts';
+import { moveKeys } from '#shared/actions/group/keyEdits.ts';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { ActionsPanel } from '../actions/ActionsPanel.tsx';
+import { keySet } from '../stores/keySet.ts';
+import { freshRobot } from '../stores/robots.ts';
+import { editServoView, StoresContext, type Stores } from '../stores/stores.ts';
+import styles from './Gallery.module.css';
+import { specimenStores } from './specimenStores.ts';
+
+function wave(frames: number, servos: number): ActionGroup['frames'][number]['targets'][] {
+  return Array.from({ length: frames }, (_, frame) =>
+    Array.from({ length: servos }, (_, index) => ({
+      servo: index + 1,
+      position: Math.round(1500 + 700 * Math.sin((frame + 1) * 0.7 + index)),
+    })).filter(({ servo }) => frames > 50 || (frame + servo) % 4 !== 0),
+  );
+}
+
+const LOOKS: readonly Partial<NewFrame>[] = [
+  { easing: 'in', note: 'Look up' },
+  { easing: 'out', colour: 'violet' },
+  { easing: 'inOut', colour: 'olive' },
+  { easing: 'hold' },
+];
+
+function fill({ document }: Stores, frames: number, servos: number): void {
+  document.edit(
+    () => '',
+    (empty) => {
+      const group = wave(frames, servos).reduce<ActionGroup>(
+        (sum, targets, index) =>
+          insertFrame(
+            sum,
+            index,
+            { durationMs: 300 + 100 * (index % 4), targets, ...LOOKS[index % 4] },
+            'us',
+          ),
+        empty,
+      );
+      return frames === 0 ? group : addMarker(group, 900, 'Bow');
+    },
+  );
+}
+
+const SELECTED = [
+  { frameId: 2, servo: 3 },
+  { frameId: 3, servo: 3 },
+  { frameId: 2, servo: 4 },
+];
+
+function drag({ document }: Stores): void {
+  document.begin(() => '');
+  document.preview((group) =>
+    moveKeys(group, SELECTED, { deltaMs: 120, deltaPosition: 200 }, { ripple: false }),
+  );
+}
+
+interface Case {
+  readonly name: string;
+  readonly frames: number;
+  readonly robot?: 'plain32' | 'humanoid18';
+  prepare?(stores: Stores): void;
+}
+
+const CASES: readonly Case[] = [
+  { name: 'Timeline, empty', frames: 0 },
+  { name: 'Timeline, simple', frames: 6 },
+  {
+    name: 'Timeline, keys selected',
+    frames: 6,
+    prepare: ({ timeline }) => timeline.setState({ selected: keySet(SELECTED), playheadMs: 700 }),
+  },
+  {
+    name: 'Timeline, tall and looped',
+    frames: 6,
+    prepare: ({ timeline }) => timeline.setState({ isTall: true, range: { fromMs: 300, toMs: 1200 } }),
+  },
+  { name: 'Timeline, dragging', frames: 6, prepare: drag },
+  {
+    name: 'Timeline, rows locked and muted',
+    frames: 6,
+    prepare: (stores) => editServoView(stores, (view) => ({ ...view, locked: [2], muted: [4], hidden: [6] })),
+  },
+  {
+    name: 'Timeline, limbs',
+    frames: 12,
+    robot: 'humanoid18',
+    prepare: (stores) => editServoView(stores, (view) => ({ ...view, folded: ['Left leg'] })),
+  },
+  { name: 'Timeline, 255 frames of 32 servos', frames: 255, robot: 'plain32' },
+];
+
+export function TimelineSpecimens() {
+  return CASES.map((one) => <Shown key={one.name} specimen={one} />);
+}
+
+function Shown({ specimen: { name, frames, robot, prepare } }: { readonly specimen: Case }) {
+  const [stores] = useState(() => {
+    const made = specimenStores(FAMILIES.doc);
+    if (robot !== undefined) made.robots.add(() => '', freshRobot(robot, 'lsc-32'));
+    fill(made, frames, robot === 'plain32' ? 32 : robot === 'humanoid18' ? 18 : 6);
+    prepare?.(made);
+    return made;
+  });
+  return (
+    <StoresContext value={stores}>
+      <article className={styles.specimen} aria-label={name}>
+        <h2 className={styles.name} lang="en">
+          {name}
+        </h2>
+        <ActionsPanel />
+      </article>
+    </StoresContext>
+  );
+}
