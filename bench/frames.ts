@@ -8,19 +8,19 @@ import { robotToText } from '#shared/actions/robot/robotText.ts';
 import type { Figure } from './figure.ts';
 import { openDashboard, withBoard, withPage } from './station.ts';
 
-const SLOWER = 4;
+export const SLOWER = 4;
 const MEASURE_MS = 4_000;
 const FRAMES_PER_SECOND = 60;
-const DUE = (MEASURE_MS / 1_000) * FRAMES_PER_SECOND;
+export const DUE = (MEASURE_MS / 1_000) * FRAMES_PER_SECOND;
 /** Longer than it is looked at: each servo is under way all the time. */
 const MOVE_MS = 20_000;
 
-const ROBOT = readyRobot('plain32', 'doc', {
+export const ROBOT = readyRobot('plain32', 'doc', {
   robot: 'Thirty-two',
   role: (role, servo) => `${role} ${servo}`,
   limb: (limb) => limb,
 });
-const ROBOTS = JSON.stringify({ files: [{ id: 1, file: robotToText(ROBOT) }], currentId: 1, nextId: 2 });
+export const ROBOTS = JSON.stringify({ files: [{ id: 1, file: robotToText(ROBOT) }], currentId: 1, nextId: 2 });
 
 export function measureFrames(): Promise<Figure[]> {
   return withBoard([], (board) =>
@@ -90,7 +90,7 @@ async function moveAll(page: Page): Promise<void> {
   await page.getByRole('radio', { name: 'As fast as my hand' }).check();
 }
 
-function framesDrawn(page: Page): Promise<number> {
+export function framesDrawn(page: Page): Promise<number> {
   return page.evaluate(
     (measureMs) =>
       new Promise<number>((resolve) => {

@@ -11,6 +11,7 @@ import { measureDownload } from './download.ts';
 import { measureDrag } from './drag.ts';
 import { toRecord, type Figure } from './figure.ts';
 import { measureFrames } from './frames.ts';
+import { measureLanes } from './lanes.ts';
 import { measurePageSize } from './pageSize.ts';
 import { measureRelay } from './relay.ts';
 import { measureStart } from './start.ts';
@@ -26,6 +27,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   relay: measureRelay,
   stop: measureStop,
   frames: measureFrames,
+  lanes: measureLanes,
   start: measureStart,
   page: measurePageSize,
 };
