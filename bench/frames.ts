@@ -20,7 +20,11 @@ export const ROBOT = readyRobot('plain32', 'doc', {
   role: (role, servo) => `${role} ${servo}`,
   limb: (limb) => limb,
 });
-export const ROBOTS = JSON.stringify({ files: [{ id: 1, file: robotToText(ROBOT) }], currentId: 1, nextId: 2 });
+export const ROBOTS = JSON.stringify({
+  files: [{ id: 1, file: robotToText(ROBOT) }],
+  currentId: 1,
+  nextId: 2,
+});
 
 export function measureFrames(): Promise<Figure[]> {
   return withBoard([], (board) =>

@@ -5,7 +5,9 @@ import { useEffect, useState, type RefObject } from 'react';
 
 /** A card and the gap behind it; the style sheet says the same. */
 const STEP_PX = 140;
-const BESIDE = 24;
+const BESIDE = 4;
+/** So many are always there: what is short need not be clever. */
+const SHORT = 40;
 /** The window moves in steps: not each pixel that is scrolled draws the strip again. */
 const CHUNK = 8;
 
@@ -21,7 +23,7 @@ export function useStripWindow(
   count: number,
   shown: number,
 ): StripWindow {
-  const [seen, setSeen] = useState({ first: 0, end: BESIDE });
+  const [seen, setSeen] = useState({ first: 0, end: CHUNK });
 
   useEffect(() => {
     const element = strip.current;
@@ -49,7 +51,8 @@ export function useStripWindow(
       element.scrollTo({ left: left < element.scrollLeft ? left : right });
   }, [strip, shown]);
 
-  const first = Math.max(0, Math.min(seen.first, count) - BESIDE);
-  const end = Math.min(count, seen.end + BESIDE);
+  const isShort = count <= SHORT;
+  const first = isShort ? 0 : Math.max(0, Math.min(seen.first, count) - BESIDE);
+  const end = isShort ? count : Math.min(count, seen.end + BESIDE);
   return { first, end, roomBeforePx: first * STEP_PX, roomBehindPx: (count - end) * STEP_PX };
 }

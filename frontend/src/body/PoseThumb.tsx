@@ -1,5 +1,6 @@
 // A pose as a small picture: the body where it is described, and a bar per servo. Servos that move are marked below it.
 
+import { memo } from 'react';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import { useRobot } from '../stores/stores.ts';
@@ -15,8 +16,18 @@ export interface PoseThumbProps {
   readonly family: Family;
 }
 
-export function PoseThumb(props: PoseThumbProps) {
+/** Drawn again only where the pose is another: there may be dozens on the page. */
+export const PoseThumb = memo(function PoseThumb(props: PoseThumbProps) {
   return <RobotThumb robot={useRobot()} {...props} />;
+}, isSame);
+
+function isSame(one: PoseThumbProps, other: PoseThumbProps): boolean {
+  return (
+    one.family === other.family &&
+    one.pose.size === other.pose.size &&
+    one.changed.join() === other.changed.join() &&
+    [...one.pose].every(([servo, position]) => other.pose.get(servo) === position)
+  );
 }
 
 export interface RobotThumbProps extends PoseThumbProps {

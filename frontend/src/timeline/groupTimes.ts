@@ -2,8 +2,7 @@
 
 import type { GroupFrame } from '#shared/actions/group/group.ts';
 import { frameEnds, tracksOf, type Key, type KeyRef, type Tracks } from '#shared/actions/group/tracks.ts';
-import type { KeySet } from '../stores/keySet.ts';
-import { keyName } from '../stores/keySet.ts';
+import { refsOf, type KeySet } from '../stores/keySet.ts';
 
 export interface GroupTimes {
   readonly frames: readonly GroupFrame[];
@@ -60,10 +59,16 @@ export function keyOf({ tracks }: GroupTimes, { frameId, servo }: KeyRef): Key |
   return tracks.get(servo)?.keys.find((key) => key.frameId === frameId);
 }
 
-/** Those of the set that are there. */
-export function selectedKeys(times: GroupTimes, selected: KeySet): readonly Key[] {
-  if (selected.size === 0) return [];
-  return allKeys(times, [...times.tracks.keys()]).filter((key) => selected.has(keyName(key)));
+/** Those of the set that are there, servo by servo. */
+export function selectedKeys({ frames, ends, places }: GroupTimes, selected: KeySet): readonly Key[] {
+  const keys = refsOf(selected).flatMap(({ frameId, servo }): readonly Key[] => {
+    const place = places.get(frameId) ?? -1;
+    const [frame, atMs] = [frames[place], ends[place]];
+    const target = frame?.targets.find((one) => one.servo === servo);
+    if (frame === undefined || atMs === undefined || target === undefined) return [];
+    return [{ ...target, frameId, atMs, easing: frame.easing }];
+  });
+  return keys.sort((one, other) => one.servo - other.servo || one.atMs - other.atMs);
 }
 
 /** The times of these keys, first and last; null where there are none. */
