@@ -171,7 +171,7 @@ test.describe('with fingers', () => {
     await touch('touchStart', at);
     await expect(timeline.region).toContainText('Lift for the menu');
     await touch('touchEnd');
-    await page.getByRole('menuitem', { name: 'Delete', exact: true }).tap();
+    await page.getByRole('menuitem', { name: 'Delete keys' }).tap();
     await expect(timeline.key(name)).toBeHidden();
   });
 });

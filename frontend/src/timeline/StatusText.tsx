@@ -3,7 +3,7 @@
 import { useServoView, useStores, editServoView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
-import type { StatusName } from './gestures.ts';
+import type { StatusName } from './gesture.ts';
 import type { SeenDesk } from './useDesk.ts';
 import styles from './StatusText.module.css';
 

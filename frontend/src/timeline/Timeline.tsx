@@ -18,7 +18,7 @@ import { AskBox } from './AskBox.tsx';
 import { copy, cut, paste } from './changes.ts';
 import { clipFromText, clipToText } from './clipText.ts';
 import { deskOf } from './desk.ts';
-import type { StatusName } from './gestures.ts';
+import type { StatusName } from './gesture.ts';
 import { keepInStep } from './inStep.ts';
 import { actionOf } from './keymap.ts';
 import { bringToLife, sizesNow } from './lanes.ts';

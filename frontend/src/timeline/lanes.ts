@@ -5,7 +5,7 @@ import { positionAt } from '#shared/actions/group/tracks.ts';
 import { words } from '../words/words.ts';
 import { setKeysAt } from './changes.ts';
 import { deskOf, select, type Desk, type DeskStores } from './desk.ts';
-import type { StatusName } from './gestures.ts';
+import type { StatusName } from './gesture.ts';
 import { hasAll, hitAt, type Spot } from './hit.ts';
 import { keySet } from '../stores/keySet.ts';
 import { lookOf } from './look.ts';

@@ -2,7 +2,8 @@
 // opens the menu or, dragged on, draws a box. Escape, a lost pointer and a lost window call a gesture off. Knows no edits.
 
 import type { Spot } from './hit.ts';
-import { boxFrom, gestureOf, type Gesture, type Held, type Press, type StatusName } from './gestures.ts';
+import type { Gesture, Held, Press, StatusName } from './gesture.ts';
+import { boxFrom, gestureOf } from './gestures.ts';
 
 export interface PointerHost {
   /** What a press begins with; `isTouch` tells fingers from mice and pens. */

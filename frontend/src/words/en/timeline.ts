@@ -74,7 +74,7 @@ export const timelineWords = {
   verbs: {
     setKey: 'Set key',
     editValue: 'Edit value',
-    remove: 'Delete',
+    remove: 'Delete keys',
     removeTime: 'Delete with its time',
     cut: 'Cut',
     copy: 'Copy',

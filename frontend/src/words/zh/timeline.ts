@@ -61,7 +61,7 @@ export const timelineWords: typeof english = {
   verbs: {
     setKey: '设关键帧',
     editValue: '修改数值',
-    remove: '删除',
+    remove: '删除关键帧',
     removeTime: '连同时间删除',
     cut: '剪切',
     copy: '复制',

@@ -1,0 +1,93 @@
+// What a press on the lanes becomes when it is dragged, and what all such gestures share: an edit that begins with the first
+// movement, and where a thing that is dragged in time comes to rest.
+
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { Label } from '#shared/actions/history.ts';
+import type { SelectMode } from '../stores/keySet.ts';
+import type { Words } from '../words/words.ts';
+import type { Desk, DeskStores } from './desk.ts';
+import type { Spot } from './hit.ts';
+import type { Sizes } from './sizes.ts';
+import { snapped } from './snap.ts';
+
+export type StatusName = keyof Words['timeline']['status'];
+
+export interface Held {
+  readonly ctrl: boolean;
+  readonly shift: boolean;
+  readonly alt: boolean;
+}
+
+export interface Press {
+  readonly stores: DeskStores;
+  readonly sizes: Sizes;
+  readonly spot: Spot;
+  readonly held: Held;
+  /** A finger drags the lanes about where a mouse draws a box. */
+  readonly isTouch: boolean;
+  showBox(box: { readonly from: Spot; readonly to: Spot } | null): void;
+  scroll(byPx: number): void;
+}
+
+export interface Gesture {
+  readonly status: StatusName;
+  move(spot: Spot, held: Held): void;
+  /** `isClick`: the pointer never left its place. */
+  end(isClick: boolean): void;
+  cancel(): void;
+}
+
+export const nothing = (): void => undefined;
+const NEAR_PX = 7;
+
+export const modeOf = ({ ctrl, shift }: Held): SelectMode => (ctrl ? 'toggles' : shift ? 'adds' : 'replaces');
+
+/** An edit of the document that begins with the first movement. */
+export function edits(
+  press: Press,
+  status: StatusName,
+  label: Label,
+  moved: (spot: Spot, held: Held) => ((group: ActionGroup) => ActionGroup) | null,
+  rest: { shown?(): void; clicked?(): void; ended?(): void; cancelled?(): void } = {},
+): Gesture {
+  const { document } = press.stores;
+  let hasBegun = false;
+  return {
+    status,
+    move(spot, held) {
+      const edit = moved(spot, held);
+      if (edit === null) return;
+      if (!hasBegun) document.begin(label);
+      hasBegun = true;
+      document.preview(edit);
+      rest.shown?.();
+    },
+    end(isClick) {
+      if (hasBegun) document.commit();
+      if (isClick) rest.clicked?.();
+      else rest.ended?.();
+    },
+    cancel() {
+      if (hasBegun) document.cancel();
+      rest.cancelled?.();
+    },
+  };
+}
+
+/** What a thing at `atMs` comes to when it is dragged so far. `own` are the instants that move along. */
+export function draggedTo(
+  press: Press,
+  desk: Desk,
+  atMs: number,
+  own: ReadonlySet<number>,
+): (spot: Spot, held: Held) => number {
+  const { times, state, group, family } = desk;
+  const others = [...times.ends, ...group.markers.map((marker) => marker.atMs), state.playheadMs, 0];
+  const placesMs = others.filter((placeMs) => !own.has(placeMs));
+  return ({ x }, { alt }) => {
+    const { time, snaps } = press.stores.timeline.getState();
+    const wanted = Math.max(0, atMs + (x - press.spot.x) * time.msPerPx);
+    const field = { placesMs, tickMs: family.motion.tickMs, reachMs: NEAR_PX * time.msPerPx };
+    return snapped(wanted, alt || !snaps ? null : field);
+  };
+}

@@ -1,0 +1,90 @@
+// A press on a key: it selects, asks for a number, or drags all selected keys in time and value.
+
+import type { KeyRef } from '#shared/actions/group/tracks.ts';
+import { keySet, withKeys } from '../stores/keySet.ts';
+import { words } from '../words/words.ts';
+import { changeable, deskOf, select, type Desk } from './desk.ts';
+import { draggedTo, edits, modeOf, nothing, type Gesture, type Held, type Press } from './gesture.ts';
+import { timesOf } from './groupTimes.ts';
+import { hasAll, keysBetween, type Hit, type Spot } from './hit.ts';
+import { cursorAfter, moveOf } from './moving.ts';
+import type { Scene } from './scene.ts';
+
+/** How far the hand has to go before a drag turns a value, so that time alone can be dragged. */
+const VALUE_FROM_PX = 5;
+/** A low row is geared down: the whole range takes so much. */
+const RANGE_PX = 200;
+
+export function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' }): Gesture {
+  const { stores, held } = press;
+  const wasSelected = hasAll(scene.state.selected, hit.refs);
+  if (!wasSelected || held.ctrl) selectPressed(press, hit);
+  else stores.timeline.setState({ cursor: { row: hit.row.id, frameId: hit.frameId } });
+  const desk = deskOf(stores);
+  const before = desk.state.selected;
+  const refs = changeable(desk);
+  if (refs.length === 0) return { status: 'locked', move: nothing, end: nothing, cancel: nothing };
+  let moved: readonly KeyRef[] = refs;
+  const own = new Set(
+    desk.times.ends.filter((_, index) =>
+      refs.some(({ frameId }) => frameId === desk.times.frames[index]?.id),
+    ),
+  );
+  const to = draggedTo(press, desk, hit.atMs, own);
+  return edits(
+    press,
+    'move',
+    () => words.timeline.steps.move,
+    (spot, now) => {
+      const deltaMs = isKept(press, spot, now, 'time') ? to(spot, now) - hit.atMs : 0;
+      const deltaPosition = isKept(press, spot, now, 'value') ? turnedBy(press, scene, hit, spot) : 0;
+      const move = moveOf(desk, desk.group, refs, { deltaMs, deltaPosition });
+      return (group) => {
+        const next = move.edit(group);
+        moved = move.selects(timesOf(next));
+        return next;
+      };
+    },
+    {
+      shown: () => stores.timeline.setState({ selected: keySet(moved) }),
+      clicked() {
+        if (!wasSelected || held.ctrl || held.shift) return;
+        if (before.size === 1) stores.timeline.setState({ asks: 'value' });
+        else select(stores, keySet(hit.refs));
+      },
+      ended: () => select(stores, keySet(moved), cursorAfter(desk, refs, moved)),
+      cancelled: () => select(stores, before),
+    },
+  );
+}
+
+/** Shift keeps to the direction in which the pointer went farther. */
+function isKept({ spot }: Press, { x, y }: Spot, { shift }: Held, axis: 'time' | 'value'): boolean {
+  const isSideways = Math.abs(x - spot.x) >= Math.abs(y - spot.y);
+  return !shift || isSideways === (axis === 'time');
+}
+
+function turnedBy({ spot }: Press, scene: Scene, { row }: Hit & { kind: 'key' }, { y }: Spot): number {
+  const placed = scene.rows.find((one) => one.row.id === row.id);
+  const way = spot.y - y;
+  if (placed === undefined || Math.abs(way) < VALUE_FROM_PX) return 0;
+  const { min, max } = row.servo ?? scene.family.position;
+  const px = Math.max(RANGE_PX, placed.height - 14);
+  return Math.round(((way - Math.sign(way) * VALUE_FROM_PX) * (max - min)) / px);
+}
+
+function selectPressed({ stores, held }: Press, hit: Hit & { kind: 'key' }): void {
+  const desk = deskOf(stores);
+  const cursor = { row: hit.row.id, frameId: hit.frameId };
+  const refs = held.shift ? spanned(desk, hit) : hit.refs;
+  select(stores, withKeys(desk.state.selected, refs, modeOf(held)), cursor);
+}
+
+/** All keys between the cursor and the one that is pressed. */
+function spanned(desk: Desk, { row, atMs }: Hit & { kind: 'key' }): readonly KeyRef[] {
+  const { cursor } = desk.state;
+  const place = desk.times.places.get(cursor.frameId ?? 0);
+  const fromMs = place === undefined ? atMs : (desk.times.ends[place] ?? atMs);
+  const from = place === undefined ? row.id : cursor.row;
+  return keysBetween(desk.rows, desk.times, { row: from, atMs: fromMs }, { row: row.id, atMs });
+}
