@@ -33,7 +33,7 @@ export function usePlay(): Play {
 
   function play(): void {
     view.setState({ playFrom: from });
-    device.play(frames.slice(from), () => view.setState({ playFrom: 0 }));
+    device.play(frames.slice(from), 1, (isDone) => isDone && view.setState({ playFrom: 0 }));
   }
 
   return {

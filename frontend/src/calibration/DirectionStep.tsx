@@ -24,7 +24,7 @@ export function DirectionStep({ at: { servo, accept } }: { readonly at: Calibrat
       <Button
         tone={hasTurned ? 'plain' : 'primary'}
         isDisabled={!isIdle}
-        onPress={() => device.play(turnAndBack(servo), () => setTurned(true))}
+        onPress={() => device.play(turnAndBack(servo), 1, (isDone) => isDone && setTurned(true))}
       >
         {words.calibration.turn}
       </Button>

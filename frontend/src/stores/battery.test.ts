@@ -76,7 +76,7 @@ describe('the readings of a visit', () => {
   test('stand beside the runs', async () => {
     const { clock, device, battery } = await createDesk(7600);
     await clock.advance(1000);
-    device.play(FRAMES, () => undefined);
+    device.play(FRAMES, 1, () => undefined);
     await clock.advance(2000);
     expect(battery.getState().runs).toMatchObject([{ toMs: null }]);
     await clock.advance(6000);
@@ -159,7 +159,7 @@ describe('a low battery', () => {
       const { clock, device, notices, ofKind } = await createDesk(6500, policy);
       await clock.advance(SETTLED_MS);
       device.run(3, 1);
-      device.play(FRAMES, () => undefined);
+      device.play(FRAMES, 1, () => undefined);
       await clock.advance(500);
       expect([ofKind('run'), ofKind('move')]).toEqual([[], []]);
       const refusal = notices.store.getState().at(-1);

@@ -49,7 +49,7 @@ describe('the battery poll', () => {
     expect(asked()).toBe(1);
     await clock.advance(9500);
     const before = asked();
-    device.play([{ durationMs: 2000, targets: [{ servo: 1, position: 1700 }] }], () => undefined);
+    device.play([{ durationMs: 2000, targets: [{ servo: 1, position: 1700 }] }], 1, () => undefined);
     await clock.advance(3000);
     expect(device.store.getState().snapshot.activity.kind).toBe('idle');
     expect(asked()).toBe(before + 1);

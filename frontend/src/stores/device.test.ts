@@ -170,7 +170,7 @@ describe('a device with a session', () => {
     test('a group with one pose outside is neither played nor downloaded', async () => {
       const { device, told, draw, heard } = await createElbowDesk();
       const frames = [900, 2400].map((position) => ({ durationMs: 300, targets: [{ servo: 4, position }] }));
-      device.play(frames, () => undefined);
+      device.play(frames, 1, () => undefined);
       device.download(3, frames);
       await draw(2000);
       expect(told()[0]).toContain('Elbow: 2400 is out of range; it takes 700');
@@ -189,6 +189,18 @@ describe('a device with a session', () => {
     expect(told()).toEqual([words.board.downloaded(5)]);
   });
 
+  test('says whether a download came to its end', async () => {
+    const { device, draw } = await createDesk();
+    const heard: boolean[] = [];
+    device.download(5, FRAMES, (isDone) => void heard.push(isDone));
+    await draw(4000);
+    device.download(6, FRAMES, (isDone) => void heard.push(isDone));
+    await draw(100);
+    device.cancelDownload();
+    await draw(4000);
+    expect(heard).toEqual([true, false]);
+  });
+
   test('a cancelled download leaves a broken slot and says so', async () => {
     const { device, state, told, draw } = await createDesk();
     device.download(
@@ -205,16 +217,27 @@ describe('a device with a session', () => {
   test('playing to the end is told, pausing is not', async () => {
     const { device, state, draw } = await createDesk();
     let finished = 0;
-    device.play(FRAMES, () => finished++);
+    device.play(FRAMES, 1, (isDone) => (finished += Number(isDone)));
     await draw(1600);
     expect(state().snapshot.activity).toMatchObject({ kind: 'playing', frameIndex: 1 });
     device.stopPlaying();
     await draw(2000);
     expect(finished).toBe(0);
-    device.play(FRAMES, () => finished++);
+    device.play(FRAMES, 1, (isDone) => (finished += Number(isDone)));
     await draw(4000);
     expect(finished).toBe(1);
     expect(state().targets[1]).toBe(2100);
+  });
+
+  test('playing that STOP ended was not played to the end', async () => {
+    const { device, draw } = await createDesk();
+    const heard: boolean[] = [];
+    device.play(FRAMES, 0, (isDone) => void heard.push(isDone));
+    await draw(6000);
+    expect(heard).toEqual([]);
+    device.halt();
+    await draw(500);
+    expect(heard).toEqual([false]);
   });
 
   test('a lost link keeps no position and comes back latched', async () => {

@@ -72,9 +72,10 @@ export interface Device {
   identify(): void;
   choose(family: Family): void;
   /** `settled` hears whether the board took it, as far as anybody can know. */
-  run(slot: number, times: number, settled?: (isTaken: boolean) => void): void;
+  run(slot: number, times: number, settled?: Settled): void;
   stopGroup(): void;
-  erase(): void;
+  /** `settled` hears whether the board said so. */
+  erase(settled?: Settled): void;
   readBattery(): void;
   readPositions(servos: readonly number[]): void;
   /** Firmware and trims, one question after the other. */
@@ -82,12 +83,15 @@ export interface Device {
   setSpeed(slot: number | null, percent: number): void;
   release(servos: readonly number[]): void;
   sendRaw(packet: Uint8Array): void;
-  download(slot: number, frames: readonly Frame[]): void;
+  /** `settled` hears whether all of it is stored. */
+  download(slot: number, frames: readonly Frame[], settled?: Settled): void;
   cancelDownload(): void;
-  /** `finished` is called after the last frame, not after a pause, a stop or a failure. */
-  play(frames: readonly Frame[], finished: () => void): void;
+  /** `times` 0: until stopped. `settled` hears whether the last frame was played: not after a pause, a stop or a failure. */
+  play(frames: readonly Frame[], times: number, settled: Settled): void;
   stopPlaying(): void;
 }
+
+export type Settled = (isDone: boolean) => void;
 
 /** Whether something may begin to run now. Where not, it tells the person and may offer to begin it anyway. */
 export type RunGuard = (anyway: () => void) => boolean;
@@ -216,11 +220,11 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
 
   function attempt(
     work: (session: Session) => Promise<unknown>,
-    settled: (isDone: boolean) => void = () => undefined,
+    settled: Settled = () => undefined,
   ): void {
     if (session === null) return settled(false);
     work(session).then(
-      () => settled(true),
+      (isDone) => settled(isDone !== false),
       (error: unknown) => {
         notices.tellError(error);
         settled(false);
@@ -231,7 +235,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   /** As `attempt`, where nothing forbids that something runs. */
   function attemptRun(
     work: (session: Session) => Promise<unknown>,
-    settled: (isDone: boolean) => void = () => undefined,
+    settled: Settled = () => undefined,
   ): void {
     const asked = session;
     const anyway = (): void => {
@@ -252,15 +256,18 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     await former?.close();
   }
 
-  async function downloadTo(current: Session, slot: number, frames: readonly Frame[]): Promise<void> {
+  /** False where it was called off. */
+  async function downloadTo(current: Session, slot: number, frames: readonly Frame[]): Promise<boolean> {
     downloading = new AbortController();
     const { signal } = downloading;
     try {
       await current.download(slot, frames, signal);
       notices.tell('info', words.board.downloaded(slot));
+      return true;
     } catch (error) {
       if (!signal.aborted) throw error;
       notices.tell('warning', words.board.downloadCancelled(slot));
+      return false;
     }
   }
 
@@ -314,7 +321,8 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     choose: (chosen) => attempt((current) => current.choose(chosen)),
     run: (slot, times, settled) => attemptRun((current) => current.run(slot, times), settled),
     stopGroup: () => attempt((current) => current.stopGroup()),
-    erase: () => attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased))),
+    erase: (settled) =>
+      attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased)), settled),
     readBattery: () => attempt((current) => current.readBattery()),
     readPositions: (servos) => attempt((current) => current.readPositions(servos)),
     readDetails: () => attempt((current) => current.readVersion().then(() => current.readOffsets())),
@@ -325,22 +333,23 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
           .then(() => notices.tell('info', words.board.speedSent(slot, percent))),
       ),
     release: (servos) => attempt((current) => current.release(servos)),
-    download(slot, frames) {
+    download(slot, frames, settled = () => undefined) {
       const onIt = allowedFrames(frames);
-      if (onIt !== null) attempt((current) => downloadTo(current, slot, onIt));
+      if (onIt === null) settled(false);
+      else attempt((current) => downloadTo(current, slot, onIt), settled);
     },
     sendRaw(packet) {
       if (keepsLimits(packet)) attempt((current) => current.sendRaw(packet));
     },
     cancelDownload: () => downloading.abort(),
-    play(frames, finished) {
+    play(frames, times, settled) {
       const onIt = allowedFrames(frames);
-      if (onIt === null) return;
+      if (onIt === null) return settled(false);
       attemptRun(async (current) => {
         setPaused(false);
-        await current.play(onIt);
-        if (!paused) finished();
-      });
+        await current.play(onIt, { times });
+        return !paused && current.state.latch === null && current.state.link.status === 'ready';
+      }, settled);
     },
     stopPlaying() {
       setPaused(true);
