@@ -1,0 +1,125 @@
+// What is remembered of one board's slots, because boards cannot be read: what was downloaded there from here, and what an erase
+// took. Immutable; knows no storage, no session and no time of its own.
+
+import * as z from 'zod/mini';
+import type { Frame } from '../../protocol/commands.ts';
+import { GROUP_NAME_LENGTH } from '../group/group.ts';
+import { readVersioned, type Read } from '../versionedText.ts';
+
+const whole = (max: number) => z.number().check(z.int(), z.gte(0), z.lte(max));
+
+const recordSchema = z.strictObject({
+  slot: whole(255),
+  /** The group's. */
+  name: z.string().check(z.maxLength(GROUP_NAME_LENGTH)),
+  /** Since 1970. */
+  storedAtMs: z.number(),
+  /** Of the frames as the board got them, with the trims of that day. */
+  fingerprint: z.string(),
+  /** As the person means them: each is its duration, then servo and position by turns. */
+  frames: z.array(z.array(whole(0xffff)).check(z.minLength(1))),
+});
+
+const bookSchema = z.strictObject({
+  stored: z.array(recordSchema),
+  erased: z.array(recordSchema),
+  /** Every other slot was empty then. */
+  isEmptied: z.boolean(),
+});
+
+const FORMAT = 'servodeck-slots';
+const fileSchema = z.strictObject({
+  format: z.literal(FORMAT),
+  version: z.literal(1),
+  content: bookSchema,
+});
+
+export interface SlotRecord {
+  readonly slot: number;
+  readonly name: string;
+  readonly storedAtMs: number;
+  readonly fingerprint: string;
+  readonly frames: readonly Frame[];
+}
+
+export interface SlotBook {
+  /** By slot, ascending. */
+  readonly stored: readonly SlotRecord[];
+  /** What the last erase took and nobody has brought back. */
+  readonly erased: readonly SlotRecord[];
+  readonly isEmptied: boolean;
+}
+
+export const EMPTY_SLOT_BOOK: SlotBook = { stored: [], erased: [], isEmptied: false };
+
+export const recordOf = ({ stored }: SlotBook, slot: number): SlotRecord | undefined =>
+  stored.find((record) => record.slot === slot);
+
+const without = (records: readonly SlotRecord[], slot: number): readonly SlotRecord[] =>
+  records.filter((record) => record.slot !== slot);
+
+const bySlot = (one: SlotRecord, other: SlotRecord): number => one.slot - other.slot;
+
+export function withStored(book: SlotBook, record: SlotRecord): SlotBook {
+  return {
+    ...book,
+    stored: [...without(book.stored, record.slot), record].sort(bySlot),
+    erased: without(book.erased, record.slot),
+  };
+}
+
+/** An erase has begun: nobody knows what is left. */
+export function withErasing({ stored, erased }: SlotBook): SlotBook {
+  const gone = stored.reduce((sum, record) => [...without(sum, record.slot), record], erased);
+  return { stored: [], erased: [...gone].sort(bySlot), isEmptied: false };
+}
+
+export const withErased = (book: SlotBook): SlotBook => ({ ...book, isEmptied: true });
+
+export type SlotFate = 'broken' | 'same' | 'older' | 'other' | 'empty' | 'unknown';
+
+/** `broken`: what the session knows. `group` is the one at hand, null where it cannot be on this board. */
+export function fateOf(
+  book: SlotBook,
+  broken: readonly number[],
+  slot: number,
+  group: Pick<SlotRecord, 'name' | 'fingerprint'> | null,
+): SlotFate {
+  if (broken.includes(slot)) return 'broken';
+  const record = recordOf(book, slot);
+  if (record === undefined) return book.isEmptied ? 'empty' : 'unknown';
+  if (record.fingerprint === group?.fingerprint) return 'same';
+  return record.name === group?.name ? 'older' : 'other';
+}
+
+export function slotBookToText({ stored, erased, isEmptied }: SlotBook): string {
+  const packed = (records: readonly SlotRecord[]) =>
+    records.map((record) => ({
+      ...record,
+      frames: record.frames.map(({ durationMs, targets }) => [
+        durationMs,
+        ...targets.flatMap(({ servo, position }) => [servo, position]),
+      ]),
+    }));
+  const content = { stored: packed(stored), erased: packed(erased), isEmptied };
+  return JSON.stringify({ format: FORMAT, version: 1, content });
+}
+
+export function slotBookFromText(text: string): Read<SlotBook> {
+  const read = readVersioned(text, 'slot', fileSchema, () => null);
+  if ('problem' in read) return read;
+  const { stored, erased, isEmptied } = read.value;
+  return { value: { stored: stored.map(unpacked), erased: erased.map(unpacked), isEmptied } };
+}
+
+function unpacked(record: z.infer<typeof recordSchema>): SlotRecord {
+  return { ...record, frames: record.frames.map(frameOf) };
+}
+
+function frameOf([durationMs = 0, ...pairs]: readonly number[]): Frame {
+  const targets = pairs.flatMap((servo, index) => {
+    const position = pairs[index + 1];
+    return index % 2 === 0 && position !== undefined ? [{ servo, position }] : [];
+  });
+  return { durationMs, targets };
+}

@@ -1,0 +1,128 @@
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import { compareFrames } from './compareFrames.ts';
+import { fingerprintOf } from './fingerprint.ts';
+import {
+  EMPTY_SLOT_BOOK,
+  fateOf,
+  slotBookFromText,
+  slotBookToText,
+  withErased,
+  withErasing,
+  withStored,
+  type SlotRecord,
+} from './slotBook.ts';
+
+const at = (durationMs: number, ...positions: readonly number[]) => ({
+  durationMs,
+  targets: positions.map((position, index) => ({ servo: index + 1, position })),
+});
+const WAVE = [at(400, 1000, 1500), at(600, 2000, 1500)];
+
+const record = (slot: number, name = 'Wave', frames = WAVE): SlotRecord => ({
+  ...{ slot, name, frames, storedAtMs: 1_700_000_000_000 },
+  fingerprint: fingerprintOf(frames),
+});
+
+const someFrames = fc.array(
+  fc.record({
+    durationMs: fc.integer({ min: 0, max: 30_000 }),
+    targets: fc.array(
+      fc.record({ servo: fc.integer({ min: 1, max: 32 }), position: fc.integer({ min: 0, max: 2500 }) }),
+      { maxLength: 6 },
+    ),
+  }),
+  { minLength: 1, maxLength: 12 },
+);
+
+describe('a fingerprint', () => {
+  test('is the same for the same frames, and another one after any change of a number', () => {
+    fc.assert(
+      fc.property(someFrames, fc.nat(), fc.integer({ min: 1, max: 50 }), (frames, where, change) => {
+        expect(fingerprintOf(structuredClone(frames))).toBe(fingerprintOf(frames));
+        const index = where % frames.length;
+        const changed = frames.with(index, {
+          ...frames[index]!,
+          durationMs: frames[index]!.durationMs + change,
+        });
+        expect(fingerprintOf(changed)).not.toBe(fingerprintOf(frames));
+      }),
+    );
+  });
+
+  test('knows where a number stands', () => {
+    expect(fingerprintOf([at(400, 1000, 1500)])).not.toBe(fingerprintOf([at(400, 1500, 1000)]));
+    expect(fingerprintOf(WAVE)).not.toBe(fingerprintOf(WAVE.toReversed()));
+  });
+});
+
+describe('the book of slots', () => {
+  const group = { name: 'Wave', fingerprint: fingerprintOf(WAVE) };
+  const edited = { name: 'Wave', fingerprint: 'another' };
+
+  test('says of a slot what anybody can know', () => {
+    const book = withStored(withStored(EMPTY_SLOT_BOOK, record(5)), record(7, 'Bow', [at(100, 1200)]));
+    expect(fateOf(book, [], 5, group)).toBe('same');
+    expect(fateOf(book, [], 5, edited)).toBe('older');
+    expect(fateOf(book, [], 7, group)).toBe('other');
+    expect(fateOf(book, [], 8, group)).toBe('unknown');
+    expect(fateOf(book, [5], 5, group)).toBe('broken');
+    expect(fateOf(book, [], 5, null)).toBe('other');
+  });
+
+  test('a copy of the very same motion is up to date under any name', () => {
+    const book = withStored(EMPTY_SLOT_BOOK, record(5, 'Greeting'));
+    expect(fateOf(book, [], 5, group)).toBe('same');
+  });
+
+  test('keeps what an erase took until it is downloaded again', () => {
+    const stored = withStored(withStored(EMPTY_SLOT_BOOK, record(5)), record(7, 'Bow'));
+    const erasing = withErasing(stored);
+    expect(fateOf(erasing, [], 5, group)).toBe('unknown');
+    const erased = withErased(erasing);
+    expect(fateOf(erased, [], 5, group)).toBe('empty');
+    expect(erased.erased.map(({ slot }) => slot)).toEqual([5, 7]);
+    const restored = withStored(erased, record(5));
+    expect(restored.erased.map(({ slot }) => slot)).toEqual([7]);
+    expect(fateOf(restored, [], 5, group)).toBe('same');
+    expect(withErasing(withStored(restored, record(9))).erased.map(({ slot }) => slot)).toEqual([5, 7, 9]);
+  });
+
+  test('comes back from its text', () => {
+    fc.assert(
+      fc.property(someFrames, (frames) => {
+        const book = withErased(withErasing(withStored(EMPTY_SLOT_BOOK, record(3, 'Wave', frames))));
+        const both = withStored(book, record(9, 'Bow', frames));
+        expect(slotBookFromText(slotBookToText(both))).toEqual({ value: both });
+      }),
+    );
+  });
+
+  test('is not taken from any other text', () => {
+    for (const text of ['', '{}', '{"format":"servodeck-slots","version":1,"content":{"stored":[7]}}'])
+      expect(slotBookFromText(text)).toHaveProperty('problem');
+  });
+});
+
+describe('comparing two groups', () => {
+  test('finds the first frame that differs, and the servos in it', () => {
+    const other = [WAVE[0]!, at(600, 2000, 1400), at(100, 900)];
+    expect(compareFrames(WAVE, other)).toEqual({
+      isSame: false,
+      frameCounts: [2, 3],
+      durationsMs: [1000, 1100],
+      firstDifferent: 1,
+      servos: [{ servo: 2, positions: [1500, 1400] }],
+    });
+  });
+
+  test('says where only the times differ, or only the length', () => {
+    expect(compareFrames(WAVE, [WAVE[0]!, at(700, 2000, 1500)])).toMatchObject({
+      isSame: false,
+      firstDifferent: 1,
+      servos: [],
+    });
+    expect(compareFrames(WAVE, WAVE.slice(0, 1))).toMatchObject({ isSame: false, firstDifferent: null });
+    expect(compareFrames(WAVE, structuredClone(WAVE))).toMatchObject({ isSame: true, firstDifferent: null });
+  });
+});
