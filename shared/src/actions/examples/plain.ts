@@ -1,0 +1,23 @@
+// What any servos in a row show, whatever they turn: small turns about home.
+
+import type { Example, Turns } from './examples.ts';
+
+const TURN = 0.25;
+const STEP_MS = 300;
+
+const each = (servos: readonly number[], turn: (index: number) => number): Turns =>
+  Object.fromEntries(servos.map((servo, index) => [servo, turn(index)]));
+
+export function plainExamples(servos: readonly number[]): {
+  readonly ripple: Example;
+  readonly sweep: Example;
+} {
+  const home = { durationMs: 1500, turns: each(servos, () => 0) };
+  const count = Math.min(servos.length, 8);
+  const ripple = Array.from({ length: 2 * count + 1 }, (_, step) => ({
+    durationMs: STEP_MS,
+    turns: each(servos, (index) => TURN * Math.sin(((step - (index % count)) * 2 * Math.PI) / count)),
+  }));
+  const sweep = [TURN, -TURN, 0].map((turn) => ({ durationMs: 1200, turns: each(servos, () => turn) }));
+  return { ripple: [home, ...ripple, { ...home, durationMs: 900 }], sweep: [home, ...sweep] };
+}
