@@ -46,7 +46,7 @@ export function App({ page }: { readonly page: Page }) {
 function Dashboard({ page }: { readonly page: Page }) {
   const layout = useLayout();
   const said = useView((state) => state.said);
-  const { device, notices, pad } = useStores();
+  const { device, notices, pad, playback } = useStores();
   const isKiosk = useView((state) => state.kiosk === 'on');
   const moveHere = (): void => void page.connector.moveHere().catch(notices.tellError);
   useTheme();
@@ -55,6 +55,7 @@ function Dashboard({ page }: { readonly page: Page }) {
   useEachFrame(() => {
     device.refreshTargets();
     pad.frame();
+    playback.frame();
   });
   return (
     <div className={styles.app} data-layout={layout}>

@@ -17,16 +17,15 @@ import { CaptureBar } from './CaptureBar.tsx';
 import { FrameStrip } from './FrameStrip.tsx';
 import { FrameTools } from './FrameTools.tsx';
 import { Timeline } from '../timeline/Timeline.tsx';
-import { usePlay } from './usePlay.ts';
 import { GroupName } from './GroupName.tsx';
 import styles from './ActionsPanel.module.css';
 
 export function ActionsPanel() {
   const group = useGroup();
-  const play = usePlay();
+  const { playback } = useStores();
   const layout = useLayout();
   const otherUnit = useDevice((state) => state.family.unit !== group.unit) && group.frames.length > 0;
-  const timeline = <Timeline key="timeline" onPlay={play.toggle} />;
+  const timeline = <Timeline key="timeline" onPlay={() => playback.toggle()} />;
   const frames = (
     <Fragment key="frames">
       {group.frames.length === 0 ? <Empty /> : <FrameStrip />}

@@ -1,13 +1,15 @@
-// The foot of the action group: capture the pose as a frame, the group's length, play from the page.
+// The foot of the action group: capture the pose as a frame, the group's length, and playing it.
 
 import { indexOfFrame, insertFrame } from '#shared/actions/group/groupEdits.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { ExamplesControl } from '../examples/ExamplesControl.tsx';
+import { PlayBar } from '../play/PlayBar.tsx';
+import { RecordControl } from '../record/RecordControl.tsx';
 import { useDevice, useGroup, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import { commandedPose } from './pose.ts';
-import { usePlay } from './usePlay.ts';
 import styles from './CaptureBar.module.css';
 
 const USUAL_FRAME_MS = 1000;
@@ -15,11 +17,15 @@ const USUAL_FRAME_MS = 1000;
 export function CaptureBar({ totalMs }: { readonly totalMs: number }) {
   const count = useGroup().frames.length;
   return (
-    <div className={styles.bar}>
-      <Capture />
-      <p className={styles.total}>{count === 0 ? '' : words.actions.total(count, totalMs)}</p>
-      <Play />
-    </div>
+    <>
+      <div className={styles.bar}>
+        <Capture />
+        <RecordControl />
+        <ExamplesControl />
+        <p className={styles.total}>{count === 0 ? '' : words.actions.total(count, totalMs)}</p>
+      </div>
+      <PlayBar />
+    </>
   );
 }
 
@@ -63,20 +69,4 @@ function captured(
   const index = at < 0 ? group.frames.length : at + 1;
   const durationMs = group.frames[index - 1]?.durationMs ?? USUAL_FRAME_MS;
   return insertFrame(group, index, { durationMs, targets }, unit);
-}
-
-function Play() {
-  const { isPlaying, mayPlay, from, toggle } = usePlay();
-  if (isPlaying) {
-    return (
-      <Button icon="pause" onPress={toggle}>
-        {words.actions.pause}
-      </Button>
-    );
-  }
-  return (
-    <Button icon="play" isDisabled={!mayPlay} onPress={toggle}>
-      {from === 0 ? words.actions.play : words.actions.playOn(from + 1)}
-    </Button>
-  );
 }

@@ -3,7 +3,8 @@
 
 import { useMemo } from 'react';
 import { deleteFrame, indexOfFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
-import { useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { usePlayedFrame } from '../play/usePlayedFrame.ts';
+import { useGroup, useStores, useView } from '../stores/stores.ts';
 import { showFrame } from '../timeline/inStep.ts';
 import { words } from '../words/words.ts';
 import { FrameCard } from './FrameCard.tsx';
@@ -17,8 +18,7 @@ export function FrameStrip() {
   const { document, view } = stores;
   const group = useGroup();
   const selected = useView((state) => state.selectedFrame);
-  const playFrom = useView((state) => state.playFrom);
-  const playing = useSnapshot(({ activity }) => (activity.kind === 'playing' ? activity.frameIndex : null));
+  const playing = usePlayedFrame();
   const { list, tabStop, key } = useCards<HTMLOListElement>({
     ...{ ids: group.frames.map(({ id }) => id), selected, attribute: 'data-frame' },
     select: (id) => showFrame(stores, id),
@@ -57,7 +57,7 @@ export function FrameStrip() {
           {...{ frame, index: first + index, ...(poses[index] ?? NO_POSE) }}
           isSelected={frame.id === selected}
           isTabStop={frame.id === tabStop}
-          isPlaying={playing !== null && playFrom + playing === first + index}
+          isPlaying={playing === first + index}
           onKey={key}
         />
       ))}

@@ -2,10 +2,12 @@
 // only as far as this page filled it.
 
 import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { SlotsControl } from '../slots/SlotsControl.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Panel } from '../ui/Panel.tsx';
+import { CompileRow } from '../compile/CompileRow.tsx';
 import { words } from '../words/words.ts';
 import { Absent } from './Absent.tsx';
 import { DownloadControl } from './DownloadControl.tsx';
@@ -19,9 +21,18 @@ export function BoardPanel() {
   const why = id === 'unknown' ? words.board.unsure : words.board.absent;
   const canErase = commands.includes('erase');
   return (
-    <Panel title={words.board.title} tools={canErase && <EraseControl />}>
+    <Panel
+      title={words.board.title}
+      tools={
+        <>
+          <SlotsControl />
+          {canErase && <EraseControl />}
+        </>
+      }
+    >
       <div className={styles.rows}>
         <SlotControl />
+        <CompileRow />
         {commands.includes('download') ? (
           <DownloadControl />
         ) : (

@@ -1,39 +1,55 @@
-// Stores the group of this page in the chosen slot, with progress in frames, bytes and seconds, and a way to call it off.
+// Stores the group of this page, as it was compiled, in the chosen slot, with progress in frames, bytes and seconds over all that
+// is being downloaded, and a way to call it off.
 
-import { motionHindrance } from '../stores/readiness.ts';
-import { useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { obstacles } from '../stores/compiled.ts';
+import { startHindrance } from '../stores/readiness.ts';
+import {
+  useCompiled,
+  useDevice,
+  useGroup,
+  useSlots,
+  useSnapshot,
+  useStores,
+  useView,
+} from '../stores/stores.ts';
 import type { Activity } from '#shared/session/state.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import styles from './BoardPanel.module.css';
 
 export function DownloadControl() {
-  const { device } = useStores();
+  const { compiled, notices, slots } = useStores();
   const { frames, unit } = useGroup();
   const slot = useView((state) => state.slot);
+  const frameCount = useCompiled((state) => state.latest.frames.length);
   const activity = useSnapshot((snapshot) => snapshot.activity);
   const sameUnit = useDevice((state) => state.family.unit === unit);
-  const mayStart = useSnapshot(
-    (snapshot) => motionHindrance(snapshot) === null && snapshot.activity.kind === 'idle',
-  );
+  const mayStart = useSnapshot((snapshot) => startHindrance(snapshot) === null);
   const hint =
     frames.length === 0
       ? words.board.nothingToDownload
       : sameUnit
-        ? words.board.downloadHint(frames.length, slot)
+        ? words.board.downloadHint(frameCount, slot)
         : words.actions.otherUnit(unit);
+  const download = (): void => {
+    const group = compiled.now();
+    const { name } = group.source.group;
+    const [problem] = obstacles(group.report, 'board');
+    if (problem === undefined) slots.download([{ slot, name, frames: group.frames }]);
+    else notices.tell('warning', words.compile.problem(problem, group.source.group));
+  };
   return (
     <div className={styles.row}>
       <Button
         wide
         icon="download"
         isDisabled={!mayStart || !sameUnit || frames.length === 0}
-        onPress={() => device.download(slot, frames)}
+        onPress={download}
       >
         {words.board.download}
       </Button>
       {activity.kind === 'downloading' ? (
-        <Progress activity={activity} onCancel={() => device.cancelDownload()} />
+        <Progress activity={activity} onCancel={() => slots.cancel()} />
       ) : (
         <p className={styles.hint}>{hint}</p>
       )}
@@ -48,7 +64,9 @@ interface ProgressProps {
 
 function Progress({ activity, onCancel }: ProgressProps) {
   const { framesStored, frameCount, bytesSent, bytesTotal, remainingMs } = activity;
-  const done = frameCount === 0 ? 0 : framesStored / frameCount;
+  const job = useSlots((state) => state.job);
+  const all = job ?? { frameCount, framesDone: 0, count: 1, done: 0 };
+  const done = all.frameCount === 0 ? 0 : (all.framesDone + framesStored) / all.frameCount;
   return (
     <div className={styles.progress}>
       <div>
@@ -57,13 +75,14 @@ function Progress({ activity, onCancel }: ProgressProps) {
           role="progressbar"
           aria-label={words.board.progress}
           aria-valuemin={0}
-          aria-valuemax={frameCount}
-          aria-valuenow={framesStored}
+          aria-valuemax={all.frameCount}
+          aria-valuenow={all.framesDone + framesStored}
           aria-valuetext={words.board.progressText(framesStored, frameCount)}
         >
           <div className={styles.filled} style={{ transform: `scaleX(${done})` }} />
         </div>
         <p className={styles.figures}>
+          {all.count > 1 && <span>{words.slots.job(all.done, all.count)}</span>}
           <span>{words.board.progressText(framesStored, frameCount)}</span>
           <span>{words.board.bytes(bytesSent, bytesTotal)}</span>
           <span>{words.board.left(remainingMs)}</span>

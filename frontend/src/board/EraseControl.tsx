@@ -1,16 +1,15 @@
-// Erases every slot, after a dialog that names what is lost.
+// Erases every slot, after a dialog that names what is lost, and what of it can come back.
 
-import { motionHindrance } from '../stores/readiness.ts';
-import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
+import { startHindrance } from '../stores/readiness.ts';
+import { useDevice, useSlots, useSnapshot, useStores } from '../stores/stores.ts';
 import { Confirm } from '../ui/Confirm.tsx';
 import { words } from '../words/words.ts';
 
 export function EraseControl() {
-  const { device } = useStores();
+  const { slots } = useStores();
+  const held = useSlots((state) => state.book.stored);
   const { min, max } = useDevice((state) => state.family.slot);
-  const mayErase = useSnapshot(
-    (snapshot) => motionHindrance(snapshot) === null && snapshot.activity.kind === 'idle',
-  );
+  const mayErase = useSnapshot((snapshot) => startHindrance(snapshot) === null);
   return (
     <Confirm
       tone="quiet"
@@ -18,11 +17,14 @@ export function EraseControl() {
       isDisabled={!mayErase}
       label={words.board.erase}
       title={words.board.eraseTitle}
-      text={words.board.eraseText(max - min + 1)}
+      text={[
+        words.board.eraseText(max - min + 1),
+        ...(held.length > 0 ? [words.slots.willGo(held)] : []),
+      ].join(' ')}
       keepLabel={words.board.eraseKeep}
       confirmLabel={words.board.eraseConfirm}
       closeLabel={words.close}
-      onConfirm={() => device.erase()}
+      onConfirm={() => slots.erase()}
     />
   );
 }

@@ -6,6 +6,7 @@ import { createBattery } from '../stores/battery.ts';
 import { applyBatteryPolicy } from '../stores/batteryPolicy.ts';
 import { pollBattery } from '../stores/batteryPoll.ts';
 import { createBoards } from '../stores/boards.ts';
+import { createCompiled } from '../stores/compiled.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import type { Keeper } from '#shared/actions/library/keeper.ts';
@@ -18,10 +19,14 @@ import { createLastPoses } from '../stores/lastPoses.ts';
 import { createMacroRun } from '../stores/macroRun.ts';
 import { createMacros } from '../stores/macros.ts';
 import { createMappings } from '../stores/mappings.ts';
+import { createMotionTape } from '../stores/motionTape.ts';
 import { createNotices } from '../stores/notices.ts';
 import { createPad } from '../stores/pad.ts';
+import { createPlayback } from '../stores/playback.ts';
+import { createPlayhead } from '../stores/playhead.ts';
 import { createPoses } from '../stores/poses.ts';
 import { createRobots } from '../stores/robots.ts';
+import { createSlots } from '../stores/slots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createTimeline } from '../stores/timeline.ts';
 import { createView } from '../stores/view.ts';
@@ -58,17 +63,24 @@ export async function openPage(): Promise<Page> {
     ...{ document: written, storage, notices, robots, view, clock: pageClock },
     ...{ keeper: chooseKeeper(), epochMs: Date.now, newId },
   });
+  const compiled = createCompiled({ document: written, device, robots, clock: pageClock });
+  const slots = createSlots({ device, robots, notices, storage, today: Date.now });
+  const timeline = createTimeline();
+  const playhead = createPlayhead(timeline);
+  const playback = createPlayback({ device, document: written, compiled, slots, notices, view, playhead });
   const stores = {
     ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
+    ...{ compiled, slots, playhead, playback },
+    tape: createMotionTape({ device, robots, clock: pageClock }),
     macros: createMacros(storage, notices, robots),
     document: written,
     lastPoses: createLastPoses(storage, device),
-    timeline: createTimeline(),
+    timeline,
   };
   const connector = createConnector({ device, notices, boards, storage, isWatched });
   connector.start().catch(notices.tellError);
   const paused = (): void => {
-    device.stopPlaying();
+    playback.hidden();
     macroRun.end();
   };
   watchLeaving(window, { hidden: paused, left: () => connector.leave() });

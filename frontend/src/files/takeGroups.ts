@@ -6,7 +6,7 @@ import type { Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 
 export function takeGroups(
-  { document, library, view }: Pick<Stores, 'document' | 'library' | 'view'>,
+  { document, library, view, playhead }: Pick<Stores, 'document' | 'library' | 'view' | 'playhead'>,
   [group, ...others]: readonly ActionGroup[],
 ): void {
   if (group === undefined) return;
@@ -17,5 +17,6 @@ export function takeGroups(
   );
   others.forEach(library.add);
   const said = words.files.taken(group.name, group.frames.length);
-  view.setState({ selectedFrame: null, playFrom: 0, said });
+  playhead.go(0);
+  view.setState({ selectedFrame: null, said });
 }

@@ -24,6 +24,7 @@ import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
 import { FileSpecimens } from './FileSpecimens.tsx';
 import { LibrarySpecimens } from './LibrarySpecimens.tsx';
+import { PlaySpecimens } from './PlaySpecimens.tsx';
 import { PoseSpecimens } from './PoseSpecimens.tsx';
 import { TimelineSpecimens } from './TimelineSpecimens.tsx';
 import { RobotSpecimens } from './RobotSpecimens.tsx';
@@ -58,6 +59,7 @@ export function Gallery() {
             <RawSpecimens />
             <PadSpecimens />
             <PoseSpecimens />
+            <PlaySpecimens />
             <FileSpecimens newStores={() => storesOf(BLANK)} />
             <LibrarySpecimens />
             <TimelineSpecimens />

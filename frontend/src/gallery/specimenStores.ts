@@ -5,6 +5,7 @@ import { pageClock } from '../connect/page.ts';
 import { createMemoryKeeper } from '../keepers/memoryKeeper.ts';
 import { createBattery } from '../stores/battery.ts';
 import { createBoards } from '../stores/boards.ts';
+import { createCompiled } from '../stores/compiled.ts';
 import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import { createLibrary } from '../stores/library/library.ts';
@@ -12,10 +13,14 @@ import { createLastPoses } from '../stores/lastPoses.ts';
 import { createMacroRun } from '../stores/macroRun.ts';
 import { createMacros } from '../stores/macros.ts';
 import { createMappings } from '../stores/mappings.ts';
+import { createMotionTape } from '../stores/motionTape.ts';
 import { createNotices } from '../stores/notices.ts';
 import { createPad, type Gamepadlike } from '../stores/pad.ts';
+import { createPlayback } from '../stores/playback.ts';
+import { createPlayhead } from '../stores/playhead.ts';
 import { createPoses } from '../stores/poses.ts';
 import { createRobots } from '../stores/robots.ts';
+import { createSlots } from '../stores/slots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createTimeline } from '../stores/timeline.ts';
 import { createView } from '../stores/view.ts';
@@ -28,9 +33,13 @@ export function specimenStores(family: Family, held: Gamepadlike | null = null):
   const device = createDevice({ family, clock: pageClock, notices, robots });
   const poses = createPoses({ storage: NO_STORAGE, notices, robots, device });
   const mappings = createMappings(NO_STORAGE, notices, robots);
-  const readPads = () => [held];
   const document = createDocument(NO_STORAGE, notices);
   const view = createView(NO_STORAGE);
+  const compiled = createCompiled({ document, device, robots, clock: pageClock });
+  const slots = createSlots({ device, robots, notices, storage: NO_STORAGE, today: Date.now });
+  const timeline = createTimeline();
+  const playhead = createPlayhead(timeline);
+  const readPads = () => [held];
   let ids = 0;
   const library = createLibrary({
     ...{ document, storage: NO_STORAGE, notices, robots, view, clock: pageClock },
@@ -42,7 +51,10 @@ export function specimenStores(family: Family, held: Gamepadlike | null = null):
     ...{ notices, robots, device, poses, mappings, document, view, library },
     pad: createPad({ device, robots, mappings, notices, clock: pageClock, readPads }),
     battery: createBattery(device, robots),
-    timeline: createTimeline(),
+    timeline,
+    ...{ compiled, slots, playhead },
+    tape: createMotionTape({ device, robots, clock: pageClock }),
+    playback: createPlayback({ device, document, compiled, slots, notices, view, playhead }),
     boards: createBoards(NO_STORAGE),
     lastPoses: createLastPoses(NO_STORAGE, device),
     macros: createMacros(NO_STORAGE, notices, robots),

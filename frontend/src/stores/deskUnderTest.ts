@@ -2,16 +2,29 @@
 
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
-import { createDevice } from './device.ts';
+import { createCompiled } from './compiled.ts';
+import { createDevice, type Way } from './device.ts';
+import { createDocument } from './document.ts';
 import { createMacroRun } from './macroRun.ts';
 import { createMacros } from './macros.ts';
+import { createMotionTape } from './motionTape.ts';
 import { createNotices } from './notices.ts';
+import { createPlayback } from './playback.ts';
+import { createPlayhead } from './playhead.ts';
 import { createPoses } from './poses.ts';
 import { createRobots } from './robots.ts';
+import { createSlots } from './slots.ts';
+import { createTimeline } from './timeline.ts';
+import { createView } from './view.ts';
+
+const SIMULATED: Way = { kind: 'simulated', label: 'Simulated board', isSimulated: true };
 
 /** `texts` is what the browser kept; two desks with the same texts are two visits. */
-export async function createDesk(texts = new Map<string, string>()) {
-  const rig = await createRig();
+export async function createDesk(
+  texts = new Map<string, string>(),
+  { way = SIMULATED, ...board }: { readonly way?: Way } & Parameters<typeof createRig>[0] = {},
+) {
+  const rig = await createRig(board);
   const { clock } = rig;
   const storage = {
     getItem: (key: string) => texts.get(key) ?? null,
@@ -20,11 +33,27 @@ export async function createDesk(texts = new Map<string, string>()) {
   const notices = createNotices(clock);
   const robots = createRobots(storage, notices);
   const device = createDevice({ family: FAMILIES.doc, clock, notices, robots });
-  device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
+  const document = createDocument(storage, notices);
+  const view = createView(storage);
+  const compiled = createCompiled({ document, device, robots, clock });
+  const slots = createSlots({ device, robots, notices, storage, today: () => clock.now() });
+  const playhead = createPlayhead(createTimeline());
+  const playback = createPlayback({ device, document, compiled, slots, notices, view, playhead });
+  device.attach(rig.session, way);
+  const tape = createMotionTape({ device, robots, clock });
   const poses = createPoses({ storage, notices, robots, device });
   const macros = createMacros(storage, notices, robots);
   const macroRun = createMacroRun({ device, poses, robots, notices, clock });
+  /** Time passes with the page being drawn, as it is in a browser. */
+  async function draw(ms: number): Promise<void> {
+    for (let passed = 0; passed < ms; passed += 20) {
+      await clock.advance(20);
+      device.refreshTargets();
+      playback.frame();
+    }
+  }
   return {
+    ...{ document, view, compiled, slots, playhead, playback, tape, draw },
     ...{ ...rig, texts, notices, robots, device, poses, macros, macroRun },
     book: () => poses.book.store.getState().present,
     told: () => notices.store.getState().map(({ text }) => text),

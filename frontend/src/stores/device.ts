@@ -344,7 +344,10 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     cancelDownload: () => downloading.abort(),
     play(frames, times, settled) {
       const onIt = allowedFrames(frames);
-      if (onIt === null) return settled(false);
+      if (onIt === null) {
+        settled(false);
+        return;
+      }
       attemptRun(async (current) => {
         setPaused(false);
         await current.play(onIt, { times });

@@ -10,6 +10,8 @@ import type { MacroPage } from '#shared/actions/macros/macro.ts';
 import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import type { BatteryState, BatteryStore } from './battery.ts';
 import type { Boards } from './boards.ts';
+import type { CompiledState, CompiledStore } from './compiled.ts';
+import type { MotionTape } from './motionTape.ts';
 import type { Mapping } from '#shared/actions/mapping/mapping.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { Document, DocumentState } from './document.ts';
@@ -19,7 +21,9 @@ import type { Notices } from './notices.ts';
 import { servoViewFor, type ServoView, type Stand } from './servoView.ts';
 import type { Pad, PadState } from './pad.ts';
 import type { MacroRun } from './macroRun.ts';
+import type { Playback, PlaybackState, Playhead } from './playback.ts';
 import type { Poses } from './poses.ts';
+import type { Slots, SlotsState } from './slots.ts';
 import type { Undoable } from './undoable.ts';
 import type { Library, LibraryState } from './library/library.ts';
 import type { Timeline, TimelineState } from './timeline.ts';
@@ -41,6 +45,11 @@ export interface Stores {
   readonly poses: Poses;
   readonly macros: Undoable<MacroPage>;
   readonly macroRun: MacroRun;
+  readonly compiled: CompiledStore;
+  readonly slots: Slots;
+  readonly playhead: Playhead;
+  readonly playback: Playback;
+  readonly tape: MotionTape;
 }
 
 export const StoresContext = createContext<Stores | null>(null);
@@ -117,6 +126,18 @@ export function useMapping(): Mapping {
 
 export function usePad<T>(select: (state: PadState) => T): T {
   return useStore(useStores().pad.store, select);
+}
+
+export function useCompiled<T>(select: (state: CompiledState) => T): T {
+  return useStore(useStores().compiled.store, select);
+}
+
+export function useSlots<T>(select: (state: SlotsState) => T): T {
+  return useStore(useStores().slots.store, select);
+}
+
+export function usePlayback<T>(select: (state: PlaybackState) => T): T {
+  return useStore(useStores().playback.store, select);
 }
 
 export function useView<T>(select: (state: ViewState) => T): T {

@@ -42,8 +42,6 @@ export interface ViewState {
   readonly poseMs: number;
   readonly selectedButton: number | null;
   readonly editsButtons: boolean;
-  /** The frame to play from, as an index: where the last playing was paused. */
-  readonly playFrom: number;
   readonly moveTime: MoveTime;
   readonly slot: number;
   readonly times: number;
@@ -86,7 +84,6 @@ export const INITIAL_VIEW: ViewState = {
   poseMs: GENTLE_MOVE_MS,
   selectedButton: null,
   editsButtons: false,
-  playFrom: 0,
   moveTime: 'hand',
   slot: 0,
   times: 1,

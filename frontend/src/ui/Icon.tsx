@@ -7,6 +7,7 @@ const PATHS = {
   minus: 'M3 8h10',
   close: 'M4 4l8 8M12 4l-8 8',
   play: 'M5 3.5v9l7.5-4.5z',
+  record: 'M8 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z',
   pause: 'M5.5 3.5v9M10.5 3.5v9',
   undo: 'M6 3L3 6l3 3M3 6h6.5a3.5 3.5 0 0 1 0 7H6',
   redo: 'M10 3l3 3-3 3M13 6H6.5a3.5 3.5 0 0 0 0 7H10',

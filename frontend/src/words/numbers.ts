@@ -31,6 +31,11 @@ export function numbersIn({ locale, units, gap }: Locale) {
   const volts = new Intl.NumberFormat(locale, digits(2));
   const tickVolts = new Intl.NumberFormat(locale, digits(1));
   const timeOfDay = new Intl.DateTimeFormat(locale, { hour: '2-digit', minute: '2-digit', hourCycle: 'h23' });
+  const moment = new Intl.DateTimeFormat(locale, {
+    dateStyle: 'medium',
+    timeStyle: 'short',
+    hourCycle: 'h23',
+  });
   const seconds = new Intl.NumberFormat(locale, { style: 'unit', unit: 'second', ...digits(1) });
   const milliseconds = new Intl.NumberFormat(locale, {
     style: 'unit',
@@ -70,6 +75,8 @@ export function numbersIn({ locale, units, gap }: Locale) {
     formatTick: (volts: number): string => tickVolts.format(volts),
     /** `14:05`, from milliseconds since 1970. */
     formatTimeOfDay: (epochMs: number): string => timeOfDay.format(epochMs),
+    /** Day and time, from milliseconds since 1970. */
+    formatMoment: (epochMs: number): string => moment.format(epochMs),
     formatSeconds: (ms: number): string => seconds.format(ms / 1000),
     formatMs: (ms: number): string => milliseconds.format(ms),
 

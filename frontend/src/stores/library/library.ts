@@ -155,7 +155,7 @@ export function createLibrary(options: LibraryOptions): Library {
     opened.show(id, group, () => words.library.steps.elsewhere);
     isShowing = false;
     noted = shown();
-    view.setState({ selectedFrame: null, playFrom: 0 });
+    view.setState({ selectedFrame: null });
     tellKept();
   }
 

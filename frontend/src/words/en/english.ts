@@ -25,11 +25,15 @@ import { libraryWords } from './library.ts';
 import { rangeText } from './refusals.ts';
 import { robotEditorWords } from './robotEditor.ts';
 import { padWords } from './pad.ts';
+import { compileWords } from './compile.ts';
+import { exampleWords, recordWords } from './examples.ts';
 import { macroWords } from './macros.ts';
+import { playWords } from './play.ts';
 import { poseWords } from './poses.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
 import { packetWords, timesWords } from './packets.ts';
+import { slotWords } from './slots.ts';
 import { timelineWords } from './timeline.ts';
 
 export const english = {
@@ -92,6 +96,11 @@ export const english = {
     padDriving: 'Keys and pad, driving',
   },
   pad: padWords,
+  compile: compileWords,
+  play: playWords,
+  slots: slotWords,
+  examples: exampleWords,
+  record: recordWords,
   poses: poseWords,
   files: fileWords,
   timeline: timelineWords,
@@ -245,9 +254,6 @@ export const english = {
     redoStep: (label: string): string => `Redo: ${label}`,
     total: (count: number, ms: number): string =>
       `${formatCount(count)} ${count === 1 ? 'frame' : 'frames'}, ${formatSeconds(ms)}`,
-    play: 'Play',
-    playOn: (number: number): string => `Play from frame ${formatWhole(number)}`,
-    pause: 'Pause',
     steps: {
       capture: 'capture a frame',
       update: (number: number): string => `update frame ${formatWhole(number)}`,
@@ -294,7 +300,7 @@ export const english = {
     erase: 'Erase everything',
     eraseTitle: 'Erase every slot of the board?',
     eraseText: (slots: number): string =>
-      `All ${formatCount(slots)} slots are emptied, with the groups the maker put there. The board cannot be read, so nothing can bring them back. Your frames on this page stay.`,
+      `All ${formatCount(slots)} slots are emptied, with the groups the maker put there. The board cannot be read, so what was not downloaded from this page cannot be brought back. Your frames on this page stay.`,
     eraseConfirm: 'Erase every slot',
     eraseKeep: 'Keep them',
     erased: 'Every slot is empty.',

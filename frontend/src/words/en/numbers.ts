@@ -11,6 +11,7 @@ export const numbers = numbersIn({
 export const {
   formatAge,
   formatCount,
+  formatDegrees,
   formatList,
   formatLongAge,
   formatMs,

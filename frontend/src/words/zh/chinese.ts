@@ -4,7 +4,9 @@ import type { Words } from '../en/english.ts';
 import { batteryWords } from './battery.ts';
 import { boardName } from './boards.ts';
 import { calibrationWords } from './calibration.ts';
+import { compileWords } from './compile.ts';
 import { errorSentence } from './errors.ts';
+import { exampleWords, recordWords } from './examples.ts';
 import { fileWords } from './files.ts';
 import { firstMoveWords } from './firstMoves.ts';
 import { guideWords } from './guides.ts';
@@ -23,11 +25,13 @@ import {
 } from './numbers.ts';
 import { packetWords, timesWords } from './packets.ts';
 import { padWords } from './pad.ts';
+import { playWords } from './play.ts';
 import { poseWords } from './poses.ts';
 import { rangeText } from './refusals.ts';
 import { robotEditorWords } from './robotEditor.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
+import { slotWords } from './slots.ts';
 import { timelineWords } from './timeline.ts';
 
 const UNSURE = '先要弄清这是哪种控制板。';
@@ -90,6 +94,11 @@ export const chinese: Words = {
     padDriving: '键盘和手柄，正在操控',
   },
   pad: padWords,
+  compile: compileWords,
+  play: playWords,
+  slots: slotWords,
+  examples: exampleWords,
+  record: recordWords,
   poses: poseWords,
   files: fileWords,
   timeline: timelineWords,
@@ -233,9 +242,6 @@ export const chinese: Words = {
     undoStep: (label) => `撤销：${label}`,
     redoStep: (label) => `重做：${label}`,
     total: (count, ms) => `${formatCount(count)}帧，${formatSeconds(ms)}`,
-    play: '播放',
-    playOn: (number) => `从第${formatWhole(number)}帧播放`,
-    pause: '暂停',
     steps: {
       capture: '记录一帧',
       update: (number) => `更新第${formatWhole(number)}帧`,
@@ -279,7 +285,7 @@ export const chinese: Words = {
     erase: '全部擦除',
     eraseTitle: '擦除控制板的全部槽位？',
     eraseText: (slots) =>
-      `全部${formatCount(slots)}个槽位都会清空，包括厂商预存的动作组。控制板不能读取，所以无法找回。这个页面上的帧会保留。`,
+      `全部${formatCount(slots)}个槽位都会清空，包括厂商预存的动作组。控制板不能读取，所以不是从这个页面下载的内容无法找回。这个页面上的帧会保留。`,
     eraseConfirm: '擦除全部槽位',
     eraseKeep: '保留',
     erased: '全部槽位已清空。',

@@ -12,6 +12,7 @@ export const numbers: typeof english = numbersIn({
 export const {
   formatAge,
   formatCount,
+  formatDegrees,
   formatList,
   formatLongAge,
   formatMs,

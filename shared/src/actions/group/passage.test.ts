@@ -22,7 +22,7 @@ const FRAMES = [at(200, 1000, 1500), at(400, 2000, 1500), at(600, 1400, 1800)];
 
 describe('a passage', () => {
   test('of the whole group is the group', () => {
-    expect(passageOf(FRAMES, WHOLE)).toEqual({ frames: FRAMES, atMs: [200, 600, 1200] });
+    expect(passageOf(FRAMES, WHOLE)).toEqual({ frames: FRAMES, atMs: [200, 600, 1200], beginMs: 0 });
   });
 
   test('from within leads to the pose there, then goes on', () => {
@@ -48,17 +48,12 @@ describe('a passage', () => {
   });
 
   test('of nothing is nothing', () => {
-    expect(passageOf([], WHOLE)).toEqual({ frames: [], atMs: [] });
+    expect(passageOf([], WHOLE)).toEqual({ frames: [], atMs: [], beginMs: 0 });
   });
 
   test('takes frames that are too long when slowed down in parts', () => {
     const slow = passageOf([at(0, 1000), at(1000, 2000)], { ...WHOLE, speedPercent: 10, longestMs: 3000 });
-    expect(slow.frames.slice(1)).toEqual([
-      at(2500, 1250),
-      at(2500, 1500),
-      at(2500, 1750),
-      at(2500, 2000),
-    ]);
+    expect(slow.frames.slice(1)).toEqual([at(2500, 1250), at(2500, 1500), at(2500, 1750), at(2500, 2000)]);
     expect(slow.atMs).toEqual([0, 250, 500, 750, 1000]);
   });
 
@@ -73,7 +68,8 @@ describe('a passage', () => {
 const straight = (fraction: Partial<Parameters<typeof someGroup>[0]> = {}) =>
   someGroup({ isFull: true, easings: ['linear'], least: 2, ...fraction });
 
-const lengthOf = ({ frames }: ActionGroup): number => frames.reduce((sum, { durationMs }) => sum + durationMs, 0);
+const lengthOf = ({ frames }: ActionGroup): number =>
+  frames.reduce((sum, { durationMs }) => sum + durationMs, 0);
 
 describe('every passage', () => {
   test('takes exactly as long as its part of the group at its speed', () => {
@@ -84,7 +80,12 @@ describe('every passage', () => {
         fc.double({ min: 0, max: 1, noNaN: true }),
         (group, speedPercent, share) => {
           const fromMs = Math.floor(lengthOf(group) * share);
-          const { frames, atMs } = passageOf(group.frames, { ...WHOLE, fromMs, speedPercent, longestMs: 700 });
+          const { frames, atMs } = passageOf(group.frames, {
+            ...WHOLE,
+            fromMs,
+            speedPercent,
+            longestMs: 700,
+          });
           const tookMs = frames.slice(1).reduce((sum, { durationMs }) => sum + durationMs, 0);
           const partMs = (atMs.at(-1) ?? 0) - (atMs[0] ?? 0);
           expect(tookMs).toBe(Math.round((partMs * 100) / speedPercent));
@@ -103,7 +104,12 @@ describe('every passage', () => {
         (group, speedPercent, share) => {
           const tracks = tracksOf(group);
           const fromMs = Math.floor(lengthOf(group) * share);
-          const { frames, atMs } = passageOf(group.frames, { ...WHOLE, fromMs, speedPercent, longestMs: 700 });
+          const { frames, atMs } = passageOf(group.frames, {
+            ...WHOLE,
+            fromMs,
+            speedPercent,
+            longestMs: 700,
+          });
           for (const [index, { targets }] of frames.entries()) {
             for (const { servo, position } of targets) {
               const there = positionAt(tracks.get(servo)!, atMs[index]!);

@@ -23,6 +23,8 @@ export interface Passage {
   readonly frames: readonly Frame[];
   /** Where in the group one is when each of them is done. */
   readonly atMs: readonly number[];
+  /** Where one is when the first of them begins, when it is repeated. */
+  readonly beginMs: number;
 }
 
 /** The way back to where a part of a group begins; one from the group's beginning has a first frame that says how long. */
@@ -43,7 +45,7 @@ export function passageOf(frames: readonly Frame[], options: PassageOptions): Pa
   const fromMs = options.fromMs < toMs ? Math.max(0, options.fromMs) : 0;
   const first = steps.findIndex(({ endMs }) => endMs > fromMs);
   const step = steps[Math.max(0, first)];
-  if (step === undefined) return { frames: [], atMs: [] };
+  if (step === undefined) return { frames: [], atMs: [], beginMs: 0 };
   const pace = 100 / options.speedPercent;
   // Before the first frame is done nobody knows where its servos come from.
   const isWhole = first <= 0;
@@ -58,6 +60,7 @@ export function passageOf(frames: readonly Frame[], options: PassageOptions): Pa
   return {
     frames: [lead, ...parts.map(({ frame }) => frame)],
     atMs: [startMs, ...parts.map(({ endMs }) => endMs)],
+    beginMs: isWhole ? 0 : startMs,
   };
 }
 

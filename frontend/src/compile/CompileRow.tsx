@@ -1,0 +1,93 @@
+// What the group becomes on the board: whether it fits, what it costs, how far off it is and where, and what does not fit. A click
+// on a place goes there.
+
+import { select } from '../stores/servoView.ts';
+import { obstacles } from '../stores/compiled.ts';
+import { editServoView, useCompiled, useDevice, useStores } from '../stores/stores.ts';
+import { Chip } from '../ui/Chip.tsx';
+import { NumberField } from '../ui/NumberField.tsx';
+import { words } from '../words/words.ts';
+import { Problems } from './Problems.tsx';
+import styles from './CompileRow.module.css';
+
+export function CompileRow() {
+  const { latest, isFresh } = useCompiled((state) => state);
+  const { report, source } = latest;
+  const isEmpty = source.group.frames.length === 0;
+  const fits = obstacles(report, 'board').length === 0;
+  return (
+    <div className={styles.row} aria-busy={!isFresh}>
+      <ErrorField />
+      <div className={styles.report}>
+        {isEmpty ? (
+          <p className={styles.dim}>{words.compile.empty}</p>
+        ) : (
+          <>
+            <p className={styles.figures}>
+              <Chip truth={!isFresh ? 'neutral' : fits ? 'confirmed' : 'danger'}>
+                {!isFresh ? words.compile.stale : fits ? words.compile.fits : words.compile.fitsNot}
+              </Chip>
+              <span>{words.compile.frames(report.frameCount, report.frameLimit)}</span>
+              {report.downloadMs !== null && (
+                <>
+                  <span>{words.compile.bytes(report.bytes)}</span>
+                  <span>{words.compile.download(report.downloadMs)}</span>
+                </>
+              )}
+            </p>
+            <Worst />
+            <Problems />
+          </>
+        )}
+      </div>
+    </div>
+  );
+}
+
+/** The largest error that may be: how many frames it takes depends on it. */
+function ErrorField() {
+  const { compiled, notices } = useStores();
+  const unit = useDevice((state) => state.family.unit);
+  const value = useCompiled((state) => state.maxErrorUnits[unit]);
+  return (
+    <div className={styles.field} role="group" aria-label={words.compile.label}>
+      <span className={styles.dim} aria-hidden="true">
+        {words.compile.error}
+      </span>
+      <NumberField
+        label={words.compile.errorField}
+        value={value}
+        min={1}
+        max={MOST_UNITS}
+        unit={words.numbers.unitSymbol(unit)}
+        onChange={(units) => compiled.setMaxError(units)}
+        onRefused={(units) =>
+          notices.tell('warning', words.refused(words.compile.errorField, units, 1, MOST_UNITS))
+        }
+      />
+    </div>
+  );
+}
+
+/** More than that is another motion. */
+const MOST_UNITS = 200;
+
+function Worst() {
+  const stores = useStores();
+  const { worst, shiftedMs } = useCompiled((state) => state.latest.report);
+  const unit = useCompiled((state) => state.latest.source.group.unit);
+  if (worst === null) return <p className={styles.dim}>{words.compile.exact}</p>;
+  const { servo, atMs, units, degrees } = worst;
+  const go = (): void => {
+    stores.playhead.go(Math.round(atMs));
+    editServoView(stores, (view) => select(view, [servo]));
+  };
+  return (
+    <p className={styles.figures}>
+      <button type="button" className={styles.place} onClick={go}>
+        {words.compile.worst(units, unit, degrees, servo, atMs)}
+      </button>
+      {shiftedMs > 0 && <span>{words.compile.shifted(Math.ceil(shiftedMs))}</span>}
+    </p>
+  );
+}

@@ -1,0 +1,97 @@
+// What a group becomes on the board, how it is played, and the board's slots, in their states, fed by plain values.
+
+import { useState, type ReactNode } from 'react';
+import { insertFrame, type NewFrame } from '#shared/actions/group/groupEdits.ts';
+import { EMPTY_SLOT_BOOK, withStored } from '#shared/actions/slots/slotBook.ts';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { INITIAL_STATE } from '#shared/session/store.ts';
+import { BoardPanel } from '../board/BoardPanel.tsx';
+import { PlayBar } from '../play/PlayBar.tsx';
+import { SlotBoard } from '../slots/SlotsControl.tsx';
+import { StoresContext, type Stores } from '../stores/stores.ts';
+import { frozenSession } from './frozen.ts';
+import styles from './Gallery.module.css';
+import { specimenStores } from './specimenStores.ts';
+
+const frame = (durationMs: number, position: number, easing: 'linear' | 'inOut' = 'linear'): NewFrame => ({
+  ...{ durationMs, easing },
+  targets: [1, 2, 3].map((servo) => ({ servo, position: position + 100 * servo })),
+});
+
+function write({ document, compiled }: Stores, ...frames: readonly NewFrame[]): void {
+  document.edit(
+    () => 'write',
+    (group) =>
+      frames.reduce((sum, each) => insertFrame(sum, sum.frames.length, each), { ...group, name: 'Wave' }),
+  );
+  compiled.now();
+}
+
+function fill(stores: Stores): void {
+  write(stores, frame(400, 900), frame(900, 1900));
+  const { frames, fingerprint } = stores.compiled.now();
+  const stored = { name: 'Wave', frames, fingerprint, storedAtMs: 1_790_000_000_000 };
+  const book = [
+    { ...stored, slot: 0, fingerprint: 'c0ffee00' },
+    { ...stored, slot: 1 },
+    { ...stored, slot: 8, name: 'Bow', fingerprint: 'beef0000' },
+  ].reduce(withStored, EMPTY_SLOT_BOOK);
+  stores.slots.store.setState({ book: { ...book, erased: [{ ...stored, slot: 100, name: 'Dance' }] } });
+}
+
+const CASES: readonly { readonly name: string; readonly panel: ReactNode; prepare(stores: Stores): void }[] =
+  [
+    {
+      name: 'On the board, off by a little',
+      panel: <BoardPanel />,
+      prepare: (stores) => write(stores, frame(400, 900), frame(900, 1900, 'inOut')),
+    },
+    {
+      name: 'On the board, does not fit',
+      panel: <BoardPanel />,
+      prepare: (stores) => write(stores, frame(400, 300), frame(5, 1900), frame(20, 700)),
+    },
+    {
+      name: 'Going to the first pose',
+      panel: <PlayBar />,
+      prepare: ({ playback }) => playback.store.setState({ phase: 'leading' }),
+    },
+    {
+      name: 'The board gets the group first',
+      panel: <PlayBar />,
+      prepare: ({ playback }) => playback.store.setState({ phase: 'storing' }),
+    },
+    {
+      name: 'Ready to play from within',
+      panel: <PlayBar />,
+      prepare(stores) {
+        fill(stores);
+        stores.playhead.go(700);
+      },
+    },
+    { name: 'Slots', panel: <SlotBoard />, prepare: fill },
+  ];
+
+export function PlaySpecimens() {
+  return CASES.map((each) => <Shown key={each.name} {...each} />);
+}
+
+function Shown({ name, panel, prepare }: (typeof CASES)[number]) {
+  const [stores] = useState(() => {
+    const made = specimenStores(FAMILIES.doc);
+    const ready = { ...INITIAL_STATE, link: { status: 'ready' } as const };
+    made.device.attach(frozenSession(FAMILIES.doc, ready, {}), {
+      ...{ kind: 'webSerial', label: 'USB', isSimulated: false },
+    });
+    prepare(made);
+    return made;
+  });
+  return (
+    <StoresContext value={stores}>
+      <article className={styles.specimen} aria-label={name}>
+        <h2 className={styles.name}>{name}</h2>
+        {panel}
+      </article>
+    </StoresContext>
+  );
+}

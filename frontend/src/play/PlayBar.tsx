@@ -1,0 +1,159 @@
+// Playing the group: from the page, from where the playhead is, or by the board itself, which gets it first where it has not just
+// this. What goes on is said in a line that is always there.
+
+import { fateOf } from '#shared/actions/slots/slotBook.ts';
+import { totalDurationMs } from '#shared/actions/group/group.ts';
+import { SPEED_PERCENT, type PlaybackPhase } from '../stores/playback.ts';
+import { motionHindrance, startHindrance } from '../stores/readiness.ts';
+import {
+  useCompiled,
+  useDevice,
+  useGroup,
+  usePlayback,
+  useSlots,
+  useSnapshot,
+  useStores,
+  useTimeline,
+  useView,
+} from '../stores/stores.ts';
+import { Button, IconButton } from '../ui/Button.tsx';
+import { NumberField } from '../ui/NumberField.tsx';
+import { Toggle } from '../ui/Toggle.tsx';
+import { words } from '../words/words.ts';
+import styles from './PlayBar.module.css';
+
+export function PlayBar() {
+  const phase = usePlayback((state) => state.phase);
+  const { playback } = useStores();
+  const mayPlay = useMayPlay();
+  const isIdle = phase === null;
+  return (
+    <div className={styles.bar} role="group" aria-label={words.play.tools}>
+      <IconButton
+        icon="earlier"
+        label={words.play.back}
+        isDisabled={!mayPlay}
+        onPress={() => playback.step(-1)}
+      />
+      {phase === null ? <PlayButton /> : <EndButton phase={phase} />}
+      <IconButton
+        icon="later"
+        label={words.play.forth}
+        isDisabled={!mayPlay}
+        onPress={() => playback.step(1)}
+      />
+      <Settings isDisabled={!isIdle} />
+      <RunOnBoard isDisabled={!mayPlay || !isIdle} />
+      <Phase phase={phase} />
+    </div>
+  );
+}
+
+/** Something of the group can be sent now. */
+function useMayPlay(): boolean {
+  const group = useGroup();
+  const isFree = useSnapshot((snapshot) => startHindrance(snapshot) === null);
+  const isSameUnit = useDevice((state) => state.family.unit === group.unit);
+  return isFree && isSameUnit && group.frames.length > 0;
+}
+
+function PlayButton() {
+  const { playback } = useStores();
+  const mayPlay = useMayPlay();
+  const lengthMs = totalDurationMs(useGroup().frames);
+  const atMs = useTimeline((state) => state.playheadMs);
+  const loops = usePlayback((state) => state.loops);
+  const isWithin = atMs > 0 && atMs < lengthMs && !loops;
+  return (
+    <Button icon="play" isDisabled={!mayPlay} onPress={() => playback.play()}>
+      {isWithin ? words.play.playFrom(atMs) : words.play.play}
+    </Button>
+  );
+}
+
+function EndButton({ phase }: { readonly phase: PlaybackPhase }) {
+  const { playback } = useStores();
+  const label = {
+    leading: words.play.pause,
+    playing: words.play.pause,
+    storing: words.play.cancel,
+    running: words.play.end,
+  }[phase];
+  return (
+    <Button
+      icon={phase === 'running' || phase === 'storing' ? 'end' : 'pause'}
+      onPress={() => playback.pause()}
+    >
+      {label}
+    </Button>
+  );
+}
+
+function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
+  const { playback, notices } = useStores();
+  const { speedPercent, loops, isLive } = usePlayback((state) => state);
+  const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
+  const { min, max } = SPEED_PERCENT;
+  return (
+    <div className={styles.settings}>
+      <Toggle
+        label={words.play.loop}
+        isOn={loops}
+        isDisabled={isDisabled}
+        onChange={(isOn) => playback.set({ loops: isOn })}
+      />
+      <NumberField
+        label={words.play.speedField}
+        value={speedPercent}
+        min={min}
+        max={max}
+        step={10}
+        unit={words.play.percent}
+        size="small"
+        isDisabled={isDisabled}
+        onChange={(percent) => playback.set({ speedPercent: percent })}
+        onRefused={(percent) =>
+          notices.tell('warning', words.refused(words.play.speedField, percent, min, max))
+        }
+      />
+      <Toggle
+        label={words.play.live}
+        isOn={isLive}
+        isDisabled={isDisabled || !mayMove}
+        onChange={(isOn) => playback.set({ isLive: isOn })}
+      />
+    </div>
+  );
+}
+
+function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
+  const { playback } = useStores();
+  const commands = useDevice((state) => state.family.commands);
+  const hint = useBoardHint();
+  if (!commands.includes('run') || !commands.includes('download')) return null;
+  return (
+    <Button icon="board" hint={hint} isDisabled={isDisabled} onPress={() => playback.runOnBoard()}>
+      {words.play.onBoard}
+    </Button>
+  );
+}
+
+/** Whether it downloads first is said before. */
+function useBoardHint(): string {
+  const slot = useView((state) => state.slot);
+  const book = useSlots((state) => state.book);
+  const broken = useSnapshot((snapshot) => snapshot.brokenSlots);
+  const { fingerprint, source } = useCompiled((state) => state.latest);
+  const fate = fateOf(book, broken, slot, { name: source.group.name, fingerprint });
+  return fate === 'same' ? words.play.onBoardHint(slot) : words.play.onBoardDownloads(slot, fate === 'older');
+}
+
+function Phase({ phase }: { readonly phase: PlaybackPhase | null }) {
+  const speedPercent = usePlayback((state) => state.speedPercent);
+  const { playing, ...others } = words.play.phase;
+  return (
+    <p className={styles.phase} role="status">
+      {phase === null ? '' : phase === 'playing' ? playing(speedPercent / 100) : others[phase]}
+    </p>
+  );
+}

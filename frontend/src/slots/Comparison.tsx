@@ -1,0 +1,31 @@
+// How the copy on the board differs from the group at hand, as the board would get it now.
+
+import { compareFrames } from '#shared/actions/slots/compareFrames.ts';
+import type { SlotRecord } from '#shared/actions/slots/slotBook.ts';
+import { useCompiled } from '../stores/stores.ts';
+import { words } from '../words/words.ts';
+import styles from './Slots.module.css';
+
+const SHOWN = 8;
+
+export function Comparison({ record }: { readonly record: SlotRecord }) {
+  const frames = useCompiled((state) => state.latest.frames);
+  const { isSame, frameCounts, durationsMs, firstDifferent, servos } = compareFrames(record.frames, frames);
+  return (
+    <div className={styles.comparison} role="status">
+      {isSame ? (
+        <p>{words.slots.same}</p>
+      ) : (
+        <>
+          <p>{words.slots.lengths(frameCounts, durationsMs)}</p>
+          {firstDifferent !== null && <p>{words.slots.firstDifferent(firstDifferent + 1)}</p>}
+          <ul>
+            {servos.slice(0, SHOWN).map(({ servo, positions: [onBoard, here] }) => (
+              <li key={servo}>{words.slots.differs(servo, onBoard, here)}</li>
+            ))}
+          </ul>
+        </>
+      )}
+    </div>
+  );
+}

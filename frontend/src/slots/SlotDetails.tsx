@@ -1,0 +1,94 @@
+// The chosen slot: what it holds and since when, what plays it, how it differs from the group at hand, and what can be done with it.
+
+import { useState } from 'react';
+import { totalDurationMs } from '#shared/actions/group/group.ts';
+import { recordOf } from '#shared/actions/slots/slotBook.ts';
+import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
+import { DownloadControl } from '../board/DownloadControl.tsx';
+import { motionHindrance, startHindrance } from '../stores/readiness.ts';
+import { useDevice, useSlots, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { Chip } from '../ui/Chip.tsx';
+import { words } from '../words/words.ts';
+import { Comparison } from './Comparison.tsx';
+import { FATE_TRUTH } from './SlotMap.tsx';
+import { useFates } from './useFates.ts';
+import styles from './Slots.module.css';
+
+const VERSION_LENGTH = 6;
+
+export function SlotDetails() {
+  const slot = useView((state) => state.slot);
+  const { id, commands } = useDevice((state) => state.family);
+  const record = useSlots((state) => recordOf(state.book, slot));
+  const fate = useFates()(slot);
+  const trigger = slotTrigger(id, slot);
+  return (
+    <section className={styles.details} aria-label={words.slots.name(slot)}>
+      <h3>{words.slots.name(slot)}</h3>
+      <Chip truth={FATE_TRUTH[fate]}>{words.slots.badge[fate]}</Chip>
+      <p>{words.slots.about(fate)}</p>
+      {record !== undefined && (
+        <p className={styles.dim}>
+          {words.slots.stored(
+            record.name,
+            words.numbers.formatMoment(record.storedAtMs),
+            record.frames.length,
+            totalDurationMs(record.frames),
+            record.fingerprint.slice(0, VERSION_LENGTH),
+          )}
+        </p>
+      )}
+      {trigger !== null && <p className={styles.warning}>{words.slots.trigger(trigger)}</p>}
+      <Verbs />
+      {commands.includes('download') && <DownloadControl />}
+      <Restore />
+    </section>
+  );
+}
+
+function Verbs() {
+  const { device } = useStores();
+  const slot = useView((state) => state.slot);
+  const record = useSlots((state) => recordOf(state.book, slot));
+  const [compared, setCompared] = useState<number | null>(null);
+  const canRun = useDevice((state) => state.family.commands.includes('run'));
+  const mayRun = useSnapshot(
+    (snapshot) =>
+      motionHindrance(snapshot) === null &&
+      snapshot.activity.kind !== 'playing' &&
+      !snapshot.brokenSlots.includes(slot),
+  );
+  return (
+    <>
+      <div className={styles.verbs}>
+        {canRun && (
+          <Button icon="play" isDisabled={!mayRun} onPress={() => device.run(slot, 1)}>
+            {words.slots.run}
+          </Button>
+        )}
+        <Button isDisabled={record === undefined} onPress={() => setCompared(slot)}>
+          {words.slots.compare}
+        </Button>
+      </div>
+      {compared === slot && record !== undefined && <Comparison record={record} />}
+    </>
+  );
+}
+
+function Restore() {
+  const { slots } = useStores();
+  const { erased } = useSlots((state) => state.book);
+  const mayStart = useSnapshot((snapshot) => startHindrance(snapshot) === null);
+  if (erased.length === 0) return null;
+  return (
+    <Button
+      icon="undo"
+      hint={words.slots.restoreHint}
+      isDisabled={!mayStart}
+      onPress={() => slots.restoreAll()}
+    >
+      {words.slots.restoreAll(erased.length)}
+    </Button>
+  );
+}

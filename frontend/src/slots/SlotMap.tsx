@@ -1,0 +1,76 @@
+// All slots of the board as a grid with one tab stop: what each holds as a mark, what plays it as a word. The chosen one is the
+// slot that Download and Run mean.
+
+import { useEffect, useRef, type KeyboardEvent } from 'react';
+import { recordOf, type SlotFate } from '#shared/actions/slots/slotBook.ts';
+import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
+import { useDevice, useSlots, useStores, useView } from '../stores/stores.ts';
+import { Mark, type Truth } from '../ui/Chip.tsx';
+import { cx } from '../ui/cx.ts';
+import { words } from '../words/words.ts';
+import { slotAfterKey } from './slotKeys.ts';
+import { useFates } from './useFates.ts';
+import styles from './Slots.module.css';
+
+export function SlotMap() {
+  const { view } = useStores();
+  const { slot: range, id } = useDevice((state) => state.family);
+  const chosen = useView((state) => state.slot);
+  const book = useSlots((state) => state.book);
+  const fateOf = useFates();
+  const grid = useRef<HTMLDivElement>(null);
+  const wantsFocus = useRef(false);
+  const slots = Array.from({ length: range.max - range.min + 1 }, (_, index) => range.min + index);
+
+  useEffect(() => {
+    if (wantsFocus.current) grid.current?.querySelector<HTMLElement>('[tabindex="0"]')?.focus();
+    wantsFocus.current = false;
+  }, [chosen]);
+
+  const key = (event: KeyboardEvent): void => {
+    const next = slotAfterKey(event.key, chosen, { ...range, columns: columnsOf(grid.current) });
+    if (next === null) return;
+    event.preventDefault();
+    wantsFocus.current = true;
+    view.setState({ slot: next });
+  };
+
+  return (
+    <div ref={grid} className={styles.map} role="listbox" aria-label={words.slots.map} onKeyDown={key}>
+      {slots.map((slot) => {
+        const fate = fateOf(slot);
+        const trigger = slotTrigger(id, slot);
+        const name = recordOf(book, slot)?.name;
+        return (
+          <button
+            key={slot}
+            type="button"
+            role="option"
+            className={cx(styles.cell, fate !== 'unknown' && fate !== 'empty' && styles.full)}
+            aria-selected={slot === chosen}
+            tabIndex={slot === chosen ? 0 : -1}
+            aria-label={words.slots.cell(slot, fate, name)}
+            onClick={() => view.setState({ slot })}
+          >
+            <span className={styles.number}>{words.numbers.formatWhole(slot)}</span>
+            {fate !== 'unknown' && <Mark truth={FATE_TRUTH[fate]} />}
+            <span className={styles.held}>{name ?? (trigger && words.slots.triggerShort(trigger))}</span>
+          </button>
+        );
+      })}
+    </div>
+  );
+}
+
+/** A narrow window has fewer. */
+const columnsOf = (grid: HTMLElement | null): number =>
+  grid === null ? 1 : getComputedStyle(grid).gridTemplateColumns.split(' ').length;
+
+export const FATE_TRUTH: Readonly<Record<SlotFate, Truth>> = {
+  broken: 'danger',
+  same: 'confirmed',
+  older: 'warning',
+  other: 'commanded',
+  empty: 'neutral',
+  unknown: 'unknown',
+};

@@ -1,0 +1,135 @@
+// The group at hand as the board would get it, with what does not fit: worked out when nobody is in the middle of a gesture, or at
+// once for whoever is about to send it. Moves nothing.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import { compile, type Compiled } from '#shared/actions/group/compile.ts';
+import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { onBoard, type Robot } from '#shared/actions/robot/robot.ts';
+import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
+import type { Clock } from '#shared/clock.ts';
+import type { Frame } from '#shared/protocol/commands.ts';
+import type { Family } from '#shared/protocol/families.ts';
+import type { Device } from './device.ts';
+import type { Document } from './document.ts';
+import type { RobotStore } from './robots.ts';
+
+interface Source {
+  readonly group: ActionGroup;
+  readonly family: Family;
+  readonly robot: Robot;
+  readonly maxErrorUnits: number;
+}
+
+export interface CompiledGroup extends Compiled {
+  readonly source: Source;
+  /** Of the frames as the board gets them, with trims. */
+  readonly fingerprint: string;
+}
+
+export interface CompiledState {
+  readonly maxErrorUnits: Readonly<Record<Family['unit'], number>>;
+  readonly latest: CompiledGroup;
+  /** False while the group is being changed: the latest is of an earlier one. */
+  readonly isFresh: boolean;
+}
+
+export interface CompiledStore {
+  readonly store: StoreApi<CompiledState>;
+  /** Of the group as it is now. */
+  now(): CompiledGroup;
+  setMaxError(units: number): void;
+}
+
+/** As good as nobody can see: half a degree. */
+const USUAL_ERROR = { us: 5, steps: 2 } as const;
+/** After the last change: a typing hand is faster. */
+const QUIET_MS = 250;
+
+export interface CompiledOptions {
+  readonly document: Document;
+  readonly device: Device;
+  readonly robots: RobotStore;
+  readonly clock: Clock;
+}
+
+export function createCompiled({ document, device, robots, clock }: CompiledOptions): CompiledStore {
+  let cancelTimer = (): void => undefined;
+  const maxErrorUnits: CompiledState['maxErrorUnits'] = USUAL_ERROR;
+
+  const sourceNow = (errors: CompiledState['maxErrorUnits']): Source => {
+    const { family } = device.store.getState();
+    const { present: group } = document.store.getState();
+    return { group, family, robot: robots.current().robot, maxErrorUnits: errors[family.unit] };
+  };
+  const store = createStore<CompiledState>(() => ({
+    maxErrorUnits,
+    latest: compiled(sourceNow(maxErrorUnits)),
+    isFresh: true,
+  }));
+
+  const isLatest = (source: Source): boolean => {
+    const { latest } = store.getState();
+    return (Object.keys(source) as (keyof Source)[]).every((key) => source[key] === latest.source[key]);
+  };
+
+  function now(): CompiledGroup {
+    cancelTimer();
+    const source = sourceNow(store.getState().maxErrorUnits);
+    if (!isLatest(source)) store.setState({ latest: compiled(source), isFresh: true });
+    else if (!store.getState().isFresh) store.setState({ isFresh: true });
+    return store.getState().latest;
+  }
+
+  function touched(): void {
+    const isFresh = isLatest(sourceNow(store.getState().maxErrorUnits));
+    if (isFresh && store.getState().isFresh) return;
+    cancelTimer();
+    store.setState({ isFresh });
+    if (!isFresh && document.store.getState().gesture === null) cancelTimer = clock.after(QUIET_MS, now);
+  }
+
+  document.store.subscribe(touched);
+  robots.store.subscribe(touched);
+  device.store.subscribe(({ family }, before) => {
+    if (family !== before.family) touched();
+  });
+
+  return {
+    store,
+    now,
+    setMaxError(units) {
+      const { family } = device.store.getState();
+      store.setState((state) => ({ maxErrorUnits: { ...state.maxErrorUnits, [family.unit]: units } }));
+      touched();
+    },
+  };
+}
+
+function compiled(source: Source): CompiledGroup {
+  const { group, family, robot, maxErrorUnits } = source;
+  const { frames, report } = compile(group, { family, robot, maxErrorUnits });
+  return { source, frames, report, fingerprint: boardFingerprint(robot, frames) };
+}
+
+/** Another trim makes another motion of the same frames. */
+export function boardFingerprint(robot: Robot, frames: readonly Frame[]): string {
+  return fingerprintOf(
+    frames.map(({ durationMs, targets }) => ({ durationMs, targets: onBoard(robot, targets) })),
+  );
+}
+
+/** What the person hears of and may take: the servo comes later than it is told. */
+const REMARKS: readonly CompileProblem['kind'][] = ['tooFast'];
+/** The page sends as much as there is, in as many packets as it takes. */
+const BOARD_ONLY: readonly CompileProblem['kind'][] = ['tooManyFrames', 'tooManyServos'];
+
+/** What keeps the group from being played: from the page, or by the board. */
+export function obstacles(
+  { problems }: CompiledGroup['report'],
+  by: 'page' | 'board',
+): readonly CompileProblem[] {
+  return problems.filter(
+    ({ kind }) => !REMARKS.includes(kind) && (by === 'board' || !BOARD_ONLY.includes(kind)),
+  );
+}

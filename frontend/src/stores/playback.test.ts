@@ -1,0 +1,237 @@
+import { describe, expect, test } from 'vitest';
+import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
+import { insertFrame, type NewFrame } from '#shared/actions/group/groupEdits.ts';
+import { positionAt, tracksOf } from '#shared/actions/group/tracks.ts';
+import { words } from '../words/words.ts';
+import { createDesk } from './deskUnderTest.ts';
+
+const frame = (durationMs: number, position: number, more: Partial<NewFrame> = {}): NewFrame => ({
+  durationMs,
+  targets: [{ servo: 1, position }],
+  ...more,
+});
+
+const groupOf = (...frames: readonly NewFrame[]): ActionGroup =>
+  frames.reduce((group, each) => insertFrame(group, group.frames.length, each), emptyGroup('Wave', 'us'));
+
+const WAVE = groupOf(frame(400, 1000), frame(400, 1600), frame(600, 1300));
+
+async function deskWith(group: ActionGroup) {
+  const desk = await createDesk();
+  desk.document.edit(
+    () => 'write',
+    () => group,
+  );
+  const phase = () => desk.playback.store.getState().phase;
+  const activity = () => desk.device.store.getState().snapshot.activity;
+  return { ...desk, phase, activity };
+}
+
+describe('playing from the page', () => {
+  test('goes gently to the first pose, says so, and then moves as written; the playhead goes along', async () => {
+    const { playback, playhead, phase, draw, moves } = await deskWith(WAVE);
+    playback.play();
+    await draw(100);
+    expect(phase()).toBe('leading');
+    expect(playhead.at()).toBe(400);
+    await draw(1500);
+    expect(phase()).toBe('playing');
+    expect(playhead.at()).toBeGreaterThan(440);
+    expect(playhead.at()).toBeLessThan(520);
+    await draw(1200);
+    expect(phase()).toBeNull();
+    expect(playhead.at()).toBe(1400);
+    expect(moves().map(({ durationMs, targets }) => [durationMs, targets[0]?.position])).toEqual([
+      [1500, 1000],
+      [400, 1600],
+      [600, 1300],
+    ]);
+  });
+
+  test('begins where the playhead is, and goes on from there after a pause', async () => {
+    const { playback, playhead, draw, moves } = await deskWith(WAVE);
+    playhead.go(600);
+    playback.play();
+    await draw(1600);
+    playback.pause();
+    await draw(200);
+    expect(moves().map(({ targets }) => targets[0]?.position)).toEqual([1300, 1600]);
+    const pausedAt = playhead.at();
+    expect(pausedAt).toBeGreaterThan(640);
+    expect(pausedAt).toBeLessThan(760);
+    await draw(1000);
+    expect(playhead.at()).toBe(pausedAt);
+    playback.play();
+    await draw(3000);
+    expect(playhead.at()).toBe(1400);
+  });
+
+  test.each([50, 200])(
+    'at %i percent each frame takes that much longer or shorter, to the millisecond',
+    async (speedPercent) => {
+      const { playback, draw, heard } = await deskWith(WAVE);
+      playback.set({ speedPercent });
+      playback.play();
+      await draw(6000);
+      const [, second, third] = heard.map(({ atMs }) => atMs);
+      expect((third ?? 0) - (second ?? 0)).toBeCloseTo(40_000 / speedPercent, 6);
+    },
+  );
+
+  test('in a loop it goes on until it is paused, without drift', async () => {
+    const { playback, draw, heard, phase } = await deskWith(WAVE);
+    playback.set({ loops: true });
+    playback.play();
+    await draw(1500 + 1000 + 1400 * 20 + 40);
+    expect(phase()).toBe('playing');
+    const arrivals = heard.map(({ atMs }) => atMs);
+    const passes = arrivals.filter((_, index) => index % 3 === 0).slice(1);
+    const lengths = passes.slice(1).map((atMs, index) => atMs - (passes[index] ?? 0));
+    for (const length of lengths) expect(length).toBeCloseTo(1400, 6);
+    playback.pause();
+    await draw(100);
+    expect(phase()).toBeNull();
+  });
+
+  test('sends what compile says: an eased way is as near as the bound', async () => {
+    const group = groupOf(frame(400, 1000), frame(1200, 2000, { easing: 'inOut' }));
+    const { playback, draw, transport, compiled, clock, heard } = await deskWith(group);
+    compiled.setMaxError(8);
+    playback.play();
+    await draw(1520);
+    const [track] = tracksOf(group).values();
+    const begunMs = heard[1]?.atMs ?? 0;
+    for (let passed = 0; passed < 1150; passed += 20) {
+      const wanted = positionAt(track!, 400 + clock.now() - begunMs) ?? NaN;
+      // The bound, and what the servo does in the board's tick.
+      expect(Math.abs(transport.board.pulse(1) - wanted)).toBeLessThanOrEqual(8 + 35);
+      await draw(20);
+    }
+    expect(compiled.now().frames.length).toBeGreaterThan(4);
+  });
+
+  test('a hidden page and STOP end it', async () => {
+    for (const end of ['hidden', 'halt'] as const) {
+      const { playback, device, draw, phase, activity } = await deskWith(WAVE);
+      playback.set({ loops: true });
+      playback.play();
+      await draw(1800);
+      if (end === 'hidden') playback.hidden();
+      else device.halt();
+      await draw(300);
+      expect(phase()).toBeNull();
+      expect(activity()).toEqual({ kind: 'idle' });
+    }
+  });
+
+  test('what does not fit the robot is not begun, and the person is told which', async () => {
+    const { playback, told, draw, heard } = await deskWith(groupOf(frame(400, 1000), frame(400, 2600)));
+    playback.play();
+    await draw(500);
+    expect(heard).toEqual([]);
+    expect(told()[0]).toContain('Servo 1 in frame 2: 2600 is out of range');
+  });
+
+  test('a step goes to the next frame and back', async () => {
+    const { playback, playhead, draw, moves } = await deskWith(WAVE);
+    playback.step(1);
+    await draw(2000);
+    expect(playhead.at()).toBe(400);
+    playback.step(1);
+    await draw(1000);
+    playback.step(-1);
+    await draw(1000);
+    expect(playhead.at()).toBe(400);
+    expect(moves().map(({ durationMs, targets }) => [durationMs, targets[0]?.position])).toEqual([
+      [1500, 1000],
+      [400, 1600],
+      [400, 1000],
+    ]);
+  });
+});
+
+describe('the robot that follows', () => {
+  test('goes gently to the pose at the playhead, then along with it and with each edit', async () => {
+    const { playback, playhead, document, draw, moves, transport } = await deskWith(WAVE);
+    playhead.go(400);
+    playback.set({ isLive: true });
+    await draw(1700);
+    expect(moves()[0]).toMatchObject({ durationMs: 1500, targets: [{ servo: 1, position: 1000 }] });
+    playhead.go(800);
+    await draw(700);
+    expect(transport.board.target(1)).toBe(1600);
+    document.edit(
+      () => 'change',
+      () => groupOf(frame(400, 1000), frame(400, 1700)),
+    );
+    await draw(500);
+    expect(transport.board.target(1)).toBe(1700);
+    document.undo();
+    await draw(500);
+    expect(transport.board.target(1)).toBe(1600);
+  });
+
+  test('moves nothing once STOP was pressed, and not again after Resume', async () => {
+    const { playback, playhead, device, draw, moves } = await deskWith(WAVE);
+    playback.set({ isLive: true });
+    playhead.go(400);
+    await draw(1700);
+    device.halt();
+    await draw(500);
+    const before = moves().length;
+    device.resume();
+    await draw(100);
+    playhead.go(800);
+    await draw(500);
+    expect(moves().length).toBe(before);
+    expect(playback.store.getState().isLive).toBe(false);
+  });
+});
+
+describe('playing on the board', () => {
+  test('downloads first where the board has not just this, then runs; the playhead follows the clock', async () => {
+    const { playback, playhead, phase, draw, ofKind } = await deskWith(WAVE);
+    playback.runOnBoard();
+    await draw(40);
+    expect(phase()).toBe('storing');
+    await draw(600);
+    expect(phase()).toBe('running');
+    expect(ofKind('download').length).toBe(3);
+    expect(ofKind('run')).toEqual([{ kind: 'run', slot: 0, times: 1 }]);
+    await draw(400);
+    expect(playhead.at()).toBeGreaterThan(200);
+    await draw(1600);
+    expect(phase()).toBeNull();
+    expect(playhead.at()).toBe(1400);
+
+    playback.runOnBoard();
+    await draw(100);
+    expect(ofKind('download').length).toBe(3);
+    expect(ofKind('run').length).toBe(2);
+  });
+
+  test('downloads again after an edit', async () => {
+    const { playback, document, draw, ofKind } = await deskWith(WAVE);
+    playback.runOnBoard();
+    await draw(3000);
+    document.edit(
+      () => 'change',
+      () => groupOf(frame(400, 1000), frame(400, 1700)),
+    );
+    playback.runOnBoard();
+    await draw(3000);
+    expect(ofKind('download').length).toBe(5);
+    expect(ofKind('run').length).toBe(2);
+  });
+
+  test('a download that is called off runs nothing', async () => {
+    const { playback, draw, ofKind, phase, told } = await deskWith(WAVE);
+    playback.runOnBoard();
+    await draw(40);
+    playback.pause();
+    await draw(1000);
+    expect(phase()).toBeNull();
+    expect(ofKind('run')).toEqual([]);
+    expect(told()).toEqual([words.board.downloadCancelled(0)]);
+  });
+});

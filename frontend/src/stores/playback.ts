@@ -1,0 +1,253 @@
+// Plays the group at hand, from the page or on the board, and says where it is: what is played is what compile makes of it, by
+// either way. One thing at a time; STOP, a lost link and a hidden page end it. Knows no panel.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import { passageOf, type Passage } from '#shared/actions/group/passage.ts';
+import { totalDurationMs } from '#shared/actions/group/group.ts';
+import { frameEnds } from '#shared/actions/group/tracks.ts';
+import { passMs } from '#shared/motion/motion.ts';
+import { fateOf, recordOf } from '#shared/actions/slots/slotBook.ts';
+import type { Activity } from '#shared/session/state.ts';
+import { words } from '../words/words.ts';
+import { obstacles, type CompiledGroup, type CompiledStore } from './compiled.ts';
+import type { Device } from './device.ts';
+import type { Document } from './document.ts';
+import { createFollower } from './follower.ts';
+import type { Notices } from './notices.ts';
+import { startHindrance } from './readiness.ts';
+import type { Slots } from './slots.ts';
+import type { View } from './view.ts';
+
+/** `leading`: gently on the way to the first pose. `storing`: the board gets the group first. */
+export type PlaybackPhase = 'leading' | 'playing' | 'storing' | 'running';
+
+export interface PlaybackState {
+  readonly speedPercent: number;
+  readonly loops: boolean;
+  /** The robot follows the pose at the playhead. */
+  readonly isLive: boolean;
+  /** null: nothing is played by this. */
+  readonly phase: PlaybackPhase | null;
+}
+
+/** The instant that is looked at, and the part of the group that is meant; null: all of it. */
+export interface Playhead {
+  at(): number;
+  go(atMs: number): void;
+  range(): { readonly fromMs: number; readonly toMs: number } | null;
+}
+
+export interface Playback {
+  readonly store: StoreApi<PlaybackState>;
+  set(change: Partial<Pick<PlaybackState, 'speedPercent' | 'loops' | 'isLive'>>): void;
+  play(): void;
+  /** Plays, or pauses what plays. */
+  toggle(): void;
+  /** Downloads first where the board has not just this. */
+  runOnBoard(): void;
+  /** Where it is; a group on the board ends after its frame in progress. */
+  pause(): void;
+  /** To the end of the next frame of the group, or of the one before. */
+  step(direction: 1 | -1): void;
+  /** To be called while the page is drawn: moves the playhead, and the robot where it follows. */
+  frame(): void;
+  /** The page is not looked at any more. */
+  hidden(): void;
+}
+
+export const SPEED_PERCENT = { min: 10, max: 200 } as const;
+
+export interface PlaybackOptions {
+  readonly device: Device;
+  readonly document: Document;
+  readonly compiled: CompiledStore;
+  readonly slots: Slots;
+  readonly notices: Notices;
+  readonly view: View;
+  readonly playhead: Playhead;
+}
+
+const NEAR_END_MS = 100;
+
+/** What plays from the page: which of its frames began when. */
+interface Following {
+  readonly passage: Passage;
+  readonly index: number;
+  readonly beganMs: number;
+  readonly isLead: boolean;
+}
+
+export function createPlayback(options: PlaybackOptions): Playback {
+  const { device, document, compiled, slots, notices, view, playhead } = options;
+  const { clock } = device;
+  const store = createStore<PlaybackState>(() => ({
+    ...{ speedPercent: 100, loops: false, isLive: false, phase: null },
+  }));
+  const follower = createFollower({ device, document });
+  let following: Following | null = null;
+
+  const activity = (): Activity => device.store.getState().snapshot.activity;
+  const phase = (next: PlaybackPhase | null): void => {
+    if (store.getState().phase !== next) store.setState({ phase: next });
+  };
+
+  /** What may be played now; else the person is told what keeps it from that. */
+  function playable(by: 'page' | 'board'): CompiledGroup | null {
+    const hindrance = startHindrance(device.store.getState().snapshot);
+    const group = compiled.now();
+    const [problem] = obstacles(group.report, by);
+    const reason =
+      hindrance !== null
+        ? words.servos.blocked[hindrance]
+        : group.frames.length === 0
+          ? words.board.nothingToDownload
+          : problem === undefined
+            ? null
+            : words.compile.problem(problem, group.source.group);
+    if (reason === null) return group;
+    notices.tell('warning', reason);
+    return null;
+  }
+
+  function passageNow({ frames, source }: CompiledGroup): Passage {
+    const { speedPercent, loops } = store.getState();
+    const range = playhead.range();
+    const at = playhead.at();
+    const begin = range?.fromMs ?? 0;
+    const isWithin = at > begin && at < (range?.toMs ?? Infinity);
+    return passageOf(frames, {
+      fromMs: isWithin && !loops ? at : begin,
+      toMs: range?.toMs ?? null,
+      longestMs: source.family.durationMs.max,
+      speedPercent,
+      strangers: source.robot.servos
+        .map(({ servo }) => servo)
+        .filter((servo) => device.motion(servo).estimated === null),
+    });
+  }
+
+  function play(): void {
+    const group = playable('page');
+    if (group === null) return;
+    store.setState({ isLive: false });
+    const passage = passageNow(group);
+    following = { passage, index: 0, beganMs: clock.now(), isLead: true };
+    phase('leading');
+    device.play(passage.frames, store.getState().loops ? 0 : 1, (isDone) => {
+      if (isDone) playhead.go(passage.atMs.at(-1) ?? 0);
+      following = null;
+      phase(null);
+    });
+  }
+
+  function runOnBoard(): void {
+    const group = playable('board');
+    if (group === null) return;
+    const { slot } = view.getState();
+    const { brokenSlots } = device.store.getState().snapshot;
+    const { name } = group.source.group;
+    const fate = fateOf(slots.store.getState().book, brokenSlots, slot, { ...group, name });
+    if (fate === 'same') return run(slot);
+    phase('storing');
+    slots.download([{ slot, name, frames: group.frames }], (isDone) => {
+      if (isDone) run(slot);
+      else phase(null);
+    });
+  }
+
+  function run(slot: number): void {
+    phase('running');
+    device.run(slot, store.getState().loops ? 0 : 1, (isTaken) => {
+      if (!isTaken) phase(null);
+    });
+  }
+
+  function pause(): void {
+    if (following !== null) device.stopPlaying();
+    else if (activity().kind === 'downloading') slots.cancel();
+    else if (activity().kind === 'running') device.stopGroup();
+  }
+
+  let last = activity();
+  device.store.subscribe(({ snapshot }) => {
+    const next = snapshot.activity;
+    if (next !== last) {
+      last = next;
+      noteActivity(next);
+    }
+    if (snapshot.latch !== null || snapshot.link.status !== 'ready') store.setState({ isLive: false });
+  });
+
+  function noteActivity(next: Activity): void {
+    if (next.kind === 'playing' && following !== null) {
+      const isLead = following.isLead && next.frameIndex === 0;
+      following = { ...following, index: next.frameIndex, beganMs: clock.now(), isLead };
+      phase(isLead ? 'leading' : 'playing');
+    }
+    if (next.kind !== 'idle' || store.getState().phase !== 'running') return;
+    phase(null);
+    // The board's word comes between two drawings.
+    const lengthMs = totalDurationMs(compiled.store.getState().latest.frames);
+    if (lengthMs - playhead.at() < NEAR_END_MS) playhead.go(lengthMs);
+  }
+
+  function follow({ passage, index, beganMs, isLead }: Following): void {
+    const { frames, atMs, beginMs } = passage;
+    const to = atMs[index] ?? 0;
+    const durationMs = frames[index]?.durationMs ?? 0;
+    const from = index === 0 ? (isLead ? to : beginMs) : (atMs[index - 1] ?? 0);
+    const share = durationMs === 0 ? 1 : Math.min(1, (clock.now() - beganMs) / durationMs);
+    playhead.go(Math.round(from + (to - from) * share));
+  }
+
+  /** By the clock since the board took it, as long as it is this group that runs. */
+  function followBoard(): void {
+    const now = activity();
+    if (now.kind !== 'running') return;
+    const { latest } = compiled.store.getState();
+    const record = recordOf(slots.store.getState().book, now.slot);
+    if (record?.fingerprint !== latest.fingerprint) return;
+    const { family } = latest.source;
+    const onceMs = passMs(record.frames, { family, playedFrames: () => null });
+    const lengthMs = frameEnds(record.frames).at(-1) ?? 0;
+    const passedMs = clock.now() - now.sinceMs;
+    const inPass = now.times > 0 ? Math.min(passedMs, onceMs * now.times) : passedMs;
+    const share =
+      onceMs === 0 ? 1 : now.times > 0 && inPass === onceMs * now.times ? 1 : (inPass % onceMs) / onceMs;
+    playhead.go(Math.round(share * lengthMs));
+  }
+
+  function step(direction: 1 | -1): void {
+    const group = playable('page');
+    if (group === null) return;
+    const ends = frameEnds(group.source.group.frames);
+    const at = playhead.at();
+    const to =
+      direction === 1 ? ends.find((endMs) => endMs > at) : (ends.findLast((endMs) => endMs < at) ?? ends[0]);
+    if (to === undefined) return;
+    follower.go(to, Math.abs(to - at), at);
+    playhead.go(to);
+  }
+
+  return {
+    store,
+    set(change) {
+      if (change.isLive === true) follower.begin();
+      store.setState(change);
+    },
+    play,
+    toggle: () => (store.getState().phase === null ? play() : pause()),
+    runOnBoard,
+    pause,
+    step,
+    frame() {
+      if (following !== null) follow(following);
+      else followBoard();
+      if (store.getState().isLive) follower.follow(playhead.at());
+    },
+    hidden() {
+      store.setState({ isLive: false });
+      device.stopPlaying();
+    },
+  };
+}

@@ -1,0 +1,66 @@
+// Words about what a group becomes on the board: whether it fits, how far off it is, what keeps it from going there.
+
+import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import {
+  formatCount,
+  formatDegrees,
+  formatMs,
+  formatPosition,
+  formatSeconds,
+  formatWhole,
+  unitSymbol,
+} from './numbers.ts';
+import type { PositionUnit } from '../numbers.ts';
+
+const servoNumber = (servo: number): string => `Servo ${formatWhole(servo)}`;
+
+type ProblemWords = {
+  readonly [K in CompileProblem['kind']]: (
+    problem: Extract<CompileProblem, { kind: K }>,
+    group: ActionGroup,
+  ) => string;
+};
+
+const frameNumber = ({ frames }: ActionGroup, id: number): string =>
+  formatWhole(frames.findIndex((frame) => frame.id === id) + 1);
+
+const problems: ProblemWords = {
+  unit: ({ group, board }) =>
+    `The group is in ${unitSymbol(group)}, the board counts in ${unitSymbol(board)}.`,
+  servo: ({ servo, min, max }) =>
+    `${servoNumber(servo)}: the board takes servos ${formatWhole(min)} to ${formatWhole(max)}.`,
+  position: ({ servo, frameId, position, min, max }, group) =>
+    `${servoNumber(servo)} in frame ${frameNumber(group, frameId)}: ${formatWhole(position)} is out of range; it takes ${formatWhole(min)} to ${formatWhole(max)}.`,
+  tooManyServos: ({ frame, count, limit }) =>
+    `Frame ${formatWhole(frame + 1)} on the board would move ${formatCount(count)} servos; it takes ${formatCount(limit)}.`,
+  tooManyFrames: ({ count, limit }) =>
+    `${formatCount(count)} frames are needed; the board takes ${formatCount(limit)}. Allow a larger error, or shorten the group.`,
+  tooShort: ({ servo, frameId, leastMs }, group) =>
+    `${servoNumber(servo)} in frame ${frameNumber(group, frameId)}: no time to get there; the board needs ${formatMs(leastMs)}.`,
+  tooFast: ({ servo, atMs, degreesPerS, limit }) =>
+    `${servoNumber(servo)} before ${formatSeconds(atMs)}: ${formatWhole(degreesPerS)}° a second; servos follow up to ${formatWhole(limit)}°.`,
+  deviation: ({ servo, atMs, units, limit }) =>
+    `${servoNumber(servo)} at ${formatSeconds(atMs)} would be off by ${formatWhole(units)}; ${formatWhole(limit)} is allowed.`,
+};
+
+export const compileWords = {
+  label: 'On the board',
+  error: 'Error up to',
+  errorField: 'Largest error allowed on the board',
+  frames: (count: number, limit: number): string => `${formatCount(count)} of ${formatCount(limit)} frames`,
+  bytes: (bytes: number): string => `${formatCount(bytes)} bytes`,
+  download: (ms: number): string => `${formatSeconds(ms)} to download`,
+  exact: 'Exactly as written',
+  worst: (units: number, unit: PositionUnit, degrees: number, servo: number, atMs: number): string =>
+    `At most ${formatPosition(Math.round(units), unit)} (${formatDegrees(degrees, 1)}) off: servo ${formatWhole(servo)} at ${formatSeconds(atMs)}`,
+  shifted: (ms: number): string => `Keys moved by up to ${formatMs(ms)}: the board counts ticks`,
+  fits: 'Fits',
+  fitsNot: 'Does not fit',
+  stale: 'Being worked out',
+  empty: 'Nothing to store yet.',
+  problems: 'What does not fit',
+  more: (count: number): string => `and ${formatCount(count)} more`,
+  problem: (problem: CompileProblem, group: ActionGroup): string =>
+    (problems[problem.kind] as (problem: CompileProblem, group: ActionGroup) => string)(problem, group),
+};

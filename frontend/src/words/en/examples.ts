@@ -1,0 +1,53 @@
+// Words about groups to begin with, and about recording one by hand.
+
+import type { ExampleId } from '#shared/actions/examples/examples.ts';
+import { formatCount, formatSeconds } from './numbers.ts';
+
+const names: Readonly<Record<ExampleId, string>> = {
+  wave: 'Wave',
+  bow: 'Bow',
+  pickAndPlace: 'Pick and place',
+  lookAround: 'Look around',
+  fist: 'Fist and open',
+  countToFive: 'Count to five',
+  point: 'Point',
+  squat: 'Squat',
+  cheer: 'Cheer',
+  tripodGait: 'Tripod gait',
+  rise: 'Rise and sink',
+  ripple: 'Ripple',
+  sweep: 'Sweep',
+};
+
+export const exampleWords = {
+  open: 'Examples',
+  begin: 'Begin with an example',
+  title: 'Examples for this robot',
+  intro: 'An example takes the place of the group on this page. Undo brings the group back. Nothing moves.',
+  name: (id: ExampleId): string => names[id],
+  about: (frameCount: number, durationMs: number): string =>
+    `${formatCount(frameCount)} frames, ${formatSeconds(durationMs)}`,
+  step: (name: string): string => `example ${name}`,
+};
+
+export const recordWords = {
+  record: 'Record',
+  recordHint: 'Records what sliders and pad do, until you end it',
+  end: (ms: number): string => `End recording, ${formatSeconds(ms)}`,
+  takeThat: 'Take that',
+  takeThatHint: 'The motion of the last two minutes becomes a group. Key: T',
+  title: 'Recorded motion',
+  nothing: 'Nothing moved.',
+  armed: (count: number, all: number): string =>
+    count === all
+      ? 'Records every servo'
+      : `Records the ${formatCount(count)} selected of ${formatCount(all)} servos`,
+  error: 'Error up to',
+  errorField: 'How far the keys may be off what was recorded',
+  result: (ms: number, samples: number, keys: number): string =>
+    `${formatSeconds(ms)}; ${formatCount(samples)} positions become ${formatCount(keys)} ${keys === 1 ? 'key' : 'keys'}`,
+  replace: 'Make it the group',
+  append: 'Add to the end',
+  name: (time: string): string => `Take ${time}`,
+  steps: { replace: 'recorded motion', append: 'add recorded motion' },
+};

@@ -1,0 +1,30 @@
+// Words about playing the group, from the page and on the board.
+
+import { formatPercent, formatSeconds, formatWhole } from './numbers.ts';
+
+export const playWords = {
+  tools: 'Play the group',
+  play: 'Play',
+  playFrom: (atMs: number): string => `Play from ${formatSeconds(atMs)}`,
+  pause: 'Pause',
+  end: 'End',
+  cancel: 'Cancel download',
+  onBoard: 'Run on board',
+  onBoardHint: (slot: number): string => `The board plays slot ${formatWhole(slot)} by itself`,
+  onBoardDownloads: (slot: number, isOlder: boolean): string =>
+    isOlder
+      ? `The copy in slot ${formatWhole(slot)} is older: downloads this group first, then runs it`
+      : `Downloads to slot ${formatWhole(slot)} first, then runs it`,
+  back: 'A frame back',
+  forth: 'A frame on',
+  loop: 'Loop',
+  live: 'Robot follows',
+  speedField: 'Speed of playing from the page, in percent',
+  percent: '%',
+  phase: {
+    leading: 'Going gently to the first pose',
+    playing: (share: number): string => `Playing, ${formatPercent(share)} of the speed`,
+    storing: 'The board gets this group first',
+    running: 'The board plays it',
+  },
+};

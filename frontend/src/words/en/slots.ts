@@ -1,0 +1,71 @@
+// Words about the board's slots: what is in them, as far as anybody can know, and what plays them.
+
+import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
+import type { PadButton, SlotTrigger } from '#shared/protocol/slotMeanings.ts';
+import { formatCount, formatNames, formatSeconds, formatWhole } from './numbers.ts';
+
+const slotName = (slot: number): string => `Slot ${formatWhole(slot)}`;
+const frameCount = (count: number): string => `${formatCount(count)} ${count === 1 ? 'frame' : 'frames'}`;
+
+const buttons: Readonly<Record<PadButton, string>> = {
+  ...{ start: 'START', up: 'up', down: 'down', left: 'left', right: 'right' },
+  ...{ triangle: 'triangle', cross: 'cross', square: 'square', circle: 'circle' },
+  ...{ l1: 'L1', r1: 'R1', l2: 'L2', r2: 'R2' },
+};
+
+const about: Readonly<Record<SlotFate, string>> = {
+  broken: 'Broken: its download did not finish',
+  same: 'This group, as it is now',
+  older: 'This group, an older version',
+  other: 'Another group',
+  empty: 'Empty since everything was erased',
+  unknown: 'Unknown: nothing was downloaded from here',
+};
+
+export const slotWords = {
+  title: 'Slots of the board',
+  open: 'Slots',
+  map: 'Map of the slots',
+  intro:
+    'Boards cannot be read. This is what was downloaded from this browser; another program may have changed it since.',
+  name: slotName,
+  cell: (slot: number, fate: SlotFate, name: string | undefined): string =>
+    name === undefined ? `${slotName(slot)}: ${about[fate]}` : `${slotName(slot)}: ${name}. ${about[fate]}`,
+  about: (fate: SlotFate): string => about[fate],
+  badge: {
+    broken: 'Broken',
+    same: 'Up to date',
+    older: 'Older copy',
+    other: 'Stored',
+    empty: 'Empty',
+    unknown: 'Unknown',
+  },
+  trigger: (trigger: SlotTrigger): string =>
+    trigger.kind === 'pad'
+      ? `Played by ${buttons[trigger.button]} of the wireless pad`
+      : trigger.kind === 'select'
+        ? 'Played by SELECT and a button of the wireless pad'
+        : trigger.kind === 'key'
+          ? 'Played by the key on the board'
+          : `Played by itself when slot ${formatWhole(trigger.after)} has ended`,
+  triggerShort: (trigger: SlotTrigger): string =>
+    trigger.kind === 'pad'
+      ? buttons[trigger.button]
+      : { select: 'SELECT', key: 'key', chain: 'chain' }[trigger.kind],
+  stored: (name: string, when: string, count: number, durationMs: number, version: string): string =>
+    `${name === '' ? 'Without a name' : name}, ${frameCount(count)}, ${formatSeconds(durationMs)}, downloaded ${when}, version ${version}`,
+  run: 'Run',
+  compare: 'Compare',
+  same: 'The copy on the board and the group on this page are the same.',
+  lengths: (counts: readonly [number, number], durationsMs: readonly [number, number]): string =>
+    `On the board ${frameCount(counts[0])}, ${formatSeconds(durationsMs[0])}; here ${frameCount(counts[1])}, ${formatSeconds(durationsMs[1])}.`,
+  firstDifferent: (frame: number): string => `Frame ${formatWhole(frame)} is the first one that differs.`,
+  differs: (servo: number, onBoard: number | null, here: number | null): string =>
+    `Servo ${formatWhole(servo)}: ${onBoard === null ? 'not moved' : formatWhole(onBoard)} on the board, ${here === null ? 'not moved' : formatWhole(here)} here`,
+  willGo: (groups: readonly { readonly slot: number; readonly name: string }[]): string =>
+    `Downloaded from here, and can be restored afterwards: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}.`,
+  restoreAll: (count: number): string => `Restore all ${formatCount(count)}`,
+  restoreHint: 'Downloads again what the last erase took',
+  job: (done: number, count: number): string => `${formatCount(done)} of ${formatCount(count)} groups`,
+  notSaved: 'The browser does not store what is on the board; it is known until the page is closed.',
+};

@@ -1,0 +1,65 @@
+// Words about what a group becomes on the board: whether it fits, how far off it is, what keeps it from going there.
+
+import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { compileWords as english } from '../en/compile.ts';
+import {
+  formatCount,
+  formatDegrees,
+  formatMs,
+  formatPosition,
+  formatSeconds,
+  formatWhole,
+  unitSymbol,
+} from './numbers.ts';
+
+const servoNumber = (servo: number): string => `舵机${formatWhole(servo)}`;
+
+type ProblemWords = {
+  readonly [K in CompileProblem['kind']]: (
+    problem: Extract<CompileProblem, { kind: K }>,
+    group: ActionGroup,
+  ) => string;
+};
+
+const frameNumber = ({ frames }: ActionGroup, id: number): string =>
+  `第${formatWhole(frames.findIndex((frame) => frame.id === id) + 1)}帧`;
+
+const problems: ProblemWords = {
+  unit: ({ group, board }) => `动作组的单位是${unitSymbol(group)}，控制板用${unitSymbol(board)}。`,
+  servo: ({ servo, min, max }) =>
+    `${servoNumber(servo)}：控制板只接受舵机${formatWhole(min)}到${formatWhole(max)}。`,
+  position: ({ servo, frameId, position, min, max }, group) =>
+    `${servoNumber(servo)}，${frameNumber(group, frameId)}：${formatWhole(position)}超出范围；允许${formatWhole(min)}到${formatWhole(max)}。`,
+  tooManyServos: ({ frame, count, limit }) =>
+    `控制板上的第${formatWhole(frame + 1)}帧要动${formatCount(count)}个舵机；最多${formatCount(limit)}个。`,
+  tooManyFrames: ({ count, limit }) =>
+    `需要${formatCount(count)}帧；控制板最多${formatCount(limit)}帧。请允许更大的误差，或缩短动作组。`,
+  tooShort: ({ servo, frameId, leastMs }, group) =>
+    `${servoNumber(servo)}，${frameNumber(group, frameId)}：没有时间到达；控制板需要${formatMs(leastMs)}。`,
+  tooFast: ({ servo, atMs, degreesPerS, limit }) =>
+    `${servoNumber(servo)}，${formatSeconds(atMs)}之前：每秒${formatWhole(degreesPerS)}°；舵机最多跟得上${formatWhole(limit)}°。`,
+  deviation: ({ servo, atMs, units, limit }) =>
+    `${servoNumber(servo)}在${formatSeconds(atMs)}会偏差${formatWhole(units)}；允许${formatWhole(limit)}。`,
+};
+
+export const compileWords: typeof english = {
+  label: '在控制板上',
+  error: '误差上限',
+  errorField: '控制板上允许的最大误差',
+  frames: (count, limit) => `${formatCount(count)}/${formatCount(limit)}帧`,
+  bytes: (bytes) => `${formatCount(bytes)}字节`,
+  download: (ms) => `下载需${formatSeconds(ms)}`,
+  exact: '与所写完全一致',
+  worst: (units, unit, degrees, servo, atMs) =>
+    `最多偏差${formatPosition(Math.round(units), unit)}（${formatDegrees(degrees, 1)}）：${servoNumber(servo)}，${formatSeconds(atMs)}`,
+  shifted: (ms) => `关键帧最多移动${formatMs(ms)}：控制板按节拍计时`,
+  fits: '放得下',
+  fitsNot: '放不下',
+  stale: '正在计算',
+  empty: '还没有可存储的内容。',
+  problems: '哪里放不下',
+  more: (count) => `还有${formatCount(count)}项`,
+  problem: (problem, group) =>
+    (problems[problem.kind] as (problem: CompileProblem, group: ActionGroup) => string)(problem, group),
+};

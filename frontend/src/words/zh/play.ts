@@ -1,0 +1,31 @@
+// Words about playing the group, from the page and on the board.
+
+import type { playWords as english } from '../en/play.ts';
+import { formatPercent, formatSeconds, formatWhole } from './numbers.ts';
+
+export const playWords: typeof english = {
+  tools: '播放动作组',
+  play: '播放',
+  playFrom: (atMs) => `从${formatSeconds(atMs)}播放`,
+  pause: '暂停',
+  end: '结束',
+  cancel: '取消下载',
+  onBoard: '在控制板上运行',
+  onBoardHint: (slot) => `控制板自己播放槽位${formatWhole(slot)}`,
+  onBoardDownloads: (slot, isOlder) =>
+    isOlder
+      ? `槽位${formatWhole(slot)}里是旧版本：先下载这个动作组，再运行`
+      : `先下载到槽位${formatWhole(slot)}，再运行`,
+  back: '后退一帧',
+  forth: '前进一帧',
+  loop: '循环',
+  live: '机器人跟随',
+  speedField: '从页面播放的速度，百分比',
+  percent: '%',
+  phase: {
+    leading: '正缓慢走向第一个姿态',
+    playing: (share) => `正在播放，速度${formatPercent(share)}`,
+    storing: '先把这个动作组下载到控制板',
+    running: '控制板正在播放',
+  },
+};

@@ -1,0 +1,72 @@
+// Words about the board's slots: what is in them, as far as anybody can know, and what plays them.
+
+import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
+import type { PadButton } from '#shared/protocol/slotMeanings.ts';
+import type { slotWords as english } from '../en/slots.ts';
+import { formatCount, formatNames, formatSeconds, formatWhole } from './numbers.ts';
+
+const slotName = (slot: number): string => `槽位${formatWhole(slot)}`;
+const frameCount = (count: number): string => `${formatCount(count)}帧`;
+const place = (position: number | null): string => (position === null ? '不动' : formatWhole(position));
+
+const buttons: Readonly<Record<PadButton, string>> = {
+  ...{ start: 'START', up: '上', down: '下', left: '左', right: '右' },
+  ...{ triangle: '三角', cross: '叉', square: '方块', circle: '圆圈' },
+  ...{ l1: 'L1', r1: 'R1', l2: 'L2', r2: 'R2' },
+};
+
+const about: Readonly<Record<SlotFate, string>> = {
+  broken: '已损坏：下载没有完成',
+  same: '这个动作组，与现在一致',
+  older: '这个动作组的旧版本',
+  other: '另一个动作组',
+  empty: '全部擦除后是空的',
+  unknown: '未知：没有从这里下载过',
+};
+
+export const slotWords: typeof english = {
+  title: '控制板的槽位',
+  open: '槽位',
+  map: '槽位一览',
+  intro: '控制板不能读取。这里列出的是从这个浏览器下载的内容；之后可能被别的程序改过。',
+  name: slotName,
+  cell: (slot, fate, name) =>
+    name === undefined ? `${slotName(slot)}：${about[fate]}` : `${slotName(slot)}：${name}。${about[fate]}`,
+  about: (fate) => about[fate],
+  badge: {
+    broken: '已损坏',
+    same: '最新',
+    older: '旧版本',
+    other: '已存',
+    empty: '空',
+    unknown: '未知',
+  },
+  trigger: (trigger) =>
+    trigger.kind === 'pad'
+      ? `由无线手柄的${buttons[trigger.button]}键播放`
+      : trigger.kind === 'select'
+        ? '由无线手柄的 SELECT 加一个键播放'
+        : trigger.kind === 'key'
+          ? '由控制板上的按键播放'
+          : `槽位${formatWhole(trigger.after)}结束后自动播放`,
+  triggerShort: (trigger) =>
+    trigger.kind === 'pad'
+      ? buttons[trigger.button]
+      : { select: 'SELECT', key: '按键', chain: '接续' }[trigger.kind],
+  stored: (name, when, count, durationMs, version) =>
+    `${name === '' ? '无名称' : name}，${frameCount(count)}，${formatSeconds(durationMs)}，下载于${when}，版本 ${version}`,
+  run: '运行',
+  compare: '比较',
+  same: '控制板上的副本与这个页面上的动作组相同。',
+  lengths: (counts, durationsMs) =>
+    `控制板上${frameCount(counts[0])}，${formatSeconds(durationsMs[0])}；这里${frameCount(counts[1])}，${formatSeconds(durationsMs[1])}。`,
+  firstDifferent: (frame) => `从第${formatWhole(frame)}帧开始不同。`,
+  differs: (servo, onBoard, here) =>
+    `舵机${formatWhole(servo)}：控制板上${place(onBoard)}，这里${place(here)}`,
+  willGo: (groups) =>
+    `从这里下载的内容之后可以恢复：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}。`,
+  restoreAll: (count) => `全部恢复（${formatCount(count)}）`,
+  restoreHint: '重新下载上次擦除的内容',
+  job: (done, count) => `${formatCount(done)}/${formatCount(count)}个动作组`,
+  notSaved: '浏览器不能保存控制板上有什么；关闭页面前它一直知道。',
+};
