@@ -86,6 +86,9 @@ export async function openPage(): Promise<Page> {
   watchLeaving(window, { hidden: paused, left: () => connector.leave() });
   applyBatteryPolicy({ device, battery, robots, notices });
   watchInputs(window, pad);
+  library.store.subscribe(({ openId }, before) => {
+    if (openId !== before.openId) playhead.go(0);
+  });
   stores.view.subscribe(({ tab, kiosk }) => {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(false);
   });

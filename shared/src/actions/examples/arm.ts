@@ -1,6 +1,6 @@
 // What an arm of six shows: gripper 1, wrist roll 2, wrist 3, elbow 4, shoulder 5, base 6. A gripper closes upwards.
 
-import type { Example, Turns } from './examples.ts';
+import type { Example, Turns } from './example.ts';
 
 const REST: Turns = { 1: 0, 2: 0, 3: 0.35, 4: 0.5, 5: -0.35, 6: 0 };
 const UP: Turns = { ...REST, 3: 0.1, 4: 0.1, 5: 0 };

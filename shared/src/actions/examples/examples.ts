@@ -3,26 +3,15 @@
 
 import type { ServoTarget } from '../../protocol/commands.ts';
 import { FAMILIES } from '../../protocol/families.ts';
-import { emptyGroup, type ActionGroup, type Easing } from '../group/group.ts';
+import { emptyGroup, type ActionGroup } from '../group/group.ts';
 import { insertFrame } from '../group/groupEdits.ts';
 import { servoOf, type BodyKind, type Robot, type RobotServo } from '../robot/robot.ts';
 import { ARM_EXAMPLES } from './arm.ts';
+import type { Example, Turns } from './example.ts';
 import { HAND_EXAMPLES } from './hand.ts';
 import { HEXAPOD_EXAMPLES } from './hexapod.ts';
 import { HUMANOID_EXAMPLES } from './humanoid.ts';
 import { plainExamples } from './plain.ts';
-
-/** By servo number: -1 is as far as it turns one way from home, 1 the other way. */
-export type Turns = Readonly<Record<number, number>>;
-
-export interface ExampleFrame {
-  readonly durationMs: number;
-  readonly turns: Turns;
-  readonly easing?: Easing;
-}
-
-/** Servos that no frame turns stay out of it. */
-export type Example = readonly ExampleFrame[];
 
 export const EXAMPLE_IDS = [
   ...(['wave', 'bow', 'pickAndPlace', 'lookAround', 'fist', 'countToFive', 'point'] as const),

@@ -1,6 +1,6 @@
 // What a hand shows: five fingers, thumb 1 to little 5, and the base 6. A finger bends upwards.
 
-import type { Example, Turns } from './examples.ts';
+import type { Example, Turns } from './example.ts';
 
 const FINGERS = [1, 2, 3, 4, 5];
 const STRAIGHT = -0.8;

@@ -1,7 +1,7 @@
 // What six legs of three servos show: left front, middle, rear are servos 1 to 9, right ones 10 to 18; each leg turns, lifts and bends.
 // Both sides are built as mirrors.
 
-import type { Example, ExampleFrame, Turns } from './examples.ts';
+import type { Example, ExampleFrame, Turns } from './example.ts';
 
 interface Leg {
   /** Forward. */

@@ -1,7 +1,7 @@
 // What a humanoid of 16 or 18 shows, standing: left leg 1 to 5 from the foot up, left arm 6 to 8, the right side eight further on.
 // Both sides are named as one and mirrored; the feet stay under the body.
 
-import type { Example, Turns } from './examples.ts';
+import type { Example, Turns } from './example.ts';
 
 const RIGHT = 8;
 

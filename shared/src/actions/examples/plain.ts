@@ -1,6 +1,6 @@
 // What any servos in a row show, whatever they turn: small turns about home.
 
-import type { Example, Turns } from './examples.ts';
+import type { Example, Turns } from './example.ts';
 
 const TURN = 0.25;
 const STEP_MS = 300;

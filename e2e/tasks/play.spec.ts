@@ -1,0 +1,119 @@
+// What a group becomes: on the board by compile, played from the page and by the board, recorded by hand, begun from an example.
+
+import { ofKind } from '../fixtures/bus.ts';
+import { captureGroup, downloadGroup } from '../fixtures/group.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+
+test('an example is written out for the board, plays at twice its speed, pauses and goes on', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  await dashboard.button('Begin with an example').click();
+  await page.getByRole('dialog').getByRole('button', { name: /^Bow/ }).click();
+  await expect(dashboard.frames).toHaveCount(4);
+  await expect(dashboard.board).toContainText(/Fits\s*\d+ of 255 frames/);
+  await expect(dashboard.board).toContainText(/At most \d µs \(0\.\d°\) off: servo \d/);
+
+  await dashboard.type(dashboard.field('Speed of playing from the page, in percent'), 200);
+  await dashboard.button('Play').click();
+  const tools = page.getByRole('group', { name: 'Play the group' });
+  await expect(tools.getByRole('status')).toHaveText('Going gently to the first pose');
+  await expect(tools.getByRole('status')).toHaveText('Playing, 200% of the speed');
+  await dashboard.button('Pause').click();
+  await expect(dashboard.status).toHaveText('Idle');
+  const sent = ofKind(await robot.bus(), 'move').length;
+  await dashboard.button(/^Play from /).click();
+  await expect(tools.getByRole('status')).toHaveText('');
+  await expect(dashboard.button('Play')).toBeEnabled();
+  expect(ofKind(await robot.bus(), 'move').length).toBeGreaterThan(sent);
+
+  await dashboard.button('Undo: example Bow').click();
+  await expect(dashboard.frames).toHaveCount(0);
+});
+
+test('the board gets a group before it runs it, and not a second time', async ({ dashboard, robot }) => {
+  await captureGroup(dashboard, [1000, 1400], 400);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1400');
+  await dashboard.button('Run on board').click();
+  await expect(dashboard.status).toContainText('Running slot 0, once');
+  await expect(dashboard.status).toHaveText('Idle');
+  expect(ofKind(await robot.bus(), 'download')).toHaveLength(2);
+  await dashboard.button('Run on board').click();
+  await poll(async () => ofKind(await robot.bus(), 'run').length).toBe(2);
+  expect(ofKind(await robot.bus(), 'download')).toHaveLength(2);
+});
+
+test('the map of slots knows an older copy, compares it, and brings back what an erase took', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  await captureGroup(dashboard, [1000, 1400], 400);
+  await downloadGroup(dashboard, 8, 1400);
+  await dashboard.button('Slots').click();
+  const dialog = page.getByRole('dialog', { name: 'Slots of the board' });
+  const slot = (name: RegExp) => dialog.getByRole('option', { name });
+  await expect(slot(/^Slot 8: New group/)).toHaveAccessibleName(
+    'Slot 8: New group. This group, as it is now',
+  );
+  await expect(dialog).toContainText('Played by circle of the wireless pad');
+  await dialog.getByRole('button', { name: 'Close' }).click();
+
+  await dashboard.type(dashboard.frameTime(2), 600);
+  await dashboard.button('Slots').click();
+  await expect(dialog.getByText('Older copy')).toBeVisible();
+  await dialog.getByRole('button', { name: 'Compare' }).click();
+  await expect(dialog).toContainText('Frame 2 is the first one that differs.');
+  await slot(/^Slot 8:/).press('ArrowRight');
+  await expect(slot(/^Slot 9:/)).toHaveAttribute('aria-selected', 'true');
+  await dialog.getByRole('button', { name: 'Close' }).click();
+
+  await dashboard.button('Erase everything').click();
+  const asks = page.getByRole('alertdialog');
+  await expect(asks).toContainText('Downloaded from here, and can be restored afterwards: 8 New group.');
+  await asks.getByRole('button', { name: 'Erase every slot' }).click();
+  await expect(dashboard.notices).toContainText('Every slot is empty.');
+  await dashboard.button('Slots').click();
+  await dialog.getByRole('button', { name: 'Restore all 1' }).click();
+  await expect(slot(/^Slot 8: New group/)).toBeVisible();
+  const frames = ofKind(await robot.bus(), 'download').slice(-2);
+  expect(frames.map(({ slot: at, frame }) => [at, frame.durationMs])).toEqual([
+    [8, 400],
+    [8, 400],
+  ]);
+});
+
+test('what a hand did becomes keys: recorded on purpose, or taken after the fact', async ({
+  dashboard,
+  page,
+}) => {
+  await dashboard.type(dashboard.target(1), 1400);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1400');
+  await dashboard.button('Record').click();
+  await dashboard.type(dashboard.target(1), 1900);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1900');
+  await dashboard.button(/^End recording/).click();
+  const dialog = page.getByRole('dialog', { name: 'Recorded motion' });
+  await expect(dialog).toContainText(/positions become \d+ keys/);
+  await dialog.getByRole('button', { name: 'Make it the group' }).click();
+  await expect(dashboard.frame(1)).toHaveAccessibleName('Frame 1, 1500 ms, moves servo 1');
+  await expect(dashboard.field('Name of the group')).toHaveValue(/^Take \d\d:\d\d$/);
+  const count = await dashboard.frames.count();
+
+  await dashboard.frame(1).press('t');
+  await dialog.getByRole('button', { name: 'Add to the end' }).click();
+  await poll(() => dashboard.frames.count()).toBeGreaterThan(count);
+});
+
+test('the robot follows the playhead step by step, and no longer after STOP', async ({ dashboard, page }) => {
+  await captureGroup(dashboard, [1000, 1400], 400);
+  await dashboard.button('A frame on').click();
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1000');
+  const follows = page.getByRole('switch', { name: 'Robot follows' });
+  await follows.check();
+  await dashboard.type(dashboard.frameTime(1), 500);
+  await page.keyboard.press('Escape');
+  await expect(follows).not.toBeChecked();
+  await expect(follows).toBeDisabled();
+});
