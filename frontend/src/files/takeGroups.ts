@@ -6,7 +6,7 @@ import type { Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 
 export function takeGroups(
-  { document, library, view, playhead }: Pick<Stores, 'document' | 'library' | 'view' | 'playhead'>,
+  { document, library, view }: Pick<Stores, 'document' | 'library' | 'view'>,
   [group, ...others]: readonly ActionGroup[],
 ): void {
   if (group === undefined) return;
@@ -17,6 +17,5 @@ export function takeGroups(
   );
   others.forEach(library.add);
   const said = words.files.taken(group.name, group.frames.length);
-  playhead.go(0);
   view.setState({ selectedFrame: null, said });
 }

@@ -218,10 +218,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     return session !== null && allowed(targets) !== null && send(targets, time);
   }
 
-  function attempt(
-    work: (session: Session) => Promise<unknown>,
-    settled: Settled = () => undefined,
-  ): void {
+  function attempt(work: (session: Session) => Promise<unknown>, settled: Settled = () => undefined): void {
     if (session === null) return settled(false);
     work(session).then(
       (isDone) => settled(isDone !== false),
