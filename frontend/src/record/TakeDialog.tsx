@@ -35,10 +35,10 @@ function Take({ samples, onClose }: TakeDialogProps) {
   const { document, notices, playhead, view } = useStores();
   const unit = useDevice((state) => state.family.unit);
   const [maxErrorUnits, setMaxError] = useState<number>(USUAL_ERROR[unit]);
-  const group = useMemo(() => {
-    const name = words.record.name(words.numbers.formatTimeOfDay(Date.now()));
-    return simplify(samples, { name, unit, maxErrorUnits, leadMs: GENTLE_MOVE_MS });
-  }, [samples, unit, maxErrorUnits]);
+  const group = useMemo(
+    () => simplify(samples, { name: '', unit, maxErrorUnits, leadMs: GENTLE_MOVE_MS }),
+    [samples, unit, maxErrorUnits],
+  );
   const keyCount = group.frames.reduce((sum, { targets }) => sum + targets.length, 0);
   const use = (step: keyof typeof words.record.steps, edit: (before: ActionGroup) => ActionGroup): void => {
     document.edit(() => words.record.steps[step], edit);
@@ -67,13 +67,18 @@ function Take({ samples, onClose }: TakeDialogProps) {
         <Button onPress={() => use('append', (before) => appended(before, group))}>
           {words.record.append}
         </Button>
-        <Button tone="primary" onPress={() => use('replace', () => group)}>
+        <Button tone="primary" onPress={() => use('replace', () => named(group))}>
           {words.record.replace}
         </Button>
       </div>
     </div>
   );
 }
+
+const named = (group: ActionGroup): ActionGroup => ({
+  ...group,
+  name: words.record.name(words.numbers.formatTimeOfDay(Date.now())),
+});
 
 function lengthOf(samples: readonly Sample[]): number {
   return (samples.at(-1)?.atMs ?? 0) - (samples[0]?.atMs ?? 0);
