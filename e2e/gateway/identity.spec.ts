@@ -92,7 +92,7 @@ test.describe('another board under the name of a known one', () => {
 });
 
 test.describe('a board that falls silent', () => {
-  test.use({ boardSettings: { board: 'lsc-6', faults: ['brownOut=4000@9000'] } });
+  test.use({ boardSettings: { board: 'lsc-6', faults: ['brownOut=5000@14000'] } });
 
   test('is called silent, then comes back latched', async ({ page, ptyBoard, newGateway }) => {
     const { url } = await newGateway({ serial: ptyBoard.device, board: 'lsc-6' });
