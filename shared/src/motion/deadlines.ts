@@ -17,11 +17,18 @@ import { retarget } from './tracks.ts';
 const PREEMPTIVE_SLOT = 0;
 const BARE_PACKET_MS = wireMs(4);
 const RUN_REPORT_MS = wireMs(7);
+/** An end is told later than it was, by the time on the wire and in the host's buffers. */
+const END_TOLD_WITHIN_MS = 100;
 
 /** What the board says before it looks for the group (S18, X1): it sends by busy-waiting (S21). */
 function announcementMs({ runReportsNameSlot, answers }: Family): number {
   if (runReportsNameSlot) return RUN_REPORT_MS;
   return answers.includes('run') ? BARE_PACKET_MS : 0;
+}
+
+/** The end of the group before may be told while the next one runs, and then not which it was. */
+function owesEnd({ untoldEndMs }: Motion, atMs: number, { family }: KnownBoard): boolean {
+  return !family.runReportsNameSlot && atMs - untoldEndMs < END_TOLD_WITHIN_MS;
 }
 
 /** A run that begins at `atMs`. */
@@ -33,11 +40,13 @@ function begin(
   endsToHear = 1,
 ): Motion {
   const total = board.playedFrames(slot)?.length;
-  if (total === undefined) return runningUnknown(motion, slot, endsToHear);
+  const ends = endsToHear + (owesEnd(motion, atMs, board) ? 1 : 0);
+  if (total === undefined) return runningUnknown(motion, slot, ends);
   const at = { nextAtMs: atMs, passAtMs: atMs };
   return {
     ...motion,
-    run: { kind: 'deadlines', slot, total, next: 0, ...at, times, loopsDone: 0, endsToHear },
+    untoldEndMs: -Infinity,
+    run: { kind: 'deadlines', slot, total, next: 0, ...at, times, loopsDone: 0, endsToHear: ends },
   };
 }
 
@@ -86,7 +95,7 @@ function endPass(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion {
 
 function endRun(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion {
   const ended = { ...motion, run: null };
-  if (run.slot !== board.family.motion.chainedSlot) return ended;
+  if (run.slot !== board.family.motion.chainedSlot) return { ...ended, untoldEndMs: run.nextAtMs };
   // Its own end, still to be heard, and the next one's.
   return begin(
     ended,
@@ -111,7 +120,8 @@ function advance(motion: Motion, nowMs: number, board: KnownBoard): Motion {
 /** The board knows better than our clock; but each end it reports is only one of those it owes. */
 function ended(motion: Motion, board: KnownBoard): Motion {
   const { run } = motion;
-  if (run === null || run.kind === 'polled') return motion;
+  if (run === null) return { ...motion, untoldEndMs: -Infinity };
+  if (run.kind === 'polled') return motion;
   if (run.endsToHear > 1) return { ...motion, run: { ...run, endsToHear: run.endsToHear - 1 } };
   const { chainedSlot } = board.family.motion;
   const isChained = chainedSlot !== null && (run.slot ?? chainedSlot) === chainedSlot;

@@ -45,6 +45,8 @@ export interface Motion {
   /** Of servos without a track. */
   readonly told: Told;
   readonly run: UnknownRun | DeadlineRun | PolledRun | null;
+  /** When a group ended by our clock that the board has not told the end of yet; -Infinity for none. */
+  readonly untoldEndMs: number;
   /** Until then the board may be busy with flash or servos, its servos frozen, packets waiting or dropped (S9, S41). */
   readonly deafUntilMs: number;
   /** When it has answered all that, it hears again sooner. */
@@ -86,6 +88,7 @@ export const UNKNOWN_MOTION: Motion = {
   tracks: new Map(),
   told: new Map(),
   run: null,
+  untoldEndMs: -Infinity,
   deafUntilMs: -Infinity,
   answersOwed: [],
   restlessUntilMs: -Infinity,

@@ -207,7 +207,16 @@ describe('a group on deadlines', () => {
     expect(own.at(57.3)).toBe(1_500);
   });
 
-  test('goes on when the end of the one before it is told late', () => {
+  test('goes on when the end of the one before it is told late, and not which it was', () => {
+    const two = { 3: [frame(40, [1, 2_000])], 4: [frame(400, [1, 1_000])] };
+    const next = robot('doc', two).send(0, run(3)).send(60, run(4)).hear(64, END);
+    expect(next.when(100).run).not.toBeNull();
+    expect(next.hear(200, END).when(200).run).toBeNull();
+    const told = robot('doc', two).send(0, run(3)).hear(50, END).send(60, run(4));
+    expect(told.hear(200, END).when(200).run).toBeNull();
+  });
+
+  test('goes on when the end of another one is told late', () => {
     const next = robot('lsc-6', groups).send(0, run(1));
     const late = next.hear(5, { kind: 'runFinished', slot: 8 });
     expect(late.at(57.3)).toBe(1_500);
