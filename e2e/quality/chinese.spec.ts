@@ -9,7 +9,7 @@ import { expect, test } from '../fixtures/test.ts';
 const NAMES = `
   Servodeck Chrome Edge Firefox Windows macOS Linux ChromeOS Arch Snap Flatpak Python Arduino XML CSV
   LSC OpenArm uHand xArm LeArm TonyPi SpiderPi MasterPi ArmPi AiNex AI ESP PWM CH SER WCH USB TTL COM LPT
-  GND RX TX LEN PC App Esc mV English`.split(/\s+/u);
+  GND RX TX LEN PC App Esc Ctrl Shift Alt START mV English`.split(/\s+/u);
 /** What people call their own things in the gallery, and what a browser calls a pad. */
 const GIVEN = [
   ...['Shelf arm', 'Desk arm', 'Greet the visitor', 'Look down', 'Sit', 'Dance', 'wave', 'nod'],
@@ -17,6 +17,8 @@ const GIVEN = [
     'Pick up the red cube and put it down',
     'Wave to the visitors at the door',
     'Bow',
+    'Wave',
+    'c0ffee',
     'greeting',
     'show',
     'work',
@@ -72,7 +74,7 @@ test('no state of the gallery has an English sentence left', async ({ page, serv
   // Every state at once is a large page.
   test.slow();
   await page.goto(`${(await servers.files()).url}/gallery.html?language=zh`);
-  await expect(page.getByRole('article').first()).toBeVisible();
+  await expect(page.getByRole('article').first()).toBeVisible({ timeout: 30_000 });
   await expectChinese(page, 'gallery');
 });
 

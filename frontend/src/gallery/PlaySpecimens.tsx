@@ -89,7 +89,9 @@ function Shown({ name, panel, prepare }: (typeof CASES)[number]) {
   return (
     <StoresContext value={stores}>
       <article className={styles.specimen} aria-label={name}>
-        <h2 className={styles.name}>{name}</h2>
+        <h2 className={styles.name} lang="en">
+          {name}
+        </h2>
         {panel}
       </article>
     </StoresContext>

@@ -118,7 +118,7 @@ export const timelineWords = {
     solo: 'Lock all others',
     unsolo: 'Unlock all others',
     hide: 'Hide',
-    showHidden: (count: number): string => `Show ${formatCount(count)} hidden`,
+    showHidden: (count: number): string => `Show hidden rows: ${formatCount(count)}`,
     locked: 'locked',
     muted: 'muted',
   },
