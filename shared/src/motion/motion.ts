@@ -67,10 +67,13 @@ export function advance(motion: Motion, nowMs: number, board: KnownBoard): Motio
   return playbackOf(board).advance(motion, nowMs, board);
 }
 
+/** False where the board may be too busy to take up what it is told. */
+export const hears = ({ deafUntilMs }: Motion, atMs: number): boolean => atMs >= deafUntilMs;
+
 /** After the last bit of `command` left the wire at `atMs`. */
 export function afterCommand(motion: Motion, command: Command, atMs: number, board: KnownBoard): Motion {
   const current = advance(motion, atMs, board);
-  const isHeard = atMs >= current.deafUntilMs;
+  const isHeard = hears(current, atMs);
   const after = isHeard
     ? restless(current, afterHeard(current, command, atMs, board), atMs)
     : afterUnheard(current, command, atMs, board);

@@ -7,6 +7,7 @@ import {
   afterEnd,
   afterReport,
   forgotten,
+  hears,
   leewayAt,
   positionAt,
   remainingMs,
@@ -138,8 +139,10 @@ export function createEstimateUnderTest({ family, profile, ...options }: Estimat
     const packet = encodeCommand(command, family);
     board.receive(packet);
     await wait(wireMs(packet.length));
+    motion = advance(motion, clock.now(), known);
+    const isHeard = hears(motion, clock.now());
     motion = afterCommand(motion, command, clock.now(), known);
-    if (command.kind === 'setSpeed') memory.setSpeed(command.slot, command.percent);
+    if (command.kind === 'setSpeed') memory.setSpeed(command.slot, isHeard ? command.percent : null);
     await wait(family.serviceGapMs);
   }
 

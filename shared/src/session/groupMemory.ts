@@ -7,8 +7,8 @@ export interface GroupMemory {
   /** Without a slot, all of them. */
   clear(slot?: number): void;
   slots(): readonly number[];
-  /** Without a slot, of every group (X3). */
-  setSpeed(slot: number | null, percent: number): void;
+  /** Without a slot, of every group (X3); without a percentage it is unknown whether the board took one. */
+  setSpeed(slot: number | null, percent: number | null): void;
   /** The board may have lost its speeds with its power, or kept them. */
   forgetSpeeds(): void;
   /** With the times the board plays them in; null where the frames or the speed are unknown. */
@@ -19,12 +19,13 @@ const AS_STORED = 100;
 
 export function createGroupMemory(): GroupMemory {
   const groups = new Map<number, readonly Frame[]>();
-  const percents = new Map<number, number>();
+  const percents = new Map<number, number | null>();
   let usualPercent: number | null = AS_STORED;
 
   function playedFrames(slot: number): readonly Frame[] | null {
     const frames = groups.get(slot);
-    const percent = percents.get(slot) ?? usualPercent;
+    const own = percents.get(slot);
+    const percent = own === undefined ? usualPercent : own;
     if (frames === undefined || percent === null) return null;
     if (percent === AS_STORED) return frames;
     const scaled = (durationMs: number): number => Math.round((durationMs * AS_STORED) / percent);

@@ -9,6 +9,7 @@ import {
   afterReport,
   forgotten,
   gentleMs,
+  hears,
   holdMove,
   passMs,
   positionAt,
@@ -71,8 +72,10 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
 
   return {
     applied(command) {
+      const isHeard = hears(now(), clock.now());
       motion = afterCommand(motion, command, clock.now(), board);
-      if (command.kind === 'setSpeed') changeMemory(() => memory.setSpeed(command.slot, command.percent));
+      if (command.kind !== 'setSpeed') return;
+      memory.setSpeed(command.slot, isHeard ? command.percent : null);
     },
     heard: (report) => (motion = afterReport(motion, report, clock.now(), board)),
     motion: (servo) => ({ target: targetOf(now(), servo), estimated: positionAt(now(), servo, clock.now()) }),

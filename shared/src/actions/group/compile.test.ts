@@ -103,7 +103,7 @@ describe('a compiled group', () => {
           fc.pre(frames.length > 0 && frames.length <= own.framesPerGroup);
           let bytes = 0;
           for (const [frameIndex, frame] of frames.entries()) {
-            expect(frame.durationMs % TICK_MS).toBe(0);
+            expect(frame.durationMs % own.motion.tickMs).toBe(0);
             expect(frame.durationMs).toBeGreaterThanOrEqual(own.shortestMoveMs);
             const place = { slot: 1, frameCount: frames.length, frameIndex };
             const taking = own.commands.includes('download')
