@@ -1,4 +1,4 @@
-"""How many inputs a property gets: the same each time in `npm test`; `npm run test:long` tries new ones, ten times as many."""
+"""Properties: the same inputs each time in `npm test`; `npm run test:long` tries new ones, ten times as many."""
 
 from hypothesis import settings
 
