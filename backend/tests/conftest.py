@@ -1,4 +1,4 @@
-"""Properties: the same inputs each time in `npm test`; `npm run test:long` tries new ones, ten times as many."""
+"""Properties try the same inputs each time; in `npm run test:long` new ones, ten times as many."""
 
 from hypothesis import settings
 

@@ -109,6 +109,7 @@ for (const colorScheme of ['light', 'dark'] as const) {
       test.use({ colorScheme, viewport, contextOptions: { reducedMotion: 'reduce' } });
 
       test('every main state is accessible and fits', async ({ page, servers }) => {
+        test.slow();
         const dashboard = dashboardOf(page);
         const look = { page, isDark: colorScheme === 'dark' };
         await page.goto((await servers.files()).url);
