@@ -24,6 +24,10 @@ async function startDriving(dashboard: Dashboard): Promise<void> {
   await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
   await page.getByRole('radio', { name: 'Keys and pad' }).check();
   await driveSwitch(page).check();
+  // What is held when driving begins moves nothing: a frame has to see it let go.
+  await page.evaluate(async () => {
+    for (let frame = 0; frame < 4; frame += 1) await new Promise(requestAnimationFrame);
+  });
 }
 
 /** Nothing more leaves than what is on its way already. */
