@@ -4,14 +4,13 @@
 
 import { Fragment } from 'react';
 import { totalDurationMs } from '#shared/actions/group/group.ts';
-import { redoLabel, undoLabel } from '#shared/actions/history.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { FilesArea, FilesButton } from '../files/FilesArea.tsx';
 import { LibraryButton } from '../library/LibraryButton.tsx';
-import { useDevice, useDocument, useGroup, useStores } from '../stores/stores.ts';
-import { IconButton } from '../ui/Button.tsx';
+import { useDevice, useGroup, useStores } from '../stores/stores.ts';
 import { useLayout } from '../ui/useLayout.ts';
 import { Panel } from '../ui/Panel.tsx';
+import { UndoTools } from '../ui/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { CaptureBar } from './CaptureBar.tsx';
 import { FrameStrip } from './FrameStrip.tsx';
@@ -76,22 +75,9 @@ function Empty() {
 
 function UndoRedo() {
   const { document } = useStores();
-  const back = useDocument(undoLabel);
-  const forth = useDocument(redoLabel);
   return (
     <>
-      <IconButton
-        icon="undo"
-        label={back === null ? words.actions.undo : words.actions.undoStep(back)}
-        isDisabled={back === null}
-        onPress={() => document.undo()}
-      />
-      <IconButton
-        icon="redo"
-        label={forth === null ? words.actions.redo : words.actions.redoStep(forth)}
-        isDisabled={forth === null}
-        onPress={() => document.redo()}
-      />
+      <UndoTools of={document} />
     </>
   );
 }

@@ -1,10 +1,10 @@
 // The page of buttons: in use by anybody, or being changed. The kiosk is the same page with nothing around it.
 
-import { redoLabel, undoLabel } from '#shared/actions/history.ts';
 import { useMacros, useStores, useView } from '../stores/stores.ts';
-import { Button, IconButton } from '../ui/Button.tsx';
+import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
+import { UndoTools } from '../ui/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { EditGrid } from './EditGrid.tsx';
 import { MacroEditor } from './MacroEditor.tsx';
@@ -37,8 +37,6 @@ export function NoButtons() {
 function Tools() {
   const { macros, macroRun, view } = useStores();
   const edits = useView((state) => state.editsButtons);
-  const back = useMacros(undoLabel);
-  const forth = useMacros(redoLabel);
   return (
     <>
       <Toggle
@@ -49,18 +47,7 @@ function Tools() {
           view.setState({ editsButtons: isOn });
         }}
       />
-      <IconButton
-        icon="undo"
-        label={back === null ? words.actions.undo : words.actions.undoStep(back)}
-        isDisabled={back === null}
-        onPress={() => macros.undo()}
-      />
-      <IconButton
-        icon="redo"
-        label={forth === null ? words.actions.redo : words.actions.redoStep(forth)}
-        isDisabled={forth === null}
-        onPress={() => macros.redo()}
-      />
+      <UndoTools of={macros} />
     </>
   );
 }

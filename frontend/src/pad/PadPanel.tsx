@@ -1,15 +1,14 @@
 // Driving by keys and pad: the switch, the picture of what is held, how it feels, and which input does what.
 
-import { redoLabel, undoLabel } from '#shared/actions/history.ts';
 import { servoBoundBy } from '#shared/actions/mapping/mapping.ts';
-import { useStore } from 'zustand';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useMapping, usePad, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
-import { Button, IconButton } from '../ui/Button.tsx';
+import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
+import { UndoTools } from '../ui/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { Bindings } from './Bindings.tsx';
 import { Conflicts } from './Conflicts.tsx';
@@ -45,22 +44,9 @@ function Tools() {
   const { pad, mappings } = useStores();
   const isDriving = usePad((state) => state.isDriving);
   const isBlocked = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
-  const back = useStore(mappings.store, undoLabel);
-  const forth = useStore(mappings.store, redoLabel);
   return (
     <>
-      <IconButton
-        icon="undo"
-        label={back === null ? words.pad.undo : words.pad.undoStep(back)}
-        isDisabled={back === null}
-        onPress={() => mappings.undo()}
-      />
-      <IconButton
-        icon="redo"
-        label={forth === null ? words.pad.redo : words.pad.redoStep(forth)}
-        isDisabled={forth === null}
-        onPress={() => mappings.redo()}
-      />
+      <UndoTools of={mappings} />
       <span className={styles.drive}>
         <Toggle
           label={words.pad.drive}

@@ -2,11 +2,10 @@
 // moves only by the buttons that say so.
 
 import { useState } from 'react';
-import { redoLabel, undoLabel } from '#shared/actions/history.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { usePoses, useStores } from '../stores/stores.ts';
-import { IconButton } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
+import { UndoTools } from '../ui/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { BlendBar } from './BlendBar.tsx';
 import { PoseList } from './PoseList.tsx';
@@ -42,22 +41,9 @@ function Empty() {
 
 function Tools() {
   const { poses } = useStores();
-  const back = usePoses(undoLabel);
-  const forth = usePoses(redoLabel);
   return (
     <>
-      <IconButton
-        icon="undo"
-        label={back === null ? words.actions.undo : words.actions.undoStep(back)}
-        isDisabled={back === null}
-        onPress={() => poses.book.undo()}
-      />
-      <IconButton
-        icon="redo"
-        label={forth === null ? words.actions.redo : words.actions.redoStep(forth)}
-        isDisabled={forth === null}
-        onPress={() => poses.book.redo()}
-      />
+      <UndoTools of={poses.book} />
     </>
   );
 }

@@ -3,17 +3,20 @@
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
-import { UndoTools } from './UndoTools.tsx';
+import { UndoTools } from '../ui/UndoTools.tsx';
+import dialog from './RobotDialog.module.css';
 import styles from './RobotEditor.module.css';
 
 export function RobotHead() {
-  const { view } = useStores();
+  const { view, robots } = useStores();
   return (
     <div className={styles.head}>
       <Button tone="quiet" icon="earlier" onPress={() => view.setState({ robotView: 'list' })}>
         {words.robots.back}
       </Button>
-      <UndoTools />
+      <div className={dialog.undo}>
+        <UndoTools of={robots} />
+      </div>
     </div>
   );
 }

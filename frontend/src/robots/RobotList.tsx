@@ -13,7 +13,8 @@ import { ImportRobot } from './ImportRobot.tsx';
 import { NewRobot } from './NewRobot.tsx';
 import { RobotPicture } from './RobotPicture.tsx';
 import { RobotTools } from './RobotTools.tsx';
-import { UndoTools } from './UndoTools.tsx';
+import { UndoTools } from '../ui/UndoTools.tsx';
+import dialog from './RobotDialog.module.css';
 import styles from './RobotList.module.css';
 
 export function RobotList() {
@@ -30,7 +31,9 @@ export function RobotList() {
       <section aria-labelledby={headingId}>
         <div className={styles.heading}>
           <h3 id={headingId}>{words.robots.own}</h3>
-          <UndoTools />
+          <div className={dialog.undo}>
+            <UndoTools of={robots} />
+          </div>
         </div>
         <ul className={styles.own}>
           <li className={styles.current}>

@@ -88,10 +88,6 @@ export const padWords = {
   cancel: 'Cancel',
   ready: 'Ready mapping',
   readyHint: 'Replaces every binding by the ready ones. Undo brings yours back.',
-  undo: 'Undo',
-  redo: 'Redo',
-  undoStep: (label: string): string => `Undo: ${label}`,
-  redoStep: (label: string): string => `Redo: ${label}`,
   steps: {
     bind: (input: string): string => `bind ${input}`,
     unbind: (input: string): string => `unbind ${input}`,

@@ -131,10 +131,6 @@ export const robotWords = {
     `${name} is imported and waits until its board, ${board}, is connected.`,
   notImported: (file: string, problem: RobotFileFlaw): string =>
     `${file} was not imported: ${flawText(problem)}.`,
-  undo: (label: string): string => `Undo: ${label}`,
-  redo: (label: string): string => `Redo: ${label}`,
-  undoVerb: 'Undo',
-  redoVerb: 'Redo',
   back: 'All robots',
 };
 

@@ -86,10 +86,6 @@ export const padWords: typeof english = {
   cancel: '取消',
   ready: '预设绑定',
   readyHint: '用预设绑定替换全部绑定。撤销可以恢复您自己的。',
-  undo: '撤销',
-  redo: '重做',
-  undoStep: (label) => `撤销：${label}`,
-  redoStep: (label) => `重做：${label}`,
   steps: {
     bind: (input) => `绑定${input}`,
     unbind: (input) => `解除${input}的绑定`,

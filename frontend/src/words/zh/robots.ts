@@ -136,9 +136,5 @@ export const robotWords: typeof english = {
   imported: (name) => `${name}已导入。`,
   importedElsewhere: (name, board) => `${name}已导入，等待连接它的控制板：${board}。`,
   notImported: (file, problem) => `${file} 没有导入：${flawText(problem)}。`,
-  undo: (label) => `撤销：${label}`,
-  redo: (label) => `重做：${label}`,
-  undoVerb: '撤销',
-  redoVerb: '重做',
   back: '所有机器人',
 };

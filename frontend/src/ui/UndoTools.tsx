@@ -1,0 +1,35 @@
+// Undo and redo of one history, each named by what it takes back or brings again. Knows no particular history.
+
+import { useStore, type StoreApi } from 'zustand';
+import { redoLabel, undoLabel, type History } from '#shared/actions/history.ts';
+import { words } from '../words/words.ts';
+import { IconButton } from './Button.tsx';
+
+export interface UndoToolsProps {
+  readonly of: {
+    readonly store: Pick<StoreApi<History<unknown>>, 'getState' | 'getInitialState' | 'subscribe'>;
+    undo(): void;
+    redo(): void;
+  };
+}
+
+export function UndoTools({ of }: UndoToolsProps) {
+  const back = useStore(of.store, undoLabel);
+  const forth = useStore(of.store, redoLabel);
+  return (
+    <>
+      <IconButton
+        icon="undo"
+        label={back === null ? words.actions.undo : words.actions.undoStep(back)}
+        isDisabled={back === null}
+        onPress={() => of.undo()}
+      />
+      <IconButton
+        icon="redo"
+        label={forth === null ? words.actions.redo : words.actions.redoStep(forth)}
+        isDisabled={forth === null}
+        onPress={() => of.redo()}
+      />
+    </>
+  );
+}
