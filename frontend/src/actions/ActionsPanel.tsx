@@ -10,7 +10,7 @@ import { LibraryButton } from '../library/LibraryButton.tsx';
 import { useDevice, useGroup, useStores } from '../stores/stores.ts';
 import { useLayout } from '../ui/useLayout.ts';
 import { Panel } from '../ui/Panel.tsx';
-import { UndoTools } from '../ui/UndoTools.tsx';
+import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { CaptureBar } from './CaptureBar.tsx';
 import { FrameStrip } from './FrameStrip.tsx';

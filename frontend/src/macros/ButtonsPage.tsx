@@ -4,7 +4,7 @@ import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { UndoTools } from '../ui/UndoTools.tsx';
+import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { EditGrid } from './EditGrid.tsx';
 import { MacroEditor } from './MacroEditor.tsx';

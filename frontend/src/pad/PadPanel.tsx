@@ -8,7 +8,7 @@ import { useDevice, useMapping, usePad, useRobot, useSnapshot, useStores } from 
 import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { UndoTools } from '../ui/UndoTools.tsx';
+import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { Bindings } from './Bindings.tsx';
 import { Conflicts } from './Conflicts.tsx';

@@ -5,7 +5,7 @@ import { useState } from 'react';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { usePoses, useStores } from '../stores/stores.ts';
 import { Panel } from '../ui/Panel.tsx';
-import { UndoTools } from '../ui/UndoTools.tsx';
+import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { BlendBar } from './BlendBar.tsx';
 import { PoseList } from './PoseList.tsx';

@@ -3,7 +3,7 @@
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
-import { UndoTools } from '../ui/UndoTools.tsx';
+import { UndoTools } from '../undo/UndoTools.tsx';
 import dialog from './RobotDialog.module.css';
 import styles from './RobotEditor.module.css';
 

@@ -13,7 +13,7 @@ import { ImportRobot } from './ImportRobot.tsx';
 import { NewRobot } from './NewRobot.tsx';
 import { RobotPicture } from './RobotPicture.tsx';
 import { RobotTools } from './RobotTools.tsx';
-import { UndoTools } from '../ui/UndoTools.tsx';
+import { UndoTools } from '../undo/UndoTools.tsx';
 import dialog from './RobotDialog.module.css';
 import styles from './RobotList.module.css';
 

@@ -3,7 +3,7 @@
 import { useStore, type StoreApi } from 'zustand';
 import { redoLabel, undoLabel, type History } from '#shared/actions/history.ts';
 import { words } from '../words/words.ts';
-import { IconButton } from './Button.tsx';
+import { IconButton } from '../ui/Button.tsx';
 
 export interface UndoToolsProps {
   readonly of: {
