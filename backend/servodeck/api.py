@@ -11,6 +11,7 @@ from pydantic import Field
 from starlette.requests import HTTPConnection
 
 from servodeck import __version__
+from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.clients import serve_client
 from servodeck.control import Control
 from servodeck.errors import ErrorCode, OutOfRangeError
@@ -82,6 +83,11 @@ async def control_of(connection: HTTPConnection) -> Control:
     return control
 
 
+async def caller_of(_connection: HTTPConnection) -> Caller:
+    return THIS_COMPUTER
+
+
+Called = Annotated[Caller, Depends(caller_of)]
 Controlled = Annotated[Control, Depends(control_of)]
 api = APIRouter(
     prefix="/api",
@@ -92,8 +98,8 @@ socket = APIRouter()
 
 
 @socket.websocket("/ws")
-async def ws(websocket: WebSocket, control: Controlled) -> None:
-    await serve_client(websocket, control)
+async def ws(websocket: WebSocket, caller: Called, control: Controlled) -> None:
+    await serve_client(websocket, caller, control)
 
 
 @api.get("/health")

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from pydantic import ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from servodeck.callers import Caller
 from servodeck.control import Control
 from servodeck.errors import GatewayError, MalformedError
 from servodeck.gate import judge_hold
@@ -34,12 +35,12 @@ UNSUPPORTED_DATA, TRY_AGAIN_LATER = 1003, 1013
 CLOSE_WAIT_S = 0.1
 
 
-async def serve_client(socket: WebSocket, control: Control) -> None:
+async def serve_client(socket: WebSocket, caller: Caller, control: Control) -> None:
     if control.hub.is_full:
         await socket.close(TRY_AGAIN_LATER)
         return
     await socket.accept()
-    seat = Seat()
+    seat = Seat(caller)
     control.join(seat)
     await serve_seat(socket, seat, control)
     if seat.overflowed.is_set():

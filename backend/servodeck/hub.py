@@ -1,10 +1,12 @@
 """The clients on the WebSocket: a seat each, with a bounded outbox, so that one who does not read stalls
 nobody.
 
-Knows seats and text, no socket, no message's meaning, no port.
+Knows seats, who sits there, and text; no socket, no message's meaning, no port.
 """
 
 import asyncio
+
+from servodeck.callers import Caller
 
 # Enough for a second of a busy board (960 bytes) and the answers to a full queue; far more means nobody
 # reads.
@@ -15,7 +17,8 @@ SEATS = 216
 class Seat:
     """One client. Whoever serves it takes texts with `next`; it ends with `overflowed` when too many wait."""
 
-    def __init__(self) -> None:
+    def __init__(self, caller: Caller) -> None:
+        self.caller = caller
         self._outbox: asyncio.Queue[str] = asyncio.Queue(OUTBOX_MESSAGES)
         self.overflowed = asyncio.Event()
 

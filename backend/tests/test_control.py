@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from servodeck.callers import THIS_COMPUTER
 from servodeck.control import Control
 from servodeck.errors import (
     CancelledError,
@@ -47,7 +48,7 @@ async def heard(seat: Seat) -> list[dict[str, Any]]:
 
 
 def seated(control: Control) -> Seat:
-    seat = Seat()
+    seat = Seat(THIS_COMPUTER)
     control.join(seat)
     return seat
 

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from servodeck.callers import THIS_COMPUTER
 from servodeck.clients import take
 from servodeck.control import Control
 from servodeck.hub import Seat
@@ -112,7 +113,7 @@ async def say_while_latched(asked: list[str]) -> None:
     control = Control(FakePorts(port), now, "doc")
     await control.use_port("/dev/board")
     await control.stop(None)
-    seat = Seat()
+    seat = Seat(THIS_COMPUTER)
     control.join(seat)
     for text in asked:
         take(text, seat, control)

@@ -1,0 +1,24 @@
+"""Who asks, and what they may do at most. Knows no socket, no credential and no rule of motion."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+Role = Literal["stopper", "viewer", "driver", "owner"]
+RANKS: dict[Role, int] = {"stopper": 0, "viewer": 1, "driver": 2, "owner": 3}
+
+
+@dataclass(frozen=True, slots=True)
+class Caller:
+    """`id` stays the same for a device or script; two tabs of one browser share it. `name` is for people."""
+
+    id: str
+    name: str
+    role: Role
+
+    def may(self, role: Role) -> bool:
+        """Whether `role` is enough for what is asked: each role may do all that the ones below it may."""
+        return RANKS[self.role] >= RANKS[role]
+
+
+THIS_COMPUTER = Caller("local", "This computer", "owner")
+"""Whoever asks on the gateway's own computer: it is theirs."""
