@@ -51,6 +51,8 @@ export interface Motion {
   readonly deafUntilMs: number;
   /** When it has answered all that, it hears again sooner. */
   readonly answersOwed: readonly ReportKind[];
+  /** A packet came while it was deaf, and may wait to be taken up. */
+  readonly mayHoldPacket: boolean;
   /** Until then a servo we know nothing of may still be on its way. */
   readonly restlessUntilMs: number;
   /** The next run skips its first frame (L11). */
@@ -91,6 +93,7 @@ export const UNKNOWN_MOTION: Motion = {
   untoldEndMs: -Infinity,
   deafUntilMs: -Infinity,
   answersOwed: [],
+  mayHoldPacket: false,
   restlessUntilMs: -Infinity,
   skipsFirst: 'no',
 };

@@ -124,7 +124,7 @@ function released(motion: Motion, servos: readonly number[]): Motion {
 /** Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group goes on, nobody knows when. */
 function deafened(motion: Motion, kind: Command['kind'], atMs: number): Motion {
   const deafUntilMs = atMs + LONGEST_DEAFNESS_MS;
-  const deaf = { ...motion, deafUntilMs, answersOwed: answersTo(kind) };
+  const deaf = { ...motion, deafUntilMs, answersOwed: answersTo(kind), mayHoldPacket: false };
   if (motion.run !== null) return runningUnknown(deaf, null);
   const tracks = new Map(motion.tracks);
   for (const [servo, track] of tracks) {
@@ -138,7 +138,8 @@ function deafened(motion: Motion, kind: Command['kind'], atMs: number): Motion {
 function afterUnheard(motion: Motion, command: Command, atMs: number, { family }: KnownBoard): Motion {
   const owed = family.answers.includes(command.kind) ? answersTo(command.kind) : [];
   const deafUntilMs = owed.length > 0 ? atMs + LONGEST_DEAFNESS_MS : motion.deafUntilMs;
-  const later = { ...motion, deafUntilMs, answersOwed: [...motion.answersOwed, ...owed] };
+  const answersOwed = [...motion.answersOwed, ...owed];
+  const later = { ...motion, deafUntilMs, answersOwed, mayHoldPacket: true };
   if (command.kind === 'run') return runningUnknown(later, null);
   const targets = new Map(
     command.kind === 'move' ? command.targets.map(({ servo, position }) => [servo, position]) : [],
@@ -156,7 +157,7 @@ function afterUnheard(motion: Motion, command: Command, atMs: number, { family }
 export function afterReport(motion: Motion, report: Report, atMs: number, board: KnownBoard): Motion {
   const current = advance(motion, atMs, board);
   if (report.kind === 'runStarted') return afterStart(current, report.slot);
-  const answered = afterAnswer(current, report.kind);
+  const answered = afterAnswer(current, report.kind, atMs, board);
   const isWord = report.kind === 'positions' || report.kind === 'allPositions';
   return isWord ? afterWord(answered, report.positions, atMs) : answered;
 }
@@ -168,12 +169,14 @@ function afterWord(motion: Motion, positions: readonly ServoTarget[], atMs: numb
   return { ...motion, told: afterPositions(motion.told, standing) };
 }
 
-/** What came while it was deaf it takes up only now, and may be deaf again. */
-function afterAnswer(motion: Motion, kind: ReportKind): Motion {
+/** What came while it was deaf it takes up only now: until that is done the next packet may be dropped (S9), or it is deaf again. */
+function afterAnswer(motion: Motion, kind: ReportKind, atMs: number, { family }: KnownBoard): Motion {
   const index = motion.answersOwed.indexOf(kind);
   if (index < 0) return motion;
   const answersOwed = motion.answersOwed.toSpliced(index, 1);
-  return { ...motion, answersOwed, deafUntilMs: answersOwed.length === 0 ? -Infinity : motion.deafUntilMs };
+  if (answersOwed.length > 0) return { ...motion, answersOwed };
+  const deafUntilMs = motion.mayHoldPacket ? atMs + family.serviceGapMs : -Infinity;
+  return { ...motion, answersOwed, deafUntilMs, mayHoldPacket: false };
 }
 
 /** By our own command a moment ago; or somebody started it at the board, and how long ago nobody can tell to the tick. */
