@@ -174,7 +174,7 @@ test('a killed group of LeArm costs the next one its first frame (L11), on the b
 test('a packet that ends with an answer may find the mailbox full (S9), and the estimate knows', async () => {
   const family = familyOf('bus-ctrl');
   const frames = [{ durationMs: 400, targets: [{ servo: 2, position: 900 }] }];
-  const speed = { kind: 'setSpeed', slot: STORED_SLOTS[0] ?? 0, percent: 50 } as const;
+  const speed = { kind: 'setSpeed', slot: STORED_SLOTS[0], percent: 50 } as const;
 
   /** Asked for positions, then told to move: that packet waits until the answer has been said. */
   async function busy(): Promise<EstimateUnderTest> {
@@ -192,7 +192,7 @@ test('a packet that ends with an answer may find the mailbox full (S9), and the 
     const robot = await busy();
     await robot.wait(speedEndsMs + lateMs - robot.clock.now());
     await robot.send(speed);
-    await robot.send({ kind: 'run', slot: STORED_SLOTS[0] ?? 0, times: 1 });
+    await robot.send({ kind: 'run', slot: STORED_SLOTS[0], times: 1 });
     await robot.wait(1_000);
     expect(robot.samples.filter(isWrong), `${lateMs} ms behind the answer`).toEqual([]);
   }
