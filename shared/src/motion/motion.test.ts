@@ -292,6 +292,16 @@ describe('a board busy with its flash', () => {
     expect(heard.at(330, 2)).toBe(1_500);
   });
 
+  test('takes up first what waited meanwhile, and may drop what comes right behind its answer (S9)', () => {
+    const waited = () =>
+      busy()
+        .send(200, move(20, [2, 1_000]))
+        .hear(300, { kind: 'frameStored' });
+    const behind = (atMs: number) => waited().send(atMs, move(20, [2, 1_500]));
+    expect([behind(300).at(5_000, 2), behind(301).at(5_000, 2)]).toEqual([null, null]);
+    expect(behind(310).at(5_000, 2)).toBe(1_500);
+  });
+
   test('goes on with a group nobody knows how far', () => {
     const running = robot('doc', { 1: [frame(100, [1, 2_000])] })
       .send(0, run(1, 0))

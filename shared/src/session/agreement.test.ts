@@ -4,9 +4,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import type { Frame } from '../protocol/commands.ts';
-import { encodeCommand } from '../protocol/encode.ts';
 import { family as familyOf, positionRange, type Family, type Range } from '../protocol/families.ts';
-import { wireMs } from '../protocol/packet.ts';
 import type { ProfileName } from '../simulator/profiles.ts';
 import {
   createEstimateUnderTest,
@@ -169,33 +167,6 @@ test('a killed group of LeArm costs the next one its first frame (L11), on the b
   expect(robot.samples.filter(isWrong)).toEqual([]);
   const last = robot.samples.filter(({ servo }) => servo === 2).at(-1);
   expect(last).toMatchObject({ estimated: 2_000, simulated: 2_000 });
-});
-
-test('a packet that ends with an answer may find the mailbox full (S9), and the estimate knows', async () => {
-  const family = familyOf('bus-ctrl');
-  const frames = [{ durationMs: 400, targets: [{ servo: 2, position: 900 }] }];
-  const speed = { kind: 'setSpeed', slot: STORED_SLOTS[0], percent: 50 } as const;
-
-  /** Asked for positions, then told to move: that packet waits until the answer has been said. */
-  async function busy(): Promise<EstimateUnderTest> {
-    const robot = await prepared(family, 'bus-ctrl', 10_003, [frames]);
-    await robot.send({ kind: 'readPositions', servos: usualServos(family) });
-    await robot.send({ kind: 'move', durationMs: 20, targets: [{ servo: 1, position: 0 }] });
-    return robot;
-  }
-
-  const first = await busy();
-  const heard = first.reports.length;
-  while (first.reports.length === heard) await first.wait(0.01);
-  const speedEndsMs = first.clock.now() - wireMs(encodeCommand(speed, family).length);
-  for (const lateMs of [-0.1, -0.02, 0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.2, 1]) {
-    const robot = await busy();
-    await robot.wait(speedEndsMs + lateMs - robot.clock.now());
-    await robot.send(speed);
-    await robot.send({ kind: 'run', slot: STORED_SLOTS[0], times: 1 });
-    await robot.wait(1_000);
-    expect(robot.samples.filter(isWrong), `${lateMs} ms behind the answer`).toEqual([]);
-  }
 });
 
 const TELLING = SIMULATED.filter(({ family: { answers } }) =>
