@@ -1,4 +1,4 @@
-"""The command line: serve, ports, decode. Parses, prints and sets exit codes; the work is done elsewhere.
+"""The command line. Parses, prints and sets exit codes; the work is done elsewhere.
 
 Imports the gateway only where it is served, so that the small commands answer at once.
 """
@@ -14,6 +14,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
+from servodeck.config import PREFIX, commands_of, settings_of, take_file, toml_line
 from servodeck.describe import describe
 from servodeck.families import UNKNOWN
 from servodeck.packets import FAMILIES, PacketError
@@ -36,8 +37,16 @@ def fail(message: str, code: int = FAILURE) -> NoReturn:
     raise typer.Exit(code)
 
 
-@app.command()
+@app.command(context_settings={"auto_envvar_prefix": PREFIX})
 def serve(
+    config: Annotated[  # noqa: ARG001 (its callback reads it)
+        Path | None,
+        typer.Option(
+            callback=take_file,
+            is_eager=True,
+            help="TOML file of these options; left out: this user's own or /etc/servodeck/config.toml.",
+        ),
+    ] = None,
     listen: Annotated[
         str, typer.Option(help="HOST:PORT of this computer; port 0 takes a free one.")
     ] = DEFAULT_LISTEN,
@@ -53,13 +62,17 @@ def serve(
     ] = None,
     open_page: Annotated[
         bool | None,
-        typer.Option("--open/--no-open", help="Show the page; by default where a person looks on."),
+        typer.Option(
+            "--open/--no-open",
+            envvar=f"{PREFIX}_OPEN",
+            help="Show the page; by default where a person looks on.",
+        ),
     ] = None,
     exit_with_stdin: Annotated[
         bool, typer.Option("--exit-with-stdin", help="End when stdin ends: with whoever started us.")
     ] = False,
 ) -> None:
-    """Serve the page and own the serial port."""
+    """Serve the page and own the serial port. Each option may also come from SERVODECK_NAME or a file."""
     from servodeck.app import create_app
     from servodeck.background import BackgroundPorts
     from servodeck.control import Control
@@ -86,6 +99,15 @@ def serve(
         leave_with_stdin(server.leave)
     server.run([listener])
     library.close()
+
+
+@app.command("config", context_settings={"allow_extra_args": True, "ignore_unknown_options": True})
+def show_config(context: typer.Context) -> None:
+    """Show what `serve` with the same options would go by, and where each value comes from."""
+    commands = commands_of(context)
+    with commands["serve"].make_context("serve", context.args, parent=context.parent) as made:
+        for setting in settings_of(made):
+            print(toml_line(setting))
 
 
 @app.command()
