@@ -17,6 +17,7 @@ import typer
 from servodeck.config import PREFIX, commands_of, settings_of, take_file, toml_line
 from servodeck.describe import describe
 from servodeck.families import UNKNOWN
+from servodeck.logs import Form, Level
 from servodeck.packets import FAMILIES, PacketError
 from servodeck.ports import list_devices
 
@@ -68,6 +69,8 @@ def serve(
             help="Show the page; by default where a person looks on.",
         ),
     ] = None,
+    log_level: Annotated[Level, typer.Option(help="The least that the log on stderr tells.")] = "info",
+    log_format: Annotated[Form, typer.Option(help="For people, or a JSON object a line.")] = "text",
     exit_with_stdin: Annotated[
         bool, typer.Option("--exit-with-stdin", help="End when stdin ends: with whoever started us.")
     ] = False,
@@ -78,12 +81,14 @@ def serve(
     from servodeck.control import Control
     from servodeck.data_folder import data_folder
     from servodeck.library import Library
+    from servodeck.logs import set_up_logs
     from servodeck.server import Server, leave_with_stdin
 
     board = board or ("doc" if simulated else UNKNOWN.id)
     if board not in FAMILIES:
         fail(f"There is no board family {board}. Choose one of: {', '.join(FAMILIES)}.", USAGE)
     listener = bind(*parse_listen(listen))
+    log = set_up_logs(log_level, log_format)
     url = url_of(listener)
     control = Control(BackgroundPorts(), time.monotonic, board, serial or None, simulated=simulated)
 
@@ -99,6 +104,7 @@ def serve(
         leave_with_stdin(server.leave)
     server.run([listener])
     library.close()
+    log.close()
 
 
 @app.command("config", context_settings={"allow_extra_args": True, "ignore_unknown_options": True})

@@ -6,6 +6,7 @@ Knows what is asked and what may be done now. Must not know HTTP, WebSockets or 
 
 import asyncio
 import contextlib
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -41,6 +42,7 @@ from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire
 BATTERY_PACKET = "5555020f"
 BATTERY_WAIT_S = 0.5  # boards.md 6: an answer takes 300 ms at most
 DRAIN_S = 0.5
+log = logging.getLogger("servodeck.robot")
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,6 +208,7 @@ class Control:
     def _set_latch(self, latch: bool) -> None:
         if latch != self.latch:
             self.latch = latch
+            log.info("stopped" if latch else "resumed")
             self._tell_state()
 
     def _halt(self, hold: bytes | None, reason: GatewayError) -> Left:

@@ -7,6 +7,7 @@ that a person chose to another name, and leaves another one that took its name a
 
 import asyncio
 import contextlib
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
@@ -22,6 +23,7 @@ LAST_RETRY_S = 5.0
 STEADY_S = 5.0  # a port that stayed open that long was no false start: begin with short pauses again
 
 CLOSED = PortState(device=None, status="closed")
+log = logging.getLogger("servodeck.port")
 
 
 class Ports(Protocol):
@@ -161,8 +163,17 @@ class Link:
 
     def _show(self, state: PortState) -> None:
         if state != self.state:
+            log_change(self.state, state)
             self.state = state
             self._events.port_changed()
+
+
+def log_change(before: PortState, now: PortState) -> None:
+    """The same failure again is no news."""
+    is_news = (now.status, now.code) != (before.status, before.code)
+    level = (logging.WARNING if now.status == "lost" else logging.INFO) if is_news else logging.DEBUG
+    facts = {"device": now.device or before.device, "code": now.code, "detail": now.detail}
+    log.log(level, "port %s", now.status, extra={"facts": facts})
 
 
 def replaced() -> CancelledError:

@@ -6,6 +6,7 @@ Knows uvicorn and signals, no message and no packet.
 
 import asyncio
 import contextlib
+import logging
 import os
 import signal
 import socket
@@ -17,11 +18,13 @@ from types import FrameType
 import uvicorn
 from starlette.types import ASGIApp
 
+from servodeck import __version__
 from servodeck.control import Control
 from servodeck.errors import PortError
 
 MESSAGE_BYTES = 16 * 1024
 LEAVE_S = 1
+log = logging.getLogger("servodeck.server")
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
@@ -36,6 +39,7 @@ class Server(uvicorn.Server):
                 ws_per_message_deflate=False,
                 ws_max_size=MESSAGE_BYTES,
                 timeout_graceful_shutdown=LEAVE_S,
+                log_config=None,  # ours
                 log_level="warning",
                 access_log=False,
                 server_header=False,
@@ -59,6 +63,7 @@ class Server(uvicorn.Server):
         self._opening = asyncio.create_task(self._open_port())
         await super().startup(sockets)
         if self.started:
+            log.info("ready", extra={"facts": {"version": __version__}})
             self._ready()
 
     async def main_loop(self) -> None:
@@ -71,6 +76,7 @@ class Server(uvicorn.Server):
         ticking.cancel()
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        log.info("ending")
         self._opening.cancel()
         await self._control.shut_down()
         await super().shutdown(sockets)

@@ -66,7 +66,7 @@ class Served:
 
 @pytest.fixture
 def served() -> Iterator[Served]:
-    made = Served("--exit-with-stdin")
+    made = Served("--exit-with-stdin", "--log-level", "warning")
     yield made
     made.end()
 

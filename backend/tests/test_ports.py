@@ -24,7 +24,8 @@ class Pty:
         os.close(slave)
 
     def unplug(self) -> None:
-        os.close(self.board)
+        if self.board >= 0:
+            os.close(self.board)
         self.board = -1
 
 
@@ -32,8 +33,7 @@ class Pty:
 def pty() -> Iterator[Pty]:
     made = Pty()
     yield made
-    if made.board >= 0:
-        made.unplug()
+    made.unplug()
 
 
 def test_bytes_go_both_ways(pty: Pty) -> None:
