@@ -4,7 +4,7 @@ Translates between HTTP and `control`; decides nothing.
 """
 
 import asyncio
-from typing import Annotated, Literal
+from typing import Annotated
 
 from fastapi import APIRouter, Depends, Request, WebSocket
 from pydantic import Field
@@ -26,11 +26,6 @@ class Problem(Message):
 
     code: ErrorCode
     detail: str
-
-
-class Health(Message):
-    status: Literal["ok"] = "ok"
-    version: str
 
 
 class BatteryAge(Message):
@@ -100,12 +95,6 @@ socket = APIRouter()
 @socket.websocket("/ws")
 async def ws(websocket: WebSocket, caller: Called, control: Controlled) -> None:
     await serve_client(websocket, caller, control)
-
-
-@api.get("/health")
-async def health() -> Health:
-    """Answers as long as the gateway runs, whatever the port does."""
-    return Health(version=__version__)
 
 
 @api.get("/status")

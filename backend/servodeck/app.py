@@ -1,5 +1,6 @@
 """Puts the gateway together: guard, routes, page, and one shape for every error. Holds no rule of its own."""
 
+import asyncio
 import contextlib
 from collections.abc import AsyncIterator
 from pathlib import Path
@@ -10,16 +11,19 @@ from starlette.exceptions import HTTPException
 from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.types import ASGIApp
 
-from servodeck import __version__
+from servodeck import __version__, metrics
 from servodeck.api import api, socket
 from servodeck.control import Control
+from servodeck.disk import Disk
 from servodeck.docs import STYLE, docs_page
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
 from servodeck.gate import allowed_hosts
 from servodeck.guard import Guard
+from servodeck.health_api import health_api
 from servodeck.library import Library
 from servodeck.library_api import library_api
 from servodeck.page import STATIC, page
+from servodeck.pulse import Pulse
 
 CODE_OF_STATUS: dict[int, ErrorCode] = {
     403: "forbidden",
@@ -42,7 +46,10 @@ def create_app(control: Control, library: Library, port: int, static: Path = STA
     )
     app.state.control = control
     app.state.library = library
+    app.state.pulse = Pulse()
+    app.state.disk = Disk(library.folder, control.now)
     app.include_router(api)
+    app.include_router(health_api)
     app.include_router(library_api)
     app.include_router(socket)
     add_docs(app)
@@ -54,7 +61,9 @@ def create_app(control: Control, library: Library, port: int, static: Path = STA
 @contextlib.asynccontextmanager
 async def lifespan(app: FastAPI) -> AsyncIterator[None]:
     control: Control = app.state.control
+    beating = asyncio.create_task(app.state.pulse.run())
     yield
+    beating.cancel()
     await control.shut_down()
 
 
@@ -90,4 +99,5 @@ def add_errors(app: FastAPI) -> None:
 
 
 def problem(status: int, code: ErrorCode, detail: str) -> JSONResponse:
+    metrics.refused.labels(code).inc()
     return JSONResponse({"code": code, "detail": detail}, status)

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from pydantic import ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from servodeck import metrics
 from servodeck.callers import Caller
 from servodeck.control import Control
 from servodeck.errors import GatewayError, MalformedError
@@ -136,6 +137,7 @@ def refusing(seat: Seat, message_id: int | None) -> Iterator[None]:
 
 
 def refuse(seat: Seat, message_id: int | None, error: GatewayError) -> None:
+    metrics.refused.labels(error.code).inc()
     seat.put(encode(RefusedMessage(id=message_id, code=error.code, detail=error.detail)))
 
 

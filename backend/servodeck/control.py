@@ -10,7 +10,7 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from servodeck import __version__
+from servodeck import __version__, metrics
 from servodeck.decoder import COMMAND_AT
 from servodeck.errors import (
     CancelledError,
@@ -179,9 +179,11 @@ class Control:
     # What the link tells
 
     def port_opened(self, wire: Wire) -> None:
+        metrics.port_openings.inc()
         wire.send(STOP_PACKET, self, urgent=True)
 
     def port_lost(self) -> None:
+        metrics.port_losses.inc()
         self.latch = True  # the change of the port's state follows and tells both
 
     def port_changed(self) -> None:
@@ -239,8 +241,10 @@ class Control:
     def _take(self, event: DecoderEvent) -> None:
         """One event of the board's decoder."""
         if not isinstance(event, PacketEvent):
+            metrics.noise.inc(len(event.bytes))
             self._tell(NoiseMessage(bytes=event.bytes.hex()))
             return
+        metrics.received.labels(metrics.name_of(event.packet.command)).inc()
         with contextlib.suppress(GatewayError):
             self.link.wire().answered(event.packet.command)
         self._tell(ReceivedMessage(packet=event.bytes.hex()))

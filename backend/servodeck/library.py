@@ -48,7 +48,7 @@ class Library:
     ) -> None:
         self.set_aside: str | None = None
         """The name of a damaged file that was found and kept."""
-        self._folder = folder
+        self.folder = folder
         self._now_ms = now_ms
         self._steps = steps
         self._lock = threading.Lock()
@@ -140,7 +140,7 @@ class Library:
                 raise storage_error(error) from error
 
     def _open(self) -> sqlite3.Connection:
-        db, aside = open_library(self._folder, self._steps)
+        db, aside = open_library(self.folder, self._steps)
         self.set_aside = aside or self.set_aside
         db.execute("DELETE FROM document WHERE removed_at_ms < ?", (self._now_ms() - TRASH_MS,))
         return db

@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from servodeck import metrics
 from servodeck.decoder import COMMAND_AT
 from servodeck.errors import BusyError, ClosedError, GatewayError
 from servodeck.ports import BAUD, OpenPort
@@ -40,6 +41,7 @@ class Job:
     packet: bytes
     owner: Owner
     left: Left
+    asked_at: float
 
 
 @dataclass(eq=False, slots=True)
@@ -88,7 +90,7 @@ class Wire:
         lane = self._urgent if urgent else self._queue
         if sum(job.owner is owner for job in lane) >= QUEUE_PER_OWNER:
             raise BusyError(f"{QUEUE_PER_OWNER} packets wait already; send the next one when one has left.")
-        job = Job(packet, owner, asyncio.get_running_loop().create_future())
+        job = Job(packet, owner, asyncio.get_running_loop().create_future(), self._now())
         lane.append(job)
         self._work.set()
         return job.left
@@ -102,6 +104,7 @@ class Wire:
         self.purge(lambda _job: True, reason)
         if self._halt is None:
             self._halt = Halt(hold, asyncio.get_running_loop().create_future())
+            metrics.stops.inc()
         else:
             self._halt.hold = hold or self._halt.hold
             if (
@@ -169,6 +172,7 @@ class Wire:
 
     async def _send_job(self, job: Job) -> None:
         self._under_way = job
+        metrics.queue_wait.observe(self._now() - job.asked_at)
         await self._put(job.packet)
         self._under_way = None
         settle(job.left)
@@ -176,6 +180,7 @@ class Wire:
     async def _put(self, packet: bytes) -> None:
         self._port.write(packet)
         self._last_command = packet[COMMAND_AT]
+        metrics.sent.labels(metrics.name_of(self._last_command)).inc()
         self._left_at = self._now() + wire_s(len(packet))
         self._free_at = self._left_at + self._gap_s
         await self._until(self._left_at)

@@ -16,9 +16,8 @@ CLOSED = {"device": None, "status": "closed", **QUIET}
 
 
 @in_virtual_time
-async def test_health_and_status_tell_how_everything_stands() -> None:
+async def test_status_tells_how_everything_stands() -> None:
     async with http_to(FakePorts(FakePort()), now) as (client, _):
-        assert (await client.get("/api/health")).json() == {"status": "ok", "version": __version__}
         assert (await client.get("/api/status")).json() == {
             "version": __version__,
             "board": "doc",

@@ -14,6 +14,7 @@ from servodeck.api import api, socket
 from servodeck.app import create_app
 from servodeck.control import Control
 from servodeck.errors import PortMissingError
+from servodeck.health_api import health_api
 from servodeck.library_api import library_api
 from tests.fake_port import FakePorts
 from tests.running import NO_LIBRARY, PORT, http_to
@@ -24,7 +25,7 @@ NOWHERE = FakePorts(PortMissingError("There is no such port."))
 
 def all_routes() -> Iterator[tuple[str, str, str]]:
     """Type, method and path of everything that answers, read from the routers, and what they do not know."""
-    for route in [*api.routes, *library_api.routes]:
+    for route in [*api.routes, *health_api.routes, *library_api.routes]:
         assert isinstance(route, APIRoute)
         yield from (("http", method, route.path) for method in route.methods or ())
     yield from (("websocket", "GET", getattr(route, "path", "")) for route in socket.routes)
