@@ -1,12 +1,13 @@
 // A servo's positions as the person reads them, in the board's units or in degrees from its home, and back. Pure.
 
 import { degreesOf, positionOf, type RobotServo } from '#shared/actions/robot/robot.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { Family, Range } from '#shared/protocol/families.ts';
 import type { PositionsIn } from '../stores/view.ts';
 import { words } from '../words/words.ts';
 
 export interface Scale {
   readonly unit: string;
+  readonly isDegrees: boolean;
   /** The servo's limits as they are shown. */
   readonly min: number;
   readonly max: number;
@@ -35,9 +36,11 @@ export function stepped(scale: Scale, from: number, change: number): number {
   return scale.position(Math.min(scale.max, Math.max(scale.min, scale.shown(from) + change)));
 }
 
-function inUnits({ min, max }: RobotServo, unit: Family['unit']): Scale {
+/** Of a servo that the robot at hand does not have, or not in this unit. */
+export function inUnits({ min, max }: Range, unit: Family['unit']): Scale {
   return {
     ...{ unit: words.numbers.unitSymbol(unit), min, max, decimals: 0, direction: 1 },
+    isDegrees: false,
     page: unit === 'us' ? 100 : 50,
     shown: Math.round,
     position: (shown) => within({ min, max }, Math.round(shown)),
@@ -53,6 +56,7 @@ function inDegrees(servo: RobotServo): Scale {
   const ends = [shown(servo.min), shown(servo.max)];
   return {
     ...{ unit: '°', min: Math.min(...ends), max: Math.max(...ends), decimals, page: 10 },
+    isDegrees: true,
     direction: servo.isReversed ? -1 : 1,
     shown,
     position: (degrees) => within(servo, positionOf(servo, degrees)),

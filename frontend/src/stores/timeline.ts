@@ -42,6 +42,8 @@ export interface TimelineState {
   readonly showsPreview: boolean;
   readonly clip: Clip | null;
   readonly asks: Ask | null;
+  /** The answer as far as it was typed before its field was there. */
+  readonly typed: string;
   /** The marker that is selected, by its id. */
   readonly marker: number | null;
 }
@@ -67,6 +69,7 @@ export function createTimeline(): Timeline {
     showsPreview: true,
     clip: null,
     asks: null,
+    typed: '',
     marker: null,
   }));
 }

@@ -1,20 +1,37 @@
 // A field in place: a number or a text that the timeline asks for, beside what it is about. Enter and leaving the field take it,
-// Escape does not (and stops the robot, as everywhere).
+// Escape does not (and stops the robot, as everywhere). Before it is asked for, the value of the selected key stands there.
 
-import { useStores, useTimeline } from '../stores/stores.ts';
-import { ALL_ROW, type Ask } from '../stores/timeline.ts';
+import { useStores } from '../stores/stores.ts';
+import type { Ask } from '../stores/timeline.ts';
+import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
 import { answer, ASKED } from './asks.ts';
-import { deskOf, type Desk } from './desk.ts';
-import { endOfFrame } from './groupTimes.ts';
-import { sceneOf } from './scene.ts';
+import { deskOf } from './desk.ts';
+import { endOfFrame, selectedKeys } from './groupTimes.ts';
 import { sizesNow } from './lanes.ts';
+import { scaleAt } from './positions.ts';
+import { sceneOf } from './scene.ts';
 import { xOf } from './timeScale.ts';
+import type { SeenDesk } from './useDesk.ts';
 import styles from './AskBox.module.css';
 
-export function AskBox({ onClose }: { onClose(): void }) {
-  const asks = useTimeline((state) => state.asks);
-  return asks === null ? null : <Asked key={asks} ask={asks} onClose={onClose} />;
+export function AskBox({ desk, onClose }: { readonly desk: SeenDesk; onClose(): void }) {
+  const { asks } = desk.state;
+  return asks === null ? <KeyValue desk={desk} /> : <Asked key={asks} ask={asks} onClose={onClose} />;
+}
+
+/** The cell of the key says it to ears. */
+function KeyValue({ desk }: { readonly desk: SeenDesk }) {
+  const { times, state } = desk;
+  const [key, ...others] = selectedKeys(times, state.selected);
+  if (key === undefined || others.length > 0 || state.cursor.frameId !== key.frameId) return null;
+  const place = placeOf(desk);
+  if (place === null) return null;
+  return (
+    <div className={cx(styles.box, styles.value)} style={place} aria-hidden="true">
+      {scaleAt(desk, key.servo).text(key.position)}
+    </div>
+  );
 }
 
 function Asked({ ask, onClose }: { readonly ask: Ask; onClose(): void }) {
@@ -22,7 +39,7 @@ function Asked({ ask, onClose }: { readonly ask: Ask; onClose(): void }) {
   const desk = deskOf(stores);
   const asked = ASKED[ask];
   const close = (): void => {
-    stores.timeline.setState({ asks: null });
+    stores.timeline.setState({ asks: null, typed: '' });
     onClose();
   };
   const take = (text: string): void => {
@@ -32,18 +49,18 @@ function Asked({ ask, onClose }: { readonly ask: Ask; onClose(): void }) {
     if (problem !== null) stores.notices.tell('warning', problem);
   };
   return (
-    <div className={styles.box} style={placeOf(desk)}>
+    <div className={styles.box} style={placeOf(desk) ?? {}}>
       <input
         type="text"
         autoFocus
         className={asked.kind === 'text' ? styles.text : styles.number}
-        inputMode={asked.kind === 'text' ? 'text' : 'numeric'}
+        inputMode={asked.kind === 'text' ? 'text' : 'decimal'}
         aria-label={words.timeline.asks[ask]}
         title={words.timeline.asks[ask]}
         autoComplete="off"
         maxLength={asked.kind === 'text' ? asked.maxLength : 8}
-        defaultValue={asked.initial(desk)}
-        onFocus={(event) => event.target.select()}
+        defaultValue={desk.state.typed || asked.initial(desk)}
+        onFocus={({ target }) => desk.state.typed === '' && target.select()}
         onBlur={(event) => take(event.target.value)}
         onKeyDown={(event) => {
           if (event.key === 'Enter') take(event.currentTarget.value);
@@ -55,16 +72,24 @@ function Asked({ ask, onClose }: { readonly ask: Ask; onClose(): void }) {
   );
 }
 
-/** Below what it is about, within the lanes. */
-function placeOf(desk: Desk): { readonly insetInlineStart: string; readonly top: number } {
-  const { state, times } = desk;
-  const atMs = endOfFrame(times, state.cursor.frameId) ?? state.playheadMs;
-  const scene = sceneOf(desk, sizesNow(state));
-  const row = [scene.all, ...scene.rows].find(({ row: { id } }) => id === state.cursor.row) ?? scene.all;
-  const x = Math.min(
-    Math.max(8, xOf(state.time, state.asks === 'marker' ? state.playheadMs : atMs) + 10),
-    state.widthPx - 150,
-  );
-  const top = state.cursor.row === ALL_ROW ? scene.all.top : row.top;
-  return { insetInlineStart: `calc(var(--heads) + ${x}px)`, top: Math.min(top, state.heightPx - 44) };
+/** Beside what it is about, within the lanes. */
+function placeOf(desk: SeenDesk): Place | null {
+  const { state, times, stores } = desk;
+  const { playheadMs } = stores.timeline.getState();
+  const isAtPlayhead = state.asks === 'marker' || state.cursor.frameId === null;
+  const atMs = isAtPlayhead ? playheadMs : (endOfFrame(times, state.cursor.frameId) ?? playheadMs);
+  const scene = sceneOf({ ...desk, state: { ...state, playheadMs } }, sizesNow(state));
+  const row = [scene.all, ...scene.rows].find(({ row: { id } }) => id === state.cursor.row);
+  if (row === undefined && state.asks === null) return null;
+  const x = xOf(state.time, atMs) + 10;
+  if (state.asks === null && (x < 0 || x > state.widthPx)) return null;
+  return {
+    insetInlineStart: `calc(var(--heads) + ${Math.min(Math.max(8, x), state.widthPx - (state.asks === null ? 70 : 150))}px)`,
+    top: Math.min((row ?? scene.all).top, state.heightPx - 44),
+  };
+}
+
+interface Place {
+  readonly insetInlineStart: string;
+  readonly top: number;
 }

@@ -9,9 +9,10 @@ import { Icon } from '../ui/Icon.tsx';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
 import { cellName, rowName } from './cellName.ts';
-import { deskOf } from './desk.ts';
+import { deskOf, rangeOf } from './desk.ts';
 import { keysOfFrame } from './groupTimes.ts';
 import { selectRow } from './looking.ts';
+import { scaleAt } from './positions.ts';
 import type { PlacedRow } from './rows.ts';
 import { keysInRow, keyY, sceneOf, within, type Scene } from './scene.ts';
 import type { Sizes } from './sizes.ts';
@@ -96,8 +97,9 @@ interface HeadProps {
   openRowMenu(row: string, button: HTMLElement): void;
 }
 
-function Head({ desk: { servoView, state }, placed: { row }, openRowMenu }: HeadProps) {
+function Head({ desk, placed: { row }, openRowMenu }: HeadProps) {
   const stores = useStores();
+  const { servoView, state } = desk;
   const name = rowName(row);
   const [servo = -1] = row.servos;
   return (
@@ -129,18 +131,33 @@ function Head({ desk: { servoView, state }, placed: { row }, openRowMenu }: Head
         <>
           <Marks isLocked={isHeld(servoView, servo)} isMuted={servoView.muted.includes(servo)} />
           <span className={styles.value} data-value={servo} aria-hidden="true" />
-          <button
-            type="button"
-            tabIndex={-1}
-            className={styles.tools}
-            aria-label={words.timeline.rows.tools(name)}
-            onClick={(event) => openRowMenu(row.id, event.currentTarget)}
-          >
-            <Icon name="more" />
-          </button>
         </>
       )}
+      {row.kind !== 'all' && (
+        <button
+          type="button"
+          tabIndex={-1}
+          className={styles.tools}
+          aria-label={words.timeline.rows.tools(name)}
+          onClick={(event) => openRowMenu(row.id, event.currentTarget)}
+        >
+          <Icon name="more" />
+        </button>
+      )}
+      {row.kind === 'servo' && state.isTall && <Axis desk={desk} servo={servo} />}
     </div>
+  );
+}
+
+/** What the upper and the lower edge of a tall row stand for. */
+function Axis({ desk, servo }: { readonly desk: SeenDesk; readonly servo: number }) {
+  const { min, max } = rangeOf(desk, servo);
+  const { text } = scaleAt(desk, servo);
+  return (
+    <span className={styles.axis} aria-hidden="true">
+      <span>{text(max)}</span>
+      <span>{text(min)}</span>
+    </span>
   );
 }
 

@@ -3,7 +3,12 @@
 import { useServoView, useStores, editServoView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { cellName } from './cellName.ts';
 import type { StatusName } from './gesture.ts';
+import { selectedKeys } from './groupTimes.ts';
+import { servoAtHand } from './moving.ts';
+import { turnText } from './positions.ts';
+import { servoRowId } from './rows.ts';
 import type { SeenDesk } from './useDesk.ts';
 import styles from './StatusText.module.css';
 
@@ -28,11 +33,16 @@ export function StatusText({
   );
 }
 
-function textOf({ state, family }: SeenDesk, status: StatusName | null): string {
-  const count = state.selected.size;
-  if (status === null || status === 'selected' || status === 'nothing')
-    return count === 0
-      ? words.timeline.status.nothing
-      : words.timeline.status.selected(count, family.motion.tickMs);
-  return words.timeline.status[status];
+function textOf(desk: SeenDesk, status: StatusName | null): string {
+  const { state, family } = desk;
+  if (status !== null && status !== 'selected' && status !== 'nothing') return words.timeline.status[status];
+  const keys = selectedKeys(desk.times, state.selected);
+  const servo = servoAtHand(desk, keys);
+  const [only] = keys;
+  if (only === undefined || servo === undefined) return words.timeline.status.nothing;
+  const about =
+    keys.length === 1
+      ? cellName(desk, { row: servoRowId(servo), frameId: only.frameId })
+      : words.timeline.keys(keys.length);
+  return words.timeline.status.selected(about, family.motion.tickMs, turnText(desk, servo));
 }

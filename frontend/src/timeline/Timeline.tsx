@@ -160,7 +160,7 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
               />
             </div>
             <Corner />
-            <AskBox onClose={takeFocus} />
+            <AskBox desk={desk} onClose={takeFocus} />
           </div>
         </div>
       </div>

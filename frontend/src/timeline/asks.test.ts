@@ -1,4 +1,5 @@
 import { expect, test } from 'vitest';
+import { servoOf } from '#shared/actions/robot/robot.ts';
 import { answer } from './asks.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';
 
@@ -10,6 +11,21 @@ test('a number within what the servos can do is taken for all selected keys', as
     [500, 1720],
     [1000, 1720],
   ]);
+});
+
+test('a number in degrees turns each servo there, within what it can do', async () => {
+  const { desk, select, keys, stores } = await createTimelineDesk();
+  stores.view.setState({ positionsIn: 'degrees' });
+  select([1, 1], [2, 2]);
+  const { degreesPerUnit, home } = servoOf(desk().robot, 1)!;
+  expect(answer(desk(), 'value', '22.5')).toBeNull();
+  const there = home + Math.round(22.5 / degreesPerUnit);
+  expect([keys(1)[0], keys(2)[1]]).toEqual([
+    [500, there],
+    [1000, there],
+  ]);
+  expect(answer(desk(), 'value', '500')).toMatch(/^Position of the selected keys: 500 is out of range/);
+  expect(keys(1)[0]).toEqual([500, there]);
 });
 
 test('any other is refused in words, and changes nothing', async () => {

@@ -7,9 +7,11 @@ import { setNote } from '#shared/actions/group/frameEdits.ts';
 import { insertTime, stretch } from '#shared/actions/group/timeEdits.ts';
 import type { Ask } from '../stores/timeline.ts';
 import { numberIn } from '../ui/NumberField.tsx';
+import type { Scale } from '../servos/scale.ts';
 import { words } from '../words/words.ts';
 import { apply, changeable, rangeOf, selectedFrames, type Desk } from './desk.ts';
 import { keyOf, selectedKeys, spanOf, timesOf } from './groupTimes.ts';
+import { scaleAt } from './positions.ts';
 
 interface Range {
   readonly min: number;
@@ -20,7 +22,9 @@ interface NumberAsk {
   readonly kind: 'number';
   unit(desk: Desk): string;
   range(desk: Desk): Range;
-  initial(desk: Desk): number;
+  /** As it stands in the field. */
+  initial(desk: Desk): string;
+  decimals?(desk: Desk): 0 | 1;
   take(desk: Desk, value: number): void;
 }
 
@@ -34,11 +38,15 @@ interface TextAsk {
 export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
   value: {
     kind: 'number',
-    unit: ({ group }) => words.numbers.unitSymbol(group.unit),
+    unit: (desk) => scaleAtCursor(desk).unit,
     range: commonRange,
-    initial: (desk) => changeableAtCursor(desk)?.position ?? 0,
-    take(desk, position) {
-      const keys = changeable(desk).map((ref) => ({ ...ref, position }));
+    initial: (desk) => String(scaleAtCursor(desk).shown(changeableAtCursor(desk)?.position ?? 0)),
+    decimals: (desk) => scaleAtCursor(desk).decimals,
+    take(desk, shown) {
+      const keys = changeable(desk).map((ref) => ({
+        ...ref,
+        position: scaleAt(desk, ref.servo).position(shown),
+      }));
       apply(desk, { label: () => words.timeline.steps.value, edit: (group) => setPositions(group, keys) });
     },
   },
@@ -46,7 +54,7 @@ export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
     kind: 'number',
     unit: () => words.timeline.percent,
     range: () => ({ min: 1, max: 10_000 }),
-    initial: () => 100,
+    initial: () => '100',
     take(desk, value) {
       const span = stretchedSpan(desk);
       if (span === null) return;
@@ -61,14 +69,14 @@ export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
     kind: 'number',
     unit: () => words.timeline.percent,
     range: () => ({ min: -1000, max: 1000 }),
-    initial: () => 100,
+    initial: () => '100',
     take: swing,
   },
   insertTime: {
     kind: 'number',
     unit: () => words.servos.ms,
     range: ({ family }) => ({ min: 1, max: family.durationMs.max }),
-    initial: () => 500,
+    initial: () => '500',
     take(desk, durationMs) {
       const { playheadMs } = desk.state;
       apply(desk, {
@@ -116,7 +124,7 @@ export function answer(desk: Desk, ask: Ask, text: string): string | null {
     asked.take(desk, text.trim());
     return null;
   }
-  const value = numberIn(text, 0);
+  const value = numberIn(text, asked.decimals?.(desk) ?? 0);
   const { min, max } = asked.range(desk);
   if (Number.isNaN(value)) return null;
   if (value < min || value > max) return words.refused(words.timeline.asks[ask], value, min, max);
@@ -145,12 +153,14 @@ function changeableAtCursor(desk: Desk) {
   return ref === undefined ? undefined : keyOf(desk.times, ref);
 }
 
-/** What all of the selected servos can do. */
+const scaleAtCursor = (desk: Desk): Scale => scaleAt(desk, changeableAtCursor(desk)?.servo ?? 0);
+
+/** What all of the selected servos can do, as it is shown. */
 function commonRange(desk: Desk): Range {
-  const ranges = changeable(desk).map(({ servo }) => rangeOf(desk, servo));
+  const scales = changeable(desk).map(({ servo }) => scaleAt(desk, servo));
   return {
-    min: ranges.reduce((most, { min }) => Math.max(most, min), 0),
-    max: ranges.reduce((least, { max }) => Math.min(least, max), desk.family.position.max),
+    min: Math.max(...scales.map(({ min }) => min)),
+    max: Math.min(...scales.map(({ max }) => max)),
   };
 }
 

@@ -4,6 +4,7 @@ import type { Cursor } from '../stores/timeline.ts';
 import { words } from '../words/words.ts';
 import type { Desk } from './desk.ts';
 import { keysOfFrame } from './groupTimes.ts';
+import { scaleAt, type Reader } from './positions.ts';
 import type { Row } from './rows.ts';
 
 export function rowName({ kind, name, servos }: Row): string {
@@ -12,10 +13,8 @@ export function rowName({ kind, name, servos }: Row): string {
   return name === '' ? words.timeline.noName(servos[0] ?? 0) : name;
 }
 
-export function cellName(
-  { rows, times, group }: Pick<Desk, 'rows' | 'times' | 'group'>,
-  { row: id, frameId }: Cursor,
-): string {
+export function cellName(desk: Reader & Pick<Desk, 'rows' | 'times'>, { row: id, frameId }: Cursor): string {
+  const { rows, times } = desk;
   const row = rows.find((one) => one.id === id);
   if (row === undefined) return '';
   const name = rowName(row);
@@ -24,6 +23,6 @@ export function cellName(
   const keys = keysOfFrame(times, row.servos, frameId);
   const [key] = keys;
   if (row.kind === 'servo' && key !== undefined)
-    return words.timeline.key(name, key.atMs, key.position, group.unit, key.easing);
+    return words.timeline.key(name, key.atMs, scaleAt(desk, key.servo).text(key.position), key.easing);
   return words.timeline.summary(name, place + 1, times.ends[place] ?? 0, keys.length);
 }

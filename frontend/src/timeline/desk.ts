@@ -11,6 +11,7 @@ import { keyName, keySet, type KeySet } from '../stores/keySet.ts';
 import { isHeld, type ServoView } from '../stores/servoView.ts';
 import { servoViewOf, type Stores } from '../stores/stores.ts';
 import type { TimelineState } from '../stores/timeline.ts';
+import type { PositionsIn } from '../stores/view.ts';
 import { words } from '../words/words.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { rowsOf, type Row } from './rows.ts';
@@ -26,6 +27,7 @@ export interface Desk {
   readonly robot: Robot;
   readonly family: Family;
   readonly servoView: ServoView;
+  readonly positionsIn: PositionsIn;
 }
 
 export function deskOf(stores: DeskStores): Desk {
@@ -38,6 +40,7 @@ export function deskOf(stores: DeskStores): Desk {
     state: stores.timeline.getState(),
     rows: rowsOf(robot, times.tracks, servoView),
     family: stores.device.store.getState().family,
+    positionsIn: stores.view.getState().positionsIn,
   };
 }
 

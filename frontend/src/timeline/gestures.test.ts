@@ -160,6 +160,13 @@ describe('dragging other things', () => {
     expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1500, 2000]);
   });
 
+  test('the handle before it moves its beginning, and its end stays', async () => {
+    const { drag, select, keys } = await createTimelineDesk();
+    select([2, 1], [3, 1]);
+    drag({ x: 88, y: 57 }, 25, 0);
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1260, 1500]);
+  });
+
   test('a box from an empty place selects what is in it; a click there nothing', async () => {
     const { press, selected, spotOf, click } = await createTimelineDesk();
     const from = { x: 80, y: spotOf(1, 1).y - 8 };

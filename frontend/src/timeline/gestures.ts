@@ -2,7 +2,7 @@
 // lasts, kept at its end or called off.
 
 import { moveMarker } from '#shared/actions/group/markerEdits.ts';
-import { setDuration, stretch } from '#shared/actions/group/timeEdits.ts';
+import { setDuration, stretch, stretchBack } from '#shared/actions/group/timeEdits.ts';
 import { withKeys } from '../stores/keySet.ts';
 import { words } from '../words/words.ts';
 import { deskOf, select, type Desk } from './desk.ts';
@@ -27,7 +27,7 @@ export function gestureOf(press: Press): Gesture {
     case 'head':
       return headGesture(press, desk, hit.frameId);
     case 'handle':
-      return stretchGesture(press, desk, hit.span);
+      return stretchGesture(press, desk, hit);
     case 'key':
       return keyGesture(press, scene, hit);
     case 'empty':
@@ -89,16 +89,19 @@ function durationGesture(press: Press, desk: Desk, { frameId, atMs }: Hit & { ki
   );
 }
 
-function stretchGesture(press: Press, desk: Desk, span: (Hit & { kind: 'handle' })['span']): Gesture {
-  const to = draggedTo(press, desk, span.toMs, new Set([span.toMs]));
+function stretchGesture(press: Press, desk: Desk, { end, span }: Hit & { kind: 'handle' }): Gesture {
+  const isFirst = end === 'first';
+  const [pulledMs, fixedMs] = isFirst ? [span.fromMs, span.toMs] : [span.toMs, span.fromMs];
+  const to = draggedTo(press, desk, pulledMs, new Set([pulledMs]));
   return edits(
     press,
-    'stretch',
+    isFirst ? 'stretchBack' : 'stretch',
     () => words.timeline.steps.stretch,
     (spot, held) => {
-      const factor = (to(spot, held) - span.fromMs) / (span.toMs - span.fromMs);
-      const { ripples } = press.stores.timeline.getState();
-      return (group) => stretch(group, span, Math.max(0, factor), { ripple: ripples });
+      const factor = Math.max(0, (to(spot, held) - fixedMs) / (pulledMs - fixedMs));
+      const { ripples: ripple } = press.stores.timeline.getState();
+      return (group) =>
+        isFirst ? stretchBack(group, span, factor) : stretch(group, span, factor, { ripple });
     },
   );
 }
@@ -154,10 +157,12 @@ function panGesture(press: Press, desk: Desk): Gesture {
       press.scroll(last.y - spot.y);
       last = spot;
     },
-    end: (isClick) => isClick && select(press.stores, new Set()),
+    end: (isClick) => isClick && press.isTouch && select(press.stores, new Set()),
     cancel: nothing,
   };
 }
+
+export const panFrom = (press: Press): Gesture => panGesture(press, deskOf(press.stores));
 
 /** What a finger that rests for a while does when it goes on: a box. */
 export function boxFrom(press: Press): Gesture {

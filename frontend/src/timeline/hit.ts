@@ -1,6 +1,7 @@
 // What is under the pointer. Pure; the same geometry as the painting.
 
 import type { KeySet } from '../stores/keySet.ts';
+import type { TimelineState } from '../stores/timeline.ts';
 import type { KeyRef } from '#shared/actions/group/tracks.ts';
 import { keysOfFrame, selectedKeys, spanOf, type GroupTimes } from './groupTimes.ts';
 import type { PlacedRow, Row } from './rows.ts';
@@ -12,8 +13,8 @@ export type Hit =
   | { readonly kind: 'marker'; readonly id: number; readonly atMs: number }
   | { readonly kind: 'edge'; readonly frameId: number; readonly atMs: number }
   | { readonly kind: 'head'; readonly frameId: number }
-  /** The end of the selected stretch. */
-  | { readonly kind: 'handle'; readonly span: Span }
+  /** One of the ends of the selected stretch. */
+  | { readonly kind: 'handle'; readonly end: StretchEnd; readonly span: Span }
   | {
       readonly kind: 'key';
       readonly refs: readonly KeyRef[];
@@ -69,8 +70,21 @@ const edgeReach = (reach: number): number => reach * 0.6;
 
 const isNear = (one: number, other: number, reach: number): boolean => Math.abs(one - other) <= reach;
 
-/** The handle stands behind the stretch, so that its keys are free. */
-export const HANDLE_PX = 12;
+export type StretchEnd = 'first' | 'last';
+
+/** The handles stand beside the stretch, so that its keys are free. */
+const HANDLE_PX = { first: -12, last: 12 } as const;
+
+/** In the order in which they are hit: a short stretch grows at its end. */
+export const HANDLES: readonly StretchEnd[] = ['last', 'first'];
+
+export const handleX = (
+  { time }: Pick<TimelineState, 'time'>,
+  { fromMs, toMs }: Span,
+  end: StretchEnd,
+): number => xOf(time, end === 'first' ? fromMs : toMs) + HANDLE_PX[end];
+
+const handleReach = (reach: number): number => Math.max(HANDLE_PX.last / 2, reach * 0.75);
 
 /** What the handle stretches: a selection of more than one instant. */
 export function stretchOf(times: GroupTimes, selected: KeySet): Span | null {
@@ -81,8 +95,8 @@ export function stretchOf(times: GroupTimes, selected: KeySet): Span | null {
 function handleAt({ times, state, sizes }: Scene, x: number): Hit | null {
   const span = stretchOf(times, state.selected);
   if (span === null) return null;
-  const isOn = isNear(xOf(state.time, span.toMs) + HANDLE_PX, x, Math.max(HANDLE_PX / 2, sizes.reach * 0.75));
-  return isOn ? { kind: 'handle', span } : null;
+  const end = HANDLES.find((one) => isNear(handleX(state, span, one), x, handleReach(sizes.reach)));
+  return end === undefined ? null : { kind: 'handle', end, span };
 }
 
 function keyAt(scene: Scene, placed: PlacedRow, { x, y }: Spot): Hit | null {

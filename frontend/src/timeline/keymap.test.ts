@@ -1,4 +1,5 @@
 import { describe, expect, test } from 'vitest';
+import { servoOf } from '#shared/actions/robot/robot.ts';
 import { editServoView } from '../stores/stores.ts';
 import { chordOf } from './keymap.ts';
 import { keepInStep } from './inStep.ts';
@@ -10,6 +11,15 @@ test('a key is named by what is held with it, Command like Ctrl, and Shift only 
   expect(chordOf({ ...plain, key: 'A', metaKey: true, shiftKey: true })).toBe('Ctrl+Shift+a');
   expect(chordOf({ ...plain, key: '+', shiftKey: true })).toBe('+');
   expect(chordOf({ ...plain, key: 'ArrowLeft', shiftKey: true })).toBe('Shift+ArrowLeft');
+});
+
+test('a typed number opens the field of the selected keys, with its first digit', async () => {
+  const { key, select, stores } = await createTimelineDesk();
+  key('7');
+  expect(stores.timeline.getState().asks).toBeNull();
+  select([2, 1]);
+  key('7');
+  expect(stores.timeline.getState()).toMatchObject({ asks: 'value', typed: '7' });
 });
 
 describe('arrows', () => {
@@ -37,6 +47,17 @@ describe('arrows', () => {
     key('ArrowUp');
     key('ArrowDown', { shiftKey: true });
     expect(keys(1)[1]).toEqual([1220, 1191]);
+  });
+
+  test('turn by a degree where degrees are shown', async () => {
+    const { key, keys, select, stores, desk } = await createTimelineDesk();
+    stores.view.setState({ positionsIn: 'degrees' });
+    key('ArrowDown');
+    key('ArrowRight', { ctrlKey: true });
+    key('ArrowUp');
+    const degree = Math.round(1 / servoOf(desk().robot, 1)!.degreesPerUnit);
+    expect(keys(1).map(([, position]) => position)).toContain(1200 + degree);
+    expect(stores.view.getState().said).toMatch(/, -?\d+\.\d°, linear$/);
   });
 
   test('keep the cursor on the key they nudge', async () => {

@@ -19,22 +19,31 @@ export function chordOf({ key, ctrlKey, metaKey, shiftKey, altKey }: Pressed): s
 }
 
 const FAR = 10;
-const ARROWS: readonly { key: string; direction: Direction; ticks: number; units: number }[] = [
-  { key: 'ArrowLeft', direction: 'left', ticks: -1, units: 0 },
-  { key: 'ArrowRight', direction: 'right', ticks: 1, units: 0 },
-  { key: 'ArrowUp', direction: 'up', ticks: 0, units: 1 },
-  { key: 'ArrowDown', direction: 'down', ticks: 0, units: -1 },
+const ARROWS: readonly { key: string; direction: Direction; ticks: number; turns: number }[] = [
+  { key: 'ArrowLeft', direction: 'left', ticks: -1, turns: 0 },
+  { key: 'ArrowRight', direction: 'right', ticks: 1, turns: 0 },
+  { key: 'ArrowUp', direction: 'up', ticks: 0, turns: 1 },
+  { key: 'ArrowDown', direction: 'down', ticks: 0, turns: -1 },
 ];
 
 /** With nothing selected the arrows go about; with keys selected they move these. */
-function arrow({ direction, ticks, units }: (typeof ARROWS)[number], far: number): KeyAction {
+function arrow({ direction, ticks, turns }: (typeof ARROWS)[number], far: number): KeyAction {
   return (desk) => {
     if (desk.state.selected.size === 0) walk(desk, direction, null);
-    else nudge(desk, ticks * far, units * far);
+    else nudge(desk, ticks * far, turns * far);
   };
 }
 
 const OF_CLIPBOARD: readonly string[] = ['Ctrl+c', 'Ctrl+x', 'Ctrl+v'];
+
+/** Typing a number is giving it to the selected keys. */
+const DIGITS = ['0', '1', '2', '3', '4', '5', '6', '7', '8', '9'];
+
+const typing =
+  (typed: string): KeyAction =>
+  ({ state, stores }) => {
+    if (state.selected.size > 0) stores.timeline.setState({ asks: 'value', typed });
+  };
 
 const ACTIONS: ReadonlyMap<string, KeyAction> = new Map<string, KeyAction>([
   ...ARROWS.flatMap((one): [string, KeyAction][] => [
@@ -45,6 +54,7 @@ const ACTIONS: ReadonlyMap<string, KeyAction> = new Map<string, KeyAction>([
   ]),
   ['Ctrl+ ', toggleAtCursor],
   ['Shift+ ', (desk) => selectRow(desk, desk.state.cursor.row, 'toggles')],
+  ...DIGITS.map((digit): [string, KeyAction] => [digit, typing(digit)]),
   ['Home', (desk) => lookAt(desk, 0)],
   ['End', (desk) => lookAt(desk, desk.times.lengthMs)],
   ['Backspace', VERBS.remove.run],

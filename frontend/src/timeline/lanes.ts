@@ -2,16 +2,17 @@
 // playhead. Knows elements and stores, no edit.
 
 import { positionAt } from '#shared/actions/group/tracks.ts';
-import { words } from '../words/words.ts';
 import { setKeysAt } from './changes.ts';
 import { deskOf, select, type Desk, type DeskStores } from './desk.ts';
 import type { StatusName } from './gesture.ts';
 import { hasAll, hitAt, type Spot } from './hit.ts';
+import { hoverAt } from './hover.ts';
 import { keySet } from '../stores/keySet.ts';
 import { lookOf } from './look.ts';
 import { setTime } from './looking.ts';
 import { paint } from './paint.ts';
 import { followPointer } from './pointer.ts';
+import { scaleAt } from './positions.ts';
 import { sceneOf } from './scene.ts';
 import { sizesOf, type Sizes } from './sizes.ts';
 import { panned, pinched, xOf, zoomedAt } from './timeScale.ts';
@@ -55,6 +56,11 @@ export function bringToLife(parts: LaneParts, stores: DeskStores, host: LaneHost
       host.openMenu(spot);
     },
     doubleClick: (spot) => setKeyAt(stores, sizes(), spot),
+    hover(spot) {
+      const over = spot === null ? null : hoverAt(stores, sizes(), spot);
+      parts.canvas.style.cursor = over?.cursor ?? '';
+      host.say(over?.status ?? null);
+    },
     say: host.say,
   });
   const turning = followWheel(parts.lanes, {
@@ -68,6 +74,9 @@ export function bringToLife(parts: LaneParts, stores: DeskStores, host: LaneHost
     turning();
   };
 }
+
+/** What of the page's view the lanes show. */
+const LOOKS = ['servos', 'theme', 'positionsIn'] as const;
 
 const middle = (spots: readonly Spot[]): number => spots.reduce((sum, { y }) => sum + y, 0) / spots.length;
 
@@ -94,9 +103,7 @@ function paintOnChange(parts: LaneParts, stores: DeskStores, sizes: () => Sizes)
     ),
     stores.document.store.subscribe(repaint),
     stores.robots.store.subscribe(repaint),
-    stores.view.subscribe((state, before) =>
-      later(state.servos !== before.servos || state.theme !== before.theme),
-    ),
+    stores.view.subscribe((state, before) => later(LOOKS.some((name) => state[name] !== before[name]))),
     stores.device.store.subscribe(({ family }, before) => family !== before.family && repaint()),
   ];
   repaint();
@@ -119,14 +126,16 @@ function paintLanes({ canvas }: LaneParts, desk: Desk, sizes: Sizes): void {
   paint({ ctx, look: lookOf(canvas), scene: sceneOf(desk, sizes) });
 }
 
-function showPlayhead({ stage, playhead }: LaneParts, { state, times }: Desk): void {
+function showPlayhead({ stage, playhead }: LaneParts, desk: Desk): void {
+  const { state, times } = desk;
   const x = xOf(state.time, state.playheadMs);
   playhead.style.transform = `translateX(${x.toFixed(1)}px)`;
   playhead.hidden = x < 0 || x > state.widthPx;
   for (const value of stage.querySelectorAll<HTMLElement>('[data-value]')) {
-    const track = times.tracks.get(Number(value.dataset.value));
+    const servo = Number(value.dataset.value);
+    const track = times.tracks.get(servo);
     const position = track === undefined ? null : positionAt(track, state.playheadMs);
-    value.textContent = position === null ? '' : words.numbers.formatWhole(Math.round(position));
+    value.textContent = position === null ? '' : scaleAt(desk, servo).digits(position);
   }
 }
 

@@ -8,6 +8,7 @@ import type { Cursor } from '../stores/timeline.ts';
 import { cellName } from './cellName.ts';
 import { apply, changeable, hasChangeable, rangeOf, rowOf, type Desk } from './desk.ts';
 import { keyOf, timesOf, type GroupTimes } from './groupTimes.ts';
+import { nudgeUnits } from './positions.ts';
 
 export interface Move {
   edit(group: ActionGroup): ActionGroup;
@@ -38,6 +39,16 @@ function withinLimits(desk: Desk, keys: readonly Key[], delta: number): number {
   }, delta);
 }
 
+/** The servo whose arrows count: that of the cursor's key, else of the first one. */
+export function servoAtHand(
+  desk: Pick<Desk, 'rows'> & { readonly state: Pick<Desk['state'], 'cursor'> },
+  refs: readonly KeyRef[],
+): number | undefined {
+  const { frameId, row } = desk.state.cursor;
+  const servos = rowOf(desk, row)?.servos ?? [];
+  return (refs.find((ref) => ref.frameId === frameId && servos.includes(ref.servo)) ?? refs[0])?.servo;
+}
+
 /** Where the cursor is then: on the same key, whatever it is called. */
 export function cursorAfter(desk: Desk, refs: readonly KeyRef[], moved: readonly KeyRef[]): Cursor {
   const { cursor } = desk.state;
@@ -46,11 +57,13 @@ export function cursorAfter(desk: Desk, refs: readonly KeyRef[], moved: readonly
   return { ...cursor, frameId: moved[index]?.frameId ?? cursor.frameId };
 }
 
-export function nudge(desk: Desk, ticks: number, units: number): void {
+/** `turns`: by one of what is shown, degrees or units. */
+export function nudge(desk: Desk, ticks: number, turns: number): void {
   if (!hasChangeable(desk)) return;
   const deltaMs = ticks * desk.family.motion.tickMs;
   const refs = changeable(desk);
-  const move = moveOf(desk, desk.group, refs, { deltaMs, deltaPosition: units });
+  const deltaPosition = turns * nudgeUnits(desk, servoAtHand(desk, refs) ?? 0);
+  const move = moveOf(desk, desk.group, refs, { deltaMs, deltaPosition });
   apply(desk, { label: () => words.timeline.steps.move, ...move });
   const times = timesOf(desk.stores.document.store.getState().present);
   const cursor = cursorAfter(desk, refs, move.selects(times));

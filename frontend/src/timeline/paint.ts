@@ -3,7 +3,7 @@
 import type { Key } from '#shared/actions/group/tracks.ts';
 import { CURVES } from '#shared/actions/group/easings.ts';
 import { keyName } from '../stores/keySet.ts';
-import { HANDLE_PX, stretchOf } from './hit.ts';
+import { handleX, HANDLES, stretchOf } from './hit.ts';
 import type { Brush } from './brush.ts';
 import type { Look } from './look.ts';
 import { paintHeads } from './paintHeads.ts';
@@ -35,7 +35,7 @@ export function paint(brush: Brush): void {
   ctx.restore();
   paintGround(brush, all);
   paintRow(brush, all);
-  paintHandle(brush);
+  paintHandles(brush);
   paintHeads(brush);
 }
 
@@ -213,8 +213,8 @@ function diamond(ctx: CanvasRenderingContext2D, x: number, y: number, radius: nu
   ctx.closePath();
 }
 
-/** A bar under the selected stretch, with an arrow at its end to pull. */
-function paintHandle({ ctx, look, scene }: Brush): void {
+/** A bar under the selected stretch, with an arrow at each end to pull. */
+function paintHandles({ ctx, look, scene }: Brush): void {
   const { state, times, all } = scene;
   const span = stretchOf(times, state.selected);
   if (span === null) return;
@@ -222,10 +222,14 @@ function paintHandle({ ctx, look, scene }: Brush): void {
   const y = all.top + all.height / 2;
   fill(ctx, look.ink, 0.25, from, all.top + all.height - 4, to - from, 3);
   ctx.fillStyle = look.ink;
-  ctx.beginPath();
-  ctx.moveTo(to + HANDLE_PX + 5, y);
-  ctx.lineTo(to + HANDLE_PX - 3, y - 7);
-  ctx.lineTo(to + HANDLE_PX - 3, y + 7);
-  ctx.closePath();
-  ctx.fill();
+  for (const end of HANDLES) {
+    const x = handleX(state, span, end);
+    const out = end === 'first' ? -1 : 1;
+    ctx.beginPath();
+    ctx.moveTo(x + 5 * out, y);
+    ctx.lineTo(x - 3 * out, y - 7);
+    ctx.lineTo(x - 3 * out, y + 7);
+    ctx.closePath();
+    ctx.fill();
+  }
 }

@@ -1,9 +1,9 @@
 // The pointer on the lanes, whatever it is: one press at a time becomes a gesture, two fingers zoom and pan, a finger that rests
-// opens the menu or, dragged on, draws a box. Escape, a lost pointer and a lost window call a gesture off. Knows no edits.
+// opens the menu or, dragged on, draws a box; the middle button pans. Escape, a lost pointer and a lost window call a gesture off. Knows no edits.
 
 import type { Spot } from './hit.ts';
 import type { Gesture, Held, Press, StatusName } from './gesture.ts';
-import { boxFrom, gestureOf } from './gestures.ts';
+import { boxFrom, gestureOf, panFrom } from './gestures.ts';
 
 export interface PointerHost {
   /** What a press begins with; `isTouch` tells fingers from mice and pens. */
@@ -11,6 +11,8 @@ export interface PointerHost {
   pinch(before: readonly [Spot, Spot], now: readonly [Spot, Spot]): void;
   openMenu(spot: Spot): void;
   doubleClick(spot: Spot): void;
+  /** A mouse is over the lanes and presses nothing; null: no longer. */
+  hover(spot: Spot | null): void;
   say(status: StatusName | null): void;
 }
 
@@ -48,7 +50,8 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
   const callOff = (): void => finish((ended) => ended.cancel());
 
   function down(event: PointerEvent): void {
-    if (event.button !== 0 || !(event.target instanceof HTMLCanvasElement)) return;
+    const isPan = event.button === 1;
+    if ((event.button !== 0 && !isPan) || !(event.target instanceof HTMLCanvasElement)) return;
     const isTouch = event.pointerType === 'touch';
     lanes.setPointerCapture(event.pointerId);
     if (isTouch) fingers.set(event.pointerId, spotOf(event));
@@ -56,7 +59,7 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
     hasMoved = false;
     hasRested = false;
     press = host.press(spotOf(event), heldOf(event), isTouch);
-    gesture = gestureOf(press);
+    gesture = isPan ? panFrom(press) : gestureOf(press);
     host.say(gesture.status);
     if (isTouch) rest = setTimeout(rested, REST_MS);
   }
@@ -70,7 +73,10 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
     const spot = spotOf(event);
     if (fingers.size > 1) return pinch(event.pointerId, spot);
     fingers.forEach((_, id) => id === event.pointerId && fingers.set(id, spot));
-    if (gesture === null || press === null) return;
+    if (gesture === null || press === null) {
+      if (event.pointerType === 'mouse') host.hover(spot);
+      return;
+    }
     if (!hasMoved && Math.hypot(spot.x - press.spot.x, spot.y - press.spot.y) < CLICK_PX) return;
     if (!hasMoved && hasRested) draw(press);
     hasMoved = true;
@@ -109,6 +115,7 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
   lanes.addEventListener('pointermove', move, { signal });
   lanes.addEventListener('pointerup', up, { signal });
   lanes.addEventListener('pointercancel', lost, { signal });
+  lanes.addEventListener('pointerleave', () => host.hover(null), { signal });
   lanes.addEventListener('dblclick', (event) => host.doubleClick(spotOf(event)), { signal });
   lanes.addEventListener(
     'contextmenu',

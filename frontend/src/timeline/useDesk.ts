@@ -4,7 +4,7 @@
 import { useMemo } from 'react';
 import { useStore } from 'zustand';
 import { useShallow } from 'zustand/react/shallow';
-import { useDevice, useGroup, useRobot, useServoView, useStores } from '../stores/stores.ts';
+import { useDevice, useGroup, useRobot, useServoView, useStores, useView } from '../stores/stores.ts';
 import { type Desk } from './desk.ts';
 import { timesOf } from './groupTimes.ts';
 import { rowsOf } from './rows.ts';
@@ -17,6 +17,7 @@ export function useDesk(): SeenDesk {
   const robot = useRobot();
   const family = useDevice((state) => state.family);
   const servoView = useServoView((view) => view);
+  const positionsIn = useView((view) => view.positionsIn);
   const state = useStore(
     stores.timeline,
     useShallow(({ playheadMs: _, ...rest }) => rest),
@@ -30,8 +31,9 @@ export function useDesk(): SeenDesk {
       robot,
       family,
       servoView,
+      positionsIn,
       state,
       rows: rowsOf(robot, times.tracks, servoView),
     };
-  }, [stores, group, robot, family, servoView, state]);
+  }, [stores, group, robot, family, servoView, positionsIn, state]);
 }

@@ -4,15 +4,7 @@ import type { Colour } from '#shared/actions/colours.ts';
 import type { PasteProblem } from '#shared/actions/group/clip.ts';
 import type { Easing } from '#shared/actions/group/group.ts';
 import { markText, secondsText } from '../instants.ts';
-import type { PositionUnit } from '../numbers.ts';
-import {
-  formatCount,
-  formatList,
-  formatPercent,
-  formatPosition,
-  formatWhole,
-  unitSymbol,
-} from './numbers.ts';
+import { formatCount, formatList, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
 
 const keysText = (count: number): string => `${formatCount(count)} ${count === 1 ? 'key' : 'keys'}`;
 
@@ -65,8 +57,8 @@ export const timelineWords = {
   noColour: 'No colour',
 
   /** What a key says of itself. */
-  key: (row: string, atMs: number, position: number, unit: PositionUnit, easing: Easing): string =>
-    `${row}, ${formatInstant(atMs)}, ${formatPosition(position, unit)}, ${easings[easing]}`,
+  key: (row: string, atMs: number, position: string, easing: Easing): string =>
+    `${row}, ${formatInstant(atMs)}, ${position}, ${easings[easing]}`,
   summary: (row: string, frame: number, atMs: number, count: number): string =>
     `${row}, frame ${formatWhole(frame)}, ${formatInstant(atMs)}, ${keysText(count)}`,
   noKey: (row: string): string => `${row}, no key`,
@@ -159,6 +151,7 @@ export const timelineWords = {
     deleteMarker: 'delete marker',
   },
 
+  keys: keysText,
   copied: (count: number): string => `${keysText(count)} copied`,
   allLocked: 'The selected keys are on locked rows.',
   nothingToSet: 'Nothing is known of these servos yet. Move them first.',
@@ -172,13 +165,15 @@ export const timelineWords = {
   /** What keys and pointer do right now. */
   status: {
     nothing: 'Arrows go from key to key. Enter sets a key. Drag over an empty place to select.',
-    selected: (count: number, tickMs: number): string =>
-      `${keysText(count)}. Arrows nudge by ${formatWhole(tickMs)} ms or 1; Shift: ten times. Ctrl and arrows go to a key.`,
+    /** `about`: the key, or how many they are; `turn`: how far an arrow turns them. */
+    selected: (about: string, tickMs: number, turn: string): string =>
+      `${about}. Type a number, or nudge with arrows by ${formatWhole(tickMs)} ms or ${turn}; Shift: ten times. Ctrl and arrows go to a key.`,
     move: 'Alt suspends snapping. Shift keeps to one direction. Esc calls off, and stops the robot.',
     box: 'Shift or Ctrl adds to the selection.',
     scrub: 'Shift sets the loop range.',
     duration: 'Alt suspends snapping. Ripple decides about what is behind.',
     stretch: 'Alt suspends snapping. Ripple carries what is behind along.',
+    stretchBack: 'Alt suspends snapping. The last key stays.',
     rested: 'Lift for the menu, or drag to select.',
     locked: 'This row is locked.',
   },

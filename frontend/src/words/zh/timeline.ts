@@ -3,14 +3,7 @@
 import type { PasteProblem } from '#shared/actions/group/clip.ts';
 import type { timelineWords as english } from '../en/timeline.ts';
 import { markText, secondsText } from '../instants.ts';
-import {
-  formatCount,
-  formatList,
-  formatPercent,
-  formatPosition,
-  formatWhole,
-  unitSymbol,
-} from './numbers.ts';
+import { formatCount, formatList, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
 
 const keysText = (count: number): string => `${formatCount(count)}个关键帧`;
 const formatInstant = (atMs: number): string => `${secondsText(atMs)}秒`;
@@ -52,8 +45,7 @@ export const timelineWords: typeof english = {
   colour: '颜色',
   noColour: '无颜色',
 
-  key: (row, atMs, position, unit, easing) =>
-    `${row}，${formatInstant(atMs)}，${formatPosition(position, unit)}，${easings[easing]}`,
+  key: (row, atMs, position, easing) => `${row}，${formatInstant(atMs)}，${position}，${easings[easing]}`,
   summary: (row, frame, atMs, count) =>
     `${row}，第${formatWhole(frame)}帧，${formatInstant(atMs)}，${keysText(count)}`,
   noKey: (row) => `${row}，没有关键帧`,
@@ -146,6 +138,7 @@ export const timelineWords: typeof english = {
     deleteMarker: '删除标记',
   },
 
+  keys: keysText,
   copied: (count) => `已复制${keysText(count)}`,
   allLocked: '所选关键帧所在的行已锁定。',
   nothingToSet: '这些舵机的位置还未知。请先移动它们。',
@@ -156,13 +149,14 @@ export const timelineWords: typeof english = {
 
   status: {
     nothing: '方向键在关键帧之间移动。回车设关键帧。在空白处拖动来选择。',
-    selected: (count, tickMs) =>
-      `${keysText(count)}。方向键微调${formatWhole(tickMs)}毫秒或1；按住Shift为十倍。Ctrl加方向键移到别的关键帧。`,
+    selected: (about, tickMs, turn) =>
+      `${about}。可直接输入数值，或用方向键微调${formatWhole(tickMs)}毫秒或${turn}；按住Shift为十倍。Ctrl加方向键移到别的关键帧。`,
     move: '按住Alt暂停吸附。按住Shift只沿一个方向。Esc放弃，并停止机器人。',
     box: '按住Shift或Ctrl加选。',
     scrub: '按住Shift设循环范围。',
     duration: '按住Alt暂停吸附。联动决定后面的内容是否移动。',
     stretch: '按住Alt暂停吸附。联动会带着后面的内容移动。',
+    stretchBack: '按住Alt暂停吸附。最后一个关键帧不动。',
     rested: '抬起打开菜单，拖动来选择。',
     locked: '这一行已锁定。',
   },

@@ -3,7 +3,15 @@ import { describe, expect, test } from 'vitest';
 import { EASINGS, emptyGroup, totalDurationMs } from './group.ts';
 import { frozen, shapeOf, someGroup, someRange, withGroup } from './groupsUnderTest.ts';
 import { setKey } from './keyEdits.ts';
-import { deleteTime, insertTime, reverse, scaleTime, setDuration, stretch } from './timeEdits.ts';
+import {
+  deleteTime,
+  insertTime,
+  reverse,
+  scaleTime,
+  setDuration,
+  stretch,
+  stretchBack,
+} from './timeEdits.ts';
 import { frameEnds, positionAt, tracksOf } from './tracks.ts';
 
 const STAY = { ripple: false };
@@ -57,6 +65,28 @@ describe('time', () => {
         expect(outside.map((index) => after[index])).toEqual(outside.map((index) => ends[index]));
       }),
     );
+  });
+
+  test('stretched back keeps its end and what is outside, and is pressed again as it was', () => {
+    fc.assert(
+      fc.property(anyScene, fc.integer({ min: 0, max: 30 }), ([group, range], factor) => {
+        const ends = frameEnds(group.frames);
+        const outside = ends.flatMap((atMs, index) =>
+          atMs < range.fromMs || atMs >= range.toMs ? [index] : [],
+        );
+        const after = frameEnds(stretchBack(group, range, factor / 10).frames);
+        expect(outside.map((index) => after[index])).toEqual(outside.map((index) => ends[index]));
+      }),
+    );
+    const group = [1000, 1200, 1400, 1600].reduce(
+      (before, position, index) => setKey(before, 1, [800, 1000, 1100, 1200][index]!, position),
+      emptyGroup('Wave', 'us'),
+    );
+    const range = { fromMs: 1000, toMs: 1200 };
+    const longer = stretchBack(group, range, 1.5);
+    expect(frameEnds(longer.frames)).toEqual([800, 900, 1050, 1200]);
+    expect(stretchBack(longer, { fromMs: 900, toMs: 1200 }, 2 / 3)).toEqual(group);
+    expect(frameEnds(stretchBack(group, range, 9).frames)).toEqual([800, 800, 1000, 1200]);
   });
 
   test('of a frame changed there and back is as it was', () => {

@@ -65,7 +65,7 @@ export function deleteTime(group: ActionGroup, { fromMs, toMs }: TimeRange): Act
   return retimed(group, closed, isOutside);
 }
 
-/** The range takes `factor` times as long. Without `ripple` it grows no farther than to what is behind it. */
+/** The range takes `factor` times as long from its beginning. Without `ripple` it grows no farther than to what is behind it. */
 export function stretch(
   group: ActionGroup,
   { fromMs, toMs }: TimeRange,
@@ -81,6 +81,14 @@ export function stretch(
     if (atMs <= fromMs) return atMs;
     return atMs <= toMs ? fromMs + (atMs - fromMs) * by : atMs + growthMs;
   });
+}
+
+/** The same from its end: it grows no farther than to what is before it, and nothing behind it moves. */
+export function stretchBack(group: ActionGroup, { fromMs, toMs }: TimeRange, factor: number): ActionGroup {
+  if (toMs <= fromMs) return group;
+  const before = momentsOf(group).findLast(({ atMs }) => atMs < fromMs);
+  const by = Math.min(Math.max(0, factor), (toMs - (before?.atMs ?? 0)) / (toMs - fromMs));
+  return retimed(group, (atMs) => (atMs < fromMs || atMs > toMs ? atMs : toMs - (toMs - atMs) * by));
 }
 
 /** The whole group takes `factor` times as long. */
