@@ -8,6 +8,7 @@ import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { FilesArea, FilesButton } from '../files/FilesArea.tsx';
 import { LibraryButton } from '../library/LibraryButton.tsx';
 import { useDevice, useGroup, useStores } from '../stores/stores.ts';
+import { EmptyState } from '../ui/EmptyState.tsx';
 import { useLayout } from '../ui/useLayout.ts';
 import { Panel } from '../ui/Panel.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
@@ -21,7 +22,7 @@ import styles from './ActionsPanel.module.css';
 
 export function ActionsPanel() {
   const group = useGroup();
-  const { playback } = useStores();
+  const { playback, document } = useStores();
   const layout = useLayout();
   const otherUnit = useDevice((state) => state.family.unit !== group.unit) && group.frames.length > 0;
   const timeline = <Timeline key="timeline" onPlay={() => playback.toggle()} />;
@@ -46,7 +47,7 @@ export function ActionsPanel() {
         tools={
           <>
             <FilesButton />
-            <UndoRedo />
+            <UndoTools of={document} />
           </>
         }
         className={styles.panel}
@@ -59,25 +60,16 @@ export function ActionsPanel() {
 }
 
 function Empty() {
-  return (
-    <div className={styles.empty}>
-      <svg className={styles.sketch} viewBox="0 0 180 64" aria-hidden="true">
-        {[0, 62, 124].map((x) => (
-          <rect key={x} className={styles.slot} x={x + 1} y={1} width={54} height={62} rx={5} />
-        ))}
-        <path className={styles.stroke} d="M16 52V34l10-14M78 52V34l14-8M152 52V34l-14-10" />
-      </svg>
-      <p className={styles.emptyTitle}>{words.actions.empty}</p>
-      <p>{words.actions.emptyHint}</p>
-    </div>
-  );
+  return <EmptyState title={words.actions.empty} hint={words.actions.emptyHint} sketch={<Sketch />} />;
 }
 
-function UndoRedo() {
-  const { document } = useStores();
+function Sketch() {
   return (
-    <>
-      <UndoTools of={document} />
-    </>
+    <svg className={styles.sketch} viewBox="0 0 180 64" aria-hidden="true">
+      {[0, 62, 124].map((x) => (
+        <rect key={x} className={styles.slot} x={x + 1} y={1} width={54} height={62} rx={5} />
+      ))}
+      <path className={styles.stroke} d="M16 52V34l10-14M78 52V34l14-8M152 52V34l-14-10" />
+    </svg>
   );
 }

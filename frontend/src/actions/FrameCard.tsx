@@ -1,8 +1,8 @@
 // One frame as a card: its number, its pose, the servos it moves, its time. The face selects; the grip drags.
 
 import type { KeyboardEvent } from 'react';
-import { setDuration } from '#shared/actions/group/groupEdits.ts';
 import type { GroupFrame } from '#shared/actions/group/group.ts';
+import { setDuration } from '#shared/actions/group/timeEdits.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { useDevice, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
@@ -11,6 +11,7 @@ import { NumberField } from '../ui/NumberField.tsx';
 import { showFrame } from '../timeline/inStep.ts';
 import { words } from '../words/words.ts';
 import { useFrameDrag } from './useFrameDrag.ts';
+import card from '../ui/Card.module.css';
 import styles from './FrameCard.module.css';
 
 export interface FrameCardProps {
@@ -34,18 +35,22 @@ export function FrameCard(props: FrameCardProps) {
   return (
     <li
       data-frame={frame.id}
+      style={frame.colour === null ? undefined : { borderBlockStartColor: `var(--${frame.colour})` }}
       className={cx(
-        styles.card,
-        isSelected && styles.selected,
+        card.card,
+        isSelected && card.selected,
+        frame.colour !== null && styles.coloured,
         isPlaying && styles.playing,
-        isDragged && styles.dragged,
+        isDragged && card.dragged,
       )}
     >
       <button
         type="button"
         data-card-face=""
-        className={styles.face}
-        aria-label={words.actions.frameAbout(number, frame.durationMs, changed)}
+        className={card.face}
+        aria-label={[words.actions.frameAbout(number, frame.durationMs, changed), frame.note]
+          .filter((part) => part !== '')
+          .join(words.comma)}
         aria-pressed={isSelected}
         aria-current={isPlaying ? 'step' : undefined}
         tabIndex={isTabStop ? 0 : -1}
@@ -55,10 +60,15 @@ export function FrameCard(props: FrameCardProps) {
         <span className={styles.number}>{number}</span>
         {isPlaying && <span className={styles.now}>{words.actions.playingFrame}</span>}
         <PoseThumb pose={pose} changed={changed} family={family} />
+        {frame.note !== '' && (
+          <span className={styles.note} title={frame.note}>
+            {frame.note}
+          </span>
+        )}
       </button>
       <div className={styles.foot}>
         <FrameTime frame={frame} number={number} isTabStop={isTabStop} />
-        <span className={styles.grip} aria-hidden="true" onPointerDown={startDrag}>
+        <span className={card.grip} aria-hidden="true" onPointerDown={startDrag}>
           <Icon name="grip" />
         </span>
       </div>
@@ -83,7 +93,7 @@ function FrameTime({ frame, number, isTabStop }: { frame: GroupFrame; number: nu
       onChange={(durationMs) =>
         document.edit(
           () => words.actions.steps.time(number),
-          (group) => setDuration(group, frame.id, durationMs),
+          (group) => setDuration(group, frame.id, durationMs, { ripple: true }),
         )
       }
       onRefused={(value) => notices.tell('warning', words.refused(label, value, min, max))}

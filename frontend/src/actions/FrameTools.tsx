@@ -12,16 +12,24 @@ import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { captureFrame } from './capture.ts';
+import { useKnowsPose } from './CaptureButton.tsx';
 import { commandedPose } from './pose.ts';
 import styles from './FrameTools.module.css';
 
+const INSERTS = [
+  ['before', 'insertBefore'],
+  ['after', 'insertAfter'],
+] as const;
+
 export function FrameTools() {
-  const { device, document, view } = useStores();
+  const stores = useStores();
+  const { device, document, view } = stores;
   const group = useGroup();
   const id = useView((state) => state.selectedFrame) ?? -1;
   const index = indexOfFrame(group, id);
   const frame = group.frames[index];
-  const knowsPose = useDevice((state) => Object.keys(state.targets).length > 0);
+  const knowsPose = useKnowsPose();
   const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
   const sameUnit = useDevice((state) => state.family.unit === group.unit);
   const none = frame === undefined;
@@ -66,6 +74,15 @@ export function FrameTools() {
         {words.actions.update}
       </Button>
       <span className={styles.icons}>
+        {INSERTS.map(([side, icon]) => (
+          <IconButton
+            key={side}
+            icon={icon}
+            label={words.actions.insert[side]}
+            isDisabled={none || !knowsPose || !sameUnit}
+            onPress={() => captureFrame(stores, side)}
+          />
+        ))}
         <IconButton
           icon="earlier"
           label={words.actions.earlier}

@@ -4,6 +4,7 @@
 import { useEffect, useState } from 'react';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { useNow } from '../ui/useNow.ts';
+import { EmptyState } from '../ui/EmptyState.tsx';
 import { words } from '../words/words.ts';
 import { arranged, tagsIn, type Wish } from './arrange.ts';
 import { DocumentList } from './DocumentList.tsx';
@@ -27,7 +28,7 @@ export function LibraryView({ onDone }: { onDone(): void }) {
       <Place />
       {documents.length > 0 && <LibraryFinder wish={wish} tags={tagsIn(documents)} onWish={setWish} />}
       {isEmpty && !wish.isRemoved ? (
-        <Empty />
+        <EmptyState title={words.library.empty} hint={words.library.emptyHint} />
       ) : (
         <DocumentList documents={shown} nowMs={nowMs} onDone={onDone} />
       )}
@@ -57,14 +58,5 @@ function Place() {
       {place === null ? words.library.looking : words.library.place[place]}
       {!isKept && <span className={styles.waiting}>{words.library.waiting}</span>}
     </p>
-  );
-}
-
-function Empty() {
-  return (
-    <div className={styles.empty}>
-      <p className={styles.emptyTitle}>{words.library.empty}</p>
-      <p>{words.library.emptyHint}</p>
-    </div>
   );
 }

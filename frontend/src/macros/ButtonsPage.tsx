@@ -2,6 +2,7 @@
 
 import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
+import { EmptyState } from '../ui/EmptyState.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
@@ -26,12 +27,7 @@ export function ButtonsPage() {
 }
 
 export function NoButtons() {
-  return (
-    <div className={styles.empty}>
-      <p className={styles.emptyTitle}>{words.macros.noButtons}</p>
-      <p>{words.macros.noButtonsHint}</p>
-    </div>
-  );
+  return <EmptyState title={words.macros.noButtons} hint={words.macros.noButtonsHint} />;
 }
 
 function Tools() {

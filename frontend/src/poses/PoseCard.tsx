@@ -12,6 +12,7 @@ import { Icon } from '../ui/Icon.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
 import { words } from '../words/words.ts';
+import card from '../ui/Card.module.css';
 import styles from './PoseCard.module.css';
 
 export interface PoseCardProps {
@@ -31,14 +32,11 @@ export function PoseCard({ pose, marks, isSelected, isTabStop, onKey }: PoseCard
   const { id, name, targets } = pose;
   const about = words.poses.about(name, targets.length, all);
   return (
-    <li
-      data-pose={id}
-      className={cx(styles.card, isSelected && styles.selected, isDragged && styles.dragged)}
-    >
+    <li data-pose={id} className={cx(card.card, isSelected && card.selected, isDragged && card.dragged)}>
       <button
         type="button"
         data-card-face=""
-        className={styles.face}
+        className={card.face}
         aria-label={marks === '' ? about : `${about}${words.comma}${marks}`}
         aria-pressed={isSelected}
         tabIndex={isTabStop ? 0 : -1}
@@ -65,7 +63,7 @@ export function PoseCard({ pose, marks, isSelected, isTabStop, onKey }: PoseCard
           }
         />
         <Go pose={pose} isTabStop={isTabStop} />
-        <span className={styles.grip} aria-hidden="true" onPointerDown={startDrag}>
+        <span className={card.grip} aria-hidden="true" onPointerDown={startDrag}>
           <Icon name="grip" />
         </span>
       </div>

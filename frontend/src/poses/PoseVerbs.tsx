@@ -2,6 +2,7 @@
 
 import { addPose } from '#shared/actions/poses/poseEdits.ts';
 import { POSE_VERBS } from '#shared/actions/poses/pose.ts';
+import { CaptureButton } from '../actions/CaptureButton.tsx';
 import { commandedPose } from '../actions/pose.ts';
 import { poseName } from '../stores/poses.ts';
 import { motionHindrance } from '../stores/readiness.ts';
@@ -42,7 +43,6 @@ export function PoseVerbs() {
 
 function Capture() {
   const { device, poses, view } = useStores();
-  const isKnown = useDevice((state) => Object.keys(state.targets).length > 0);
   const nextId = usePoses(({ present }) => present.nextId);
   const capture = (): void => {
     const { targets, family } = device.store.getState();
@@ -53,20 +53,7 @@ function Capture() {
     );
     view.setState({ selectedPose: nextId });
   };
-  return (
-    <>
-      <Button
-        tone="primary"
-        icon="plus"
-        hint={words.poses.captureHint}
-        isDisabled={!isKnown}
-        onPress={capture}
-      >
-        {words.poses.capture}
-      </Button>
-      {!isKnown && <p className={styles.hint}>{words.actions.nothingKnown}</p>}
-    </>
-  );
+  return <CaptureButton label={words.poses.capture} hint={words.poses.captureHint} onPress={capture} />;
 }
 
 function PoseTime() {

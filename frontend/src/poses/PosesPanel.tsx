@@ -4,6 +4,7 @@
 import { useState } from 'react';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { usePoses, useStores } from '../stores/stores.ts';
+import { EmptyState } from '../ui/EmptyState.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
@@ -16,34 +17,22 @@ import { useSelectedPose } from './useSelectedPose.ts';
 import styles from './PosesPanel.module.css';
 
 export function PosesPanel() {
+  const { poses } = useStores();
   const isEmpty = usePoses(({ present }) => present.poses.length === 0);
   const pose = useSelectedPose();
   const [drawer, setDrawer] = useState<Drawer | null>(null);
   return (
-    <Panel title={words.poses.title} tabs={<AuthoringTabs />} tools={<Tools />} className={styles.panel}>
-      {isEmpty ? <Empty /> : <PoseList />}
+    <Panel
+      title={words.poses.title}
+      tabs={<AuthoringTabs />}
+      tools={<UndoTools of={poses.book} />}
+      className={styles.panel}
+    >
+      {isEmpty ? <EmptyState title={words.poses.empty} hint={words.poses.emptyHint} /> : <PoseList />}
       <PoseTools drawer={drawer} onDrawer={setDrawer} />
       {pose !== undefined && drawer === 'servos' && <ServoPicker pose={pose} />}
       {pose !== undefined && drawer === 'blend' && <BlendBar key={pose.id} pose={pose} />}
       <PoseVerbs />
     </Panel>
-  );
-}
-
-function Empty() {
-  return (
-    <div className={styles.empty}>
-      <p className={styles.emptyTitle}>{words.poses.empty}</p>
-      <p>{words.poses.emptyHint}</p>
-    </div>
-  );
-}
-
-function Tools() {
-  const { poses } = useStores();
-  return (
-    <>
-      <UndoTools of={poses.book} />
-    </>
   );
 }

@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
-import { insertFrame, moveFrame, setDuration } from '#shared/actions/group/groupEdits.ts';
+import { insertFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
+import { setDuration } from '#shared/actions/group/timeEdits.ts';
 import { groupFromText } from '#shared/actions/group/groupText.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
 import { words } from '../words/words.ts';
@@ -84,7 +85,7 @@ describe('the document', () => {
     );
     document.edit(
       () => 'time',
-      (group) => setDuration(group, 1, 500),
+      (group) => setDuration(group, 1, 500, { ripple: true }),
     );
     expect(document.store.getState().past).toHaveLength(1);
   });

@@ -50,7 +50,7 @@ describe('arrows', () => {
   });
 
   test('turn by a degree where degrees are shown', async () => {
-    const { key, keys, select, stores, desk } = await createTimelineDesk();
+    const { key, keys, stores, desk } = await createTimelineDesk();
     stores.view.setState({ positionsIn: 'degrees' });
     key('ArrowDown');
     key('ArrowRight', { ctrlKey: true });

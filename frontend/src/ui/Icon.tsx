@@ -9,6 +9,8 @@ const PATHS = {
   play: 'M5 3.5v9l7.5-4.5z',
   record: 'M8 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z',
   pause: 'M5.5 3.5v9M10.5 3.5v9',
+  insertBefore: 'M13 2.5v11M2 8h8M6 4v8',
+  insertAfter: 'M3 2.5v11M6 8h8M10 4v8',
   undo: 'M6 3L3 6l3 3M3 6h6.5a3.5 3.5 0 0 1 0 7H6',
   redo: 'M10 3l3 3-3 3M13 6H6.5a3.5 3.5 0 0 0 0 7H10',
   trash: 'M3 4.5h10M6 4.5V3h4v1.5M4.5 4.5l.6 8.5h5.8l.6-8.5',

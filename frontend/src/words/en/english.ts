@@ -245,6 +245,7 @@ export const english = {
     load: 'Go to pose',
     update: 'Update pose',
     duplicate: 'Duplicate',
+    insert: { before: 'Insert the pose before', after: 'Insert the pose after' },
     delete: 'Delete',
     earlier: 'Move earlier',
     later: 'Move later',

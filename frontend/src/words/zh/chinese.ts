@@ -234,6 +234,7 @@ export const chinese: Words = {
     load: '移到这个姿态',
     update: '更新姿态',
     duplicate: '复制',
+    insert: { before: '把姿态插到前面', after: '把姿态插到后面' },
     delete: '删除',
     earlier: '前移',
     later: '后移',

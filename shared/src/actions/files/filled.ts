@@ -3,6 +3,7 @@
 
 import type { Frame } from '../../protocol/commands.ts';
 import type { ActionGroup } from '../group/group.ts';
+import { frameEnds, positionAt, tracksOf } from '../group/tracks.ts';
 
 export interface Filled {
   readonly frames: readonly Frame[];
@@ -13,51 +14,21 @@ export interface Filled {
 }
 
 export function filled({ frames }: ActionGroup): Filled {
-  const servos = [...new Set(frames.flatMap(({ targets }) => targets.map(({ servo }) => servo)))].sort(
-    (one, other) => one - other,
-  );
-  const poses = frames.map(({ targets }) => new Map(targets.map(({ servo, position }) => [servo, position])));
-  const ways = servos.map((servo) => {
-    const keys = poses.map((pose) => pose.get(servo) ?? null);
-    return { servo, positions: wayOf(frames, keys) };
+  const tracks = tracksOf({ frames: frames.map((frame) => ({ ...frame, easing: 'linear' })) });
+  const ends = frameEnds(frames);
+  const whole = frames.map(({ durationMs, targets }, index) => {
+    const own = new Map(targets.map(({ servo, position }) => [servo, position]));
+    const all = [...tracks].flatMap(([servo, track]) => {
+      const position = own.get(servo) ?? positionAt(track, ends[index] ?? 0);
+      return position === null ? [] : [{ servo, position: Math.round(position) }];
+    });
+    return { durationMs, targets: all };
   });
-  const whole = frames.map(({ durationMs }, index) => ({
-    durationMs,
-    targets: ways.flatMap(({ servo, positions }) => {
-      const position = positions[index] ?? null;
-      return position === null ? [] : [{ servo, position }];
-    }),
-  }));
   const numbersWhere = (isSo: (before: Frame, after: Frame) => boolean): readonly number[] =>
     whole.flatMap((after, index) => (isSo(frames[index] ?? after, after) ? [index + 1] : []));
   return {
     frames: whole,
     completed: numbersWhere((before, after) => after.targets.length > before.targets.length),
-    lacking: numbersWhere((_, after) => after.targets.length < servos.length),
+    lacking: numbersWhere((_, after) => after.targets.length < tracks.size),
   };
 }
-
-/** Where a servo is at the end of each frame, from where it has a key. */
-function wayOf(frames: readonly Frame[], keys: readonly (number | null)[]): readonly (number | null)[] {
-  const way = [...keys];
-  let last = -1;
-  keys.forEach((position, index) => {
-    if (position === null) return;
-    if (last !== -1) between(frames, way, last, index);
-    last = index;
-  });
-  return last === -1 ? way : way.fill(way[last] ?? null, last);
-}
-
-function between(frames: readonly Frame[], way: (number | null)[], from: number, to: number): void {
-  const [start, end] = [way[from] ?? 0, way[to] ?? 0];
-  const spanMs = lengthMs(frames, from, to);
-  let passedMs = 0;
-  for (let index = from + 1; index < to; index++) {
-    passedMs += frames[index]?.durationMs ?? 0;
-    way[index] = Math.round(start + (end - start) * (spanMs === 0 ? 1 : passedMs / spanMs));
-  }
-}
-
-const lengthMs = (frames: readonly Frame[], from: number, to: number): number =>
-  frames.slice(from + 1, to + 1).reduce((sum, { durationMs }) => sum + durationMs, 0);

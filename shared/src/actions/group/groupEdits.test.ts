@@ -6,10 +6,12 @@ import {
   insertFrame,
   moveFrame,
   rename,
-  setDuration,
   setMeta,
   setTargets,
 } from './groupEdits.ts';
+import { setDuration } from './timeEdits.ts';
+
+const RIPPLE = { ripple: true };
 import { changedServos, emptyGroup, poseAt, totalDurationMs, type ActionGroup } from './group.ts';
 
 const ids = (group: ActionGroup) => group.frames.map((frame) => frame.id);
@@ -58,7 +60,7 @@ describe('edits of an action group', () => {
     const group = groupOf(1000, 2000);
     expect(moveFrame(group, 1, 0)).toBe(group);
     expect(moveFrame(group, 9, 0)).toBe(group);
-    expect(setDuration(group, 1, 500)).toBe(group);
+    expect(setDuration(group, 1, 500, RIPPLE)).toBe(group);
     expect(setTargets(group, 1, [{ servo: 1, position: 1000 }])).toBe(group);
     expect(deleteFrame(group, 9)).toBe(group);
     expect(duplicateFrame(group, 9)).toBe(group);
@@ -73,7 +75,7 @@ describe('edits of an action group', () => {
 
   test('an edit touches one frame and shares the others', () => {
     const before = groupOf(1000, 2000, 1500);
-    const after = setDuration(before, 2, 900);
+    const after = setDuration(before, 2, 900, RIPPLE);
     expect(after.frames[1]!.durationMs).toBe(900);
     expect(after.frames[0]).toBe(before.frames[0]);
     expect(after.frames[2]).toBe(before.frames[2]);

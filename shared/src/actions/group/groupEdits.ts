@@ -76,10 +76,6 @@ export function moveFrame(group: ActionGroup, id: number, index: number): Action
   return { ...group, frames: group.frames.toSpliced(from, 1).toSpliced(to, 0, frame) };
 }
 
-export function setDuration(group: ActionGroup, id: number, durationMs: number): ActionGroup {
-  return changeFrame(group, id, (frame) => changed(frame, { durationMs }));
-}
-
 /** Replaces the frame's pose. */
 export function setTargets(group: ActionGroup, id: number, targets: readonly ServoTarget[]): ActionGroup {
   const sorted = sortedTargets(targets);

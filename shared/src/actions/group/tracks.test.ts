@@ -2,7 +2,8 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { BACKWARDS, CURVES } from './easings.ts';
 import { EASINGS, emptyGroup, totalDurationMs, type Easing } from './group.ts';
-import { insertFrame, setDuration, setTargets } from './groupEdits.ts';
+import { insertFrame, setTargets } from './groupEdits.ts';
+import { setDuration } from './timeEdits.ts';
 import { setEasing } from './frameEdits.ts';
 import { someGroup } from './groupsUnderTest.ts';
 import { frameEnds, keysAt, poseAtMs, positionAt, tracksOf } from './tracks.ts';
@@ -141,7 +142,7 @@ describe('the tracks of a group', () => {
     const after = tracksOf(turned, before);
     expect(after.get(2)).toBe(before.get(2));
     expect(after.get(1)).not.toBe(before.get(1));
-    for (const edited of [setDuration(group, 2, 300), setEasing(group, [2], 'in')])
+    for (const edited of [setDuration(group, 2, 300, { ripple: true }), setEasing(group, [2], 'in')])
       expect(tracksOf(edited, before).get(2)).not.toBe(before.get(2));
   });
 

@@ -1,0 +1,26 @@
+// Keeps the pose that the robot was asked for; says why it cannot while nobody knows one.
+
+import { useDevice } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../words/words.ts';
+import styles from './CaptureButton.module.css';
+
+export interface CaptureButtonProps {
+  readonly label: string;
+  readonly hint: string;
+  onPress(): void;
+}
+
+export function CaptureButton({ label, hint, onPress }: CaptureButtonProps) {
+  const isKnown = useKnowsPose();
+  return (
+    <>
+      <Button tone="primary" icon="plus" hint={hint} isDisabled={!isKnown} onPress={onPress}>
+        {label}
+      </Button>
+      {!isKnown && <p className={styles.hint}>{words.actions.nothingKnown}</p>}
+    </>
+  );
+}
+
+export const useKnowsPose = (): boolean => useDevice(({ targets }) => Object.keys(targets).length > 0);
