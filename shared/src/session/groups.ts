@@ -1,7 +1,7 @@
 // Action groups in the board's own memory: run, stop, erase, download, and what the board reports of them. Class C
 // commands are never repeated by themselves (safety.md section 4). Knows slots; the moves of the page are live.ts.
 
-import type { Frame } from '../protocol/commands.ts';
+import type { Command, Frame } from '../protocol/commands.ts';
 import type { Report } from '../protocol/reports.ts';
 import { requireReady, requireReleased, requireRest, setActivity, type Core } from './core.ts';
 import { download, type CancelSignal } from './download.ts';
@@ -91,14 +91,19 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
       requireReleased(core);
     }
     began(slot, times, 'requested');
-    if (!family.answers.includes('run')) return exchange.tell(command);
     try {
-      await exchange.ask(command, 'runAccepted', RUN_TIMEOUT_MS);
-      confirm('acknowledged');
+      await begin(command);
     } catch (error) {
-      confirm('unknown');
+      if (error instanceof LinkError && error.code === 'overslept') ended(null);
+      else confirm('unknown');
       throw error;
     }
+  }
+
+  async function begin(command: Command): Promise<void> {
+    if (!family.answers.includes('run')) return exchange.tell(command);
+    await exchange.ask(command, 'runAccepted', RUN_TIMEOUT_MS);
+    confirm('acknowledged');
   }
 
   function confirm(truth: Truth): void {

@@ -25,6 +25,7 @@ export const LINK_ERROR_CODES = [
   'busy', // something else must end first, e.g. a download
   'slotBroken', // the slot holds half a group (S35)
   'cancelled', // the person called it off
+  'overslept', // this computer or page slept while it waited, so it was not sent
   'outOfRange', // the board cannot take this value
   'internal', // a defect of ours
 ] as const;

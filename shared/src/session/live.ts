@@ -14,7 +14,8 @@ export interface Live {
   move(targets: readonly ServoTarget[], durationMs: number): void;
   play(frames: readonly Frame[], times: number): Promise<void>;
   stopPlaying(): void;
-  drop(): void;
+  /** Whether there was something to drop. */
+  drop(): boolean;
 }
 
 export function createLive(core: Core, moves: MoveBuffer, turns: Turns): Live {
@@ -61,8 +62,11 @@ export function createLive(core: Core, moves: MoveBuffer, turns: Turns): Live {
     play: playFrames,
     stopPlaying: () => playing?.stop(),
     drop() {
+      const wasBusy = moves.servos().length > 0 || playing !== null;
       moves.clear();
       playing?.stop();
+      playing = null;
+      return wasBusy;
     },
   };
 }

@@ -1,6 +1,7 @@
 // A session on a simulated board in virtual time, for tests and measurements: what a person would do, and what the board
 // saw on its line.
 
+import type { Clock } from '../clock.ts';
 import type { Command } from '../protocol/commands.ts';
 import { createDecoder } from '../protocol/decoder.ts';
 import { family as familyOf } from '../protocol/families.ts';
@@ -24,6 +25,8 @@ export interface Rig {
   readonly session: Session;
   readonly transport: SimulatedTransport;
   readonly heard: readonly HeardCommand[];
+  /** The session's computer sleeps, and no timer of it fires in time; the board goes on. */
+  asleep(ms: number): Promise<void>;
   /** Heard commands of one kind, oldest first. */
   ofKind<K extends Command['kind']>(kind: K): readonly Extract<Command, { kind: K }>[];
 }
@@ -47,11 +50,36 @@ export async function createRig(
     ...board,
     onByte: ({ direction, byte }) => direction === 'in' && ear(byte),
   });
-  const session = createSession({ transport, clock, family, slotMemory, identifies, isWatched });
+  const computer = createSleepingClock(clock);
+  const session = createSession({ transport, clock: computer, family, slotMemory, identifies, isWatched });
   await session.open();
   return {
-    ...{ clock, session, transport, heard },
+    ...{ clock, session, transport, heard, asleep: computer.asleep },
     ofKind: (kind) => heard.flatMap(({ command }) => (command.kind === kind ? [command as never] : [])),
+  };
+}
+
+/** Timers that come due while it sleeps fire when it wakes, in their order, as a browser's do. */
+function createSleepingClock(clock: VirtualClock): Clock & Pick<Rig, 'asleep'> {
+  let isAsleep = false;
+  let missed: (() => void)[] = [];
+  return {
+    now: clock.now,
+    after(delayMs, run) {
+      const wake = (): void => run();
+      const cancelTimer = clock.after(delayMs, () => (isAsleep ? missed.push(wake) : wake()));
+      return () => {
+        cancelTimer();
+        missed = missed.filter((other) => other !== wake);
+      };
+    },
+    async asleep(ms) {
+      isAsleep = true;
+      await clock.advance(ms);
+      isAsleep = false;
+      for (let next = missed.shift(); next; next = missed.shift()) next();
+      await clock.advance(0);
+    },
   };
 }
 

@@ -21,6 +21,7 @@ import type { LinkState, ServoMotion, SessionEvents, SessionState } from './stat
 import type { SlotMemory } from './slotMemory.ts';
 import { createSessionStore, NOTHING_READ } from './store.ts';
 import type { ServoLimits, Transport } from './transport.ts';
+import { createWakefulClock } from './wakefulClock.ts';
 
 export interface SessionOptions {
   readonly transport: Transport;
@@ -88,8 +89,9 @@ export interface Session {
 }
 
 export function createSession(options: SessionOptions): Session {
-  const { transport, clock, slotMemory, family = UNKNOWN_BOARD } = options;
+  const { transport, slotMemory, family = UNKNOWN_BOARD } = options;
   const { identifies = false, isWatched = () => false } = options;
+  const clock = createWakefulClock(options.clock, overslept);
   const store = createSessionStore(family);
   const replies = createReplies(clock);
 
@@ -157,6 +159,13 @@ export function createSession(options: SessionOptions): Session {
       ...{ family: next, battery: { kind: 'unread' }, brokenSlots: [], storedSlots: [] },
       ...NOTHING_READ,
     });
+  }
+
+  /** What waited to leave does not any more; a group that the board plays goes on, and so does a download. */
+  function overslept(): void {
+    const error = new LinkError('overslept', 'this computer or page slept');
+    if (driver.live.drop()) store.emit('problem', error);
+    if (store.state.activity.kind !== 'downloading') lanes.purge(error);
   }
 
   /** Into the log when it begins to leave, so that its answer comes after it. */

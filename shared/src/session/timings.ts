@@ -35,6 +35,12 @@ export const FIRST_MOVE_MS = 1_500;
 /** Such servos start this far apart: enough to see which one moves, and not all of them draw their starting current at once. */
 export const FIRST_MOVE_STAGGER_MS = 250;
 
+/**
+ * Nothing asked for longer ago may still move the robot (safety.md section 5, I3). Hidden pages, whose timers browsers let wait
+ * for a second, are to drive nothing either.
+ */
+export const OVERSLEPT_MS = 500;
+
 /** A group whose end the board did not report is taken to have ended this long after its computed end. */
 export const RUN_END_GRACE_MS = 2_000;
 

@@ -35,6 +35,7 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
   busy: () => 'The board is busy. Wait for the download or the erase to end, or cancel it.',
   slotBroken: () => 'This slot is broken: its download did not finish. Download a group to it again.',
   cancelled: () => 'Cancelled.',
+  overslept: () => 'This computer or page was asleep. What waited was not sent; ask for it again.',
   outOfRange: (detail) => withDetail('The board cannot take this value', detail),
   internal: (detail) => withDetail('Servodeck made a mistake; please report it', detail),
 };
