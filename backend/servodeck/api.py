@@ -11,7 +11,7 @@ from pydantic import Field
 from starlette.requests import HTTPConnection
 
 from servodeck import __version__
-from servodeck.callers import THIS_COMPUTER, Caller
+from servodeck.callers import Caller
 from servodeck.clients import serve_client
 from servodeck.control import Control
 from servodeck.errors import ErrorCode, OutOfRangeError
@@ -19,6 +19,7 @@ from servodeck.gate import judge_script
 from servodeck.messages import Message, PortState
 from servodeck.packets import FAMILIES
 from servodeck.ports import list_devices
+from servodeck.roles import DRIVER, OWNER, STOPPER, VIEWER
 
 
 class Problem(Message):
@@ -78,11 +79,6 @@ async def control_of(connection: HTTPConnection) -> Control:
     return control
 
 
-async def caller_of(_connection: HTTPConnection) -> Caller:
-    return THIS_COMPUTER
-
-
-Called = Annotated[Caller, Depends(caller_of)]
 Controlled = Annotated[Control, Depends(control_of)]
 api = APIRouter(
     prefix="/api",
@@ -93,11 +89,11 @@ socket = APIRouter()
 
 
 @socket.websocket("/ws")
-async def ws(websocket: WebSocket, caller: Called, control: Controlled) -> None:
+async def ws(websocket: WebSocket, caller: Annotated[Caller, VIEWER], control: Controlled) -> None:
     await serve_client(websocket, caller, control)
 
 
-@api.get("/status")
+@api.get("/status", dependencies=[VIEWER])
 async def status(control: Controlled) -> Status:
     """How everything stands now."""
     return Status(
@@ -117,14 +113,14 @@ def age_of(control: Control) -> BatteryAge | None:
     return BatteryAge(battery_mv=reading.battery_mv, age_ms=round((control.now() - reading.at_s) * 1000))
 
 
-@api.get("/ports")
+@api.get("/ports", dependencies=[OWNER])
 def ports(control: Controlled) -> list[Device]:
     """The serial ports of this computer and the one in use, the likely ones first."""
     found = list_devices(control.named_device, control.link.state.device)
     return [Device(device=port.device, description=port.description, likely=port.likely) for port in found]
 
 
-@api.put("/port")
+@api.put("/port", dependencies=[OWNER])
 async def use_port(choice: PortChoice, control: Controlled) -> PortState:
     """Opens that port instead of the present one. After a failure it is tried again and again, as `status`
     tells.
@@ -135,14 +131,14 @@ async def use_port(choice: PortChoice, control: Controlled) -> PortState:
     return control.port
 
 
-@api.delete("/port")
+@api.delete("/port", dependencies=[OWNER])
 async def close_port(control: Controlled) -> PortState:
     """Closes the port and leaves it closed."""
     await control.close_port()
     return control.port
 
 
-@api.post("/stop")
+@api.post("/stop", dependencies=[STOPPER])
 async def stop(control: Controlled) -> Stopped:
     """STOP: drops all that waits, sends stop three times, refuses motion until resume. Latches even without a
     port.
@@ -151,14 +147,14 @@ async def stop(control: Controlled) -> Stopped:
     return Stopped(latch=control.latch, halted=True)
 
 
-@api.post("/resume")
+@api.post("/resume", dependencies=[DRIVER])
 async def resume(control: Controlled) -> Status:
     """Allows motion again. Moves nothing."""
     control.resume()
     return await status(control)
 
 
-@api.get("/battery")
+@api.get("/battery", dependencies=[VIEWER])
 async def battery(control: Controlled) -> Battery:
     """Asks the board now; 504 where it does not answer."""
     return Battery(battery_mv=await control.read_battery())

@@ -5,9 +5,10 @@ import contextlib
 from collections.abc import AsyncIterator
 from pathlib import Path
 
-from fastapi import FastAPI, Request
+from fastapi import FastAPI, Request, WebSocket
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
+from starlette.requests import HTTPConnection
 from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.types import ASGIApp
 
@@ -16,14 +17,16 @@ from servodeck.api import api, socket
 from servodeck.control import Control
 from servodeck.disk import Disk
 from servodeck.docs import STYLE, docs_page
+from servodeck.entrance import Entrance
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
-from servodeck.gate import allowed_hosts
 from servodeck.guard import Guard
 from servodeck.health_api import health_api
 from servodeck.library import Library
 from servodeck.library_api import library_api
 from servodeck.page import STATIC, page
+from servodeck.people_api import people_api
 from servodeck.pulse import Pulse
+from servodeck.roles import ANYBODY, require_roles
 
 CODE_OF_STATUS: dict[int, ErrorCode] = {
     403: "forbidden",
@@ -34,28 +37,32 @@ CODE_OF_STATUS: dict[int, ErrorCode] = {
 }
 
 
-def create_app(control: Control, library: Library, port: int, static: Path = STATIC) -> ASGIApp:
-    """The gateway as it answers on that TCP port of this computer, with the page built into `static`."""
+def create_app(control: Control, library: Library, entrance: Entrance, static: Path = STATIC) -> ASGIApp:
+    """The gateway with that entrance and the page built into `static`."""
     app = FastAPI(
         title="Servodeck gateway",
         description="Drives a servo controller on a serial port. An error is a code and a sentence.",
         version=__version__,
         docs_url=None,
         redoc_url=None,
+        openapi_url=None,
         lifespan=lifespan,
     )
     app.state.control = control
     app.state.library = library
     app.state.pulse = Pulse()
     app.state.disk = Disk(library.folder, control.now)
+    app.state.entrance = entrance
     app.include_router(api)
     app.include_router(health_api)
     app.include_router(library_api)
+    app.include_router(people_api)
     app.include_router(socket)
     add_docs(app)
     add_errors(app)
+    require_roles(app)
     app.mount("/", page(static))
-    return Guard(app, allowed_hosts(port))
+    return Guard(app, entrance.access)
 
 
 @contextlib.asynccontextmanager
@@ -68,19 +75,26 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
 
 
 def add_docs(app: FastAPI) -> None:
-    @app.get("/docs", include_in_schema=False)
+    @app.get("/docs", include_in_schema=False, dependencies=[ANYBODY])
     async def docs() -> HTMLResponse:
         return HTMLResponse(docs_page(app.openapi()))
 
-    @app.get("/docs.css", include_in_schema=False)
+    @app.get("/openapi.json", include_in_schema=False, dependencies=[ANYBODY])
+    async def described() -> JSONResponse:
+        return JSONResponse(app.openapi())
+
+    @app.get("/docs.css", include_in_schema=False, dependencies=[ANYBODY])
     async def style() -> Response:
         return Response(STYLE, media_type="text/css")
 
 
 def add_errors(app: FastAPI) -> None:
     @app.exception_handler(GatewayError)
-    async def gateway_error(_request: Request, error: GatewayError) -> JSONResponse:
-        return problem(error.status, error.code, error.detail)
+    async def gateway_error(connection: HTTPConnection, error: GatewayError) -> JSONResponse:
+        answer = problem(error.status, error.code, error.detail)
+        if isinstance(connection, WebSocket):  # an upgrade is refused by an ordinary answer
+            await connection.send_denial_response(answer)
+        return answer
 
     @app.exception_handler(RequestValidationError)
     async def validation_error(_request: Request, error: RequestValidationError) -> JSONResponse:

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal
 
+from servodeck.errors import ForbiddenError
+
 Role = Literal["stopper", "viewer", "driver", "owner"]
 RANKS: dict[Role, int] = {"stopper": 0, "viewer": 1, "driver": 2, "owner": 3}
 
@@ -18,6 +20,11 @@ class Caller:
     def may(self, role: Role) -> bool:
         """Whether `role` is enough for what is asked: each role may do all that the ones below it may."""
         return RANKS[self.role] >= RANKS[role]
+
+    def require(self, role: Role) -> None:
+        """Raises ForbiddenError where it is not."""
+        if not self.may(role):
+            raise ForbiddenError(f"{self.name} is a {self.role} here; this takes the role {role}.")
 
 
 THIS_COMPUTER = Caller("local", "This computer", "owner")

@@ -9,8 +9,9 @@ import socket
 import sys
 import time
 import webbrowser
+from contextlib import suppress
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
@@ -21,7 +22,12 @@ from servodeck.logs import Form, Level
 from servodeck.packets import FAMILIES, PacketError
 from servodeck.ports import list_devices
 
+if TYPE_CHECKING:
+    from servodeck.access import Access
+    from servodeck.entrance import Entrance
+
 DEFAULT_LISTEN = "127.0.0.1:8300"
+LAN_LISTEN = "0.0.0.0:8300"
 USAGE, FAILURE = 2, 1
 
 app = typer.Typer(
@@ -49,8 +55,19 @@ def serve(
         ),
     ] = None,
     listen: Annotated[
-        str, typer.Option(help="HOST:PORT of this computer; port 0 takes a free one.")
-    ] = DEFAULT_LISTEN,
+        str,
+        typer.Option(
+            help="HOST:PORT of this computer; port 0 takes a free one. "
+            f"Left out: {DEFAULT_LISTEN}, with --lan {LAN_LISTEN}."
+        ),
+    ] = "",
+    lan: Annotated[bool, typer.Option("--lan", help="Let other devices in, once they are paired.")] = False,
+    public_url: Annotated[
+        str, typer.Option(help="The one address of a proxy in front, for example https://robot.example.")
+    ] = "",
+    invite: Annotated[
+        bool, typer.Option("--invite", help="Show a link for one more owner, also where there is one.")
+    ] = False,
     serial: Annotated[str, typer.Option(help="Serial device, or socket://HOST:PORT.")] = "",
     board: Annotated[
         str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}. Left out: ask the board.")
@@ -76,10 +93,13 @@ def serve(
     ] = False,
 ) -> None:
     """Serve the page and own the serial port. Each option may also come from SERVODECK_NAME or a file."""
+    from servodeck import access
     from servodeck.app import create_app
     from servodeck.background import BackgroundPorts
     from servodeck.control import Control
     from servodeck.data_folder import data_folder
+    from servodeck.errors import StorageError
+    from servodeck.greeting import greeting, urls_for_others
     from servodeck.library import Library
     from servodeck.logs import set_up_logs
     from servodeck.server import Server, leave_with_stdin
@@ -87,23 +107,32 @@ def serve(
     board = board or ("doc" if simulated else UNKNOWN.id)
     if board not in FAMILIES:
         fail(f"There is no board family {board}. Choose one of: {', '.join(FAMILIES)}.", USAGE)
-    listener = bind(*parse_listen(listen))
+    proxied = parse_public_url(public_url) if public_url else None
+    listener = bind(*parse_listen(listen or (LAN_LISTEN if lan else DEFAULT_LISTEN), lan=lan))
+    folder = data or data_folder()
+    by_address = access.lan if lan else access.local
+    entrance = entrance_to(proxied or by_address(listener.getsockname()[1]), folder)
     log = set_up_logs(log_level, log_format)
     url = url_of(listener)
     control = Control(BackgroundPorts(), time.monotonic, board, serial or None, simulated=simulated)
 
     def ready() -> None:
         print(f"Servodeck is at {url}", flush=True)
+        if entrance.access.needs_pairing:
+            others = urls_for_others(entrance.access, access.lan_addresses(), url)
+            print(greeting(entrance, others, invites=invite), flush=True)
         if sys.stdout.isatty() if open_page is None else open_page:
             webbrowser.open(url)
 
-    library = Library(data or data_folder())
-    app = create_app(control, library, listener.getsockname()[1])
+    library = Library(folder)
+    app = create_app(control, library, entrance)
     server = Server(app, control, serial or None, ready)
     if exit_with_stdin:
         leave_with_stdin(server.leave)
     server.run([listener])
     library.close()
+    with suppress(StorageError):
+        entrance.devices.close()
     log.close()
 
 
@@ -149,16 +178,40 @@ def decode(
     print(json.dumps({"packet": packet.hex(), "text": words}) if as_json else words)
 
 
-def parse_listen(text: str) -> tuple[str, int]:
+def entrance_to(where: "Access", folder: Path) -> "Entrance":
+    """Ends the program with an explanation where nobody can tell who is paired."""
+    from servodeck.device_file import DeviceFile
+    from servodeck.devices import Devices, NoShelf
+    from servodeck.entrance import Entrance
+    from servodeck.errors import StorageError
+    from servodeck.library import wall_clock_ms
+
+    try:
+        shelf = DeviceFile(folder) if where.needs_pairing else NoShelf()
+        return Entrance(where, Devices(shelf, wall_clock_ms), time.monotonic)
+    except StorageError as error:
+        fail(error.detail)
+
+
+def parse_public_url(url: str) -> "Access":
+    from servodeck.access import behind_proxy
+
+    try:
+        return behind_proxy(url)
+    except ValueError as error:
+        fail(f"--public-url {url} cannot be: {error}.", USAGE)
+
+
+def parse_listen(text: str, *, lan: bool) -> tuple[str, int]:
     """HOST:PORT of this computer; ends the program with an explanation for anything else."""
     host, separator, port = text.rpartition(":")
     host = host.removeprefix("[").removesuffix("]")
     if not separator or not port.isascii() or not port.isdigit() or int(port) > 0xFFFF:
         fail(f"--listen takes HOST:PORT, for example {DEFAULT_LISTEN}; got {text}.", USAGE)
-    if not is_loopback(host):
+    if not lan and not is_loopback(host):
         fail(
-            f"{host} can be reached from other computers, where anybody could move the robot. "
-            "Servodeck listens on 127.0.0.1, [::1] or localhost only.",
+            f"{host} can be reached from other computers. Add --lan to let paired devices in; "
+            "without it Servodeck listens on 127.0.0.1, [::1] or localhost only.",
             USAGE,
         )
     return host, int(port)
@@ -184,7 +237,9 @@ def bind(host: str, port: int) -> socket.socket:
 
 
 def url_of(listener: socket.socket) -> str:
+    """Where this computer itself reaches it."""
     host, port = listener.getsockname()[:2]
+    host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
     return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
 
 

@@ -7,18 +7,20 @@ fatal.
 
 import asyncio
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from pydantic import ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from servodeck import metrics
-from servodeck.callers import Caller
+from servodeck.callers import Caller, Role
 from servodeck.control import Control
-from servodeck.errors import GatewayError, MalformedError
-from servodeck.gate import judge_hold
-from servodeck.hub import Seat
+from servodeck.errors import BusyError, GatewayError, MalformedError
+from servodeck.gate import judge_hold, judge_packet, role_for
+from servodeck.hub import AGAINST_THE_RULES, TRY_AGAIN_LATER, Seat
+from servodeck.intake import Intake, Rate
 from servodeck.messages import (
+    AnyClientMessage,
     BoardMessage,
     CalibrateMessage,
     LimitsMessage,
@@ -32,29 +34,43 @@ from servodeck.messages import (
 )
 from servodeck.wire import Left
 
-UNSUPPORTED_DATA, TRY_AGAIN_LATER = 1003, 1013
+UNSUPPORTED_DATA = 1003
 CLOSE_WAIT_S = 0.1
+# Messages a second, and at once. Above what the wire takes (70 of the shortest packets a second): it shall
+# be the wire that says how fast a robot is driven.
+DRIVER_RATE = (100.0, 200)
+VIEWER_RATE = (2.0, 10)
+# What each message takes at least; one that is not named here only an owner may send. A packet is judged by
+# what it does.
+ROLES: dict[type[AnyClientMessage], Role] = {
+    SendMessage: "viewer",
+    StopMessage: "stopper",
+    ResumeMessage: "driver",
+    BoardMessage: "driver",
+    LimitsMessage: "driver",
+    CalibrateMessage: "driver",
+}
 
 
 async def serve_client(socket: WebSocket, caller: Caller, control: Control) -> None:
-    if control.hub.is_full:
+    if not control.hub.has_room_for(caller):
         await socket.close(TRY_AGAIN_LATER)
         return
     await socket.accept()
     seat = Seat(caller)
     control.join(seat)
     await serve_seat(socket, seat, control)
-    if seat.overflowed.is_set():
+    if seat.farewell:
         with contextlib.suppress(TimeoutError, WebSocketDisconnect, RuntimeError):
-            await asyncio.wait_for(socket.close(TRY_AGAIN_LATER, "This client does not read."), CLOSE_WAIT_S)
+            await asyncio.wait_for(socket.close(seat.farewell.code, seat.farewell.reason), CLOSE_WAIT_S)
 
 
 async def serve_seat(socket: WebSocket, seat: Seat, control: Control) -> None:
-    """Until the client leaves, breaks the rules or stops reading."""
+    """Until the client leaves, breaks the rules, is sent away or stops reading."""
     tasks = [
         asyncio.create_task(read_all(socket, seat, control)),
         asyncio.create_task(write_all(socket, seat)),
-        asyncio.create_task(seat.overflowed.wait()),
+        asyncio.create_task(seat.ended.wait()),
     ]
     try:
         done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -67,12 +83,47 @@ async def serve_seat(socket: WebSocket, seat: Seat, control: Control) -> None:
 
 
 async def read_all(socket: WebSocket, seat: Seat, control: Control) -> None:
-    while (event := await socket.receive())["type"] != "websocket.disconnect":
-        text = event.get("text")
-        if text is None:
-            await socket.close(UNSUPPORTED_DATA, "Text only.")
-            return
-        take(text, seat, control)
+    intake = intake_of(seat, control)
+    try:
+        while (event := await socket.receive())["type"] != "websocket.disconnect" and not seat.ended.is_set():
+            text = event.get("text")
+            if text is None:
+                await socket.close(UNSUPPORTED_DATA, "Text only.")
+                return
+            hear(text, seat, intake)
+    finally:
+        intake.close()
+
+
+def intake_of(seat: Seat, control: Control) -> Intake:
+    return Intake(
+        rate_of(seat.caller, control.now),
+        take=lambda message: take(message, seat, control),
+        replaced=lambda message: refuse(seat, id_of(message), BusyError("A newer message took its place.")),
+        overrun=lambda: seat.end(AGAINST_THE_RULES, "Too many messages."),
+    )
+
+
+def rate_of(caller: Caller, now: Callable[[], float]) -> Rate:
+    return Rate(*(DRIVER_RATE if caller.may("driver") else VIEWER_RATE), now)
+
+
+def hear(text: str, seat: Seat, intake: Intake) -> None:
+    """Whatever it says, the worst outcomes are a `refused` and, for too many, the end."""
+    try:
+        message = client_message.validate_json(text)
+    except ValidationError as error:
+        if intake.count():
+            refuse(seat, None, MalformedError(first_problem(error)))
+        return
+    if isinstance(message, StopMessage):
+        intake.take_at_once(message)
+    else:
+        intake.offer(message)
+
+
+def id_of(message: AnyClientMessage) -> int | None:
+    return message.id if isinstance(message, SendMessage) else None
 
 
 async def write_all(socket: WebSocket, seat: Seat) -> None:
@@ -81,24 +132,24 @@ async def write_all(socket: WebSocket, seat: Seat) -> None:
             await socket.send_text(await seat.next())
 
 
-def take(text: str, seat: Seat, control: Control) -> None:
-    """Acts on one message. Whatever it is, the worst outcome is a `refused`."""
-    try:
-        message = client_message.validate_json(text)
-    except ValidationError as error:
-        refuse(seat, None, MalformedError(first_problem(error)))
-        return
+def take(message: AnyClientMessage, seat: Seat, control: Control) -> None:
+    """Acts on one message of somebody who may send it."""
+    role = ROLES.get(type(message), "owner")
+    with refusing(seat, None):
+        seat.caller.require(role)
+        act(message, seat, control)
+
+
+def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
     match message:
         case SendMessage():
             take_send(message, seat, control)
         case StopMessage():
             take_stop(message, seat, control)
         case ResumeMessage():
-            with refusing(seat, None):
-                control.resume()
+            control.resume()
         case BoardMessage():
-            with refusing(seat, None):
-                control.take_for(message.board)
+            control.take_for(message.board)
         case LimitsMessage():
             control.limits.set(message.servos)
         case CalibrateMessage():
@@ -107,6 +158,7 @@ def take(text: str, seat: Seat, control: Control) -> None:
 
 def take_send(message: SendMessage, seat: Seat, control: Control) -> None:
     with refusing(seat, message.id):
+        seat.caller.require(role_for(judge_packet(message.packet, control.board)))
         left = control.send(seat, message.packet)
         left.add_done_callback(lambda left: answer(seat, message.id, left))
 

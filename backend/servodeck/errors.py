@@ -20,6 +20,10 @@ ErrorCode = Literal[
     "outOfRange",
     "malformed",
     "forbidden",
+    "notPaired",
+    "pairingFailed",
+    "pairingLocked",
+    "wrongType",
     "notFound",
     "methodNotAllowed",
     "conflict",
@@ -126,6 +130,34 @@ class ForbiddenError(GatewayError):
 
     code: ClassVar[ErrorCode] = "forbidden"
     status: ClassVar[int] = 403
+
+
+class NotPairedError(GatewayError):
+    """A stranger asked for what only paired devices get."""
+
+    code: ClassVar[ErrorCode] = "notPaired"
+    status: ClassVar[int] = 401
+
+
+class PairingError(GatewayError):
+    """That link or code does not hold."""
+
+    code: ClassVar[ErrorCode] = "pairingFailed"
+    status: ClassVar[int] = 403
+
+
+class PairingLockedError(PairingError):
+    """Too many wrong codes."""
+
+    code: ClassVar[ErrorCode] = "pairingLocked"
+    status: ClassVar[int] = 429
+
+
+class WrongTypeError(GatewayError):
+    """A body that does not call itself JSON: a page of another site could send it without asking."""
+
+    code: ClassVar[ErrorCode] = "wrongType"
+    status: ClassVar[int] = 415
 
 
 class NotFoundError(GatewayError):

@@ -1,11 +1,13 @@
 """Decides who may ask and what may go on the wire. Pure functions: no socket, no port, no clock, no state.
 
-Denies by default. The rules are those of one computer on its own: its loopback names, the page served under
-them, and programs of the same computer, which have no Origin.
+Denies by default: only the names of `access` pass, the page served under them, and programs, which have no
+Origin.
 """
 
 from collections.abc import Iterable
 
+from servodeck.access import Access
+from servodeck.callers import Role
 from servodeck.decoder import COMMAND_AT
 from servodeck.errors import (
     ForbiddenError,
@@ -14,10 +16,11 @@ from servodeck.errors import (
     MalformedError,
     NotSupportedError,
     OutOfRangeError,
+    WrongTypeError,
 )
 from servodeck.packets import FAMILIES, PacketError, check_command
 
-MOVE, RUN, STOP = 3, 6, 7
+MOVE, RUN, STOP, ERASE = 3, 6, 7, 8
 BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
 PASS_WHILE_LATCHED = frozenset({STOP, BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS})
 
@@ -25,39 +28,50 @@ FORWARDING = frozenset(
     {b"forwarded", b"via", b"x-real-ip", b"x-client-ip", b"true-client-ip", b"cf-connecting-ip"}
 )
 FORWARDING_PREFIX = b"x-forwarded-"
-HTTP_PORT = 80
+BODY_METHODS = frozenset({"POST", "PUT", "PATCH", "DELETE"})
 
 Headers = Iterable[tuple[bytes, bytes]]
 
 
-def allowed_hosts(port: int) -> frozenset[bytes]:
-    """The only Host values answered; a browser leaves the usual port out."""
-    names = (b"127.0.0.1", b"localhost", b"[::1]")
-    exact = {b"%s:%d" % (name, port) for name in names}
-    return frozenset(exact | set(names) if port == HTTP_PORT else exact)
-
-
-def judge_handshake(headers: Headers, hosts: frozenset[bytes]) -> str:
-    """The Host of an acceptable request or upgrade. Raises ForbiddenError with the reason."""
+def judge_handshake(headers: Headers, access: Access, own_address: str | None) -> str:
+    """The Host of an acceptable request or upgrade that came in at `own_address`. Raises ForbiddenError with
+    the reason.
+    """
     found = list(headers)
-    for name, _ in found:
-        if name in FORWARDING or name.startswith(FORWARDING_PREFIX):
-            raise ForbiddenError(
-                "This gateway answers its own computer only; "
-                f"the header {name.decode('latin-1')} says that a proxy passed the request on."
-            )
+    if access.mode != "proxy":
+        judge_forwarding(found)
     host = only(found, b"host")
-    if host is None or host not in hosts:
+    if host is None or host not in access.hosts_at(own_address):
         raise ForbiddenError(
             "This gateway answers only to its own address on this computer; the Host header names another."
+            if access.mode == "local"
+            else "This gateway answers only to its own names and addresses; the Host header names another."
         )
     origin = only(found, b"origin")
-    if origin is not None and origin != b"http://" + host:
+    if origin is not None and origin != access.scheme.encode() + b"://" + host:
         raise ForbiddenError(
             "Only the page that this gateway serves may ask; the Origin header names another."
         )
     judge_site(found)
     return host.decode("ascii")
+
+
+def judge_forwarding(headers: list[tuple[bytes, bytes]]) -> None:
+    for name, _ in headers:
+        if name in FORWARDING or name.startswith(FORWARDING_PREFIX):
+            raise ForbiddenError(
+                "This gateway was not told of a proxy (--public-url); "
+                f"the header {name.decode('latin-1')} says that one passed the request on."
+            )
+
+
+def judge_body_type(method: str, headers: Headers) -> None:
+    """Raises WrongTypeError for a body that is not called JSON: a form of another site cannot call it so."""
+    found = list(headers)
+    has_body = only(found, b"transfer-encoding") or only(found, b"content-length") not in (None, b"0")
+    kind = (only(found, b"content-type") or b"").partition(b";")[0].strip().lower()
+    if method in BODY_METHODS and has_body and kind != b"application/json":
+        raise WrongTypeError("A body has to be application/json.")
 
 
 def judge_site(headers: list[tuple[bytes, bytes]]) -> None:
@@ -115,6 +129,16 @@ def judge_hold(text: str | None, board: str) -> bytes | None:
     if packet[COMMAND_AT] != MOVE:
         raise MalformedError("Only a move can hold the pose after a stop.")
     return packet
+
+
+def role_for(packet: bytes) -> Role:
+    """Who may send it at least: questions harm nobody, an erased board is empty for all."""
+    command = packet[COMMAND_AT]
+    if command == STOP:
+        return "stopper"
+    if command in PASS_WHILE_LATCHED:
+        return "viewer"
+    return "owner" if command == ERASE else "driver"
 
 
 def judge_latch(packet: bytes, latch: bool) -> None:

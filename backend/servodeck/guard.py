@@ -9,8 +9,9 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from servodeck.errors import ForbiddenError
-from servodeck.gate import judge_handshake
+from servodeck.access import Access
+from servodeck.errors import GatewayError
+from servodeck.gate import judge_body_type, judge_handshake
 
 BODY_BYTES = 16 * 1024
 LIBRARY_PATH = "/api/library/"
@@ -21,7 +22,7 @@ STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
 CONTENT_POLICY = (
     # The page's SQLite is WebAssembly of its own origin; this allows no other evaluation.
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
-    "img-src 'self' data:; font-src 'self'; connect-src 'self' ws://{host}; "
+    "img-src 'self' data:; font-src 'self'; connect-src 'self' {socket}; "
     "worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
 FIXED_HEADERS = {
@@ -34,28 +35,32 @@ FIXED_HEADERS = {
 
 
 class Guard:
-    def __init__(self, app: ASGIApp, hosts: frozenset[bytes]) -> None:
-        self._app = app
-        self._hosts = hosts
+    def __init__(self, app: ASGIApp, access: Access) -> None:
+        self.app = app
+        self._access = access
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
-            return await self._app(scope, receive, send)
+            return await self.app(scope, receive, send)
+        own_address = scope["server"][0] if scope.get("server") else None
         try:
-            host = judge_handshake(scope["headers"], self._hosts)
-        except ForbiddenError as error:
+            host = judge_handshake(scope["headers"], self._access, own_address)
+            if scope["type"] == "http":
+                judge_body_type(scope["method"], scope["headers"])
+        except GatewayError as error:
             # The Host is not to be trusted here, so it does not appear in the policy.
             refusal = JSONResponse({"code": error.code, "detail": error.detail}, error.status)
-            return await refusal(scope, receive, with_headers(send, host="127.0.0.1"))
+            return await refusal(scope, receive, with_headers(send, "'self'"))
         limited = limit_body(receive, body_bytes(scope["path"])) if scope["type"] == "http" else receive
-        return await self._app(scope, limited, with_headers(send, host))
+        socket = f"{'wss' if self._access.is_secure else 'ws'}://{host}"
+        return await self.app(scope, limited, with_headers(send, socket))
 
 
-def with_headers(send: Send, host: str) -> Send:
+def with_headers(send: Send, socket: str) -> Send:
     async def send_with_headers(message: Message) -> None:
         if message["type"] in STARTS:
             headers = MutableHeaders(scope=message)
-            headers["Content-Security-Policy"] = CONTENT_POLICY.format(host=host)
+            headers["Content-Security-Policy"] = CONTENT_POLICY.format(socket=socket)
             headers.update(FIXED_HEADERS)
             headers.setdefault("Cache-Control", "no-store")
         await send(message)

@@ -15,6 +15,7 @@ from servodeck.control import Control
 from servodeck.disk import Disk
 from servodeck.messages import Message, PortState, PortStatus
 from servodeck.pulse import Pulse
+from servodeck.roles import ANYBODY, VIEWER
 
 # Far above what a busy small computer shows, far below what a person at a slider would not notice.
 LATE_S = 0.25
@@ -51,7 +52,7 @@ Stored = Annotated[Disk, Depends(disk_of)]
 health_api = APIRouter(dependencies=[Depends(called_by_own_page)])
 
 
-@health_api.get("/api/health")
+@health_api.get("/api/health", dependencies=[ANYBODY])
 async def health(control: Controlled, pulse: Beating, disk: Stored) -> Health:
     """Always 200 while the gateway runs: `status` tells whether it is well, `troubles` what ails it."""
     troubles = [
@@ -75,7 +76,7 @@ def loop_troubles(worst_s: float) -> list[Trouble]:
     return [Trouble(part="loop", detail=f"Something kept the gateway waiting for {worst_s * 1000:.0f} ms.")]
 
 
-@health_api.get("/metrics", include_in_schema=False)
+@health_api.get("/metrics", include_in_schema=False, dependencies=[VIEWER])
 async def numbers(control: Controlled, pulse: Beating) -> Response:
     """In Prometheus's text format."""
     note_present(control, pulse)

@@ -5,30 +5,49 @@ Knows seats, who sits there, and text; no socket, no message's meaning, no port.
 """
 
 import asyncio
+from dataclasses import dataclass
 
-from servodeck.callers import Caller
+from servodeck.callers import THIS_COMPUTER, Caller, Role
 
 # Enough for a second of a busy board (960 bytes) and the answers to a full queue; far more means nobody
 # reads.
 OUTBOX_MESSAGES = 256
-SEATS = 216
+# So many may sit when somebody of that role comes: viewers never take the seats of those who drive, nor these
+# the seats of whoever lets others in.
+SEATS: dict[Role, int] = {"stopper": 200, "viewer": 200, "driver": 208, "owner": 216}
+# Nobody needs more windows; a single phone shall not take every seat.
+SEATS_EACH = 8
+TRY_AGAIN_LATER, AGAINST_THE_RULES = 1013, 1008
+
+
+@dataclass(frozen=True, slots=True)
+class Farewell:
+    """With which code and words the connection is closed."""
+
+    code: int
+    reason: str
 
 
 class Seat:
-    """One client. Whoever serves it takes texts with `next`; it ends with `overflowed` when too many wait."""
+    """One client. Whoever serves it takes texts with `next`, and closes it once it has `ended`."""
 
     def __init__(self, caller: Caller) -> None:
         self.caller = caller
         self._outbox: asyncio.Queue[str] = asyncio.Queue(OUTBOX_MESSAGES)
-        self.overflowed = asyncio.Event()
+        self.ended = asyncio.Event()
+        self.farewell: Farewell | None = None
 
     def put(self, text: str) -> None:
-        if self.overflowed.is_set():
+        if self.ended.is_set():
             return
         try:
             self._outbox.put_nowait(text)
         except asyncio.QueueFull:
-            self.overflowed.set()
+            self.end(TRY_AGAIN_LATER, "This client does not read.")
+
+    def end(self, code: int, reason: str) -> None:
+        self.farewell = self.farewell or Farewell(code, reason)
+        self.ended.set()
 
     @property
     def waiting(self) -> int:
@@ -45,9 +64,18 @@ class Hub:
     def __len__(self) -> int:
         return len(self._seats)
 
-    @property
-    def is_full(self) -> bool:
-        return len(self._seats) >= SEATS
+    def has_room_for(self, caller: Caller) -> bool:
+        own = sum(seat.caller.id == caller.id for seat in self._seats)
+        return len(self._seats) < SEATS[caller.role] and (own < SEATS_EACH or caller is THIS_COMPUTER)
+
+    def holds(self, caller_id: str) -> bool:
+        return any(seat.caller.id == caller_id for seat in self._seats)
+
+    def send_away(self, caller_id: str, reason: str) -> None:
+        """Ends every seat of theirs; what they still say is not heard."""
+        for seat in self._seats:
+            if seat.caller.id == caller_id:
+                seat.end(AGAINST_THE_RULES, reason)
 
     def join(self, seat: Seat) -> None:
         self._seats.add(seat)

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
-from servodeck.errors import ConflictError, NotFoundError, OutOfRangeError
+from servodeck.errors import ConflictError, ForbiddenError, NotFoundError, OutOfRangeError
 from servodeck.library_file import STEPS, code_of, open_library, storage_error
 
 TRASH_MS = 30 * 24 * 3600 * 1000
@@ -87,6 +87,13 @@ class Library:
     def remove(self, documents: Sequence[str]) -> None:
         """To the trash, for 30 days: all of them or none."""
         self._mark(documents, self._now_ms())
+
+    def require_removed(self, document: str) -> None:
+        """Raises a ForbiddenError for one outside the trash: only an owner may put it there."""
+        with self._transaction("BEGIN") as db:
+            row = db.execute("SELECT removed_at_ms FROM document WHERE id = ?", (document,)).fetchone()
+            if row is not None and row[0] is None:
+                raise ForbiddenError("Only an owner may remove what the library holds.")
 
     def restore(self, documents: Sequence[str]) -> None:
         """Out of the trash: all of them or none."""

@@ -11,9 +11,13 @@ from pathlib import Path
 
 from httpx2 import ASGITransport, AsyncClient
 
+from servodeck import access
+from servodeck.access import Access
 from servodeck.app import create_app
 from servodeck.control import Control
-from servodeck.library import Library
+from servodeck.devices import Devices, NoShelf
+from servodeck.entrance import Entrance
+from servodeck.library import Library, wall_clock_ms
 from servodeck.link import Ports
 from servodeck.page import STATIC
 from servodeck.server import Server
@@ -24,6 +28,11 @@ DEVICE = "/dev/board"
 NO_LIBRARY = Library(Path(os.devnull) / "none")
 
 
+def entrance_to(where: Access | None = None, now: Callable[[], float] = time.monotonic) -> Entrance:
+    """One that forgets everybody at the end; local where nothing is said."""
+    return Entrance(where or access.local(PORT), Devices(NoShelf(), wall_clock_ms), now)
+
+
 @asynccontextmanager
 async def http_to(
     ports: Ports,
@@ -31,12 +40,13 @@ async def http_to(
     device: str | None = DEVICE,
     static: Path = STATIC,
     library: Library | None = None,
+    entrance: Entrance | None = None,
 ) -> AsyncIterator[tuple[AsyncClient, Control]]:
     """A client of the application itself, and what stands behind it; its port is open when it starts."""
     control = Control(ports, now, "doc", device)
     if device:
         await control.use_port(device)
-    app = create_app(control, library or NO_LIBRARY, PORT, static)
+    app = create_app(control, library or NO_LIBRARY, entrance or entrance_to(), static)
     transport = ASGITransport(app, raise_app_exceptions=False)
     async with AsyncClient(transport=transport, base_url=f"http://127.0.0.1:{PORT}") as client:
         yield client, control
@@ -48,6 +58,7 @@ class Running:
     host: str
     control: Control
     server: Server
+    entrance: Entrance
 
     @property
     def address(self) -> tuple[str, int]:
@@ -60,17 +71,20 @@ class Running:
 
 
 @asynccontextmanager
-async def server_on(ports: Ports, device: str | None = DEVICE) -> AsyncIterator[Running]:
+async def server_on(
+    ports: Ports, device: str | None = DEVICE, make_access: Callable[[int], Access] = access.local
+) -> AsyncIterator[Running]:
     """A real server on a free port."""
     listener = socket.create_server(("127.0.0.1", 0))
     port = listener.getsockname()[1]
     control = Control(ports, time.monotonic, "doc", device)
     ready = asyncio.Event()
-    server = Server(create_app(control, NO_LIBRARY, port), control, device, ready.set)
+    entrance = entrance_to(make_access(port))
+    server = Server(create_app(control, NO_LIBRARY, entrance), control, device, ready.set)
     life = asyncio.create_task(server.serve([listener]))
     await ready.wait()
     try:
-        yield Running(f"127.0.0.1:{port}", control, server)
+        yield Running(f"127.0.0.1:{port}", control, server, entrance)
     finally:
         server.leave()
         await life

@@ -1,90 +1,28 @@
 """The assembled gateway: who gets in on every route, headers, the page, the documentation, errors."""
 
-import asyncio
 import time
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-from fastapi.routing import APIRoute
-from starlette.types import ASGIApp, Message, Scope
 
-from servodeck.api import api, socket
 from servodeck.app import create_app
 from servodeck.control import Control
 from servodeck.errors import PortMissingError
-from servodeck.health_api import health_api
-from servodeck.library_api import library_api
 from tests.fake_port import FakePorts
-from tests.running import NO_LIBRARY, PORT, http_to
-from tests.test_gate import HOSTS, ORIGINS, PASSING, headers_of
+from tests.knocking import knock, roles_of_routes, scope_of
+from tests.running import NO_LIBRARY, PORT, entrance_to, http_to
+from tests.test_gate import headers_of
 
 NOWHERE = FakePorts(PortMissingError("There is no such port."))
 
 
-def all_routes() -> Iterator[tuple[str, str, str]]:
-    """Type, method and path of everything that answers, read from the routers, and what they do not know."""
-    for route in [*api.routes, *health_api.routes, *library_api.routes]:
-        assert isinstance(route, APIRoute)
-        yield from (("http", method, route.path) for method in route.methods or ())
-    yield from (("websocket", "GET", getattr(route, "path", "")) for route in socket.routes)
-    yield from (("http", "GET", path) for path in ("/", "/docs", "/docs.css", "/openapi.json", "/unknown"))
-
-
-async def knock(app: ASGIApp, scope: Scope) -> int:
-    """The status of one request or upgrade; 101 where it was accepted."""
-    first = "http.request" if scope["type"] == "http" else "websocket.connect"
-    messages: list[Message] = [{"type": first}, {"type": "websocket.disconnect", "code": 1000}]
-    statuses: list[int] = []
-
-    async def receive() -> Message:
-        return messages.pop(0) if messages else await asyncio.Future[Message]()
-
-    async def send(message: Message) -> None:
-        if message["type"] == "websocket.accept":
-            statuses.append(101)
-        if message["type"].endswith("response.start"):
-            statuses.append(message["status"])
-
-    await app(scope, receive, send)
-    return statuses[0]
-
-
-def scope_of(kind: str, method: str, path: str, headers: list[tuple[bytes, bytes]]) -> dict[str, Any]:
-    return {
-        "type": kind,
-        "asgi": {"version": "3.0"},
-        "http_version": "1.1",
-        "method": method,
-        "scheme": "http" if kind == "http" else "ws",
-        "path": path,
-        "raw_path": path.encode(),
-        "query_string": b"",
-        "root_path": "",
-        "headers": headers,
-        "client": ("127.0.0.1", 50000),
-        "server": ("127.0.0.1", PORT),
-        "extensions": {"websocket.http.response": {}},
-        "subprotocols": [],
-        "state": {},
-    }
-
-
-@pytest.mark.parametrize(("kind", "method", "path"), list(all_routes()))
-async def test_every_route_lets_in_exactly_whom_the_table_names(kind: str, method: str, path: str) -> None:
-    app = create_app(Control(NOWHERE, time.monotonic, "doc"), NO_LIBRARY, PORT)
-    for host in HOSTS:
-        for origin in ORIGINS:
-            status = await knock(app, scope_of(kind, method, path, headers_of(host, origin)))
-            assert (status != 403) == ((host, origin) in PASSING), (host, origin, status)
-
-
 @pytest.mark.parametrize(
-    ("method", "path"), [(method, path) for _, method, path in all_routes() if path.startswith("/api/")]
+    ("method", "path"),
+    [(method, path) for method, path, _ in roles_of_routes() if path.startswith("/api/")],
 )
 async def test_a_link_of_another_site_reaches_no_route_that_acts(method: str, path: str) -> None:
-    app = create_app(Control(NOWHERE, time.monotonic, "doc"), NO_LIBRARY, PORT)
+    app = create_app(Control(NOWHERE, time.monotonic, "doc"), NO_LIBRARY, entrance_to())
     followed = [(b"sec-fetch-site", b"cross-site"), (b"sec-fetch-mode", b"navigate")]
     headers = headers_of(f"127.0.0.1:{PORT}", None) + followed
     assert await knock(app, scope_of("http", method, path, headers)) == 403
@@ -131,7 +69,7 @@ async def test_every_answer_carries_the_security_headers() -> None:
             422,
             "malformed",
         ),
-        ("PUT", "/api/port", {"content": b'{"device": "/dev/x"}'}, 422, "malformed"),
+        ("PUT", "/api/port", {"content": b'{"device": "/dev/x"}'}, 415, "wrongType"),
         ("PUT", "/api/port", {"json": {"device": "x" * 20_000}}, 413, "tooLarge"),
         ("PUT", "/api/port", {"json": {"device": "/dev/x"}}, 503, "portMissing"),
         ("POST", "/api/stop", {}, 409, "closed"),

@@ -10,7 +10,9 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import suppress
-from urllib.request import urlopen
+from pathlib import Path
+from urllib.error import HTTPError
+from urllib.request import Request, urlopen
 
 import pytest
 from typer.testing import CliRunner, Result
@@ -97,12 +99,12 @@ def test_at_the_end_the_robot_is_stopped_first_and_the_process_leaves_in_time(
 @pytest.mark.parametrize(
     ("listen", "why"),
     [
-        ("0.0.0.0:8300", "other computers"),
-        ("192.168.1.5:8300", "other computers"),
-        ("[::]:8300", "other computers"),
-        ("robot.local:8300", "other computers"),
-        ("127.0.0.2:8300", "other computers"),
-        (":8300", "other computers"),
+        ("0.0.0.0:8300", "--lan"),
+        ("192.168.1.5:8300", "--lan"),
+        ("[::]:8300", "--lan"),
+        ("robot.local:8300", "--lan"),
+        ("127.0.0.2:8300", "--lan"),
+        (":8300", "--lan"),
         ("8300", "HOST:PORT"),
         ("127.0.0.1:port", "HOST:PORT"),
         ("127.0.0.1:70000", "HOST:PORT"),
@@ -112,6 +114,39 @@ def test_an_address_that_others_can_reach_is_refused_with_an_explanation(listen:
     result = run("serve", "--listen", listen)
     assert result.exit_code == 2
     assert why in result.stderr
+
+
+@pytest.mark.parametrize("url", ["robot.example", "https://robot.example/path"])
+def test_a_public_address_that_cannot_be_is_refused(url: str) -> None:
+    result = run("serve", "--listen", "127.0.0.1:0", "--public-url", url)
+    assert result.exit_code == 2
+    assert "--public-url" in result.stderr
+
+
+def test_a_lan_start_tells_addresses_invites_its_first_owner_and_warns(tmp_path: Path) -> None:
+    served = Served("--lan", "--data", str(tmp_path))
+    assert served.process.stdout
+    said = "".join(iter(served.process.stdout.readline, "and start with --public-url.\n"))
+    secret = re.search(r"#pair=([\w-]+)", said)
+    code = re.search(r"type (\d{4}) (\d{4}) there", said)
+    assert secret
+    assert code
+    assert "█" in said
+    assert "overheard" in said
+    assert "Tailscale" in said
+    with pytest.raises(HTTPError, match="401") as refused:
+        urlopen(f"{served.url}/api/status")
+    refused.value.close()
+    body = json.dumps({"code": code[1] + code[2], "name": "Anna"}).encode()
+    headers = {"content-type": "application/json", "origin": served.url}
+    with urlopen(Request(f"{served.url}/api/pair", body, headers)) as answer:
+        assert json.load(answer)["role"] == "owner"
+    served.end()
+    again = Served("--lan", "--data", str(tmp_path))
+    assert again.process.stdout
+    said = "".join(iter(again.process.stdout.readline, "and start with --public-url.\n"))
+    assert "#pair=" not in said
+    again.end()
 
 
 def test_a_taken_address_is_told() -> None:

@@ -46,7 +46,7 @@ def test_a_flag_beats_a_variable_beats_a_file_beats_the_default(tmp_path: Path) 
         'listen = "127.0.0.1:2"  # SERVODECK_LISTEN'
     )
     assert line_of(show("--config", file), "listen") == f'listen = "127.0.0.1:3"  # {file}'
-    assert line_of(show(), "listen") == 'listen = "127.0.0.1:8300"  # default'
+    assert line_of(show(), "listen") == 'listen = ""  # default'
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from contextlib import AbstractContextManager, nullcontext
 
 import pytest
 
+from servodeck import access
 from servodeck.errors import (
     ForbiddenError,
     LatchedError,
@@ -12,7 +13,6 @@ from servodeck.errors import (
     OutOfRangeError,
 )
 from servodeck.gate import (
-    allowed_hosts,
     judge_handshake,
     judge_hold,
     judge_latch,
@@ -65,13 +65,13 @@ def headers_of(host: str | None, origin: str | None) -> list[tuple[bytes, bytes]
 @pytest.mark.parametrize("origin", ORIGINS)
 def test_only_the_own_address_and_its_own_page_pass(host: str | None, origin: str | None) -> None:
     with allowed((host, origin) in PASSING):
-        assert judge_handshake(headers_of(host, origin), allowed_hosts(PORT)) == host
+        assert judge_handshake(headers_of(host, origin), access.local(PORT), None) == host
 
 
 def test_on_the_usual_port_a_browser_leaves_the_number_out() -> None:
-    assert judge_handshake(headers_of("localhost", "http://localhost"), allowed_hosts(80)) == "localhost"
+    assert judge_handshake(headers_of("localhost", "http://localhost"), access.local(80), None) == "localhost"
     with pytest.raises(ForbiddenError):
-        judge_handshake(headers_of("localhost", None), allowed_hosts(PORT))
+        judge_handshake(headers_of("localhost", None), access.local(PORT), None)
 
 
 @pytest.mark.parametrize("name", ["host", "origin"])
@@ -79,7 +79,7 @@ def test_a_header_that_comes_twice_is_refused(name: str) -> None:
     headers = headers_of("localhost:8300", "http://localhost:8300")
     twice = [*headers, *(header for header in headers if header[0] == name.encode())]
     with pytest.raises(ForbiddenError, match="more than once"):
-        judge_handshake(twice, allowed_hosts(PORT))
+        judge_handshake(twice, access.local(PORT), None)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_a_header_that_comes_twice_is_refused(name: str) -> None:
 def test_what_a_proxy_passed_on_is_refused_with_an_explanation(name: str) -> None:
     headers = [*headers_of("localhost:8300", None), (name.encode(), b"10.0.0.1")]
     with pytest.raises(ForbiddenError, match="proxy"):
-        judge_handshake(headers, allowed_hosts(PORT))
+        judge_handshake(headers, access.local(PORT), None)
 
 
 @pytest.mark.parametrize(
@@ -111,7 +111,7 @@ def test_another_site_may_link_to_the_page_and_nothing_else(
     named = ((b"sec-fetch-site", site), (b"sec-fetch-mode", mode))
     headers = headers_of("localhost:8300", None) + [(name, value.encode()) for name, value in named if value]
     with allowed(may_look):
-        judge_handshake(headers, allowed_hosts(PORT))
+        judge_handshake(headers, access.local(PORT), None)
     with allowed(may_act):
         judge_script(headers)
 

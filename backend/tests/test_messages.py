@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from servodeck.callers import THIS_COMPUTER
-from servodeck.clients import take
+from servodeck.clients import hear, intake_of
 from servodeck.control import Control
 from servodeck.hub import Seat
 from servodeck.messages import (
@@ -116,7 +116,7 @@ async def say_while_latched(asked: list[str]) -> None:
     seat = Seat(THIS_COMPUTER)
     control.join(seat)
     for text in asked:
-        take(text, seat, control)
+        hear(text, seat, intake_of(seat, control))
     answers: list[dict[str, Any]] = [json.loads(await seat.next()) for _ in range(seat.waiting)]
     await control.shut_down()
     assert {answer["type"] for answer in answers} <= {"welcome", "state", "refused"}

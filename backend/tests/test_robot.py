@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from servodeck.clients import take
+from servodeck.clients import hear, intake_of
 from servodeck.control import Control
 from servodeck.errors import OutOfRangeError
 from servodeck.hub import Seat
@@ -20,7 +20,7 @@ REFUSAL = "Elbow (servo 1): position is 2000, allowed 600..1800"
 
 
 def say(control: Control, seat: Seat, **message: object) -> None:
-    take(json.dumps(message), seat, control)
+    hear(json.dumps(message), seat, intake_of(seat, control))
 
 
 @in_virtual_time

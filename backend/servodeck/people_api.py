@@ -1,0 +1,175 @@
+"""Pairing over HTTP: who am I, come in, and for owners who else may. Translates for `entrance`.
+
+Decides no role and makes no secret. What was changed holds at once; it is written down before the answer.
+"""
+
+import contextlib
+from typing import Annotated
+
+from fastapi import APIRouter, Depends, Request, Response
+from starlette.requests import HTTPConnection
+
+from servodeck.api import Controlled, Problem, called_by_own_page
+from servodeck.callers import Caller
+from servodeck.devices import Device
+from servodeck.entrance import Entrance
+from servodeck.errors import ForbiddenError, MalformedError, StorageError
+from servodeck.hub import Hub
+from servodeck.links import link_base, pair_link, picture_of, stop_link
+from servodeck.people_messages import (
+    Invitation,
+    InviteWish,
+    Me,
+    PairWish,
+    People,
+    Person,
+    PersonChange,
+    StopLink,
+    StopLinkWish,
+    Token,
+    TokenWish,
+    You,
+)
+from servodeck.roles import ANYBODY, OWNER, entrance_of
+
+# As long as browsers keep one: a device stays until it is revoked.
+COOKIE_S = 400 * 24 * 3600
+
+Entered = Annotated[Entrance, Depends(entrance_of)]
+people_api = APIRouter(
+    prefix="/api",
+    dependencies=[Depends(called_by_own_page)],
+    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
+)
+
+
+async def base_of(connection: HTTPConnection) -> str:
+    return link_base(connection.app.state.entrance.access, connection.headers["host"])
+
+
+Base = Annotated[str, Depends(base_of)]
+
+
+@people_api.get("/me")
+async def me(entrance: Entered, caller: Annotated[Caller | None, ANYBODY]) -> Me:
+    """Who this gateway takes you for."""
+    access = entrance.access
+    overheard = access.needs_pairing and not access.is_secure
+    return Me(mode=access.mode, overheard=overheard, you=you_of(caller) if caller else None)
+
+
+async def called_by_browser(request: Request) -> None:
+    if "origin" not in request.headers:
+        raise ForbiddenError("Only a page pairs: a browser keeps what it gets. Programs take a token.")
+
+
+def you_of(caller: Caller) -> You:
+    return You(id=caller.id, name=caller.name, role=caller.role)
+
+
+@people_api.post("/pair", dependencies=[Depends(called_by_browser)])
+async def pair(
+    wish: PairWish,
+    response: Response,
+    entrance: Entered,
+    present: Annotated[Caller | None, ANYBODY],
+) -> You:
+    """Comes in by a link, a code or a stop-only link, for a cookie; whoever may do as much keeps theirs."""
+    caller, credential = come_in(wish, entrance, present)
+    if credential:
+        access = entrance.access
+        response.set_cookie(
+            access.cookie,
+            credential,
+            max_age=COOKIE_S,
+            path="/",
+            secure=access.is_secure,
+            httponly=True,
+            samesite="strict",
+        )
+        with contextlib.suppress(StorageError):  # a full disk keeps nobody out; until the next start it holds
+            await entrance.devices.keep()
+    return you_of(caller)
+
+
+def come_in(wish: PairWish, entrance: Entrance, present: Caller | None) -> tuple[Caller, str | None]:
+    if wish.stop is not None:
+        device = entrance.stop_link(wish.stop)
+        return (present, None) if present else (device.caller, wish.stop)
+    if wish.secret is not None:
+        return entrance.come_in(entrance.pairing.find_by_link(wish.secret), wish.name, present)
+    if wish.code is not None:
+        return entrance.come_in(entrance.pairing.find_by_code(wish.code), wish.name, present)
+    raise MalformedError("Nothing to pair with: a link's secret, a code or a stop-only link is needed.")
+
+
+@people_api.get("/people", dependencies=[OWNER])
+async def people(entrance: Entered, control: Controlled) -> People:
+    """Everybody who may come in, and which invitations are open."""
+    return People(
+        people=[person_of(one, control.hub) for one in entrance.devices.all],
+        open_invites=[invite.id for invite in entrance.pairing.open],
+    )
+
+
+def person_of(device: Device, hub: Hub) -> Person:
+    return Person(
+        id=device.id,
+        kind=device.kind,
+        name=device.name,
+        role=device.role,
+        paired_at_ms=device.paired_at_ms,
+        last_seen_ms=device.last_seen_ms,
+        here=hub.holds(device.id),
+    )
+
+
+@people_api.patch("/people/{person}", dependencies=[OWNER])
+async def change(person: str, wanted: PersonChange, entrance: Entered, control: Controlled) -> Person:
+    """Another name or role. What was open under the old ones is closed and may come back."""
+    changed = entrance.devices.change(person, wanted.name, wanted.role)
+    control.hub.send_away(person, "Your name or role is another one now.")
+    await entrance.devices.keep()
+    return person_of(changed, control.hub)
+
+
+@people_api.delete("/people/{person}", status_code=204, dependencies=[OWNER])
+async def revoke(person: str, entrance: Entered, control: Controlled) -> None:
+    """May not come in any more; what it has open is closed at once."""
+    entrance.devices.revoke(person)
+    control.hub.send_away(person, "This device is not paired any more.")
+    await entrance.devices.keep()
+
+
+@people_api.post("/invites", dependencies=[OWNER])
+async def invite(wish: InviteWish, entrance: Entered, base: Base) -> Invitation:
+    """A link and a code for one device, for two minutes."""
+    made = entrance.pairing.invite(wish.role, wish.name)
+    link = pair_link(base, made.secret)
+    expires_in_ms = round(entrance.pairing.seconds_left(made) * 1000)
+    return Invitation(
+        id=made.id, link=link, code=made.code, picture=picture_of(link), expires_in_ms=expires_in_ms
+    )
+
+
+@people_api.delete("/invites/{invitation}", status_code=204, dependencies=[OWNER])
+async def withdraw(invitation: str, entrance: Entered) -> None:
+    """Ends an invitation that nobody has used."""
+    entrance.pairing.withdraw(invitation)
+
+
+@people_api.post("/tokens", dependencies=[OWNER])
+async def make_token(wish: TokenWish, entrance: Entered) -> Token:
+    """A token for a script: `Authorization: Bearer TOKEN`."""
+    device, token = entrance.devices.admit("token", wish.name, wish.role)
+    await entrance.devices.keep()
+    return Token(id=device.id, token=token)
+
+
+@people_api.post("/stop-links", dependencies=[OWNER])
+async def make_stop_link(wish: StopLinkWish, entrance: Entered, base: Base) -> StopLink:
+    """A link that can stop the robot and do nothing else, to stick on it; good until it is revoked."""
+    device, credential = entrance.devices.admit("stopLink", wish.name, "stopper")
+    await entrance.devices.keep()
+    link = stop_link(base, credential)
+    return StopLink(id=device.id, link=link, picture=picture_of(link))

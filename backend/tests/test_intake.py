@@ -1,0 +1,111 @@
+"""How fast a client is listened to."""
+
+import asyncio
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from servodeck.intake import Intake, Rate
+from servodeck.messages import AnyClientMessage, ResumeMessage, SendMessage, StopMessage
+from tests.virtual_time import in_virtual_time, now
+
+STOP = StopMessage(type="stop", hold=None)
+
+
+class Listener:
+    """An intake that takes two at once and one a second, and what came of each message."""
+
+    def __init__(self, per_second: float = 1, burst: int = 2) -> None:
+        self.taken: list[tuple[float, AnyClientMessage]] = []
+        self.replaced: list[AnyClientMessage] = []
+        self.overruns = 0
+        self.intake = Intake(Rate(per_second, burst, now), self._take, self.replaced.append, self._overrun)
+
+    def _take(self, message: AnyClientMessage) -> None:
+        self.taken.append((round(now(), 3), message))
+
+    def _overrun(self) -> None:
+        self.overruns += 1
+
+    def send(self, *ids: int) -> None:
+        for each in ids:
+            self.intake.offer(sent(each))
+
+
+def sent(number: int) -> SendMessage:
+    return SendMessage(type="send", id=number, packet="")
+
+
+@in_virtual_time
+async def test_above_the_rate_the_newest_waits_its_turn_and_older_ones_are_told() -> None:
+    listener = Listener()
+    listener.send(1, 2, 3, 4)
+    assert listener.replaced == [sent(3)]
+    await asyncio.sleep(5)
+    assert listener.taken == [(0, sent(1)), (0, sent(2)), (1, sent(4))]
+    listener.send(5)
+    assert listener.taken[-1] == (5, sent(5))
+    assert listener.overruns == 0
+
+
+@in_virtual_time
+async def test_far_above_the_rate_it_is_over() -> None:
+    listener = Listener()
+    listener.send(*range(5))
+    assert listener.overruns == 0
+    listener.send(5)
+    assert listener.overruns == 1
+
+
+@in_virtual_time
+async def test_a_little_above_for_long_only_loses_what_is_too_much() -> None:
+    listener = Listener()
+    for number in range(40):
+        listener.send(number)
+        await asyncio.sleep(0.8)
+    assert listener.overruns == 0
+    assert len(listener.taken) >= 32
+
+
+@in_virtual_time
+async def test_a_stop_passes_at_any_rate_and_nothing_that_waited_comes_behind_it() -> None:
+    listener = Listener()
+    listener.send(1, 2)
+    listener.intake.offer(ResumeMessage(type="resume"))
+    for _ in range(100):
+        listener.intake.take_at_once(STOP)
+    assert [message for _, message in listener.taken[2:]] == [STOP] * 100
+    assert listener.replaced == [ResumeMessage(type="resume")]
+    await asyncio.sleep(10)
+    assert len(listener.taken) == 102
+    assert listener.overruns == 0
+
+
+@in_virtual_time
+async def test_whoever_left_is_not_heard_any_more() -> None:
+    listener = Listener()
+    listener.send(1, 2, 3)
+    listener.intake.close()
+    await asyncio.sleep(10)
+    assert [message for _, message in listener.taken] == [sent(1), sent(2)]
+
+
+@given(st.lists(st.floats(min_value=0, max_value=3), max_size=60))
+def test_never_more_than_the_rate_allows_and_the_last_one_always_arrives(pauses_s: list[float]) -> None:
+    check_rate(pauses_s)
+
+
+@in_virtual_time
+async def check_rate(pauses_s: list[float]) -> None:
+    listener = Listener()
+    for number, pause_s in enumerate(pauses_s):
+        listener.send(number)
+        await asyncio.sleep(pause_s)
+    await asyncio.sleep(2)
+    times_s = [at_s for at_s, _ in listener.taken]
+    for first, at_s in enumerate(times_s):
+        within = sum(at_s <= other <= at_s + 10 for other in times_s[first:])
+        assert within <= 2 + 10 + 1
+    ids = [message.id for _, message in listener.taken if isinstance(message, SendMessage)]
+    assert ids == sorted(ids)
+    assert not pauses_s or ids[-1] == len(pauses_s) - 1
