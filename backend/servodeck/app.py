@@ -27,6 +27,7 @@ from servodeck.page import STATIC, page
 from servodeck.people_api import people_api
 from servodeck.pulse import Pulse
 from servodeck.roles import ANYBODY, require_roles
+from servodeck.supervisor import sign_of_life
 
 CODE_OF_STATUS: dict[int, ErrorCode] = {
     403: "forbidden",
@@ -50,7 +51,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     )
     app.state.control = control
     app.state.library = library
-    app.state.pulse = Pulse()
+    app.state.pulse = Pulse(sign_of_life())
     app.state.disk = Disk(library.folder, control.now)
     app.state.entrance = entrance
     app.include_router(api)

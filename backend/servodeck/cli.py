@@ -5,6 +5,7 @@ Imports the gateway only where it is served, so that the small commands answer a
 
 import ipaddress
 import json
+import os
 import socket
 import sys
 import time
@@ -134,6 +135,8 @@ def serve(
     with suppress(StorageError):
         entrance.devices.close()
     log.close()
+    # Python itself would wait for every thread that a disk or a driver still holds.
+    os._exit(0)
 
 
 @app.command("config", context_settings={"allow_extra_args": True, "ignore_unknown_options": True})

@@ -18,6 +18,7 @@ from servodeck.library_file import STEPS, code_of, open_library, storage_error
 TRASH_MS = 30 * 24 * 3600 * 1000
 MAX_DOCUMENTS = 5000
 MAX_VERSIONS = 200
+CLOSE_WAIT_S = 0.5
 # After these a connection may be used on; after any other it is opened anew.
 PASSING = frozenset({sqlite3.SQLITE_FULL, sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED})
 
@@ -119,8 +120,10 @@ class Library:
             db.execute("INSERT OR REPLACE INTO version VALUES (?, ?, ?, ?, ?)", (document, *version, text))
 
     def close(self) -> None:
-        with self._lock:
+        """Left to the file's own journal where a request still waits for the disk."""
+        if self._lock.acquire(timeout=CLOSE_WAIT_S):
             self._forget()
+            self._lock.release()
 
     def _mark(self, documents: Sequence[str], removed_at_ms: int | None) -> None:
         with self._transaction() as db:

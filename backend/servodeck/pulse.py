@@ -12,9 +12,9 @@ REMEMBERED_S = 15.0
 
 
 class Pulse:
-    def __init__(self) -> None:
+    def __init__(self, each_beat: Callable[[], None]) -> None:
+        self._each_beat = each_beat
         self._delays_s: deque[float] = deque(maxlen=int(REMEMBERED_S / BEAT_S))
-        self.each_beat: Callable[[], None] = lambda: None
 
     @property
     def worst_s(self) -> float:
@@ -27,4 +27,4 @@ class Pulse:
             due = loop.time() + BEAT_S
             await asyncio.sleep(BEAT_S)
             self._delays_s.append(max(0.0, loop.time() - due))
-            self.each_beat()
+            self._each_beat()

@@ -18,12 +18,14 @@ from types import FrameType
 import uvicorn
 from starlette.types import ASGIApp
 
-from servodeck import __version__
+from servodeck import __version__, supervisor
 from servodeck.control import Control
 from servodeck.errors import PortError
 
 MESSAGE_BYTES = 16 * 1024
 LEAVE_S = 1
+END_S = 2.5
+FORCED = 1
 log = logging.getLogger("servodeck.server")
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
@@ -64,6 +66,7 @@ class Server(uvicorn.Server):
         await super().startup(sockets)
         if self.started:
             log.info("ready", extra={"facts": {"version": __version__}})
+            supervisor.tell("READY=1")
             self._ready()
 
     async def main_loop(self) -> None:
@@ -77,6 +80,7 @@ class Server(uvicorn.Server):
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         log.info("ending")
+        supervisor.tell("STOPPING=1")
         self._opening.cancel()
         await self._control.shut_down()
         await super().shutdown(sockets)
@@ -100,8 +104,18 @@ class Server(uvicorn.Server):
                 signal.signal(number, handler)
 
     def _on_signal(self, _number: int, _frame: FrameType | None) -> None:
+        end_for_sure()
         self.force_exit = self.should_exit  # asked twice: wait for nobody
         self.leave()
+
+
+def end_for_sure() -> None:
+    """Ends the process a while later, whatever holds it up by then. The robot is stopped long before, and
+    what the library called kept survives.
+    """
+    last_resort = threading.Timer(END_S, os._exit, (FORCED,))
+    last_resort.daemon = True
+    last_resort.start()
 
 
 def leave_with_stdin(leave: Callable[[], None]) -> None:
@@ -111,6 +125,7 @@ def leave_with_stdin(leave: Callable[[], None]) -> None:
         with contextlib.suppress(OSError, ValueError):
             while os.read(sys.stdin.fileno(), 4096):
                 pass
+        end_for_sure()
         leave()
 
     threading.Thread(target=wait, name="stdin", daemon=True).start()

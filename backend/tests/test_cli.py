@@ -8,7 +8,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from urllib.error import HTTPError
@@ -32,16 +32,26 @@ def run(*arguments: str) -> Result:
 class Served:
     """`servodeck serve` as a process of its own on a pty."""
 
-    def __init__(self, *more: str) -> None:
+    def __init__(
+        self,
+        *more: str,
+        before: Sequence[str] = (),
+        program: Sequence[str] = ("-m", "servodeck"),
+        variables: Mapping[str, str] | None = None,
+    ) -> None:
         self.pty = Pty()
-        command = [sys.executable, "-m", "servodeck", "serve", "--listen", "127.0.0.1:0"]
+        command = [*before, sys.executable, *program, "serve", "--listen", "127.0.0.1:0"]
         self.process = subprocess.Popen(
             [*command, "--serial", self.pty.device, *more],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
+            env={
+                **os.environ,
+                "PYTHONPATH": os.pathsep.join(path for path in sys.path if path),
+                **(variables or {}),
+            },
         )
         assert self.process.stdout
         ready = READY.fullmatch(self.process.stdout.readline())
