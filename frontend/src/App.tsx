@@ -2,7 +2,6 @@
 // phone. STOP stands outside of all of them.
 
 import { useEffect } from 'react';
-import { useStore } from 'zustand';
 import { I18nProvider } from 'react-aria-components/I18nProvider';
 import { Tab, TabList, TabPanel, Tabs } from 'react-aria-components/Tabs';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
@@ -13,6 +12,7 @@ import { ConnectDialog } from './connect/ConnectDialog.tsx';
 import type { Page } from './connect/page.ts';
 import { LogDrawer } from './console/LogDrawer.tsx';
 import { LogPanel } from './console/LogPanel.tsx';
+import { Messages } from './console/Messages.tsx';
 import { LibraryDialog } from './library/LibraryDialog.tsx';
 import { RobotDialog } from './robots/RobotDialog.tsx';
 import { Authoring } from './authoring/Authoring.tsx';
@@ -25,7 +25,6 @@ import type { Undoable } from './stores/undoable.ts';
 import type { Tab as TabName, Theme } from './stores/view.ts';
 import { TopBar } from './topBar/TopBar.tsx';
 import { Icon, type IconName } from './ui/Icon.tsx';
-import { Toasts } from './ui/Toasts.tsx';
 import { useEachFrame } from './ui/useEachFrame.ts';
 import { useLayout } from './ui/useLayout.ts';
 import { useSpokenLocale } from './ui/useSpokenLocale.ts';
@@ -62,7 +61,6 @@ function Dashboard({ page }: { readonly page: Page }) {
       {!isKiosk && <TopBar onMoveHere={moveHere} />}
       <StopButton />
       {isKiosk ? <Kiosk onMoveHere={moveHere} /> : layout === 'phone' ? <PhoneWork /> : <DeskWork />}
-      <Messages />
       <p className={styles.said} role="status">
         {said}
       </p>
@@ -87,9 +85,12 @@ function DeskWork() {
   const isButtons = useView((state) => state.tab === 'buttons');
   if (isButtons) {
     return (
-      <main className={styles.page}>
-        <ButtonsPage />
-      </main>
+      <>
+        <main className={styles.page}>
+          <ButtonsPage />
+        </main>
+        <Messages />
+      </>
     );
   }
   return (
@@ -106,7 +107,10 @@ function DeskWork() {
           </div>
         </div>
       </main>
-      <LogDrawer />
+      <div className={styles.foot}>
+        <LogDrawer />
+        <Messages />
+      </div>
     </>
   );
 }
@@ -138,6 +142,7 @@ function PhoneWork() {
           ))}
         </TabList>
       </nav>
+      <Messages />
       <main className={styles.phone}>
         <TabPanel id="live" className={styles.tabPanel ?? ''}>
           <LivePanel />
@@ -157,19 +162,6 @@ function PhoneWork() {
         </TabPanel>
       </main>
     </Tabs>
-  );
-}
-
-function Messages() {
-  const { notices } = useStores();
-  const list = useStore(notices.store);
-  return (
-    <Toasts
-      label={words.regions.notices}
-      dismissLabel={words.dismiss}
-      toasts={list.map(({ tone, ...notice }) => ({ ...notice, truth: tone === 'info' ? 'confirmed' : tone }))}
-      onDismiss={notices.dismiss}
-    />
   );
 }
 

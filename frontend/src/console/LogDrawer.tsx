@@ -14,13 +14,13 @@ export function LogDrawer() {
   const isOpen = useView((state) => state.logOpen);
   if (isOpen) {
     return (
-      <div className={styles.open} data-drawer="">
+      <div className={styles.open}>
         <LogPanel onFold={() => view.setState({ logOpen: false })} />
       </div>
     );
   }
   return (
-    <section className={styles.folded} aria-label={words.log.title} data-drawer="">
+    <section className={styles.folded} aria-label={words.log.title}>
       <AriaButton
         className={styles.button ?? ''}
         aria-label={words.log.open}

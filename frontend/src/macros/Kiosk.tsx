@@ -2,6 +2,7 @@
 // upon that by chance, and no reload is a way around it.
 
 import { useEffect, useRef, useState } from 'react';
+import { Messages } from '../console/Messages.tsx';
 import { useMacros, useStores } from '../stores/stores.ts';
 import { StatusLine, type StatusLineProps } from '../topBar/StatusLine.tsx';
 import { words } from '../words/words.ts';
@@ -20,6 +21,7 @@ export function Kiosk({ onMoveHere }: StatusLineProps) {
       <main className={styles.buttons}>{isEmpty ? <NoButtons /> : <MacroGrid />}</main>
       <footer className={styles.foot}>
         <LeaveKiosk />
+        <Messages />
       </footer>
     </>
   );

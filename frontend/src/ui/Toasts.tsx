@@ -1,4 +1,5 @@
-// The stack of short messages, read out as they come. Far from STOP, and never over a control that is in use.
+// Short messages, read out as they come: the newest is shown, those before it wait behind it. Covers nothing: whoever places it
+// gives it room of its own. Above dialogs and within reach beside them.
 
 import { Button, IconButton } from './Button.tsx';
 import { Mark, type Truth } from './Chip.tsx';
@@ -15,18 +16,22 @@ export interface Toast {
 export interface ToastsProps {
   readonly label: string;
   readonly dismissLabel: string;
+  /** How many wait behind the one that is shown. */
+  moreLabel(count: number): string;
   readonly toasts: readonly Toast[];
   onDismiss(id: number): void;
 }
 
-export function Toasts({ label, dismissLabel, toasts, onDismiss }: ToastsProps) {
+export function Toasts({ label, dismissLabel, moreLabel, toasts, onDismiss }: ToastsProps) {
+  const waiting = toasts.length - 1;
   return (
-    <section className={styles.stack} aria-label={label} data-react-aria-top-layer="true">
-      <ol aria-live="polite" className={styles.list}>
-        {toasts.map((toast) => (
-          <li key={toast.id} className={styles.toast}>
+    <section className={styles.place} aria-label={label} data-react-aria-top-layer="true">
+      <ol aria-live="polite">
+        {toasts.map((toast, index) => (
+          <li key={toast.id} className={styles.toast} hidden={index < waiting}>
             <Mark truth={toast.truth} />
             <p className={styles.text}>{toast.text}</p>
+            {waiting > 0 && <span className={styles.more}>{moreLabel(waiting)}</span>}
             {toast.action !== undefined && <ActButton {...toast.action} onDone={() => onDismiss(toast.id)} />}
             <IconButton icon="close" label={dismissLabel} onPress={() => onDismiss(toast.id)} />
           </li>

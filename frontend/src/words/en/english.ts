@@ -377,6 +377,7 @@ export const english = {
   refused: (name: string, value: number, min: number, max: number): string =>
     `${name}: ${formatWhole(value)} is out of range; it takes ${formatWhole(min)} to ${formatWhole(max)}.`,
   dismiss: 'Dismiss',
+  moreNotices: (count: number): string => `${formatWhole(count)} more`,
 };
 
 /** What each language must say. */
