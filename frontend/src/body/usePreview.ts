@@ -1,5 +1,5 @@
-// The pose at the playhead of the timeline, for the picture of the body: neither commanded nor estimated, a preview. Drawn past
-// React, because the playhead may be scrubbed. Moves nothing.
+// The pose at the playhead of the timeline, or of a blend of poses, for the picture of the body: neither commanded nor estimated, a
+// preview. Drawn past React, because the playhead may be scrubbed. Moves nothing.
 
 import { useRef } from 'react';
 import { poseAtMs } from '#shared/actions/group/tracks.ts';
@@ -26,10 +26,14 @@ function reasonsOf(stores: Stores): readonly unknown[] {
   const { authoring } = stores.view.getState();
   const { family } = stores.device.store.getState();
   const { muted } = servoViewOf(stores);
-  return [stores.document.store.getState().present, showsPreview, playheadMs, authoring, family, muted];
+  const { targets } = stores.blend.store.getState();
+  const group = stores.document.store.getState().present;
+  return [group, showsPreview, playheadMs, authoring, family, muted, targets];
 }
 
 function previewOf(stores: Stores): Pose | null {
+  const { targets } = stores.blend.store.getState();
+  if (targets !== null) return (servo) => targets.find((one) => one.servo === servo)?.position ?? null;
   const { showsPreview, playheadMs } = stores.timeline.getState();
   const group = stores.document.store.getState().present;
   const isShown = showsPreview && stores.view.getState().authoring === 'group';

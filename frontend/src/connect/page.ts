@@ -5,6 +5,7 @@ import { FAMILIES } from '#shared/protocol/families.ts';
 import { createBattery } from '../stores/battery.ts';
 import { applyBatteryPolicy } from '../stores/batteryPolicy.ts';
 import { pollBattery } from '../stores/batteryPoll.ts';
+import { createBlend } from '../stores/blend.ts';
 import { createBoards } from '../stores/boards.ts';
 import { createCompiled } from '../stores/compiled.ts';
 import { createDevice } from '../stores/device.ts';
@@ -71,6 +72,7 @@ export async function openPage(): Promise<Page> {
   const stores = {
     ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
     ...{ compiled, slots, playhead, playback },
+    blend: createBlend(device),
     tape: createMotionTape({ device, robots, clock: pageClock }),
     macros: createMacros(storage, notices, robots),
     document: written,

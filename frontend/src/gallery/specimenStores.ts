@@ -4,6 +4,7 @@ import type { Family } from '#shared/protocol/families.ts';
 import { pageClock } from '../connect/page.ts';
 import { createMemoryKeeper } from '../keepers/memoryKeeper.ts';
 import { createBattery } from '../stores/battery.ts';
+import { createBlend } from '../stores/blend.ts';
 import { createBoards } from '../stores/boards.ts';
 import { createCompiled } from '../stores/compiled.ts';
 import { createDevice } from '../stores/device.ts';
@@ -51,6 +52,7 @@ export function specimenStores(family: Family, held: Gamepadlike | null = null):
     ...{ notices, robots, device, poses, mappings, document, view, library },
     pad: createPad({ device, robots, mappings, notices, clock: pageClock, readPads }),
     battery: createBattery(device, robots),
+    blend: createBlend(device),
     timeline,
     ...{ compiled, slots, playhead },
     tape: createMotionTape({ device, robots, clock: pageClock }),

@@ -1,19 +1,22 @@
-// Between two poses: a slider from the selected one to another, with its picture. The robot goes there when asked to.
+// Between two poses: a slider from the selected one to another, with its picture and as a preview on the body. The robot goes there
+// when asked to, or follows the slider as long as that is switched on.
 
-import { useState } from 'react';
+import { useEffect, useState } from 'react';
 import type { Pose } from '#shared/actions/poses/pose.ts';
 import { addPose } from '#shared/actions/poses/poseEdits.ts';
 import { blended } from '#shared/actions/poses/poseShapes.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { motionHindrance } from '../stores/readiness.ts';
-import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useBlend, useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';
+import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
 import styles from './PosesPanel.module.css';
 
 export function BlendBar({ pose }: { readonly pose: Pose }) {
-  const { poses, view } = useStores();
+  const { poses, view, blend } = useStores();
+  const isLive = useBlend((state) => state.isLive);
   const list = usePoses(({ present }) => present.poses);
   const nextId = usePoses(({ present }) => present.nextId);
   const family = useDevice((state) => state.family);
@@ -25,6 +28,11 @@ export function BlendBar({ pose }: { readonly pose: Pose }) {
   const other = others.find(({ id }) => id === otherId);
   const targets = other === undefined ? [] : blended(pose.targets, other.targets, share);
   const isNothing = targets.length === 0;
+  const fits = !isNothing && pose.unit === family.unit;
+  useEffect(() => {
+    blend.show(fits && other !== undefined ? blended(pose.targets, other.targets, share) : null);
+  }, [blend, fits, pose, other, share]);
+  useEffect(() => () => blend.show(null), [blend]);
 
   const go = (): void => {
     if (other !== undefined)
@@ -74,9 +82,15 @@ export function BlendBar({ pose }: { readonly pose: Pose }) {
         </span>
       </div>
       <div className={styles.shapes}>
-        <Button icon="play" isDisabled={isNothing || !mayMove || pose.unit !== family.unit} onPress={go}>
+        <Button icon="play" isDisabled={!fits || !mayMove} onPress={go}>
           {words.poses.blendGo}
         </Button>
+        <Toggle
+          label={words.play.live}
+          isOn={isLive}
+          isDisabled={!fits || !mayMove}
+          onChange={blend.follow}
+        />
         <Button tone="quiet" icon="plus" isDisabled={isNothing} onPress={keep}>
           {words.poses.blendKeep}
         </Button>

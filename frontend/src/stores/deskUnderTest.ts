@@ -2,6 +2,7 @@
 
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
+import { createBlend } from './blend.ts';
 import { createCompiled } from './compiled.ts';
 import { createDevice, type Way } from './device.ts';
 import { createDocument } from './document.ts';
@@ -55,6 +56,7 @@ export async function createDesk(
   return {
     ...{ document, view, compiled, slots, playhead, playback, tape, draw },
     ...{ ...rig, texts, notices, robots, device, poses, macros, macroRun },
+    blend: createBlend(device),
     book: () => poses.book.store.getState().present,
     told: () => notices.store.getState().map(({ text }) => text),
     moves: () => rig.ofKind('move'),

@@ -4,7 +4,7 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { passageOf, type Passage } from '#shared/actions/group/passage.ts';
 import { totalDurationMs } from '#shared/actions/group/group.ts';
-import { frameEnds } from '#shared/actions/group/tracks.ts';
+import { frameEnds, poseAtMs, tracksOf } from '#shared/actions/group/tracks.ts';
 import { passMs } from '#shared/motion/motion.ts';
 import { fateOf, recordOf } from '#shared/actions/slots/slotBook.ts';
 import type { Activity } from '#shared/session/state.ts';
@@ -12,7 +12,7 @@ import { words } from '../words/words.ts';
 import { obstacles, type CompiledGroup, type CompiledStore } from './compiled.ts';
 import type { Device } from './device.ts';
 import type { Document } from './document.ts';
-import { createFollower } from './follower.ts';
+import { createFollower, type FollowedPose } from './follower.ts';
 import type { Notices } from './notices.ts';
 import { startHindrance } from './readiness.ts';
 import type { Slots } from './slots.ts';
@@ -83,8 +83,18 @@ export function createPlayback(options: PlaybackOptions): Playback {
   const store = createStore<PlaybackState>(() => ({
     ...{ speedPercent: 100, loops: false, isLive: false, phase: null },
   }));
-  const follower = createFollower({ device, document });
+  const follower = createFollower(device);
   let following: Following | null = null;
+
+  function poseAt(atMs: number): FollowedPose {
+    const pose = poseAtMs(tracksOf(document.store.getState().present), atMs);
+    return new Map([...pose].map(([servo, position]) => [servo, Math.round(position)]));
+  }
+
+  function followPlayhead(): void {
+    if (document.store.getState().present.unit === device.store.getState().family.unit)
+      follower.follow(poseAt(playhead.at()));
+  }
 
   const activity = (): Activity => device.store.getState().snapshot.activity;
   const phase = (next: PlaybackPhase | null): void => {
@@ -225,7 +235,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
     const to =
       direction === 1 ? ends.find((endMs) => endMs > at) : (ends.findLast((endMs) => endMs < at) ?? ends[0]);
     if (to === undefined) return;
-    follower.go(to, Math.abs(to - at), at);
+    follower.go(poseAt(to), Math.abs(to - at), poseAt(at));
     playhead.go(to);
   }
 
@@ -243,7 +253,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
     frame() {
       if (following !== null) follow(following);
       else followBoard();
-      if (store.getState().isLive) follower.follow(playhead.at());
+      if (store.getState().isLive) followPlayhead();
     },
     hidden() {
       store.setState({ isLive: false });

@@ -9,6 +9,7 @@ import type { History } from '#shared/actions/history.ts';
 import type { MacroPage } from '#shared/actions/macros/macro.ts';
 import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import type { BatteryState, BatteryStore } from './battery.ts';
+import type { Blend, BlendState } from './blend.ts';
 import type { Boards } from './boards.ts';
 import type { CompiledState, CompiledStore } from './compiled.ts';
 import type { MotionTape } from './motionTape.ts';
@@ -43,6 +44,7 @@ export interface Stores {
   readonly mappings: Undoable<Mapping>;
   readonly pad: Pad;
   readonly poses: Poses;
+  readonly blend: Blend;
   readonly macros: Undoable<MacroPage>;
   readonly macroRun: MacroRun;
   readonly compiled: CompiledStore;
@@ -82,6 +84,10 @@ export function useLibrary<T>(select: (state: LibraryState) => T): T {
 
 export function usePoses<T>(select: (state: History<PoseBook>) => T): T {
   return useStore(useStores().poses.book.store, select);
+}
+
+export function useBlend<T>(select: (state: BlendState) => T): T {
+  return useStore(useStores().blend.store, select);
 }
 
 export function useMacros<T>(select: (state: History<MacroPage>) => T): T {
