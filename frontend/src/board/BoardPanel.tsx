@@ -4,7 +4,6 @@
 import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { SlotsControl } from '../slots/SlotsControl.tsx';
 import { Chip } from '../ui/Chip.tsx';
-import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { CompileRow } from '../compile/CompileRow.tsx';
@@ -58,7 +57,7 @@ function SlotControl() {
     brokenSlots.includes(slot) ? 'broken' : storedSlots.includes(slot) ? 'stored' : 'unknown',
   );
   return (
-    <div className={cx(styles.row, styles.slot)}>
+    <div className={styles.row}>
       <div className={styles.field}>
         <span className={styles.label} aria-hidden="true">
           {words.board.slot}

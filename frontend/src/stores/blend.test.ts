@@ -17,6 +17,18 @@ describe('a blend of two poses', () => {
     expect(transport.board.target(1)).toBe(1300);
   });
 
+  test('follows between two ticks of the clock, too, while it is still on its gentle way', async () => {
+    const { blend, clock, draw, moves, told } = await createDesk();
+    blend.show(at(1200));
+    blend.follow(true);
+    await draw(200);
+    await clock.advance(0.3);
+    blend.show(at(1300));
+    await draw(200);
+    expect(told()).toEqual([]);
+    expect(moves().at(-1)).toMatchObject({ targets: at(1300) });
+  });
+
   test('moves nothing any more once it is put away', async () => {
     const { blend, draw, moves } = await createDesk();
     blend.show(at(1200));

@@ -48,7 +48,7 @@ export function createFollower(device: Device): Follower {
       if (changed.length === 0) return;
       if (told === null) gentleUntilMs = clock.now() + GENTLE_MOVE_MS;
       told = pose;
-      const gentleMs = gentleUntilMs - clock.now();
+      const gentleMs = Math.ceil(gentleUntilMs - clock.now());
       move(changed, gentleMs > 0 ? gentleMs : 'hand');
     },
     go(pose, durationMs, from) {
