@@ -151,7 +151,7 @@ def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
         case BoardMessage():
             control.take_for(message.board)
         case LimitsMessage():
-            control.limits.set(message.servos)
+            control.limit(seat, message.servos)
         case CalibrateMessage():
             control.limits.calibrate(seat, message.servo)
 

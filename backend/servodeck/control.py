@@ -26,10 +26,12 @@ from servodeck.inbox import Inbox
 from servodeck.link import Link, Ports
 from servodeck.messages import (
     HaltedMessage,
+    LimitsMessage,
     Message,
     NoiseMessage,
     PortState,
     ReceivedMessage,
+    ServoLimits,
     StateMessage,
     WelcomeMessage,
     encode,
@@ -142,11 +144,16 @@ class Control:
             raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
         if board != self.board:
             self.board = board
-            self.limits.clear()
+            self._forget_limits()
             self.battery = None
             with contextlib.suppress(GatewayError):
                 self.link.wire().purge(is_no_stop, CancelledError("The board is taken for another one now."))
         self._tell_state()
+
+    def limit(self, seat: Seat, servos: list[ServoLimits]) -> None:
+        """How far the robot's servos may be turned, by whoever said so last; every other client is told."""
+        self.limits.set(servos)
+        self._tell(LimitsMessage(type="limits", servos=servos), but=seat)
 
     async def read_battery(self) -> int:
         """In mV. Whoever asks while a question is under way shares its answer."""
@@ -157,13 +164,13 @@ class Control:
 
     async def use_port(self, device: str, board: str | None = None) -> None:
         await self._quiet()
-        self.limits.clear()
+        self._forget_limits()
         self.board = board or self.board
         await self.link.use(device)
 
     async def close_port(self) -> None:
         await self._quiet()
-        self.limits.clear()
+        self._forget_limits()
         await self.link.close()
 
     async def shut_down(self) -> None:
@@ -198,14 +205,20 @@ class Control:
             port=self.port,
             latch=self.latch,
             clients=len(self.hub),
+            limits=self.limits.told(),
         )
 
     def _tell_state(self, but: Seat | None = None) -> None:
         state = StateMessage(board=self.board, port=self.port, latch=self.latch, clients=len(self.hub))
         self.hub.tell_all(encode(state), but)
 
-    def _tell(self, message: Message) -> None:
-        self.hub.tell_all(encode(message))
+    def _tell(self, message: Message, but: Seat | None = None) -> None:
+        self.hub.tell_all(encode(message), but)
+
+    def _forget_limits(self) -> None:
+        if self.limits.told():
+            self._tell(LimitsMessage(type="limits", servos=[]))
+        self.limits.clear()
 
     def _set_latch(self, latch: bool) -> None:
         if latch != self.latch:

@@ -94,7 +94,9 @@ class ServoLimits(Message):
 
 
 class LimitsMessage(Message):
-    """The robot's limits, for every client and in place of those before; gone with the board."""
+    """The robot's limits, for every client and in place of those before; gone with the board. From
+    the gateway: another client has told them, or they are gone.
+    """
 
     type: Literal["limits"]
     servos: Annotated[list[ServoLimits], Field(max_length=253)]
@@ -122,6 +124,7 @@ class WelcomeMessage(Message):
     port: PortState
     latch: bool
     clients: int
+    limits: list[ServoLimits]
 
 
 class SentMessage(Message):
@@ -177,7 +180,8 @@ GatewayMessage = Annotated[
     | ReceivedMessage
     | NoiseMessage
     | HaltedMessage
-    | StateMessage,
+    | StateMessage
+    | LimitsMessage,
     Field(discriminator="type"),
 ]
 

@@ -22,6 +22,9 @@ class RobotLimits:
         """In place of all that was set before."""
         self._limits = {limits.servo: limits for limits in servos}
 
+    def told(self) -> list[ServoLimits]:
+        return list(self._limits.values())
+
     def calibrate(self, owner: Owner, servo: int | None) -> None:
         """Whoever looks for the limits of a servo may pass the old ones, with that servo alone and until
         `forget`.

@@ -42,6 +42,24 @@ async def test_a_limit_that_one_client_tells_holds_for_all_even_after_it_left() 
         assert port.packets() == [STOP, MOVE_ELSEWHERE, RUN]
 
 
+@in_virtual_time
+async def test_limits_are_told_to_the_others_to_whoever_joins_and_when_they_are_gone() -> None:
+    told = [ELBOW.model_dump()]
+    async with gateway_on(FakePort(), FakePort()) as control:
+        anna, bert = seated(control), seated(control)
+        await heard(anna)
+        await heard(bert)
+        say(control, anna, type="limits", servos=told)
+        assert await heard(anna) == []
+        assert await heard(bert) == [{"type": "limits", "servos": told}]
+        cora = seated(control)
+        welcome, *_ = await heard(cora)
+        assert welcome["limits"] == told
+        await heard(bert)
+        control.take_for("lsc-6")
+        assert {"type": "limits", "servos": []} in await heard(bert)
+
+
 @pytest.mark.parametrize(("position", "passes"), [(1500, True), (1400, True), (1399, False), (1501, False)])
 @in_virtual_time
 async def test_both_ends_are_within_and_downloads_are_judged_as_moves_are(

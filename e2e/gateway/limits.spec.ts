@@ -29,6 +29,7 @@ test('limits set on one screen hold on the other, while it calibrates too', asyn
   await robots.cell('Lowest', 'Elbow').fill('1000');
   await robots.cell('Lowest', 'Elbow').press('Enter');
 
+  await expect(other.notices).toContainText('Limits set on another screen hold: Elbow 1000 to 2500.');
   await other.type(other.target(4), 900);
   await expect(other.notices).toContainText('Elbow (servo 4): position is 900, allowed 1000..2500');
   await other.type(other.target(4), 1010);
@@ -45,5 +46,25 @@ test('limits set on one screen hold on the other, while it calibrates too', asyn
   );
   await other.type(other.target(4), 950);
   await expect(other.notices).toContainText('position is 950');
+  await other.page.context().close();
+});
+
+test('who joins later leaves the limits standing, is told of them, and may take them over', async ({
+  dashboard,
+  robot,
+  browser,
+}) => {
+  const robots = robotDialogOf(dashboard);
+  await robots.opener.click();
+  await robots.button('Edit').click();
+  await robots.cell('Lowest', 'Elbow').fill('1000');
+  await robots.cell('Lowest', 'Elbow').press('Enter');
+
+  const other = await otherScreen(browser, robot);
+  await other.notices.getByRole('button', { name: 'Take over here' }).click();
+  await expect(other.slider(4)).toHaveAttribute('min', '1000');
+  await other.type(other.target(4), 900);
+  await expect(other.notices).toContainText('Elbow: 900 is out of range; it takes 1000 to 2500.');
+  await expect(dashboard.notices).not.toContainText('another screen');
   await other.page.context().close();
 });

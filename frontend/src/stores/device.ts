@@ -3,6 +3,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { fromBoard, limitsOnBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
+import { withLimits } from '#shared/actions/robot/robotEdits.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
@@ -121,9 +122,26 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   const setPaused = (on: boolean): boolean => (paused = on);
   const robot = (): Robot => robots.current().robot;
 
-  const noteRobot = followRobot(robots, (described) => {
-    session?.setLimits(limitsOnBoard(described));
+  const tellCalibrated = (): void => {
     if (calibrated !== null) session?.calibrate(calibrated);
+  };
+
+  const noteRobot = followRobot(robots, {
+    tell(described) {
+      session?.setLimits(limitsOnBoard(described));
+      tellCalibrated();
+    },
+    heldOtherwise(limits) {
+      tellCalibrated();
+      notices.tell('warning', words.robots.heldOtherwise(limits), {
+        label: words.robots.takeLimits,
+        act: () =>
+          void robots.edit(
+            () => words.robots.steps.limits,
+            (all) => withLimits(all, limits),
+          ),
+      });
+    },
   });
 
   function motion(servo: number): ServoMotion {

@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
-import { limitsOnBoard, type Robot } from '#shared/actions/robot/robot.ts';
+import { limitsOnBoard, type NamedLimits, type Robot } from '#shared/actions/robot/robot.ts';
+import { withLimits } from '#shared/actions/robot/robotEdits.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { SessionState } from '#shared/session/state.ts';
@@ -14,6 +15,8 @@ const ready = (board: FamilyId): SessionState => ({
   link: { status: 'ready' },
 });
 
+const ELBOW = { servo: 4, name: 'Elbow', min: 1000, max: 2000 };
+
 const trimmed = (robot: Robot): Robot => ({
   ...robot,
   servos: robot.servos.map((servo) => ({ ...servo, min: 700, max: 2300, trim: 20 })),
@@ -23,8 +26,12 @@ function follower() {
   const storage = { getItem: () => null, setItem: () => undefined };
   const robots = createRobots(storage, createNotices(createVirtualClock()));
   const told: Robot[] = [];
-  const note = followRobot(robots, (robot) => told.push(robot));
-  return { robots, told, note };
+  const held: (readonly NamedLimits[])[] = [];
+  const note = followRobot(robots, {
+    tell: (robot) => told.push(robot),
+    heldOtherwise: (limits) => held.push(limits),
+  });
+  return { robots, told, held, note };
 }
 
 describe('the robot of a link', () => {
@@ -45,6 +52,40 @@ describe('the robot of a link', () => {
     note(ready('doc'));
     note({ ...ready('doc'), link: { status: 'opening' } });
     note(ready('doc'));
+    expect(told).toHaveLength(2);
+  });
+
+  test('leaves limits standing that others had said before, until it is changed here', () => {
+    const { robots, told, held, note } = follower();
+    note({ ...ready('doc'), limitsHeld: [ELBOW] });
+    expect(told).toEqual([]);
+    expect(held).toEqual([[ELBOW]]);
+    robots.edit(
+      () => 'limits',
+      (robot) => withLimits(robot, [ELBOW]),
+    );
+    expect(limitsOnBoard(told[0]!).find(({ servo }) => servo === 4)).toEqual(ELBOW);
+  });
+
+  test('hears what others say while it is ready, and is silent about what it has itself', () => {
+    const { told, held, note } = follower();
+    note(ready('doc'));
+    note({ ...ready('doc'), limitsHeld: limitsOnBoard(told[0]!) });
+    expect(held).toEqual([]);
+    const heard = { ...ready('doc'), limitsHeld: [ELBOW] };
+    note(heard);
+    note({ ...heard, latch: null });
+    expect(held).toEqual([[ELBOW]]);
+    expect(told).toHaveLength(1);
+  });
+
+  test('is told where it was changed while the link was away, whatever others said meanwhile', () => {
+    const { robots, told, held, note } = follower();
+    note(ready('doc'));
+    note({ ...ready('doc'), link: { status: 'opening' } });
+    robots.edit(() => 'limits', trimmed);
+    note({ ...ready('doc'), limitsHeld: [ELBOW] });
+    expect(held).toEqual([]);
     expect(told).toHaveLength(2);
   });
 

@@ -4,7 +4,7 @@
 import { FAMILIES, type BoardId } from '#shared/protocol/families.ts';
 import { fromHex, toHex } from '#shared/protocol/hex.ts';
 import { isLinkErrorCode, LinkError } from '#shared/session/linkError.ts';
-import type { Transport, TransportEvents } from '#shared/session/transport.ts';
+import type { ServoLimits, Transport, TransportEvents } from '#shared/session/transport.ts';
 import type { ClientMessage, GatewayMessage, PortState } from './messages.generated.ts';
 
 type Settle = { resolve: () => void; reject: (error: LinkError) => void };
@@ -15,6 +15,7 @@ export function createGatewayTransport(url: string): Transport {
   let port: PortState | null = null;
   let events: TransportEvents | null = null;
   let latched = false;
+  let limits: readonly ServoLimits[] = [];
   let board: BoardId = 'unknown';
   let nextId = 1;
   const sending = new Map<number, Settle>();
@@ -33,10 +34,14 @@ export function createGatewayTransport(url: string): Transport {
   function heard(message: GatewayMessage): void {
     switch (message.type) {
       case 'welcome':
+        limitsChanged(message.limits);
+        stateChanged(message);
+        break;
       case 'state':
-        boardChanged(message.board);
-        portChanged(message.port);
-        latchChanged(message.latch);
+        stateChanged(message);
+        break;
+      case 'limits':
+        limitsChanged(message.servos);
         break;
       case 'received':
         events?.received(fromHex(message.packet), true);
@@ -54,6 +59,17 @@ export function createGatewayTransport(url: string): Transport {
         settleAll(halting, (waiter) => waiter.resolve());
         break;
     }
+  }
+
+  function stateChanged({ board, port, latch }: Extract<GatewayMessage, { type: 'welcome' | 'state' }>): void {
+    boardChanged(board);
+    portChanged(port);
+    latchChanged(latch);
+  }
+
+  function limitsChanged(next: readonly ServoLimits[]): void {
+    limits = next;
+    events?.limited?.(next);
   }
 
   /** Only packets have an id: without one it was a stop or a resume. */
@@ -141,7 +157,7 @@ export function createGatewayTransport(url: string): Transport {
         naming.add({ resolve, reject });
       });
     },
-    setLimits: (limits) => postIfOpen({ type: 'limits', servos: [...limits] }),
+    setLimits: (own) => postIfOpen({ type: 'limits', servos: [...own] }),
     calibrate: (servo) => postIfOpen({ type: 'calibrate', servo }),
     get label() {
       return port?.device ?? '';
@@ -151,6 +167,7 @@ export function createGatewayTransport(url: string): Transport {
       while (port?.status === 'opening') await nextState();
       if (port?.status !== 'open') throw portError(port);
       events = next;
+      next.limited?.(limits);
       if (latched) next.latched?.(true);
     },
     send(packet) {

@@ -10,7 +10,8 @@ export type GatewayMessage =
   | ReceivedMessage
   | NoiseMessage
   | HaltedMessage
-  | StateMessage;
+  | StateMessage
+  | LimitsMessage;
 
 /**
  * Put one packet on the wire.
@@ -48,7 +49,8 @@ export interface BoardMessage {
   board: string;
 }
 /**
- * The robot's limits, for every client and in place of those before; gone with the board.
+ * The robot's limits, for every client and in place of those before; gone with the board. From
+ * the gateway: another client has told them, or they are gone.
  */
 export interface LimitsMessage {
   type: 'limits';
@@ -84,6 +86,7 @@ export interface WelcomeMessage {
   port: PortState;
   latch: boolean;
   clients: number;
+  limits: ServoLimits[];
 }
 /**
  * How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt

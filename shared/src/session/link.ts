@@ -12,7 +12,7 @@ export type LineState =
   | Extract<LinkState, { status: 'closed' | 'opening' | 'lost' | 'refused' }>
   | { readonly status: 'open'; readonly isReturn: boolean };
 
-export interface LinkOptions extends Pick<TransportEvents, 'received' | 'latched' | 'identified'> {
+export interface LinkOptions extends Pick<TransportEvents, 'received' | 'latched' | 'identified' | 'limited'> {
   readonly transport: Transport;
   readonly clock: Clock;
   changed(state: LineState): void;
@@ -77,6 +77,7 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
         received: ifMine(events.received),
         latched: ifMine(events.latched),
         identified: ifMine(events.identified),
+        limited: ifMine(events.limited),
         lost: ifMine(fail),
       });
     } catch (error) {

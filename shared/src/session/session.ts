@@ -101,6 +101,7 @@ export function createSession(options: SessionOptions): Session {
     received: (bytes, whole = false) => receiver.push(bytes, whole),
     changed: lineChanged,
     identified: (board) => identification.told(board),
+    limited: (limitsHeld) => store.update({ limitsHeld }),
     latched(latched) {
       if (!latched) halt.released();
       else if (store.state.latch === null) halt.latchedElsewhere();

@@ -6,6 +6,7 @@ import type { Report, ServoOffset } from '../protocol/reports.ts';
 import type { Family } from '../protocol/families.ts';
 import type { Identity } from './identity.ts';
 import type { LinkError } from './linkError.ts';
+import type { ServoLimits } from './transport.ts';
 
 export type LinkState =
   | { readonly status: 'closed' }
@@ -84,6 +85,8 @@ export interface SessionState {
   readonly brokenSlots: readonly number[];
   /** What this session stored, by slot. */
   readonly storedSlots: readonly number[];
+  /** What a shared link holds this robot to, as it was told by others; empty where nobody has told it. */
+  readonly limitsHeld: readonly ServoLimits[];
 }
 
 /** Where a servo was asked to be in this session, null before, and where it should be by now, null while nobody knows. */

@@ -29,6 +29,7 @@ export const INITIAL_STATE: SessionState = {
   ...NOTHING_READ,
   brokenSlots: [],
   storedSlots: [],
+  limitsHeld: [],
 };
 
 export function createSessionStore(family: Family): SessionStore {

@@ -13,6 +13,8 @@ export interface TransportEvents {
   latched?(latched: boolean): void;
   /** Only a shared link: somebody said which board this is, or wants it asked again (`unknown`). */
   identified?(board: BoardId): void;
+  /** Only a shared link: how far it lets the robot's servos be turned, as another end has said; empty: nobody has. */
+  limited?(limits: readonly ServoLimits[]): void;
 }
 
 /** How far a servo may be turned, in the board's unit, and what people call it. */

@@ -1,7 +1,7 @@
 // Words about robots: names of the ready ones, of their servos and limbs, and what can be done with a description.
 
 import type { Limb, ReadyRobotId, RobotNames, Role } from '#shared/actions/robot/readyRobots.ts';
-import type { RobotFlaw, ServoFlaw } from '#shared/actions/robot/robot.ts';
+import type { NamedLimits, RobotFlaw, ServoFlaw } from '#shared/actions/robot/robot.ts';
 import type { RobotFileFlaw } from '#shared/actions/robot/robotText.ts';
 import type { Range } from '#shared/protocol/families.ts';
 import { formatWhole } from './numbers.ts';
@@ -100,7 +100,14 @@ export const robotWords = {
     remove: 'remove robot',
     add: 'new robot',
     import: 'import robot',
+    limits: 'limits of another screen',
   },
+  heldOtherwise: ([first, ...others]: readonly NamedLimits[]): string =>
+    first === undefined
+      ? ''
+      : `Limits set on another screen hold: ${first.name} ${formatWhole(first.min)} to ${formatWhole(first.max)}` +
+        `${others.length === 0 ? '' : `, and ${formatWhole(others.length)} more`}.`,
+  takeLimits: 'Take over here',
   /** Both knees of a body are called Knee. */
   called: ({ name, group }: { readonly name: string; readonly group: string }): string =>
     group === '' ? name : `${name}, ${group}`,

@@ -110,7 +110,14 @@ export const robotWords: typeof english = {
     remove: '删除机器人',
     add: '新机器人',
     import: '导入机器人',
+    limits: '另一屏幕的限位',
   },
+  heldOtherwise: ([first, ...others]) =>
+    first === undefined
+      ? ''
+      : `另一个屏幕设置的限位有效：${first.name} ${formatWhole(first.min)}到${formatWhole(first.max)}` +
+        `${others.length === 0 ? '' : `，另有${formatWhole(others.length)}个`}。`,
+  takeLimits: '这里也采用',
   called: ({ name, group }) => (group === '' ? name : `${name}，${group}`),
   title: '机器人',
   button: (name) => `机器人：${name}`,

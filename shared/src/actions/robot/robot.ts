@@ -155,9 +155,17 @@ export function limitsOnBoard(robot: Robot): readonly NamedLimits[] {
   }));
 }
 
-interface NamedLimits extends Range {
+export interface NamedLimits extends Range {
   readonly servo: number;
   readonly name: string;
+}
+
+/** Those that are not what this robot's own servos have. */
+export function limitsApart(robot: Robot, held: readonly NamedLimits[]): readonly NamedLimits[] {
+  const own = limitsOnBoard(robot);
+  return held.filter(({ servo, min, max }) =>
+    own.some((one) => one.servo === servo && (one.min !== min || one.max !== max)),
+  );
 }
 
 /** What the person means by a position of the board. */

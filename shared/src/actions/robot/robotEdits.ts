@@ -1,7 +1,7 @@
 // Edits of a robot that touch more than one figure: pure, from a robot to the next one. What cannot be is for `flawOf` to say.
 
 import { FAMILIES, positionRange, type Range } from '../../protocol/families.ts';
-import { servoOf, TRIM, type Robot, type RobotServo } from './robot.ts';
+import { servoOf, TRIM, type NamedLimits, type Robot, type RobotServo } from './robot.ts';
 
 export function changeServo(robot: Robot, servo: number, change: Partial<RobotServo>): Robot {
   return {
@@ -58,6 +58,14 @@ export function setEnd(robot: Robot, servo: number, end: 'min' | 'max', at: numb
     [end]: at,
     home: end === 'min' ? Math.max(home, at) : Math.min(home, at),
   });
+}
+
+/** Limits as the board counts, taken over for the servos that are there. */
+export function withLimits(robot: Robot, held: readonly NamedLimits[]): Robot {
+  return held.reduce((all, { servo, min, max }) => {
+    const trim = servoOf(all, servo)?.trim ?? 0;
+    return setEnd(setEnd(all, servo, 'min', min - trim), servo, 'max', max - trim);
+  }, robot);
 }
 
 /** What it takes from its partner on the other side: built the other way round, so everything is turned about the centre. */
