@@ -45,7 +45,7 @@ async def test_a_limit_that_one_client_tells_holds_for_all_even_after_it_left() 
 @in_virtual_time
 async def test_limits_are_told_to_the_others_to_whoever_joins_and_when_they_are_gone() -> None:
     told = [ELBOW.model_dump()]
-    async with gateway_on(FakePort(), FakePort()) as control:
+    async with gateway_on() as control:
         anna, bert = seated(control), seated(control)
         await heard(anna)
         await heard(bert)
