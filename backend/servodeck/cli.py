@@ -95,6 +95,7 @@ def serve(
 ) -> None:
     """Serve the page and own the serial port. Each option may also come from SERVODECK_NAME or a file."""
     from servodeck import access
+    from servodeck.announcement import Announcement
     from servodeck.app import create_app
     from servodeck.background import BackgroundPorts
     from servodeck.control import Control
@@ -115,6 +116,7 @@ def serve(
     entrance = entrance_to(proxied or by_address(listener.getsockname()[1]), folder)
     log = set_up_logs(log_level, log_format)
     url = url_of(listener)
+    announcement = Announcement(entrance.access.port) if entrance.access.mode == "lan" else None
     control = Control(BackgroundPorts(), time.monotonic, board, serial or None, simulated=simulated)
 
     def ready() -> None:
@@ -130,7 +132,11 @@ def serve(
     server = Server(app, control, serial or None, ready)
     if exit_with_stdin:
         leave_with_stdin(server.leave)
+    if announcement:
+        announcement.start()
     server.run([listener])
+    if announcement:
+        announcement.end()
     library.close()
     with suppress(StorageError):
         entrance.devices.close()
