@@ -11,6 +11,7 @@ import sys
 import time
 import webbrowser
 from contextlib import suppress
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
 
@@ -159,15 +160,13 @@ def ports(as_json: Annotated[bool, typer.Option("--json", help="For programs.")]
     """List the serial ports of this computer, the likely ones first."""
     found = list_devices()
     if as_json:
-        print(
-            json.dumps(
-                [{"device": p.device, "description": p.description, "likely": p.likely} for p in found]
-            )
-        )
+        print(json.dumps([asdict(port) for port in found]))
     elif not found:
         print("No serial port found. Is the cable plugged in?")
     for port in () if as_json else found:
         print(f"{port.device}  {port.description}{'  (likely)' if port.likely else ''}")
+        if port.lasting:
+            print(f"    lasting name: {port.lasting}")
 
 
 @app.command()

@@ -28,6 +28,9 @@ READ_BYTES = 4096
 # USB serial chips found on these boards and on their cables: WCH CH340/CH341, Silicon Labs CP210x, FTDI.
 LIKELY_VENDORS = frozenset({0x1A86, 0x10C4, 0x0403})
 URL_SCHEME = "socket://"
+LASTING = Path("/dev/serial")
+# None, and what adapters bear as they come from the factory.
+SHARED_NUMBERS = frozenset({"", "0", "0001"})
 
 
 class OpenPort(Protocol):
@@ -57,6 +60,8 @@ class PortInfo:
     device: str
     description: str
     likely: bool
+    lasting: str | None = None
+    """A name that leads to it after every start and replug, where the system keeps one."""
 
 
 class SerialPort:
@@ -185,4 +190,23 @@ def usb_device(port: Any) -> UsbDevice:
 def describe(port: Any) -> PortInfo:
     """`port` is pyserial's ListPortInfo, whose fields its stubs leave half typed."""
     text = port.description if port.description not in (None, "n/a") else port.name
-    return PortInfo(str(port.device), str(text), likely=port.vid in LIKELY_VENDORS)
+    device = str(port.device)
+    has_number = (port.serial_number or "") not in SHARED_NUMBERS
+    lasting = lasting_name(device, has_number=has_number)
+    return PortInfo(device, str(text), likely=port.vid in LIKELY_VENDORS, lasting=lasting)
+
+
+def lasting_name(device: str, *, has_number: bool) -> str | None:
+    """By its serial number, which goes with it into another socket; without one by its socket, because two
+    such adapters share what stands there instead of a number.
+    """
+    kinds = ("by-id", "by-path") if has_number else ("by-path",)
+    links = (link for kind in kinds for link in links_in(LASTING / kind))
+    return next((str(link) for link in links if os.path.realpath(link) == device), None)
+
+
+def links_in(folder: Path) -> list[Path]:
+    try:
+        return sorted(folder.iterdir())
+    except OSError:  # no such folder: another system, or no adapter
+        return []

@@ -175,7 +175,7 @@ def test_an_unknown_board_is_told() -> None:
 def test_ports_are_listed_for_people_and_for_programs() -> None:
     assert run("ports").exit_code == 0
     for port in json.loads(run("ports", "--json").stdout):
-        assert set(port) == {"device", "description", "likely"}
+        assert set(port) == {"device", "description", "likely", "lasting"}
 
 
 def test_decode_says_what_a_packet_means() -> None:

@@ -2,14 +2,20 @@
 
 import contextlib
 import errno
+import json
 import os
+import shutil
 import socket
 import tty
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+from serial.tools import list_ports
+from typer.testing import CliRunner
 
+from servodeck.cli import app
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
 from servodeck.ports import explain, list_devices, open_port
 
@@ -154,3 +160,78 @@ def test_the_list_offers_a_port_known_by_name_alone_once_and_first() -> None:
     devices = [port.device for port in list_devices("/tmp/board", None, "/tmp/board")]
     assert devices[0] == "/tmp/board"
     assert len(devices) == len(set(devices))
+
+
+class FakeDev:
+    """A tree as udev keeps it, with the names of two moments: before and after the adapters came back."""
+
+    def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.folder = folder
+        self._ports: list[SimpleNamespace] = []
+        monkeypatch.setattr("servodeck.ports.LASTING", folder / "serial")
+        monkeypatch.setattr(list_ports, "comports", lambda: self._ports)
+
+    def plug(self, name: str, by_id: str, by_path: str, number: str | None = None) -> str:
+        """Later links of the same name win, as with udev. The device's path."""
+        device = self.folder / name
+        device.touch()
+        for kind, link in (("by-id", by_id), ("by-path", by_path)):
+            path = self.folder / "serial" / kind / link
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.unlink(missing_ok=True)
+            path.symlink_to(device)
+        self._ports.append(
+            SimpleNamespace(device=str(device), description=by_id, vid=0x1A86, serial_number=number)
+        )
+        return str(device)
+
+    def pull_all(self) -> None:
+        self._ports.clear()
+        shutil.rmtree(self.folder / "serial")
+
+
+@pytest.fixture
+def dev(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> FakeDev:
+    return FakeDev(tmp_path, monkeypatch)
+
+
+def shown(device: str) -> str | None:
+    """The lasting name that `servodeck ports` tells."""
+    ports = json.loads(CliRunner().invoke(app, ["ports", "--json"]).stdout)
+    (lasting,) = [port["lasting"] for port in ports if port["device"] == device]
+    return lasting and str(lasting)
+
+
+NUMBERED, TWIN = "usb-FTDI_A1-if00-port0", "usb-1a86_USB_Serial-if00-port0"
+LEFT, RIGHT = "platform-usb-0:1.1:1.0-port0", "platform-usb-0:1.2:1.0-port0"
+
+
+def test_an_adapter_with_a_number_of_its_own_goes_by_it_into_any_socket(dev: FakeDev) -> None:
+    lasting = shown(dev.plug("ttyUSB0", NUMBERED, LEFT, "A1"))
+    assert lasting == str(dev.folder / "serial" / "by-id" / NUMBERED)
+    dev.pull_all()
+    dev.plug("ttyUSB0", TWIN, LEFT)
+    device = dev.plug("ttyUSB1", NUMBERED, RIGHT, "A1")
+    assert os.path.realpath(lasting) == device
+
+
+@pytest.mark.parametrize("number", [None, "", "0001"])
+def test_adapters_that_cannot_be_told_apart_go_by_their_socket(dev: FakeDev, number: str | None) -> None:
+    left = shown(dev.plug("ttyUSB0", TWIN, LEFT, number))
+    right = shown(dev.plug("ttyUSB1", TWIN, RIGHT, number))
+    assert (left, right) == tuple(str(dev.folder / "serial" / "by-path" / one) for one in (LEFT, RIGHT))
+    dev.pull_all()
+    assert right == shown(device := dev.plug("ttyUSB0", TWIN, RIGHT, number))
+    assert os.path.realpath(str(right)) == device
+
+
+def test_where_the_system_keeps_no_lasting_names_none_is_told(dev: FakeDev) -> None:
+    device = dev.plug("ttyUSB0", TWIN, LEFT)
+    shutil.rmtree(dev.folder / "serial")
+    assert shown(device) is None
+    assert "lasting name" not in CliRunner().invoke(app, ["ports"]).stdout
+
+
+def test_the_list_for_people_names_it_too(dev: FakeDev) -> None:
+    dev.plug("ttyUSB0", TWIN, LEFT)
+    assert f"lasting name: {dev.folder}/serial/by-path/{LEFT}" in CliRunner().invoke(app, ["ports"]).stdout
