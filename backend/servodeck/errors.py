@@ -15,6 +15,8 @@ ErrorCode = Literal[
     "noAnswer",
     "notSupported",
     "latched",
+    "notDriving",
+    "expired",
     "busy",
     "cancelled",
     "outOfRange",
@@ -86,6 +88,20 @@ class LatchedError(GatewayError):
     """Stopped: motion waits for Resume."""
 
     code: ClassVar[ErrorCode] = "latched"
+    status: ClassVar[int] = 409
+
+
+class NotDrivingError(GatewayError):
+    """Somebody else drives, or nobody does."""
+
+    code: ClassVar[ErrorCode] = "notDriving"
+    status: ClassVar[int] = 409
+
+
+class ExpiredError(GatewayError):
+    """It was asked for too long ago to be done now."""
+
+    code: ClassVar[ErrorCode] = "expired"
     status: ClassVar[int] = 409
 
 

@@ -1,0 +1,188 @@
+"""Who may move the robot: one driver at a time, who shows again and again that somebody is there.
+
+Pure: time comes in, no socket, port or disk. Must not know what a packet means; whoever owns the port acts on
+what `LeaseEvents` tells.
+"""
+
+from dataclasses import dataclass
+from typing import Generic, Literal, Protocol, TypeVar
+
+from servodeck.errors import BusyError, ExpiredError, NotDrivingError
+
+# safety.md section 3
+BEAT_S = 0.25
+COMMAND_S = 0.5
+QUIET_S = 0.75
+SILENT_S = 2.0
+GONE_S = 10.0
+ANSWER_S = 5.0
+
+Silence = Literal["none", "quiet", "silent"]
+NEXT_RUNG_S: dict[Silence, float] = {"none": QUIET_S, "quiet": SILENT_S, "silent": GONE_S}
+
+H = TypeVar("H")
+
+
+class LeaseEvents(Protocol):
+    def driver_quiet(self) -> None:
+        """Nothing was heard for so long that what moves without end must end."""
+
+    def driver_silent(self) -> None:
+        """Still nothing: what the board does by itself must end too."""
+
+    def driver_lost(self) -> None:
+        """The driver is gone unasked; `driver_changed` follows."""
+
+    def driver_changed(self) -> None:
+        """The lease was given up or has passed to another: what the one before began must end."""
+
+    def lease_changed(self) -> None:
+        """Whatever of it people are told is another now."""
+
+
+@dataclass(frozen=True, slots=True)
+class Permit:
+    """One command's leave to move the robot: under that epoch and until that time."""
+
+    epoch: int
+    until_s: float
+
+
+class Lease(Generic[H]):
+    def __init__(self, epoch: int, events: LeaseEvents) -> None:
+        """`epoch` is the last one ever granted."""
+        self.epoch = epoch
+        self.driver: H | None = None
+        self.asker: H | None = None
+        self.silence: Silence = "none"
+        self._events = events
+        self._answer_until_s = 0.0
+        self._heard_s = 0.0
+        self._count = 0
+        self._issued: dict[str, float] = {}
+
+    def request(self, who: H, now: float) -> None:
+        """Gets a free lease at once, another one when its driver has let `ANSWER_S` pass. Raises BusyError
+        where somebody asks already.
+        """
+        if who in (self.driver, self.asker):
+            return
+        if self.driver is None:
+            self._grant(who, now)
+            return
+        if self.asker is not None:
+            raise BusyError("Somebody else asks already.")
+        self.asker, self._answer_until_s = who, now + ANSWER_S
+        self._events.lease_changed()
+
+    def refuse(self, who: H) -> None:
+        if who is not self.driver:
+            raise NotDrivingError("Only the driver can refuse.")
+        self._forget_asker()
+
+    def release(self, who: H, now: float) -> None:
+        """To whoever asks, or to nobody. Whoever asks may take the question back."""
+        if who is self.asker:
+            self._forget_asker()
+        elif who is self.driver:
+            self._pass_on(now)
+
+    def take(self, who: H, now: float) -> None:
+        """Without asking."""
+        if who is not self.driver:
+            self._grant(who, now)
+
+    def leave(self, who: H, now: float) -> None:
+        """It is not there any more."""
+        if who is self.driver:
+            self._events.driver_lost()
+            self._pass_on(now)
+        elif who is self.asker:
+            self._forget_asker()
+
+    def issue(self, now: float) -> str:
+        """A nonce for the driver, who shows with it how old at most is what it says: its own clock counts
+        nowhere.
+        """
+        self._count += 1
+        nonce = f"{self.epoch}-{self._count}"
+        self._issued = {known: at for known, at in self._issued.items() if now - at <= GONE_S}
+        self._issued[nonce] = now
+        return nonce
+
+    def beat(self, who: H, nonce: str) -> None:
+        """Counts from when the nonce was issued: a late one is no sign of life now."""
+        issued_s = self._issued.get(nonce, 0.0)
+        if who is self.driver and issued_s > self._heard_s:
+            self._heard_s, self.silence = issued_s, "none"
+
+    def permit(self, who: H, nonce: str | None, now: float) -> Permit:
+        """For one command. Raises NotDrivingError or ExpiredError."""
+        if who is not self.driver:
+            raise NotDrivingError(
+                "Somebody else drives." if self.driver else "Nobody drives: request it first."
+            )
+        issued_s = None if nonce is None else self._issued.get(nonce)
+        if nonce is None or issued_s is None or now - issued_s > COMMAND_S:
+            raise ExpiredError("This was said too long ago to be done now.")
+        self.beat(who, nonce)
+        return Permit(self.epoch, issued_s + COMMAND_S)
+
+    def judge(self, permit: Permit, now: float) -> None:
+        """Asked when the command is about to leave. Raises NotDrivingError or ExpiredError."""
+        if permit.epoch != self.epoch or self.driver is None:
+            raise NotDrivingError("Somebody else drives now.")
+        if now > permit.until_s:
+            raise ExpiredError("This has waited too long to be done now.")
+
+    def answer_in_s(self, now: float) -> float | None:
+        """How long the driver may still refuse; None where nobody asks."""
+        return None if self.asker is None else max(0.0, self._answer_until_s - now)
+
+    def due_s(self) -> float | None:
+        """When `advance` has something to do, if nothing is heard until then."""
+        if self.driver is None:
+            return None
+        rung_s = self._heard_s + NEXT_RUNG_S[self.silence]
+        return rung_s if self.asker is None else min(rung_s, self._answer_until_s)
+
+    def advance(self, now: float) -> None:
+        """Does everything that is due."""
+        if self.driver is None:
+            return
+        self._climb(now - self._heard_s)
+        if self.asker is not None and now >= self._answer_until_s:
+            self._pass_on(now)
+
+    def _climb(self, silence_s: float) -> None:
+        if self.silence == "none" and silence_s >= QUIET_S:
+            self.silence = "quiet"
+            self._events.driver_quiet()
+        if self.silence == "quiet" and silence_s >= SILENT_S:
+            self.silence = "silent"
+            self._events.driver_silent()
+        if silence_s >= GONE_S and self.driver is not None:
+            self._events.driver_lost()
+            self._pass_on(self._heard_s + silence_s)
+
+    def _pass_on(self, now: float) -> None:
+        if self.asker is not None:
+            self._grant(self.asker, now)
+            return
+        self.driver = None
+        self._issued.clear()
+        self._events.driver_changed()
+        self._events.lease_changed()
+
+    def _grant(self, who: H, now: float) -> None:
+        self.epoch += 1
+        self.driver, self.asker = who, None
+        self.silence, self._heard_s = "none", now
+        self._issued.clear()
+        self._events.driver_changed()
+        self._events.lease_changed()
+
+    def _forget_asker(self) -> None:
+        if self.asker is not None:
+            self.asker = None
+            self._events.lease_changed()
