@@ -80,7 +80,7 @@ async function askInPage({ question, answer, trips, pauseMs }: Questions): Promi
     await new Promise((resolve) => setTimeout(resolve, pauseMs));
     const answered = heard('packet', answer);
     const askedMs = performance.now();
-    socket.send(JSON.stringify({ type: 'send', id, packet: question }));
+    socket.send(JSON.stringify({ type: 'send', id, packet: question, nonce: null }));
     microseconds.push(((await answered) - askedMs) * 1_000);
   }
   socket.close();

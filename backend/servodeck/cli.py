@@ -101,6 +101,7 @@ def serve(
     from servodeck.background import BackgroundPorts
     from servodeck.control import Control
     from servodeck.data_folder import data_folder
+    from servodeck.epoch import first_epoch
     from servodeck.errors import StorageError
     from servodeck.greeting import greeting, urls_for_others
     from servodeck.library import Library
@@ -118,7 +119,14 @@ def serve(
     log = set_up_logs(log_level, log_format)
     url = url_of(listener)
     announcement = Announcement(entrance.access.port) if entrance.access.mode == "lan" else None
-    control = Control(BackgroundPorts(), time.monotonic, board, serial or None, simulated=simulated)
+    control = Control(
+        BackgroundPorts(),
+        time.monotonic,
+        board,
+        serial or None,
+        simulated=simulated,
+        epoch=first_epoch(folder),
+    )
 
     def ready() -> None:
         print(f"Servodeck is at {url}", flush=True)

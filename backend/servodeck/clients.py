@@ -21,8 +21,10 @@ from servodeck.hub import AGAINST_THE_RULES, TRY_AGAIN_LATER, Seat
 from servodeck.intake import Intake, Rate
 from servodeck.messages import (
     AnyClientMessage,
+    BeatMessage,
     BoardMessage,
     CalibrateMessage,
+    LeaseMessage,
     LimitsMessage,
     RefusedMessage,
     ResumeMessage,
@@ -49,6 +51,8 @@ ROLES: dict[type[AnyClientMessage], Role] = {
     BoardMessage: "driver",
     LimitsMessage: "driver",
     CalibrateMessage: "driver",
+    LeaseMessage: "viewer",
+    BeatMessage: "driver",
 }
 
 
@@ -154,13 +158,24 @@ def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
             control.limit(seat, message.servos)
         case CalibrateMessage():
             control.limits.calibrate(seat, message.servo)
+        case LeaseMessage():
+            take_lease(message, seat, control)
+        case BeatMessage():
+            control.driving.beat(seat, message.nonce)
 
 
 def take_send(message: SendMessage, seat: Seat, control: Control) -> None:
     with refusing(seat, message.id):
         seat.caller.require(role_for(judge_packet(message.packet, control.board)))
-        left = control.send(seat, message.packet)
+        left = control.send(seat, message.packet, message.nonce)
         left.add_done_callback(lambda left: answer(seat, message.id, left))
+
+
+def take_lease(message: LeaseMessage, seat: Seat, control: Control) -> None:
+    try:
+        control.driving.act(seat, message.action)
+    except GatewayError:
+        control.driving.tell(seat)  # how it stands says why not; a `refused` without an id is a stop's
 
 
 def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:

@@ -12,15 +12,17 @@ from dataclasses import dataclass
 
 from servodeck import __version__, metrics
 from servodeck.decoder import COMMAND_AT
+from servodeck.driving import Driving
 from servodeck.errors import (
     CancelledError,
     GatewayError,
     LatchedError,
     NoAnswerError,
+    NotDrivingError,
     OutOfRangeError,
     PortLostError,
 )
-from servodeck.gate import RUN, STOP, judge_latch, judge_packet
+from servodeck.gate import RUN, STOP, is_harmless, judge_latch, judge_packet
 from servodeck.hub import Hub, Seat
 from servodeck.inbox import Inbox
 from servodeck.link import Link, Ports
@@ -36,10 +38,11 @@ from servodeck.messages import (
     WelcomeMessage,
     encode,
 )
+from servodeck.motion import Motion
 from servodeck.packets import FAMILIES, Battery, DecoderEvent, PacketEvent, parse_report
 from servodeck.ports import OpenPort
 from servodeck.robot import RobotLimits
-from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire
+from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire, always
 
 BATTERY_PACKET = "5555020f"
 BATTERY_WAIT_S = 0.5  # boards.md 6: an answer takes 300 ms at most
@@ -62,9 +65,10 @@ class Control:
         named_device: str | None = None,
         *,
         simulated: bool = False,
+        epoch: int = 0,
     ) -> None:
         """`named_device` is the port named at the start: always offered, even where the system does not list
-        it. `simulated`: what is behind it is no real board.
+        it. `simulated`: what is behind it is no real board. `epoch`: leases are counted on from there.
         """
         self.board = board
         self.named_device = named_device
@@ -75,7 +79,8 @@ class Control:
         self.limits = RobotLimits()
         self.hub = Hub()
         self.link = Link(ports, self._make_wire, self, now)
-        self._group_may_run = False
+        self.driving = Driving(self.hub, now, epoch, self)
+        self._motion = Motion(FAMILIES[board])
         self._halting: Left | None = None
         self._battery_question: asyncio.Task[int] | None = None
         self._battery_answer: asyncio.Future[int] | None = None
@@ -92,39 +97,37 @@ class Control:
     def join(self, seat: Seat) -> None:
         """The welcome is the seat's first message."""
         self.hub.join(seat)
-        seat.put(encode(self._welcome()))
+        seat.put(encode(self._welcome(seat)))
         self._tell_state(but=seat)
 
     def leave(self, seat: Seat) -> None:
-        with contextlib.suppress(GatewayError):
-            self.link.wire().purge(lambda job: job.owner is seat, CancelledError("The client has left."))
+        self._drop(seat, CancelledError("The client has left."))
         self.limits.forget(seat)
         self.hub.leave(seat)
+        self.driving.leave(seat)
         self._tell_state()
-        if len(self.hub) == 0:
-            self._everybody_left()
 
-    def send(self, owner: Owner, packet_hex: str) -> Left:
-        """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving."""
+    def send(self, owner: Owner, packet_hex: str, nonce: str | None = None) -> Left:
+        """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving. What
+        is not harmless needs the lease and its `nonce`.
+        """
         packet = judge_packet(packet_hex, self.board)
         self.limits.judge(packet, owner)
         wire = self.link.wire()
         judge_latch(packet, self.latch)
+        judge = always if is_harmless(packet) else self._permitted(owner, nonce)
         command = packet[COMMAND_AT]
         if command == STOP:
             # A stop overtakes all that waits; a run it overtook must not start the group again behind it.
             wire.purge(is_run, CancelledError("A stop has overtaken this run."))
-        left = wire.send(packet, owner, urgent=command == STOP)
-        if command in (RUN, STOP):
-            self._group_may_run = command == RUN
-        return left
+        return wire.send(packet, owner, urgent=command == STOP, judge=judge)
 
     def stop(self, hold: bytes | None) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
         stop.
         """
         self._set_latch(True)
-        left = self._halt(hold, LatchedError("Stopped before it left."))
+        left = self._halt(hold or self._motion.hold(self.now()), LatchedError("Stopped before it left."))
         if left is not self._halting:
             self._halting = left
             left.add_done_callback(self._halted)
@@ -146,6 +149,7 @@ class Control:
             self.board = board
             self._forget_limits()
             self.battery = None
+            self._motion = Motion(FAMILIES[board])
             with contextlib.suppress(GatewayError):
                 self.link.wire().purge(is_no_stop, CancelledError("The board is taken for another one now."))
         self._tell_state()
@@ -187,18 +191,59 @@ class Control:
 
     def port_opened(self, wire: Wire) -> None:
         metrics.port_openings.inc()
+        self._motion = Motion(FAMILIES[self.board])
         wire.send(STOP_PACKET, self, urgent=True)
 
     def port_lost(self) -> None:
         metrics.port_losses.inc()
+        self._motion = Motion(FAMILIES[self.board])
         self.latch = True  # the change of the port's state follows and tells both
 
     def port_changed(self) -> None:
         self._tell_state()
 
+    # What the lease tells
+
+    def driver_quiet(self) -> None:
+        self._drop(self.driving.driver, CancelledError("Its driver was not heard any more."))
+        if self._motion.is_moving(self.now()):
+            self._stop_for_nobody()
+
+    def driver_silent(self) -> None:
+        if self._may_move():
+            self._stop_for_nobody()
+
+    def driver_lost(self) -> None:
+        self.driver_silent()
+
+    def driver_changed(self) -> None:
+        """What one driver began does not go on under the next; nobody has to resume for it."""
+        if self._may_move():
+            with contextlib.suppress(GatewayError):
+                self._halt(self._motion.hold(self.now()), NotDrivingError("Somebody else drives now."))
+
+    def lease_changed(self) -> None:
+        self.driving.tell_all()
+
     # Inside
 
-    def _welcome(self) -> Message:
+    def _permitted(self, owner: Owner, nonce: str | None) -> Callable[[], None]:
+        permit = self.driving.permit(owner, nonce)
+        return lambda: self.driving.judge(permit)
+
+    def _drop(self, owner: Owner, reason: GatewayError) -> None:
+        with contextlib.suppress(GatewayError):
+            self.link.wire().purge(lambda job: job.owner is owner, reason)
+
+    def _may_move(self) -> bool:
+        return self._motion.group_may_run or self._motion.is_moving(self.now())
+
+    def _stop_for_nobody(self) -> None:
+        """STOP because nobody watches over what moves: whoever goes on has to look first."""
+        with contextlib.suppress(GatewayError):
+            self.stop(None)
+
+    def _welcome(self, seat: Seat) -> Message:
         return WelcomeMessage(
             version=__version__,
             board=self.board,
@@ -206,6 +251,7 @@ class Control:
             latch=self.latch,
             clients=len(self.hub),
             limits=self.limits.told(),
+            lease=self.driving.state_for(seat),
         )
 
     def _tell_state(self, but: Seat | None = None) -> None:
@@ -227,29 +273,25 @@ class Control:
             self._tell_state()
 
     def _halt(self, hold: bytes | None, reason: GatewayError) -> Left:
-        left = self.link.wire().halt(hold, reason)
-        self._group_may_run = False
-        return left
+        return self.link.wire().halt(hold, reason)
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
             self._tell(HaltedMessage())
 
-    def _everybody_left(self) -> None:
-        if self._group_may_run:
-            with contextlib.suppress(GatewayError):
-                self._halt(None, CancelledError("Every client has left."))
-
     async def _quiet(self) -> None:
         """Before the port is given up: ends a group that only this gateway could still stop."""
-        if self._group_may_run:
+        if self._motion.group_may_run:
             with contextlib.suppress(GatewayError):
                 await self._halt(None, CancelledError("The port is being closed."))
 
     def _make_wire(self, port: OpenPort) -> Wire:
         inbox = Inbox(self._take)
         gap_s = FAMILIES[self.board].service_gap_ms / 1000
-        return Wire(port, gap_s=gap_s, now=self.now, received=inbox.push)
+        return Wire(port, gap_s=gap_s, now=self.now, received=inbox.push, leaving=self._leaving)
+
+    def _leaving(self, _owner: Owner, packet: bytes, at_s: float) -> None:
+        self._motion.left(packet, at_s)
 
     def _take(self, event: DecoderEvent) -> None:
         """One event of the board's decoder."""

@@ -22,7 +22,7 @@ from servodeck.packets import FAMILIES, PacketError, check_command
 
 MOVE, RUN, STOP, ERASE = 3, 6, 7, 8
 BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
-PASS_WHILE_LATCHED = frozenset({STOP, BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS})
+HARMLESS = frozenset({STOP, BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS})
 
 FORWARDING = frozenset(
     {b"forwarded", b"via", b"x-real-ip", b"x-client-ip", b"true-client-ip", b"cf-connecting-ip"}
@@ -131,17 +131,22 @@ def judge_hold(text: str | None, board: str) -> bytes | None:
     return packet
 
 
+def is_harmless(packet: bytes) -> bool:
+    """It moves nothing and stores nothing: nobody has to drive for it."""
+    return packet[COMMAND_AT] in HARMLESS
+
+
 def role_for(packet: bytes) -> Role:
     """Who may send it at least: questions harm nobody, an erased board is empty for all."""
     command = packet[COMMAND_AT]
     if command == STOP:
         return "stopper"
-    if command in PASS_WHILE_LATCHED:
+    if is_harmless(packet):
         return "viewer"
     return "owner" if command == ERASE else "driver"
 
 
 def judge_latch(packet: bytes, latch: bool) -> None:
     """While stopped, only what moves nothing and stores nothing passes. Raises LatchedError."""
-    if latch and packet[COMMAND_AT] not in PASS_WHILE_LATCHED:
+    if latch and not is_harmless(packet):
         raise LatchedError("Stopped. Motion waits for Resume.")

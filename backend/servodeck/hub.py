@@ -64,6 +64,10 @@ class Hub:
     def __len__(self) -> int:
         return len(self._seats)
 
+    @property
+    def seats(self) -> frozenset[Seat]:
+        return frozenset(self._seats)
+
     def has_room_for(self, caller: Caller) -> bool:
         own = sum(seat.caller.id == caller.id for seat in self._seats)
         return len(self._seats) < SEATS[caller.role] and (own < SEATS_EACH or caller is THIS_COMPUTER)

@@ -34,7 +34,7 @@ class LeaseEvents(Protocol):
         """The driver is gone unasked; `driver_changed` follows."""
 
     def driver_changed(self) -> None:
-        """The lease was given up or has passed to another: what the one before began must end."""
+        """Who drove does not any more: what that one began must end."""
 
     def lease_changed(self) -> None:
         """Whatever of it people are told is another now."""
@@ -175,11 +175,13 @@ class Lease(Generic[H]):
         self._events.lease_changed()
 
     def _grant(self, who: H, now: float) -> None:
+        before = self.driver
         self.epoch += 1
         self.driver, self.asker = who, None
         self.silence, self._heard_s = "none", now
         self._issued.clear()
-        self._events.driver_changed()
+        if before is not None:
+            self._events.driver_changed()
         self._events.lease_changed()
 
     def _forget_asker(self) -> None:

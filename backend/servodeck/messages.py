@@ -38,6 +38,24 @@ class Message(BaseModel):
 PortStatus = Literal["closed", "opening", "open", "lost"]
 
 
+LeaseAction = Literal["request", "release", "take", "refuse"]
+Nonce = Annotated[str, Field(max_length=40, description="Of the latest `tick`: shows how old this is.")]
+
+
+class LeaseState(Message):
+    """Who drives and who asks to, by name; `drives` and `asks`: that is this client. `answerInMs`: how long
+    the driver may still refuse.
+    """
+
+    driver: str | None
+    drives: bool
+    asker: str | None
+    asks: bool
+    answer_in_ms: int | None
+    may_drive: bool
+    may_take: bool
+
+
 class PortState(Message):
     """How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
     follows. `simulated` where the device was declared to be no real board.
@@ -52,11 +70,12 @@ class PortState(Message):
 
 
 class SendMessage(Message):
-    """Put one packet on the wire."""
+    """Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none."""
 
     type: Literal["send"]
     id: MessageId
     packet: Hex
+    nonce: Nonce | None
 
 
 class StopMessage(Message):
@@ -111,7 +130,32 @@ class CalibrateMessage(Message):
     servo: ServoNumber | None
 
 
-AnyClientMessage = SendMessage | StopMessage | ResumeMessage | BoardMessage | LimitsMessage | CalibrateMessage
+class LeaseMessage(Message):
+    """`request` a lease that is free, or ask its driver for it; `release` it, also to whoever asks, or take
+    the question back; `refuse` whoever asks; `take` it without asking.
+    """
+
+    type: Literal["lease"]
+    action: LeaseAction
+
+
+class BeatMessage(Message):
+    """The answer to each `tick`: somebody is there who drives."""
+
+    type: Literal["beat"]
+    nonce: Nonce
+
+
+AnyClientMessage = (
+    SendMessage
+    | StopMessage
+    | ResumeMessage
+    | BoardMessage
+    | LimitsMessage
+    | CalibrateMessage
+    | LeaseMessage
+    | BeatMessage
+)
 ClientMessage = Annotated[AnyClientMessage, Field(discriminator="type")]
 
 
@@ -125,6 +169,7 @@ class WelcomeMessage(Message):
     latch: bool
     clients: int
     limits: list[ServoLimits]
+    lease: LeaseState
 
 
 class SentMessage(Message):
@@ -173,6 +218,20 @@ class StateMessage(Message):
     clients: int
 
 
+class LeaseToldMessage(Message):
+    """Something of the lease changed."""
+
+    type: Literal["lease"] = "lease"
+    lease: LeaseState
+
+
+class TickMessage(Message):
+    """To the driver, four times a second: answer it with a `beat`, and put its nonce into each `send`."""
+
+    type: Literal["tick"] = "tick"
+    nonce: str
+
+
 GatewayMessage = Annotated[
     WelcomeMessage
     | SentMessage
@@ -181,7 +240,9 @@ GatewayMessage = Annotated[
     | NoiseMessage
     | HaltedMessage
     | StateMessage
-    | LimitsMessage,
+    | LimitsMessage
+    | LeaseToldMessage
+    | TickMessage,
     Field(discriminator="type"),
 ]
 

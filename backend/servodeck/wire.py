@@ -26,6 +26,12 @@ QUEUE_PER_OWNER = 8
 CLOCK_GRAIN_S = 1e-6
 
 Owner = object
+
+
+def always() -> None:
+    """Nothing keeps it from leaving."""
+
+
 Left = asyncio.Future[None]
 
 
@@ -42,6 +48,7 @@ class Job:
     owner: Owner
     left: Left
     asked_at: float
+    judge: Callable[[], None] = always
 
 
 @dataclass(eq=False, slots=True)
@@ -63,12 +70,20 @@ class Wire:
     """One open port from its first packet to its loss. `run` is its life."""
 
     def __init__(
-        self, port: OpenPort, *, gap_s: float, now: Callable[[], float], received: Callable[[bytes], None]
+        self,
+        port: OpenPort,
+        *,
+        gap_s: float,
+        now: Callable[[], float],
+        received: Callable[[bytes], None],
+        leaving: Callable[[Owner, bytes, float], None] = lambda _owner, _packet, _at_s: None,
     ) -> None:
+        """`leaving` hears whose packet begins to leave and when it will have; a stop sequence is nobody's."""
         self._port = port
         self._gap_s = max(gap_s, STOP_GAP_S)
         self._now = now
         self._received = received
+        self._leaving = leaving
         # What the last owner of the port sent is unknown: it may be on the wire still.
         self._left_at = now()
         self._free_at = self._left_at + self._gap_s
@@ -81,16 +96,18 @@ class Wire:
         self._work = asyncio.Event()
         self._ended: GatewayError | None = None
 
-    def send(self, packet: bytes, owner: Owner, *, urgent: bool = False) -> Left:
+    def send(
+        self, packet: bytes, owner: Owner, *, urgent: bool = False, judge: Callable[[], None] = always
+    ) -> Left:
         """Queues a packet, an urgent one before all others. Raises BusyError when this owner has too many
-        waiting.
+        waiting. `judge` is asked when its turn has come, and raises what keeps it from leaving.
         """
         if self._ended:
             raise self._ended
         lane = self._urgent if urgent else self._queue
         if sum(job.owner is owner for job in lane) >= QUEUE_PER_OWNER:
             raise BusyError(f"{QUEUE_PER_OWNER} packets wait already; send the next one when one has left.")
-        job = Job(packet, owner, asyncio.get_running_loop().create_future(), self._now())
+        job = Job(packet, owner, asyncio.get_running_loop().create_future(), self._now(), judge)
         lane.append(job)
         self._work.set()
         return job.left
@@ -158,31 +175,37 @@ class Wire:
         """Sends the next packet of a stop sequence; nothing else may leave between them."""
         if halt.hold_now and halt.hold:
             halt.hold_now = False
-            await self._put(halt.hold)
+            await self._put(halt.hold, None)
         elif halt.stops_to_go:
             await self._until(halt.due)
             is_edge = halt.stops_to_go in (STOP_COUNT, 1)
             halt.stops_to_go -= 1
             halt.due = self._now() + STOP_SPACING_S
-            await self._put(STOP_PACKET)
+            await self._put(STOP_PACKET, None)
             halt.hold_now = is_edge and halt.hold is not None
         if halt.stops_to_go == 0 and not halt.hold_now:
             self._halt = None
             settle(halt.left)
 
     async def _send_job(self, job: Job) -> None:
+        try:
+            job.judge()
+        except GatewayError as error:
+            fail(job.left, error)
+            return
         self._under_way = job
         metrics.queue_wait.observe(self._now() - job.asked_at)
-        await self._put(job.packet)
+        await self._put(job.packet, job.owner)
         self._under_way = None
         settle(job.left)
 
-    async def _put(self, packet: bytes) -> None:
+    async def _put(self, packet: bytes, owner: Owner) -> None:
         self._port.write(packet)
         self._last_command = packet[COMMAND_AT]
         metrics.sent.labels(metrics.name_of(self._last_command)).inc()
         self._left_at = self._now() + wire_s(len(packet))
         self._free_at = self._left_at + self._gap_s
+        self._leaving(owner, packet, self._left_at)
         await self._until(self._left_at)
 
     async def _until_free(self) -> None:

@@ -5,6 +5,7 @@ import time
 
 from servodeck import __version__
 from servodeck.errors import PortBusyError, PortMissingError
+from tests.client import Client
 from tests.fake_port import FakePort, FakePorts
 from tests.running import DEVICE, http_to
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, STOP
@@ -89,7 +90,7 @@ async def test_a_port_that_cannot_be_had_is_refused_with_its_reason_and_tried_ag
 async def test_while_stopped_the_battery_can_still_be_asked() -> None:
     port = FakePort()
     async with http_to(FakePorts(port), now) as (client, control):
-        control.send("script", MOVE.hex())
+        Client(control).send(MOVE)
         await client.post("/api/stop")
         at(now() + 0.1, lambda: port.say(BATTERY_REPORT))
         assert (await client.get("/api/battery")).status_code == 200

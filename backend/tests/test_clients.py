@@ -29,26 +29,44 @@ async def gateway(port: FakePort) -> AsyncIterator[Running]:
         yield running
 
 
-async def hear(client: ClientConnection) -> dict[str, Any]:
+async def hear_all(client: ClientConnection) -> dict[str, Any]:
     message = json.loads(await asyncio.wait_for(client.recv(), PATIENCE_S))
     assert isinstance(message, dict)
     return message
 
 
-async def hear_until(client: ClientConnection, kind: str) -> dict[str, Any]:
-    while (message := await hear(client))["type"] != kind:
+async def hear(client: ClientConnection) -> dict[str, Any]:
+    """What is not about the lease."""
+    while (message := await hear_all(client))["type"] in ("lease", "tick"):
         pass
     return message
 
 
+async def hear_until(client: ClientConnection, kind: str) -> dict[str, Any]:
+    while (message := await hear_all(client))["type"] != kind:
+        pass
+    return message
+
+
+async def drive(client: ClientConnection) -> str:
+    """Gets the lease; the nonce holds for half a second."""
+    await say(client, type="lease", action="request")
+    nonce = (await hear_until(client, "tick"))["nonce"]
+    assert isinstance(nonce, str)
+    return nonce
+
+
 async def say(client: ClientConnection, **message: object) -> None:
+    if message["type"] == "send":
+        message.setdefault("nonce", None)
     await client.send(json.dumps(message))
 
 
 async def test_a_conversation_from_welcome_to_resume(port: FakePort, gateway: Running) -> None:
     async with connect(gateway.ws, origin=Origin(f"http://{gateway.host}")) as client:
         assert (await hear(client))["type"] == "welcome"
-        await say(client, type="send", id=1, packet=MOVE.hex())
+        nonce = await drive(client)
+        await say(client, type="send", id=1, packet=MOVE.hex(), nonce=nonce)
         await say(client, type="send", id=2, packet=BATTERY.hex())
         assert await hear_until(client, "sent") == {"type": "sent", "id": 1}
         assert await hear_until(client, "sent") == {"type": "sent", "id": 2}
@@ -61,7 +79,7 @@ async def test_a_conversation_from_welcome_to_resume(port: FakePort, gateway: Ru
         assert (refused["type"], refused["id"], refused["code"]) == ("refused", None, "malformed")
         assert (await hear(client))["latch"] is True
         assert await hear(client) == {"type": "halted"}
-        await say(client, type="send", id=4, packet=MOVE.hex())
+        await say(client, type="send", id=4, packet=MOVE.hex(), nonce=nonce)
         refused = await hear(client)
         assert (refused["id"], refused["code"]) == (4, "latched")
         await say(client, type="resume")
@@ -71,8 +89,9 @@ async def test_a_conversation_from_welcome_to_resume(port: FakePort, gateway: Ru
 
 async def test_more_than_eight_waiting_packets_are_refused_as_busy(gateway: Running) -> None:
     async with connect(gateway.ws) as client:
+        nonce = await drive(client)
         for number in range(20):
-            await say(client, type="send", id=number, packet=MOVE.hex())
+            await say(client, type="send", id=number, packet=MOVE.hex(), nonce=nonce)
         assert (await hear_until(client, "refused"))["code"] == "busy"
 
 
@@ -127,7 +146,8 @@ async def test_a_client_that_never_reads_is_dropped_and_the_others_lose_nothing(
                 await hear_until(client, "noise")
                 noises += 1
         assert len(gateway.control.hub) == 1
-        await say(client, type="send", id=1, packet=MOVE.hex())
+        nonce = await drive(client)
+        await say(client, type="send", id=1, packet=MOVE.hex(), nonce=nonce)
         assert await hear_until(client, "sent") == {"type": "sent", "id": 1}
     lazy.close()
 
@@ -136,7 +156,8 @@ async def test_when_the_last_window_closes_a_running_group_is_stopped(
     port: FakePort, gateway: Running
 ) -> None:
     async with connect(gateway.ws) as client:
-        await say(client, type="send", id=1, packet=RUN.hex())
+        nonce = await drive(client)
+        await say(client, type="send", id=1, packet=RUN.hex(), nonce=nonce)
         await hear_until(client, "sent")
     await asyncio.wait_for(port.until_written(5), PATIENCE_S)
     assert port.packets() == [STOP, RUN, STOP, STOP, STOP]
@@ -145,7 +166,8 @@ async def test_when_the_last_window_closes_a_running_group_is_stopped(
 async def test_at_the_end_the_robot_is_stopped_and_clients_are_told(port: FakePort) -> None:
     async with server_on(FakePorts(port)) as running:
         client = await connect(running.ws)
-        await say(client, type="send", id=1, packet=RUN.hex())
+        nonce = await drive(client)
+        await say(client, type="send", id=1, packet=RUN.hex(), nonce=nonce)
         await hear_until(client, "sent")
     with pytest.raises(ConnectionClosed):
         await hear_until(client, "nothing")

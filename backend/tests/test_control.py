@@ -1,14 +1,9 @@
 """What the gateway does with what clients and the board do: latch, welcome, battery, the last one out."""
 
 import asyncio
-import json
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
-from typing import Any
 
 import pytest
 
-from servodeck.callers import THIS_COMPUTER
 from servodeck.control import Control
 from servodeck.errors import (
     CancelledError,
@@ -20,37 +15,12 @@ from servodeck.errors import (
     PortLostError,
     PortMissingError,
 )
-from servodeck.hub import OUTBOX_MESSAGES, Seat
+from servodeck.hub import OUTBOX_MESSAGES
 from servodeck.inbox import SILENCE_S
+from tests.client import Client, gateway_on
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, BATTERY_REPORT, DOWNLOAD, ERASE, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
 from tests.virtual_time import at, in_virtual_time, now
-
-
-@asynccontextmanager
-async def gateway_on(*ports: FakePort) -> AsyncIterator[Control]:
-    control = Control(FakePorts(*(ports or (FakePort(),))), now, "doc")
-    await control.use_port("/dev/board")
-    await asyncio.sleep(0.1)  # until the first stop has left
-    try:
-        yield control
-    finally:
-        await control.link.close()
-
-
-async def heard(seat: Seat) -> list[dict[str, Any]]:
-    """All messages that wait for that client."""
-    await asyncio.sleep(0)
-    messages = []
-    while seat.waiting:
-        messages.append(json.loads(await seat.next()))
-    return messages
-
-
-def seated(control: Control) -> Seat:
-    seat = Seat(THIS_COMPUTER)
-    control.join(seat)
-    return seat
 
 
 @in_virtual_time
@@ -64,57 +34,57 @@ async def test_opening_a_port_sends_one_stop_and_nothing_that_moves() -> None:
 @in_virtual_time
 async def test_each_client_is_welcomed_and_the_others_hear_how_many_there_are() -> None:
     async with gateway_on() as control:
-        anna = seated(control)
-        [welcome] = await heard(anna)
+        anna = Client(control)
+        [welcome] = await anna.heard()
         assert welcome["type"] == "welcome"
         assert (welcome["board"], welcome["latch"], welcome["clients"]) == ("doc", False, 1)
         assert welcome["port"]["status"] == "open"
-        bert = seated(control)
-        assert [message["type"] for message in await heard(bert)] == ["welcome"]
-        assert [(message["type"], message["clients"]) for message in await heard(anna)] == [("state", 2)]
+        bert = Client(control)
+        assert [message["type"] for message in await bert.heard()] == ["welcome"]
+        assert [(message["type"], message["clients"]) for message in await anna.heard()] == [("state", 2)]
         control.leave(bert)
-        assert [(message["type"], message["clients"]) for message in await heard(anna)] == [("state", 1)]
+        assert [(message["type"], message["clients"]) for message in await anna.heard()] == [("state", 1)]
 
 
 @in_virtual_time
 async def test_stop_latches_for_everyone_until_resume() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        anna, bert = seated(control), seated(control)
-        await heard(anna), await heard(bert)
+        anna, bert = Client(control), Client(control)
+        await anna.heard(), await bert.heard()
         await control.stop(MOVE)
         assert port.packets() == [STOP, STOP, MOVE, STOP, STOP, MOVE]
         for seat in (anna, bert):
-            told = await heard(seat)
+            told = await seat.heard()
             assert [message["type"] for message in told] == ["state", "halted"]
             assert told[0]["latch"] is True
         for packet in (MOVE, RUN, DOWNLOAD, ERASE):
             with pytest.raises(LatchedError):
-                control.send(anna, packet.hex())
-        await control.send(anna, BATTERY.hex())
+                anna.send(packet)
+        await anna.send(BATTERY)
         control.resume()
-        assert [message["latch"] for message in await heard(bert)] == [False]
+        assert [message["latch"] for message in await bert.heard()] == [False]
         assert port.packets()[6:] == [BATTERY]
-        await control.send(anna, MOVE.hex())
+        await anna.send(MOVE)
 
 
 @in_virtual_time
 async def test_an_unknown_board_gets_questions_and_stops_and_nothing_else() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        anna, bert = seated(control), seated(control)
-        await heard(anna), await heard(bert)
+        anna, bert = Client(control), Client(control)
+        await anna.heard(), await bert.heard()
         control.take_for("unknown")
-        assert [message["board"] for message in await heard(bert)] == ["unknown"]
+        assert [message["board"] for message in await bert.heard()] == ["unknown"]
         for packet in (MOVE, RUN, DOWNLOAD, ERASE):
             with pytest.raises(NotSupportedError):
-                control.send(anna, packet.hex())
-        await control.send(anna, BATTERY.hex())
-        await control.send(anna, STOP.hex())
+                anna.send(packet)
+        await anna.send(BATTERY)
+        await anna.send(STOP)
         control.take_for("openarm-new")
         with pytest.raises(NotSupportedError):
-            control.send(anna, BATTERY.hex())
-        await control.send(anna, MOVE.hex())
+            anna.send(BATTERY)
+        await anna.send(MOVE)
         assert port.packets() == [STOP, BATTERY, STOP, MOVE]
 
 
@@ -122,8 +92,8 @@ async def test_an_unknown_board_gets_questions_and_stops_and_nothing_else() -> N
 async def test_what_waits_for_one_board_does_not_go_to_another() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        anna = seated(control)
-        leaving, waiting = control.send(anna, MOVE.hex()), control.send(anna, ERASE.hex())
+        anna = Client(control)
+        leaving, waiting = anna.send(MOVE), anna.send(ERASE)
         await asyncio.sleep(0)
         control.take_for("lsc-6")
         await leaving
@@ -137,11 +107,11 @@ async def test_what_waits_for_one_board_does_not_go_to_another() -> None:
 @in_virtual_time
 async def test_stop_and_stop_again_are_told_once() -> None:
     async with gateway_on() as control:
-        anna = seated(control)
-        await heard(anna)
+        anna = Client(control)
+        await anna.heard()
         control.stop(None)
         await control.stop(MOVE)
-        assert [message["type"] for message in await heard(anna)] == ["state", "halted"]
+        assert [message["type"] for message in await anna.heard()] == ["state", "halted"]
 
 
 @in_virtual_time
@@ -156,24 +126,24 @@ async def test_without_a_port_stop_latches_and_says_so() -> None:
 async def test_a_lost_port_latches_fails_what_waits_and_refuses_resume_until_it_is_back() -> None:
     first, second = FakePort(), FakePort()
     async with gateway_on(first, second) as control:
-        anna = seated(control)
-        await heard(anna)
-        left = control.send(anna, MOVE.hex())
+        anna = Client(control)
+        await anna.heard()
+        left = anna.send(MOVE)
         at(now() + 0.005, first.unplug)
         with pytest.raises(PortLostError):
             await left
-        [state] = await heard(anna)
+        [state] = await anna.heard()
         assert (state["latch"], state["port"]["status"], state["port"]["code"]) == (True, "lost", "lost")
         with pytest.raises(PortLostError):
             control.resume()
         with pytest.raises(PortLostError):
-            control.send(anna, MOVE.hex())
+            anna.send(MOVE)
         await asyncio.sleep(1)
         assert second.packets() == [STOP]
         with pytest.raises(LatchedError):
-            control.send(anna, MOVE.hex())
+            anna.send(MOVE)
         control.resume()
-        await control.send(anna, MOVE.hex())
+        await anna.send(MOVE)
 
 
 @in_virtual_time
@@ -189,11 +159,11 @@ async def test_a_port_that_never_opened_does_not_latch() -> None:
 async def test_a_plain_stop_overtakes_what_waits_and_takes_waiting_runs_with_it() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        anna = seated(control)
-        on_wire = control.send(anna, MOVE.hex())
+        anna = Client(control)
+        on_wire = anna.send(MOVE)
         await asyncio.sleep(0.005)
-        run, move = control.send(anna, RUN.hex()), control.send(anna, MOVE_ELSEWHERE.hex())
-        await control.send(anna, STOP.hex())
+        run, move = anna.send(RUN), anna.send(MOVE_ELSEWHERE)
+        await anna.send(STOP)
         with pytest.raises(CancelledError):
             await run
         await asyncio.gather(on_wire, move)
@@ -202,56 +172,15 @@ async def test_a_plain_stop_overtakes_what_waits_and_takes_waiting_runs_with_it(
 
 
 @in_virtual_time
-async def test_when_the_last_client_leaves_a_group_that_may_run_is_stopped() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna, bert = seated(control), seated(control)
-        await control.send(anna, RUN.hex())
-        control.leave(anna)
-        await asyncio.sleep(1)
-        assert port.packets()[1:] == [RUN]
-        control.leave(bert)
-        await asyncio.sleep(1)
-        assert port.packets()[1:] == [RUN, STOP, STOP, STOP]
-        assert control.latch is False
-
-
-@in_virtual_time
-async def test_when_the_last_client_leaves_after_a_stop_nothing_is_sent() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = seated(control)
-        await control.send(anna, RUN.hex())
-        await control.send(anna, STOP.hex())
-        await control.send(anna, MOVE.hex())
-        control.leave(anna)
-        await asyncio.sleep(1)
-        assert port.packets()[1:] == [RUN, STOP, MOVE]
-
-
-@in_virtual_time
-async def test_what_a_leaving_client_had_waiting_is_never_sent() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = seated(control)
-        for _ in range(5):
-            control.send(anna, MOVE.hex())
-        await asyncio.sleep(0.005)
-        control.leave(anna)
-        await asyncio.sleep(1)
-        assert port.packets()[1:] == [MOVE]
-
-
-@in_virtual_time
 async def test_every_client_hears_every_packet_and_the_noise_between() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        anna, bert = seated(control), seated(control)
-        await heard(anna), await heard(bert)
+        anna, bert = Client(control), Client(control)
+        await anna.heard(), await bert.heard()
         port.say(b"\x00\x01" + BATTERY_REPORT + b"\x55\x55\x04\x0f")
         await asyncio.sleep(1)
         for seat in (anna, bert):
-            told = await heard(seat)
+            told = await seat.heard()
             assert told == [
                 {"type": "noise", "bytes": "0001"},
                 {"type": "received", "packet": BATTERY_REPORT.hex()},
@@ -286,7 +215,8 @@ async def test_a_board_that_does_not_tell_its_battery_gets_half_a_second() -> No
 async def test_changing_the_port_first_ends_a_group_that_nobody_could_stop_afterwards() -> None:
     first, second = FakePort(), FakePort()
     async with gateway_on(first, second) as control:
-        await control.send("script", RUN.hex())
+        anna = Client(control)
+        await anna.send(RUN)
         await control.use_port("/dev/other")
         assert first.packets() == [STOP, RUN, STOP, STOP, STOP]
 
@@ -295,14 +225,15 @@ async def test_changing_the_port_first_ends_a_group_that_nobody_could_stop_after
 async def test_shutting_down_stops_the_robot_within_half_a_second() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
+        anna = Client(control)
         for _ in range(8):
-            control.send("script", MOVE.hex())
+            anna.send(MOVE)
         await asyncio.sleep(0.001)
         begun_s = now()
         ending = asyncio.create_task(control.shut_down())
         await asyncio.sleep(0.05)
         with pytest.raises(LatchedError):
-            control.send("script", MOVE.hex())
+            anna.send(MOVE)
         await ending
         assert now() - begun_s <= 0.5
         assert port.packets()[1:] == [MOVE, STOP, STOP, STOP]
@@ -314,12 +245,12 @@ async def test_shutting_down_stops_the_robot_within_half_a_second() -> None:
 async def test_a_client_that_does_not_read_is_given_up_and_the_others_lose_nothing() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        deaf, alert = seated(control), seated(control)
-        await heard(alert)
+        deaf, alert = Client(control), Client(control)
+        await alert.heard()
         for _ in range(2 * OUTBOX_MESSAGES):
             port.say(BATTERY_REPORT)
             await asyncio.sleep(2 * SILENCE_S)
-            assert [message["type"] for message in await heard(alert)] == ["received"]
+            assert [message["type"] for message in await alert.heard()] == ["received"]
         assert deaf.ended.is_set()
         assert not alert.ended.is_set()
 
@@ -329,7 +260,7 @@ async def test_a_port_declared_as_simulated_is_told_so_and_only_that_one() -> No
     ports = FakePorts(FakePort(), FakePort())
     control = Control(ports, now, "doc", "/dev/board", simulated=True)
     await control.use_port("/dev/board")
-    [welcome] = await heard(seated(control))
+    [welcome] = await Client(control).heard()
     assert welcome["port"]["simulated"] is True
     await control.use_port("/dev/other")
     assert control.port.simulated is False

@@ -16,6 +16,7 @@ import pytest
 from websockets.sync.client import connect
 
 from servodeck.library import Library
+from tests.client import lease_of
 from tests.samples import MOVE
 from tests.test_cli import Served
 from tests.test_library_api import body
@@ -57,7 +58,8 @@ def read(served: Served, name: str) -> object:
 def assert_control_goes_on(served: Served) -> None:
     with connect(f"ws{served.url.removeprefix('http')}/ws", close_timeout=0) as client:
         client.send(json.dumps({"type": "board", "board": "doc"}))
-        client.send(json.dumps({"type": "send", "id": 1, "packet": MOVE.hex()}))
+        nonce = lease_of(client)
+        client.send(json.dumps({"type": "send", "id": 1, "packet": MOVE.hex(), "nonce": nonce}))
         while (message := json.loads(client.recv(5)))["type"] != "sent":
             assert message["type"] != "refused", message
     assert httpx2.post(f"{served.url}/api/stop").json() == {"latch": True, "halted": True}

@@ -17,6 +17,7 @@ from websockets.sync.client import connect
 
 from servodeck.library_file import FILE
 from servodeck.server import FORCED
+from tests.client import lease_of
 from tests.samples import MOVE, STOP
 from tests.test_cli import END_S, Served
 from tests.test_library_api import body
@@ -76,8 +77,9 @@ def test_no_client_puts_the_end_off(served: Served, text: str) -> None:
 
 def test_clients_that_talk_on_do_not_put_it_off(served: Served) -> None:
     with connect(f"ws{served.url.removeprefix('http')}/ws", close_timeout=0) as client:
+        nonce = lease_of(client)
         for number in range(30):
-            client.send(json.dumps({"type": "send", "id": number, "packet": MOVE.hex()}))
+            client.send(json.dumps({"type": "send", "id": number, "packet": MOVE.hex(), "nonce": nonce}))
         end_in_time(served)
 
 

@@ -13,11 +13,10 @@ from prometheus_client.parser import text_string_to_metric_families
 
 from servodeck import __version__
 from servodeck.background import BackgroundPorts
-from servodeck.callers import THIS_COMPUTER
 from servodeck.control import Control
 from servodeck.errors import PortMissingError
-from servodeck.hub import Seat
 from servodeck.library import Library
+from tests.client import Client
 from tests.fake_port import FakePort, FakePorts
 from tests.running import http_to, server_on
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, STOP
@@ -115,7 +114,7 @@ async def test_what_happens_is_counted(tmp_path: Path) -> None:
     port = FakePort()
     async with http_to(FakePorts(port), time.monotonic, library=Library(tmp_path)) as (client, control):
         before = await numbers_of(client)
-        await control.send(Seat(THIS_COMPUTER), MOVE.hex())
+        await Client(control).send(MOVE)
         asyncio.get_running_loop().call_later(0.05, port.say, BATTERY_REPORT)
         await client.get("/api/battery")
         port.say(b"\x01\x02")

@@ -33,7 +33,7 @@ class Listener:
 
 
 def sent(number: int) -> SendMessage:
-    return SendMessage(type="send", id=number, packet="")
+    return SendMessage(type="send", id=number, packet="", nonce=None)
 
 
 @in_virtual_time

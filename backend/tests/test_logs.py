@@ -13,6 +13,7 @@ import pytest
 from websockets.sync.client import connect
 
 from servodeck.logs import LINES_WAITING, set_up_logs
+from tests.client import lease_of
 from tests.samples import MOVE
 from tests.test_cli import Served
 
@@ -68,7 +69,8 @@ def status_of(served: Served) -> str:
 def test_no_packet_stands_in_the_log_at_any_level(json_served: Served) -> None:
     with connect(f"ws{json_served.url.removeprefix('http')}/ws") as client:
         client.send(json.dumps({"type": "board", "board": "doc"}))
-        client.send(json.dumps({"type": "send", "id": 1, "packet": MOVE.hex()}))
+        nonce = lease_of(client)
+        client.send(json.dumps({"type": "send", "id": 1, "packet": MOVE.hex(), "nonce": nonce}))
         while json.loads(client.recv())["type"] != "sent":
             pass
     assert MOVE.hex() not in json.dumps(lines_of(json_served))

@@ -32,9 +32,9 @@ from tests.virtual_time import in_virtual_time, now
 
 
 def test_each_client_message_is_read_as_what_it_is() -> None:
-    assert client_message.validate_json('{"type":"send","id":7,"packet":"55550207"}') == SendMessage(
-        type="send", id=7, packet="55550207"
-    )
+    assert client_message.validate_json(
+        '{"type":"send","id":7,"packet":"55550207","nonce":null}'
+    ) == SendMessage(type="send", id=7, packet="55550207", nonce=None)
     assert client_message.validate_json('{"type":"stop","hold":null}') == StopMessage(type="stop", hold=None)
     assert client_message.validate_json('{"type":"resume"}') == ResumeMessage(type="resume")
 
@@ -49,13 +49,13 @@ def test_each_client_message_is_read_as_what_it_is() -> None:
         "{}",
         '{"type":"dance"}',
         '{"type":"send","id":1}',
-        '{"type":"send","id":"1","packet":"55550207"}',
-        '{"type":"send","id":1.5,"packet":"55550207"}',
-        '{"type":"send","id":-1,"packet":"55550207"}',
-        '{"type":"send","id":true,"packet":"55550207"}',
-        '{"type":"send","id":1,"packet":["55"]}',
-        '{"type":"send","id":1,"packet":"55550207","more":0}',
-        '{"type":"send","id":1,"packet":"' + "5" * 600 + '"}',
+        '{"type":"send","id":"1","packet":"55550207","nonce":null}',
+        '{"type":"send","id":1.5,"packet":"55550207","nonce":null}',
+        '{"type":"send","id":-1,"packet":"55550207","nonce":null}',
+        '{"type":"send","id":true,"packet":"55550207","nonce":null}',
+        '{"type":"send","id":1,"packet":["55"],"nonce":null}',
+        '{"type":"send","id":1,"packet":"55550207","nonce":null,"more":0}',
+        '{"type":"send","id":1,"packet":"' + "5" * 600 + '","nonce":null}',
         '{"type":"stop"}',
         '{"type":"resume","hold":null}',
         "[" * 5000,
@@ -77,8 +77,8 @@ def test_names_on_the_wire_are_camel_case() -> None:
 def test_the_schema_names_both_directions_and_leaves_nothing_open() -> None:
     definitions = json_schema()["$defs"]
     assert {"ClientMessage", "GatewayMessage", "PortState"} <= set(definitions)
-    assert len(definitions["ClientMessage"]["oneOf"]) == 6
-    assert len(definitions["GatewayMessage"]["oneOf"]) == 8
+    assert len(definitions["ClientMessage"]["oneOf"]) == 8
+    assert len(definitions["GatewayMessage"]["oneOf"]) == 10
     for name, definition in definitions.items():
         if "properties" in definition:
             assert definition["additionalProperties"] is False, name
@@ -92,7 +92,9 @@ packets = st.one_of(
 )
 scalars = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=20), packets)
 messages = st.one_of(
-    st.fixed_dictionaries({"type": st.just("send"), "id": st.integers() | scalars, "packet": packets}),
+    st.fixed_dictionaries(
+        {"type": st.just("send"), "id": st.integers() | scalars, "packet": packets, "nonce": scalars}
+    ),
     st.fixed_dictionaries({"type": st.just("stop"), "hold": st.none() | packets}),
     st.fixed_dictionaries({"type": st.just("board"), "board": st.sampled_from(list(FAMILIES)) | scalars}),
     st.dictionaries(st.sampled_from(["type", "id", "packet", "hold", "x"]), scalars),

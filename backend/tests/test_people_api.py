@@ -18,7 +18,7 @@ from tests.fake_port import FakePort, FakePorts
 from tests.knocking import NOWHERE
 from tests.running import PORT, Running, entrance_to, http_to, server_on
 from tests.samples import ERASE, MOVE, STOP
-from tests.test_clients import hear, hear_until, say
+from tests.test_clients import drive, hear, hear_until, say
 from tests.virtual_time import in_virtual_time, now
 
 BASE = f"http://127.0.0.1:{PORT}"
@@ -290,7 +290,8 @@ async def test_a_driver_does_not_erase(port: FakePort, gateway: Running) -> None
         await say(client, type="send", id=1, packet=ERASE.hex())
         assert (await hear_until(client, "refused"))["code"] == "forbidden"
     async with connect(gateway.ws, additional_headers=owner) as client:
-        await say(client, type="send", id=2, packet=ERASE.hex())
+        nonce = await drive(client)
+        await say(client, type="send", id=2, packet=ERASE.hex(), nonce=nonce)
         assert (await hear_until(client, "sent"))["id"] == 2
 
 

@@ -9,9 +9,9 @@ from servodeck.control import Control
 from servodeck.errors import OutOfRangeError
 from servodeck.hub import Seat
 from servodeck.messages import ServoLimits
+from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import DOWNLOAD, MOVE, MOVE_ELSEWHERE, RUN, STOP
-from tests.test_control import gateway_on, heard, seated
 from tests.virtual_time import in_virtual_time
 
 # MOVE takes servo 1 to 2000, DOWNLOAD and MOVE_ELSEWHERE to 1500.
@@ -27,18 +27,18 @@ def say(control: Control, seat: Seat, **message: object) -> None:
 async def test_a_limit_that_one_client_tells_holds_for_all_even_after_it_left() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        anna, bert = seated(control), seated(control)
+        anna, bert = Client(control), Client(control)
         say(control, anna, type="limits", servos=[ELBOW.model_dump()])
-        await heard(bert)
-        for owner in (anna, "script"):
+        await bert.heard()
+        for owner in (anna, bert):
             with pytest.raises(OutOfRangeError, match=r"^Elbow \(servo 1\): position is 2000, allowed 600"):
-                control.send(owner, MOVE.hex())
+                owner.send(MOVE)
         control.leave(anna)
-        await heard(bert)
-        say(control, bert, type="send", id=7, packet=MOVE.hex())
-        assert await heard(bert) == [{"type": "refused", "id": 7, "code": "outOfRange", "detail": REFUSAL}]
-        await control.send(bert, MOVE_ELSEWHERE.hex())
-        await control.send(bert, RUN.hex())
+        await bert.heard()
+        say(control, bert, type="send", id=7, packet=MOVE.hex(), nonce=bert.nonce)
+        assert await bert.heard() == [{"type": "refused", "id": 7, "code": "outOfRange", "detail": REFUSAL}]
+        await bert.send(MOVE_ELSEWHERE)
+        await bert.send(RUN)
         assert port.packets() == [STOP, MOVE_ELSEWHERE, RUN]
 
 
@@ -46,18 +46,18 @@ async def test_a_limit_that_one_client_tells_holds_for_all_even_after_it_left() 
 async def test_limits_are_told_to_the_others_to_whoever_joins_and_when_they_are_gone() -> None:
     told = [ELBOW.model_dump()]
     async with gateway_on() as control:
-        anna, bert = seated(control), seated(control)
-        await heard(anna)
-        await heard(bert)
+        anna, bert = Client(control), Client(control)
+        await anna.heard()
+        await bert.heard()
         say(control, anna, type="limits", servos=told)
-        assert await heard(anna) == []
-        assert await heard(bert) == [{"type": "limits", "servos": told}]
-        cora = seated(control)
-        welcome, *_ = await heard(cora)
+        assert await anna.heard() == []
+        assert await bert.heard() == [{"type": "limits", "servos": told}]
+        cora = Client(control)
+        welcome, *_ = await cora.heard()
         assert welcome["limits"] == told
-        await heard(bert)
+        await bert.heard()
         control.take_for("lsc-6")
-        assert {"type": "limits", "servos": []} in await heard(bert)
+        assert {"type": "limits", "servos": []} in await bert.heard()
 
 
 @pytest.mark.parametrize(("position", "passes"), [(1500, True), (1400, True), (1399, False), (1501, False)])
@@ -69,10 +69,10 @@ async def test_both_ends_are_within_and_downloads_are_judged_as_moves_are(
         control.limits.set([ServoLimits(servo=1, name="Elbow", min=1400, max=1500)])
         packet = DOWNLOAD[:-2] + position.to_bytes(2, "little")
         if passes:
-            await control.send("script", packet.hex())
+            await Client(control).send(packet)
         else:
             with pytest.raises(OutOfRangeError):
-                control.send("script", packet.hex())
+                Client(control).send(packet)
 
 
 @in_virtual_time
@@ -89,36 +89,36 @@ async def test_who_calibrates_a_servo_may_pass_its_limits_alone_and_until_the_en
     wrist = ServoLimits(servo=2, name="Wrist", min=600, max=1800)
     other_servo = MOVE[:7] + b"\x02" + MOVE[8:]
     async with gateway_on() as control:
-        anna, bert = seated(control), seated(control)
+        anna, bert = Client(control), Client(control)
         control.limits.set([ELBOW, wrist])
         say(control, anna, type="calibrate", servo=1)
-        await control.send(anna, MOVE.hex())
+        await anna.send(MOVE)
         for owner, packet in ((bert, MOVE), (anna, other_servo)):
             with pytest.raises(OutOfRangeError):
-                control.send(owner, packet.hex())
+                owner.send(packet)
         say(control, anna, type="calibrate", servo=None)
         with pytest.raises(OutOfRangeError):
-            control.send(anna, MOVE.hex())
+            anna.send(MOVE)
         say(control, anna, type="calibrate", servo=1)
         control.leave(anna)
         with pytest.raises(OutOfRangeError):
-            control.send(anna, MOVE.hex())
+            anna.send(MOVE)
 
 
 @in_virtual_time
 async def test_limits_end_with_their_board_or_by_word() -> None:
     async with gateway_on(FakePort(), FakePort()) as control:
-        anna = seated(control)
+        anna = Client(control)
         control.limits.set([ELBOW])
         control.take_for("doc")  # nothing new
         with pytest.raises(OutOfRangeError):
-            control.send(anna, MOVE.hex())
+            anna.send(MOVE)
         control.take_for("lsc-6")
-        await control.send(anna, MOVE.hex())
+        await anna.send(MOVE)
         control.limits.set([ELBOW])
         await control.use_port("/dev/other")
-        await heard(anna)
-        await control.send(anna, MOVE.hex())
+        await anna.heard()
+        await anna.send(MOVE)
         control.limits.set([ELBOW])
         say(control, anna, type="limits", servos=[])
-        await control.send(anna, MOVE.hex())
+        await anna.send(MOVE)

@@ -20,7 +20,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from servodeck.background import BackgroundPorts
 from tests.running import Running, server_on
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, MOVE_ELSEWHERE, RUN, STOP
-from tests.test_clients import hear, hear_until, say
+from tests.test_clients import drive, hear, hear_until, say
 
 ROOT = Path(__file__).parents[2]
 HALT = STOP + MOVE_ELSEWHERE + STOP * 2 + MOVE_ELSEWHERE
@@ -85,10 +85,11 @@ async def hear_port(client: ClientConnection, status: str) -> dict[str, Any]:
 async def test_moves_battery_and_stop_reach_the_board_in_order(board: Board, gateway: Running) -> None:
     async with connect(gateway.ws) as client:
         await hear_port(client, "open")
-        await say(client, type="send", id=1, packet=MOVE.hex())
+        nonce = await drive(client)
+        await say(client, type="send", id=1, packet=MOVE.hex(), nonce=nonce)
         await say(client, type="send", id=2, packet=BATTERY.hex())
         assert (await hear_until(client, "received"))["packet"] == BATTERY_REPORT.hex()
-        await say(client, type="send", id=3, packet=RUN.hex())
+        await say(client, type="send", id=3, packet=RUN.hex(), nonce=nonce)
         await say(client, type="stop", hold=MOVE_ELSEWHERE.hex())
         await hear_until(client, "halted")
         await asyncio.sleep(0.05)  # the board takes its last byte one byte time after we counted it
@@ -108,5 +109,6 @@ async def test_a_pulled_cable_is_told_and_a_plugged_one_found_again(board: Board
         await hear_port(client, "open")
         await say(client, type="resume")
         await hear_until(client, "state")
-        await say(client, type="send", id=1, packet=MOVE.hex())
+        nonce = await drive(client)
+        await say(client, type="send", id=1, packet=MOVE.hex(), nonce=nonce)
         assert await hear_until(client, "sent") == {"type": "sent", "id": 1}

@@ -3,7 +3,7 @@
 import type { Family } from '#shared/protocol/families.ts';
 import { fromHex } from '#shared/protocol/hex.ts';
 import { judgeRaw } from '#shared/protocol/rawPacket.ts';
-import { isHarmless } from '#shared/session/raw.ts';
+import { isHarmless } from '#shared/protocol/commands.ts';
 import type { SessionState } from '#shared/session/state.ts';
 import { words } from '../words/words.ts';
 

@@ -21,6 +21,7 @@ export function frozenSession(
     identify: nothing,
     choose: nothing,
     setLimits: () => undefined,
+    lease: () => undefined,
     calibrate: () => undefined,
     move: () => {
       throw new LinkError('latched', 'the gallery moves nothing');

@@ -3,6 +3,7 @@
 import { LINK_ERROR_CODES, LinkError } from '#shared/session/linkError.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import type { BatteryKind } from '#shared/actions/robot/robot.ts';
+import type { Lease } from '#shared/session/lease.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { Way } from '../stores/device.ts';
 import { identityFrom, type Evidence } from '#shared/session/identity.ts';
@@ -45,6 +46,24 @@ const READY: SessionState = {
 
 /** No reading ever comes where the board has no command for it. */
 const NO_BATTERY: SessionState = { ...READY, battery: { kind: 'unread' } };
+
+const LEASE: Lease = {
+  ...{ driver: 'Anna', drives: true, asker: null, asks: false, answerInMs: null },
+  ...{ mayDrive: true, mayTake: false, others: 3 },
+};
+
+const WATCHED: Lease = { ...LEASE, drives: false };
+
+/** Whose turn it is, as each of the people there sees it. */
+const TURNS: Readonly<Record<string, Lease>> = {
+  'You drive': LEASE,
+  'You drive, asked': { ...LEASE, asker: 'Bert', answerInMs: 5000 },
+  'Another drives': WATCHED,
+  'Another drives, asked': { ...WATCHED, asker: 'Bert', asks: true, answerInMs: 5000 },
+  'Another drives, yours to take': { ...WATCHED, driver: 'This computer', mayTake: true },
+  'Nobody drives': { ...WATCHED, driver: null },
+  'Looking on only': { ...WATCHED, driver: null, mayDrive: false },
+};
 
 const lost = (code: LinkError['code'], retryAtMs: number | null): SessionState => ({
   ...READY,
@@ -289,6 +308,20 @@ export const SPECIMENS: readonly Specimen[] = [
       latch: { reason: 'reconnected', stop: 'failed', unheld: [] },
     },
     pose: 'unknown',
+    frames: 2,
+  },
+  ...Object.entries(TURNS).map(([name, lease]): Specimen => ({
+    name,
+    way: REMOTE,
+    state: { ...READY, lease },
+    pose: 'moving',
+    frames: 2,
+  })),
+  {
+    name: 'Another drives, stopped',
+    way: REMOTE,
+    state: { ...READY, lease: WATCHED, latch: { reason: 'elsewhere', stop: 'sent', unheld: [] } },
+    pose: 'still',
     frames: 2,
   },
   ...LINK_ERROR_CODES.map((code): Specimen => ({

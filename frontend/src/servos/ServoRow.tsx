@@ -38,7 +38,7 @@ export const ServoRow = memo(function ServoRow({ servo: own, order }: ServoRowPr
 
 export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
   const { servo } = own;
-  const { notices } = useStores();
+  const { device, notices } = useStores();
   const hand = useHand();
   const family = useDevice((state) => state.family);
   const target = useDevice((state) => state.targets[servo] ?? null);
@@ -48,10 +48,10 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
     family,
     useView((state) => state.positionsIn),
   );
-  const cannotMove = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
+  const hindrance = useSnapshot(motionHindrance);
   const isLocked = useServoView((view) => isHeld(view, servo));
   const isTelling = tellsPositions(family);
-  const blocked = cannotMove || isLocked;
+  const blocked = hindrance !== null || isLocked;
   const move = (position: number): void => hand.move(servo, position);
 
   const area = useRef<HTMLDivElement>(null);
@@ -60,7 +60,11 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
   });
 
   return (
-    <div ref={area} className={cx(styles.controls, isTelling && styles.telling)}>
+    <div
+      ref={area}
+      className={cx(styles.controls, isTelling && styles.telling)}
+      onPointerDown={hindrance === 'watching' ? () => device.lease('request') : undefined}
+    >
       <PositionSlider
         {...{ servo: own, family, scale, target, guess, blocked }}
         onMove={move}

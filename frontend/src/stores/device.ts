@@ -8,6 +8,7 @@ import type { Clock } from '#shared/clock.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import { parseCommand } from '#shared/protocol/parse.ts';
+import type { LeaseAction } from '#shared/session/lease.ts';
 import type { Session } from '#shared/session/session.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
@@ -67,6 +68,8 @@ export interface Device {
   creep(position: number, durationMs: number): void;
   halt(): void;
   resume(): void;
+  /** About who drives a robot that is shared. */
+  lease(action: LeaseAction): void;
   retryNow(): void;
   /** Holds for later sessions too. */
   setAutoReconnect(enabled: boolean): void;
@@ -327,6 +330,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     },
     halt: () => attempt((current) => current.halt()),
     resume: () => attempt((current) => current.resume()),
+    lease: (action) => session?.lease(action),
     retryNow: () => session?.retryNow(),
     setAutoReconnect(enabled) {
       autoReconnect = enabled;

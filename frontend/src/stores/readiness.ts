@@ -1,10 +1,11 @@
 // Whether something may move or be asked of the board now, judged from one snapshot, with the reason where it may not.
 // Pure; the session refuses by itself, this only lets the panels say so beforehand.
 
+import { isWatching } from '#shared/session/lease.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import type { SessionState } from '#shared/session/state.ts';
 
-export type Hindrance = 'closed' | 'identifying' | 'stale' | 'latched' | 'busy';
+export type Hindrance = 'closed' | 'identifying' | 'stale' | 'latched' | 'watching' | 'busy';
 
 /** Where its servos stand can be asked of such a board. */
 export function tellsPositions({ commands }: Family): boolean {
@@ -18,10 +19,11 @@ export function mayAsk({ link, activity }: SessionState, { queryKillsRun }: Fami
 }
 
 /** null: motion may begin. */
-export function motionHindrance({ link, latch, activity }: SessionState): Hindrance | null {
+export function motionHindrance({ link, latch, lease, activity }: SessionState): Hindrance | null {
   if (link.status === 'identifying' || link.status === 'stale') return link.status;
   if (link.status !== 'ready') return 'closed';
   if (latch !== null) return 'latched';
+  if (isWatching(lease)) return 'watching';
   return activity.kind === 'downloading' || activity.kind === 'erasing' ? 'busy' : null;
 }
 

@@ -9,6 +9,7 @@ import { Mark, type Truth } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
 import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/words.ts';
+import { LeaseChip } from './LeaseChip.tsx';
 import styles from './StatusLine.module.css';
 
 export interface StatusLineProps {
@@ -33,6 +34,7 @@ export function StatusLine({ onMoveHere }: StatusLineProps) {
       ) : (
         <Said truth={activityTruth(activity)} text={link.status === 'ready' ? activityWords(activity) : ''} />
       )}
+      <LeaseChip />
     </div>
   );
 }

@@ -2,10 +2,13 @@
 // gateway's to decide. The socket stays open while the gateway's port is away, to hear of its return.
 
 import { FAMILIES, type BoardId } from '#shared/protocol/families.ts';
+import { isHarmless } from '#shared/protocol/commands.ts';
 import { fromHex, toHex } from '#shared/protocol/hex.ts';
+import { parseCommand } from '#shared/protocol/parse.ts';
 import { isLinkErrorCode, LinkError } from '#shared/session/linkError.ts';
 import type { ServoLimits, Transport, TransportEvents } from '#shared/session/transport.ts';
-import type { ClientMessage, GatewayMessage, PortState } from './messages.generated.ts';
+import type { ClientMessage, GatewayMessage, PortState, StateMessage } from './messages.generated.ts';
+import { createTurn } from './turn.ts';
 
 type Settle = { resolve: () => void; reject: (error: LinkError) => void };
 
@@ -18,6 +21,7 @@ export function createGatewayTransport(url: string): Transport {
   let limits: readonly ServoLimits[] = [];
   let board: BoardId = 'unknown';
   let nextId = 1;
+  const turn = createTurn(post);
   const sending = new Map<number, Settle>();
   const halting = new Set<Settle>();
   const resuming = new Set<Settle>();
@@ -34,6 +38,7 @@ export function createGatewayTransport(url: string): Transport {
   function heard(message: GatewayMessage): void {
     switch (message.type) {
       case 'welcome':
+        turn.told(message.lease);
         limitsChanged(message.limits);
         stateChanged(message);
         break;
@@ -42,6 +47,13 @@ export function createGatewayTransport(url: string): Transport {
         break;
       case 'limits':
         limitsChanged(message.servos);
+        break;
+      case 'lease':
+        turn.told(message.lease);
+        leaseChanged();
+        break;
+      case 'tick':
+        turn.ticked(message.nonce);
         break;
       case 'received':
         events?.received(fromHex(message.packet), true);
@@ -61,10 +73,16 @@ export function createGatewayTransport(url: string): Transport {
     }
   }
 
-  function stateChanged({ board, port, latch }: Extract<GatewayMessage, { type: 'welcome' | 'state' }>): void {
-    boardChanged(board);
-    portChanged(port);
-    latchChanged(latch);
+  function stateChanged(state: Omit<StateMessage, 'type'>): void {
+    turn.counted(state.clients);
+    leaseChanged();
+    boardChanged(state.board);
+    portChanged(state.port);
+    latchChanged(state.latch);
+  }
+
+  function leaseChanged(): void {
+    if (turn.lease !== null) events?.leased?.(turn.lease);
   }
 
   function limitsChanged(next: readonly ServoLimits[]): void {
@@ -112,6 +130,7 @@ export function createGatewayTransport(url: string): Transport {
   function lose(error: LinkError): void {
     const told = events;
     events = null;
+    turn.fail(error);
     for (const waiter of sending.values()) waiter.reject(error);
     sending.clear();
     for (const waiters of [halting, resuming, naming]) settleAll(waiters, (waiter) => waiter.reject(error));
@@ -128,6 +147,7 @@ export function createGatewayTransport(url: string): Transport {
       if (socket !== opening) return;
       socket = null;
       port = null;
+      turn.gone();
       const gone = new LinkError('gatewayUnreachable', 'the gateway does not answer');
       settleAll(stateWaiters, (waiter) => waiter.reject(gone));
       lose(gone);
@@ -168,15 +188,18 @@ export function createGatewayTransport(url: string): Transport {
       if (port?.status !== 'open') throw portError(port);
       events = next;
       next.limited?.(limits);
+      if (turn.lease !== null) next.leased?.(turn.lease);
       if (latched) next.latched?.(true);
     },
-    send(packet) {
-      return new Promise((resolve, reject) => {
+    async send(packet) {
+      if (!isQuestion(packet)) await turn.begin();
+      await new Promise<void>((resolve, reject) => {
         const id = nextId++;
-        post({ type: 'send', id, packet: compactHex(packet) });
+        post({ type: 'send', id, packet: compactHex(packet), nonce: turn.nonce });
         sending.set(id, { resolve, reject });
       });
     },
+    lease: (action) => postIfOpen({ type: 'lease', action }),
     halt(hold) {
       return new Promise((resolve, reject) => {
         post({ type: 'stop', hold: hold && compactHex(hold) });
@@ -196,6 +219,7 @@ export function createGatewayTransport(url: string): Transport {
     },
     close() {
       events = null;
+      turn.gone();
       const closing = socket;
       socket = null;
       port = null;
@@ -208,6 +232,12 @@ export function createGatewayTransport(url: string): Transport {
 /** A newer gateway may know boards that this page does not. */
 export function boardNamed(text: string): BoardId {
   return text in FAMILIES ? (text as BoardId) : 'unknown';
+}
+
+/** Needs nobody's leave. */
+function isQuestion(packet: Uint8Array): boolean {
+  const command = parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
+  return command !== null && isHarmless(command);
 }
 
 function settleAll(waiters: Set<Settle>, settle: (waiter: Settle) => void): void {

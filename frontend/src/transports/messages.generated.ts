@@ -2,7 +2,14 @@
 
 export type Message = ClientMessage | GatewayMessage;
 export type ClientMessage =
-  SendMessage | StopMessage | ResumeMessage | BoardMessage | LimitsMessage | CalibrateMessage;
+  | SendMessage
+  | StopMessage
+  | ResumeMessage
+  | BoardMessage
+  | LimitsMessage
+  | CalibrateMessage
+  | LeaseMessage
+  | BeatMessage;
 export type GatewayMessage =
   | WelcomeMessage
   | SentMessage
@@ -11,10 +18,12 @@ export type GatewayMessage =
   | NoiseMessage
   | HaltedMessage
   | StateMessage
-  | LimitsMessage;
+  | LimitsMessage
+  | LeaseToldMessage
+  | TickMessage;
 
 /**
- * Put one packet on the wire.
+ * Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none.
  */
 export interface SendMessage {
   type: 'send';
@@ -26,6 +35,7 @@ export interface SendMessage {
    * Bytes of one packet, two hex digits each, no spaces.
    */
   packet: string;
+  nonce: string | null;
 }
 /**
  * STOP: drop all that waits, send stop three times, then `hold` (one move to the present pose), and
@@ -77,6 +87,24 @@ export interface CalibrateMessage {
   servo: number | null;
 }
 /**
+ * `request` a lease that is free, or ask its driver for it; `release` it, also to whoever asks, or take
+ * the question back; `refuse` whoever asks; `take` it without asking.
+ */
+export interface LeaseMessage {
+  type: 'lease';
+  action: 'request' | 'release' | 'take' | 'refuse';
+}
+/**
+ * The answer to each `tick`: somebody is there who drives.
+ */
+export interface BeatMessage {
+  type: 'beat';
+  /**
+   * Of the latest `tick`: shows how old this is.
+   */
+  nonce: string;
+}
+/**
  * The first message on each connection.
  */
 export interface WelcomeMessage {
@@ -87,6 +115,7 @@ export interface WelcomeMessage {
   latch: boolean;
   clients: number;
   limits: ServoLimits[];
+  lease: LeaseState;
 }
 /**
  * How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
@@ -107,6 +136,8 @@ export interface PortState {
         | 'noAnswer'
         | 'notSupported'
         | 'latched'
+        | 'notDriving'
+        | 'expired'
         | 'busy'
         | 'cancelled'
         | 'outOfRange'
@@ -128,6 +159,19 @@ export interface PortState {
     | null;
   detail: string | null;
   retryInMs: number | null;
+}
+/**
+ * Who drives and who asks to, by name; `drives` and `asks`: that is this client. `answerInMs`: how long
+ * the driver may still refuse.
+ */
+export interface LeaseState {
+  driver: string | null;
+  drives: boolean;
+  asker: string | null;
+  asks: boolean;
+  answerInMs: number | null;
+  mayDrive: boolean;
+  mayTake: boolean;
 }
 /**
  * The packet's last bit has left the wire.
@@ -155,6 +199,8 @@ export interface RefusedMessage {
     | 'noAnswer'
     | 'notSupported'
     | 'latched'
+    | 'notDriving'
+    | 'expired'
     | 'busy'
     | 'cancelled'
     | 'outOfRange'
@@ -203,4 +249,18 @@ export interface StateMessage {
   port: PortState;
   latch: boolean;
   clients: number;
+}
+/**
+ * Something of the lease changed.
+ */
+export interface LeaseToldMessage {
+  type: 'lease';
+  lease: LeaseState;
+}
+/**
+ * To the driver, four times a second: answer it with a `beat`, and put its nonce into each `send`.
+ */
+export interface TickMessage {
+  type: 'tick';
+  nonce: string;
 }

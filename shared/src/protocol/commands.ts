@@ -44,6 +44,20 @@ export type Command =
 
 export type CommandKind = Command['kind'];
 
+/** Neither moves anything nor changes what a group does: anybody may send it at any time. */
+const HARMLESS: readonly CommandKind[] = [
+  'stop',
+  'readBattery',
+  'readPositions',
+  'readAllPositions',
+  'readVersion',
+  'readOffsets',
+];
+
+export function isHarmless({ kind }: Pick<Command, 'kind'>): boolean {
+  return HARMLESS.includes(kind);
+}
+
 /** On the wire, in place of a slot: every group. */
 export const ALL_GROUPS = 0xff;
 

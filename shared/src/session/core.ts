@@ -5,6 +5,7 @@ import type { Clock } from '../clock.ts';
 import type { Family } from '../protocol/families.ts';
 import type { Exchange } from './exchange.ts';
 import type { Lanes } from './lanes.ts';
+import { isWatching, notDriving } from './lease.ts';
 import { LinkError } from './linkError.ts';
 import type { RobotEstimate } from './robot.ts';
 import type { Activity, LinkState } from './state.ts';
@@ -45,10 +46,12 @@ export function requireQuestion({ family, store }: Core): void {
     throw new LinkError('busy', 'asking would end the running group: end it first');
 }
 
-/** The board is ready and nobody has pressed STOP since the last Resume. */
+/** The board is ready, nobody has pressed STOP since the last Resume, and nobody else drives. */
 export function requireReleased(core: Core): void {
   requireReady(core.store);
-  if (core.store.state.latch !== null) throw new LinkError('latched', 'stopped: resume first');
+  const { latch, lease } = core.store.state;
+  if (latch !== null) throw new LinkError('latched', 'stopped: resume first');
+  if (isWatching(lease)) throw notDriving(lease);
 }
 
 /**

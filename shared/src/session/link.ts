@@ -12,7 +12,10 @@ export type LineState =
   | Extract<LinkState, { status: 'closed' | 'opening' | 'lost' | 'refused' }>
   | { readonly status: 'open'; readonly isReturn: boolean };
 
-export interface LinkOptions extends Pick<TransportEvents, 'received' | 'latched' | 'identified' | 'limited'> {
+export interface LinkOptions extends Pick<
+  TransportEvents,
+  'received' | 'latched' | 'identified' | 'limited' | 'leased'
+> {
   readonly transport: Transport;
   readonly clock: Clock;
   changed(state: LineState): void;
@@ -78,6 +81,7 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
         latched: ifMine(events.latched),
         identified: ifMine(events.identified),
         limited: ifMine(events.limited),
+        leased: ifMine(events.leased),
         lost: ifMine(fail),
       });
     } catch (error) {

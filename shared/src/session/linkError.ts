@@ -22,6 +22,8 @@ export const LINK_ERROR_CODES = [
   'noAnswer', // the board did not answer in time
   'notSupported', // this board has no such command
   'latched', // stopped: motion waits for Resume
+  'notDriving', // somebody else drives this robot
+  'expired', // it was said too long ago to be done now
   'busy', // something else must end first, e.g. a download
   'slotBroken', // the slot holds half a group (S35)
   'cancelled', // the person called it off

@@ -1,7 +1,7 @@
 // Packets written by hand: sent as they are, by the road each would take anyway, or refused. Knows which of them need what; what
 // a packet says and whether the family may get it is rawPacket.ts.
 
-import type { Command, CommandKind } from '../protocol/commands.ts';
+import { isHarmless, type Command } from '../protocol/commands.ts';
 import { judgeRaw } from '../protocol/rawPacket.ts';
 import { requireQuestion, requireReleased, type Core } from './core.ts';
 import { LinkError } from './linkError.ts';
@@ -13,20 +13,6 @@ export interface RawOperations {
   stop(): Promise<void>;
   release(servos: readonly number[]): Promise<void>;
   readBattery(): Promise<unknown>;
-}
-
-/** Neither moves anything nor changes what a group does. */
-const HARMLESS: readonly CommandKind[] = [
-  'stop',
-  'readBattery',
-  'readPositions',
-  'readAllPositions',
-  'readVersion',
-  'readOffsets',
-];
-
-export function isHarmless({ kind }: Command): boolean {
-  return HARMLESS.includes(kind);
 }
 
 /** Gives the operation: rejects with a LinkError, or resolves when the packet has left. */

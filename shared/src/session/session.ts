@@ -12,6 +12,7 @@ import { encodeOrRefuse } from './exchange.ts';
 import { createHalt } from './halt.ts';
 import { createIdentification } from './identification.ts';
 import { createLanes } from './lanes.ts';
+import { notDriving, type Lease, type LeaseAction } from './lease.ts';
 import { createLink, type LineState } from './link.ts';
 import { LinkError } from './linkError.ts';
 import { createReceiver } from './receiver.ts';
@@ -52,6 +53,8 @@ export interface Session {
   choose(family: Family): Promise<void>;
   /** What others on a shared link are held to; the session itself knows no robot. */
   setLimits(limits: readonly ServoLimits[]): void;
+  /** On a shared link: about who drives; the outcome is in `state.lease`. */
+  lease(action: LeaseAction): void;
   /** On a shared link: moves of this servo may pass those limits; null ends it, and so does the end of the link. */
   calibrate(servo: number | null): void;
   /** Newest wins per servo. Positions in the family's unit; `durationMs` 0 is as fast as the link allows. */
@@ -102,6 +105,7 @@ export function createSession(options: SessionOptions): Session {
     changed: lineChanged,
     identified: (board) => identification.told(board),
     limited: (limitsHeld) => store.update({ limitsHeld }),
+    leased,
     latched(latched) {
       if (!latched) halt.released();
       else if (store.state.latch === null) halt.latchedElsewhere();
@@ -169,6 +173,13 @@ export function createSession(options: SessionOptions): Session {
     if (store.state.activity.kind !== 'downloading') lanes.purge(error);
   }
 
+  /** What was under way here belongs to the turn that is over. */
+  function leased(lease: Lease): void {
+    const hasLost = store.state.lease?.drives === true && !lease.drives;
+    store.update({ lease });
+    if (hasLost) driver.drop(notDriving(lease));
+  }
+
   /** Into the log when it begins to leave, so that its answer comes after it. */
   function note(packet: Uint8Array): void {
     store.emit('traffic', {
@@ -200,6 +211,7 @@ export function createSession(options: SessionOptions): Session {
 
   function lineChanged(line: LineState): void {
     if (line.status !== 'open') {
+      if (store.state.lease !== null) store.update({ lease: null });
       identification.ended();
       entered(line);
       return;
@@ -247,6 +259,7 @@ export function createSession(options: SessionOptions): Session {
     identify: identification.again,
     choose: (chosen) => identification.choose(chosen),
     setLimits: (limits) => transport.setLimits?.(limits),
+    lease: (action) => transport.lease?.(action),
     calibrate: (servo) => transport.calibrate?.(servo),
     move: (targets, durationMs) => driver.live.move(targets, durationMs),
     run: (slot, times) => driver.groups.run(slot, times),

@@ -4,6 +4,7 @@
 import type { Command } from '../protocol/commands.ts';
 import type { Report, ServoOffset } from '../protocol/reports.ts';
 import type { Family } from '../protocol/families.ts';
+import type { Lease } from './lease.ts';
 import type { Identity } from './identity.ts';
 import type { LinkError } from './linkError.ts';
 import type { ServoLimits } from './transport.ts';
@@ -72,6 +73,8 @@ export interface SessionState {
   /** What the board answered when it was asked who it is; empty where nobody asked. */
   readonly identity: Identity;
   readonly latch: Latch | null;
+  /** Who drives a shared robot; null on a link of one's own. */
+  readonly lease: Lease | null;
   readonly activity: Activity;
   /** Asked to move, but nobody knows where they stand: they start one after another, in this order (safety.md). */
   readonly waitingToStart: readonly number[];

@@ -23,6 +23,7 @@ export const INITIAL_STATE: SessionState = {
   family: UNKNOWN_BOARD,
   identity: NOTHING_HEARD,
   latch: null,
+  lease: null,
   activity: { kind: 'idle' },
   waitingToStart: [],
   battery: { kind: 'unread' },

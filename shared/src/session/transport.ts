@@ -2,6 +2,7 @@
 // the page. A transport carries whole packets out and raw bytes in; it knows no command, keeps no queue and retries nothing.
 
 import type { BoardId } from '../protocol/families.ts';
+import type { Lease, LeaseAction } from './lease.ts';
 import type { LinkError } from './linkError.ts';
 
 export interface TransportEvents {
@@ -15,6 +16,8 @@ export interface TransportEvents {
   identified?(board: BoardId): void;
   /** Only a shared link: how far it lets the robot's servos be turned, as another end has said; empty: nobody has. */
   limited?(limits: readonly ServoLimits[]): void;
+  /** Only a shared link: who drives. Told once it is open, and on each change. */
+  leased?(lease: Lease): void;
 }
 
 /** How far a servo may be turned, in the board's unit, and what people call it. */
@@ -37,6 +40,8 @@ export interface Transport {
   setBoard?(board: BoardId): Promise<void>;
   /** Only a shared link: what it shall hold everybody to who moves this robot, in place of what was said before. */
   setLimits?(limits: readonly ServoLimits[]): void;
+  /** Only a shared link: about who drives; `leased` follows. */
+  lease?(action: LeaseAction): void;
   /** Only a shared link: this end looks for that servo's limits and may pass the present ones; null: no longer. */
   calibrate?(servo: number | null): void;
   /** Rejects with a LinkError. May be called again after `lost` or `close`. */

@@ -21,6 +21,7 @@ import { fileWords } from './files.ts';
 import { firstMoveWords } from './firstMoves.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
+import { leaseWords } from './lease.ts';
 import { libraryWords } from './library.ts';
 import { rangeText } from './refusals.ts';
 import { robotEditorWords } from './robotEditor.ts';
@@ -99,6 +100,7 @@ export const english = {
   compile: compileWords,
   play: playWords,
   slots: slotWords,
+  lease: leaseWords,
   examples: exampleWords,
   record: recordWords,
   poses: poseWords,
@@ -219,6 +221,7 @@ export const english = {
       identifying: 'The board is being asked who it is.',
       stale: 'The board does not answer.',
       latched: 'Stopped. Resume to move.',
+      watching: 'Somebody else drives. Touch a servo to ask for it.',
       busy: 'The board is busy; moving waits.',
     },
   },

@@ -11,6 +11,7 @@ import { fileWords } from './files.ts';
 import { firstMoveWords } from './firstMoves.ts';
 import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
+import { leaseWords } from './lease.ts';
 import { libraryWords } from './library.ts';
 import { macroWords } from './macros.ts';
 import {
@@ -97,6 +98,7 @@ export const chinese: Words = {
   compile: compileWords,
   play: playWords,
   slots: slotWords,
+  lease: leaseWords,
   examples: exampleWords,
   record: recordWords,
   poses: poseWords,
@@ -208,6 +210,7 @@ export const chinese: Words = {
       identifying: '正在询问控制板的型号。',
       stale: '控制板没有应答。',
       latched: '已停止。恢复后才能移动。',
+      watching: '正由别人操控。触碰舵机即可请求操控。',
       busy: '控制板正忙，请稍后再移动。',
     },
   },

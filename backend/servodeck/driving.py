@@ -1,0 +1,101 @@
+"""The lease over the seats: asks what a caller may do, keeps its time, tells each client how it stands.
+
+Knows seats and timers, no packet and no port; what must stop when a driver is lost is `control`'s affair.
+"""
+
+import asyncio
+from collections.abc import Callable
+
+from servodeck.hub import Hub, Seat
+from servodeck.lease import BEAT_S, Lease, LeaseEvents, Permit
+from servodeck.messages import LeaseAction, LeaseState, LeaseToldMessage, TickMessage, encode
+
+
+class Driving:
+    def __init__(self, hub: Hub, now: Callable[[], float], epoch: int, events: LeaseEvents) -> None:
+        self._hub = hub
+        self._now = now
+        self._lease: Lease[Seat] = Lease(epoch, events)
+        self._timer: asyncio.TimerHandle | None = None
+        self._tick_s = 0.0
+
+    @property
+    def driver(self) -> Seat | None:
+        return self._lease.driver
+
+    def act(self, seat: Seat, action: LeaseAction) -> None:
+        """Raises ForbiddenError, BusyError or NotDrivingError."""
+        now = self._now()
+        match action:
+            case "request":
+                seat.caller.require("driver")
+                self._lease.request(seat, now)
+            case "take":
+                seat.caller.require("owner")
+                self._lease.take(seat, now)
+            case "release":
+                self._lease.release(seat, now)
+            case "refuse":
+                self._lease.refuse(seat)
+        self._plan()
+
+    def leave(self, seat: Seat) -> None:
+        self._lease.leave(seat, self._now())
+        self._plan()
+
+    def beat(self, seat: Seat, nonce: str) -> None:
+        self._lease.beat(seat, nonce)
+
+    def permit(self, seat: object, nonce: str | None) -> Permit:
+        """Raises NotDrivingError or ExpiredError."""
+        return self._lease.permit(seat, nonce, self._now())  # type: ignore[arg-type]
+
+    def judge(self, permit: Permit) -> None:
+        """Raises NotDrivingError or ExpiredError."""
+        self._lease.judge(permit, self._now())
+
+    def state_for(self, seat: Seat) -> LeaseState:
+        lease = self._lease
+        answer_in_s = lease.answer_in_s(self._now())
+        return LeaseState(
+            driver=name_of(lease.driver),
+            drives=lease.driver is seat,
+            asker=name_of(lease.asker),
+            asks=lease.asker is seat,
+            answer_in_ms=None if answer_in_s is None else round(answer_in_s * 1000),
+            may_drive=seat.caller.may("driver"),
+            may_take=seat.caller.may("owner"),
+        )
+
+    def tell_all(self) -> None:
+        """Each client its own view; the driver gets a nonce with it."""
+        for seat in self._hub.seats:
+            self.tell(seat)
+        if self._lease.driver:
+            self._tick(self._lease.driver)
+
+    def tell(self, seat: Seat) -> None:
+        seat.put(encode(LeaseToldMessage(lease=self.state_for(seat))))
+
+    def _tick(self, driver: Seat) -> None:
+        now = self._now()
+        self._tick_s = now + BEAT_S
+        driver.put(encode(TickMessage(nonce=self._lease.issue(now))))
+
+    def _plan(self) -> None:
+        if self._timer:
+            self._timer.cancel()
+        due_s = self._lease.due_s()
+        if due_s is not None:
+            delay_s = min(due_s, self._tick_s) - self._now()
+            self._timer = asyncio.get_running_loop().call_later(max(0.0, delay_s), self._wake)
+
+    def _wake(self) -> None:
+        self._lease.advance(self._now())
+        if self._lease.driver and self._now() >= self._tick_s:
+            self._tick(self._lease.driver)
+        self._plan()
+
+
+def name_of(seat: Seat | None) -> str | None:
+    return None if seat is None else seat.caller.name

@@ -1,0 +1,91 @@
+"""Where the packets that left this wire have taken the servos: what a stop needs when no page tells it.
+
+Pure: time comes in. Knows moves only: once a group may have run, the page's estimate (shared/src/motion)
+knows more, and this one nothing until the next moves have ended.
+"""
+
+from dataclasses import dataclass
+
+from servodeck.families import Family
+from servodeck.packets import encode, parse_command
+from servodeck.values import Command, Move, Release, Run, ServoTarget, Stop
+
+SHORTEST_MOVE_MS = 20  # S25, S27
+LONGEST_MOVE_MS = 30_000  # S25, L5
+# Any new target re-times every servo of these (S26); the others' servos keep their own time.
+SHARED_TIME = frozenset({"doc", "openarm-old", "openarm-new"})
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """One servo's way; `start` is None where nobody knows where it began."""
+
+    start: float | None
+    target: int
+    begin_s: float
+    duration_s: float
+
+    @property
+    def end_s(self) -> float:
+        return self.begin_s + self.duration_s
+
+    def at(self, now: float) -> float | None:
+        if now >= self.end_s:
+            return self.target
+        if self.start is None:
+            return None
+        return self.start + (self.target - self.start) * max(0.0, now - self.begin_s) / self.duration_s
+
+
+class Motion:
+    def __init__(self, family: Family) -> None:
+        self._family = family
+        self._tracks: dict[int, Track] = {}
+        self.group_may_run = False
+
+    def left(self, packet: bytes, at_s: float) -> None:
+        """The last bit of that packet leaves then."""
+        match parse_command(packet):
+            case Move(duration_ms, targets) if not self.group_may_run:
+                self._move(duration_ms, targets, at_s)
+            case Run():
+                self.group_may_run = True
+                self._tracks.clear()
+            case Stop():
+                self.group_may_run = False
+            case Release(servos):
+                for servo in servos:
+                    self._tracks.pop(servo, None)
+
+    def is_moving(self, now: float) -> bool:
+        """A move is under way; a group is another matter."""
+        return any(now < track.end_s for track in self._tracks.values())
+
+    def hold(self, now: float) -> bytes | None:
+        """The move that freezes each servo whose place is known, as soon as that makes no other one jump."""
+        known = {servo: track.at(now) for servo, track in self._tracks.items()}
+        targets = tuple(ServoTarget(servo, round(at)) for servo, at in known.items() if at is not None)
+        if not targets:
+            return None
+        targets = targets[: self._family.servos_per_move]
+        command: Command = Move(
+            self._hold_ms([servo for servo in known if known[servo] is None], now), targets
+        )
+        return encode(command, self._family)
+
+    def _hold_ms(self, unknown: list[int], now: float) -> int:
+        """Boards of shared time would make a servo in its first move snap to its target (docs/adr/0002)."""
+        if not unknown or self._family.id not in SHARED_TIME:
+            return SHORTEST_MOVE_MS
+        longest_s = max(self._tracks[servo].end_s for servo in unknown) - now
+        return min(LONGEST_MOVE_MS, max(SHORTEST_MOVE_MS, round(longest_s * 1000)))
+
+    def _move(self, duration_ms: int, targets: tuple[ServoTarget, ...], at_s: float) -> None:
+        aims = {target.servo: target.position for target in targets}
+        if self._family.id in SHARED_TIME:
+            aims = {servo: track.target for servo, track in self._tracks.items()} | aims
+        duration_s = min(max(duration_ms, SHORTEST_MOVE_MS), LONGEST_MOVE_MS) / 1000
+        before = dict(self._tracks)
+        for servo, position in aims.items():
+            start = before[servo].at(at_s) if servo in before else None
+            self._tracks[servo] = Track(start, position, at_s, duration_s)

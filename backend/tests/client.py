@@ -1,0 +1,78 @@
+"""A client at the gateway's table: hears what it is told and, as a page does, answers each tick."""
+
+import asyncio
+import json
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Any
+
+from websockets.sync.client import ClientConnection
+
+from servodeck.callers import THIS_COMPUTER, Caller
+from servodeck.control import Control
+from servodeck.hub import Seat
+from servodeck.wire import Left
+from tests.fake_port import FakePort, FakePorts
+from tests.virtual_time import now
+
+
+class Client(Seat):
+    """`lease` is what it was told last; `beats` False is a tab that froze."""
+
+    def __init__(self, control: Control, caller: Caller = THIS_COMPUTER) -> None:
+        super().__init__(caller)
+        self.control = control
+        self.beats = True
+        self.nonce: str | None = None
+        self.lease: dict[str, Any] = {}
+        control.join(self)
+
+    def put(self, text: str) -> None:
+        message = json.loads(text)
+        if message["type"] == "tick":
+            self._answer(message["nonce"])
+        elif message["type"] == "lease":
+            self.lease = message["lease"]
+        else:
+            super().put(text)
+
+    def send(self, packet: bytes) -> Left:
+        """As a page: a lease that nobody has is requested first."""
+        if self.control.driving.driver is None:
+            self.control.driving.act(self, "request")
+        return self.control.send(self, packet.hex(), self.nonce)
+
+    async def heard(self) -> list[dict[str, Any]]:
+        """All messages that wait, those of the lease apart."""
+        await asyncio.sleep(0)
+        messages = []
+        while self.waiting:
+            messages.append(json.loads(await self.next()))
+        return messages
+
+    def _answer(self, nonce: str) -> None:
+        if self.beats:
+            self.nonce = nonce
+            self.control.driving.beat(self, nonce)
+
+
+@asynccontextmanager
+async def gateway_on(*ports: FakePort) -> AsyncIterator[Control]:
+    """A gateway whose port is open and whose first stop has left."""
+    control = Control(FakePorts(*(ports or (FakePort(),))), now, "doc")
+    await control.use_port("/dev/board")
+    await asyncio.sleep(0.1)
+    try:
+        yield control
+    finally:
+        await control.link.close()
+        for port in ports:
+            port.close()
+
+
+def lease_of(connection: ClientConnection) -> str:
+    """Over a real socket: gets a lease that nobody has; the nonce holds for half a second."""
+    connection.send('{"type": "lease", "action": "request"}')
+    while (message := json.loads(connection.recv(5)))["type"] != "tick":
+        pass
+    return str(message["nonce"])

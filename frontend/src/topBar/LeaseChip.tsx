@@ -1,0 +1,105 @@
+// Whose turn it is to drive, and the way to the next one's. Whoever is alone on the robot never sees it.
+
+import { useState } from 'react';
+import { useSnapshot, useStores } from '../stores/stores.ts';
+import type { Lease } from '#shared/session/lease.ts';
+import { Button } from '../ui/Button.tsx';
+import { Mark, type Truth } from '../ui/Chip.tsx';
+import { useNow } from '../ui/useNow.ts';
+import { words } from '../words/words.ts';
+import styles from './LeaseChip.module.css';
+
+export function LeaseChip() {
+  const lease = useSnapshot((snapshot) => snapshot.lease);
+  if (lease === null || (lease.others === 0 && lease.mayDrive)) return null;
+  return (
+    <div className={styles.lease} role="group" aria-label={words.lease.label}>
+      {lease.drives ? <Driving lease={lease} /> : <Watching lease={lease} />}
+    </div>
+  );
+}
+
+function Driving({ lease }: { readonly lease: Lease }) {
+  const { device } = useStores();
+  if (lease.asker === null) {
+    return (
+      <>
+        <Said truth="confirmed" text={words.lease.drives} more={words.lease.others(lease.others)} />
+        <Button tone="quiet" hint={words.lease.releaseHint} onPress={() => device.lease('release')}>
+          {words.lease.release}
+        </Button>
+      </>
+    );
+  }
+  return (
+    <>
+      <Said truth="warning" text={words.lease.asker(lease.asker)} more={<PassesIn lease={lease} />} />
+      <Button onPress={() => device.lease('release')}>{words.lease.allow}</Button>
+      <Button onPress={() => device.lease('refuse')}>{words.lease.refuse}</Button>
+    </>
+  );
+}
+
+function Watching({ lease }: { readonly lease: Lease }) {
+  const { device } = useStores();
+  const { driver, asks, mayDrive, mayTake } = lease;
+  if (driver === null) {
+    return mayDrive ? (
+      <Said truth="neutral" text={words.lease.nobody} more={words.lease.nobodyMore} />
+    ) : (
+      <Said truth="neutral" text={words.lease.nobody} more={words.lease.watching} />
+    );
+  }
+  return (
+    <>
+      {asks ? (
+        <Said truth="commanded" text={words.lease.asked(driver)} more={<PassesIn lease={lease} />} />
+      ) : (
+        <Said truth="neutral" text={words.lease.driver(driver)} more={words.lease.watching} />
+      )}
+      {mayDrive && !asks && (
+        <Button hint={words.lease.requestHint} onPress={() => device.lease('request')}>
+          {words.lease.request}
+        </Button>
+      )}
+      {asks && (
+        <Button tone="quiet" onPress={() => device.lease('release')}>
+          {words.lease.takeBack}
+        </Button>
+      )}
+      {mayTake && (
+        <Button tone="quiet" hint={words.lease.takeHint} onPress={() => device.lease('take')}>
+          {words.lease.take}
+        </Button>
+      )}
+    </>
+  );
+}
+
+interface SaidProps {
+  readonly truth: Truth;
+  readonly text: string;
+  readonly more: React.ReactNode;
+}
+
+function Said({ truth, text, more }: SaidProps) {
+  return (
+    <div className={styles.said}>
+      <Mark truth={truth} />
+      <div>
+        <p className={styles.text} role="status">
+          {text}
+        </p>
+        <p className={styles.more}>{more}</p>
+      </div>
+    </div>
+  );
+}
+
+/** Counts from when it was told. */
+function PassesIn({ lease: { answerInMs } }: { readonly lease: Lease }) {
+  const { device } = useStores();
+  const [toldMs] = useState(device.clock.now);
+  const nowMs = useNow(device.clock.now, 250);
+  return words.lease.passesIn((answerInMs ?? 0) - (nowMs - toldMs));
+}

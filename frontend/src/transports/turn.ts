@@ -1,0 +1,78 @@
+// This page's turn to drive, as the gateway tells it: asks for a lease that nobody has, answers each tick, and keeps the
+// nonce that shows that what is said is of now. Knows no packet. It needs no timer, which a browser would slow down.
+
+import { isWatching, notDriving, type Lease } from '#shared/session/lease.ts';
+import type { LinkError } from '#shared/session/linkError.ts';
+import type { ClientMessage, LeaseState } from './messages.generated.ts';
+
+export interface Turn {
+  readonly lease: Lease | null;
+  /** Of the latest tick. */
+  readonly nonce: string | null;
+  told(state: LeaseState): void;
+  /** How many are at the gateway, this page among them. */
+  counted(clients: number): void;
+  ticked(nonce: string): void;
+  /** Resolves when this page drives; rejects where somebody else does. */
+  begin(): Promise<void>;
+  /** Whoever waits for it waits in vain. */
+  fail(error: LinkError): void;
+  /** The gateway is not there any more: what it told is void. */
+  gone(): void;
+}
+
+interface Waiter {
+  readonly resolve: () => void;
+  readonly reject: (error: LinkError) => void;
+}
+
+export function createTurn(post: (message: ClientMessage) => void): Turn {
+  let lease: Lease | null = null;
+  let others = 0;
+  let nonce: string | null = null;
+  let waiters: readonly Waiter[] = [];
+
+  function settle(each: (waiter: Waiter) => void): void {
+    const current = waiters;
+    waiters = [];
+    current.forEach(each);
+  }
+
+  const fail = (error: LinkError): void => settle(({ reject }) => reject(error));
+
+  return {
+    get lease() {
+      return lease;
+    },
+    get nonce() {
+      return nonce;
+    },
+    told(state) {
+      lease = { ...state, others };
+      if (!state.drives) nonce = null;
+      if (isWatching(lease)) fail(notDriving(lease));
+    },
+    counted(clients) {
+      others = clients - 1;
+      lease &&= { ...lease, others };
+    },
+    ticked(next) {
+      nonce = next;
+      post({ type: 'beat', nonce });
+      settle(({ resolve }) => resolve());
+    },
+    begin() {
+      if (nonce !== null) return Promise.resolve();
+      if (isWatching(lease)) return Promise.reject(notDriving(lease));
+      return new Promise((resolve, reject) => {
+        post({ type: 'lease', action: 'request' });
+        waiters = [...waiters, { resolve, reject }];
+      });
+    },
+    fail,
+    gone() {
+      lease = null;
+      nonce = null;
+    },
+  };
+}

@@ -1,0 +1,29 @@
+// Whose turn it is to drive a shared robot, in Chinese.
+
+import type { Words } from '../en/english.ts';
+import { formatCount, formatWhole } from './numbers.ts';
+
+/** The gateway's name for whoever sits at its own computer. */
+const named = (name: string): string => (name === 'This computer' ? '另一个窗口' : name);
+
+export const leaseWords: Words['lease'] = {
+  label: '谁在操控',
+  drives: '由你操控',
+  others: (count) => `另有 ${formatCount(count)} 个窗口在看`,
+  driver: (name) => `${named(name)}正在操控`,
+  nobody: '无人操控',
+  nobodyMore: '移动任意舵机即可开始',
+  watching: '你在观看',
+  asked: (name) => `已请求${named(name)}`,
+  asker: (name) => `${named(name)}请求操控`,
+  passesIn: (ms) => `${formatWhole(Math.max(0, Math.ceil(ms / 1000)))} 秒后转交`,
+  request: '请求操控',
+  requestHint: '操控者同意，或五秒内没有回应，就转交给你',
+  takeBack: '取消请求',
+  take: '接管',
+  takeHint: '不用请求。正在进行的动作会先停止。',
+  allow: '同意',
+  refuse: '拒绝',
+  release: '交出',
+  releaseHint: '之后别人可以操控。正在进行的动作会先停止。',
+};

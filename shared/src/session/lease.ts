@@ -1,0 +1,35 @@
+// Who may move a shared robot, as this end is told. Knows no transport; who gets the lease is decided where the port is.
+
+import { LinkError } from './linkError.ts';
+
+export interface Lease {
+  /** People's name for whoever drives, null where nobody does: whoever wants to move then gets it by that. */
+  readonly driver: string | null;
+  /** That is this end. */
+  readonly drives: boolean;
+  /** Whoever asks the driver for it. */
+  readonly asker: string | null;
+  readonly asks: boolean;
+  /** How long the driver may still refuse, when this was told. */
+  readonly answerInMs: number | null;
+  readonly mayDrive: boolean;
+  /** Without asking. */
+  readonly mayTake: boolean;
+  /** Others who look on or drive. */
+  readonly others: number;
+}
+
+/**
+ * `request` a free one, or ask its driver; `release` it, also to whoever asks, or take the question back; `refuse` whoever
+ * asks; `take` it without asking.
+ */
+export type LeaseAction = 'request' | 'release' | 'refuse' | 'take';
+
+/** Somebody else drives, or this end never may. On a link of its own there is no lease. */
+export function isWatching(lease: Lease | null): boolean {
+  return lease !== null && !lease.drives && (lease.driver !== null || !lease.mayDrive);
+}
+
+export function notDriving(lease: Lease | null): LinkError {
+  return new LinkError('notDriving', lease?.driver ?? '');
+}
