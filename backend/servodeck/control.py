@@ -127,7 +127,7 @@ class Control:
         stop.
         """
         self._set_latch(True)
-        left = self._halt(hold or self._motion.hold(self.now()), LatchedError("Stopped before it left."))
+        left = self._halt(hold, LatchedError("Stopped before it left."))
         if left is not self._halting:
             self._halting = left
             left.add_done_callback(self._halted)
@@ -220,7 +220,7 @@ class Control:
         """What one driver began does not go on under the next; nobody has to resume for it."""
         if self._may_move():
             with contextlib.suppress(GatewayError):
-                self._halt(self._motion.hold(self.now()), NotDrivingError("Somebody else drives now."))
+                self._halt(None, NotDrivingError("Somebody else drives now."))
 
     def lease_changed(self) -> None:
         self.driving.tell_all()
@@ -273,7 +273,7 @@ class Control:
             self._tell_state()
 
     def _halt(self, hold: bytes | None, reason: GatewayError) -> Left:
-        return self.link.wire().halt(hold, reason)
+        return self.link.wire().halt(hold or self._motion.hold(self.now()), reason)
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
@@ -284,6 +284,7 @@ class Control:
         if self._motion.group_may_run:
             with contextlib.suppress(GatewayError):
                 await self._halt(None, CancelledError("The port is being closed."))
+        self._motion = Motion(FAMILIES[self.board])
 
     def _make_wire(self, port: OpenPort) -> Wire:
         inbox = Inbox(self._take)

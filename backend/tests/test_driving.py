@@ -292,3 +292,13 @@ async def test_everybody_who_moves_needs_fresh_words_of_the_lease_of_now() -> No
         for nonce in (None, "1-1", old):
             with pytest.raises(ExpiredError):
                 control.send(anna, MOVE.hex(), nonce)
+
+
+@in_virtual_time
+async def test_who_leaves_behind_a_closed_port_latches_nothing() -> None:
+    async with gateway_on() as control:
+        anna = Client(control)
+        await anna.send(MOVE)
+        await control.close_port()
+        control.leave(anna)
+        assert control.latch is False

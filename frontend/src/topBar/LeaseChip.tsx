@@ -87,7 +87,7 @@ function Said({ truth, text, more }: SaidProps) {
     <div className={styles.said}>
       <Mark truth={truth} />
       <div>
-        <p className={styles.text} role="status">
+        <p className={styles.text} aria-live="polite">
           {text}
         </p>
         <p className={styles.more}>{more}</p>

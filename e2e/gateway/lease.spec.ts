@@ -1,0 +1,86 @@
+// One robot, several people: one drives, the others look on, ask, take over and stop. The bus tells what the robot was told.
+
+import type { BrowserContext, Locator } from '@playwright/test';
+import { lastTarget, ofKind } from '../fixtures/bus.ts';
+import { dashboardOf, type Dashboard } from '../fixtures/dashboard.ts';
+import type { Robot } from '../fixtures/robot.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+
+const turnOf = ({ page }: Dashboard): Locator => page.getByRole('group', { name: 'Who drives' });
+const act = (who: Dashboard, verb: string): Promise<void> =>
+  turnOf(who).getByRole('button', { name: verb, exact: true }).click();
+
+async function joins(robot: Robot, context: BrowserContext): Promise<Dashboard> {
+  const other = dashboardOf(await context.newPage());
+  await robot.open(other.page);
+  await expect(other.link).toHaveText(/^Ready/);
+  return other;
+}
+
+test('whoever is alone drives without being asked, and never hears of it', async ({ dashboard, robot }) => {
+  await dashboard.type(dashboard.target(1), 1800);
+  await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
+  await expect(turnOf(dashboard)).toHaveCount(0);
+});
+
+test('one drives, the other looks on, asks, is refused, asks again and is let', async ({
+  dashboard,
+  robot,
+  context,
+}) => {
+  const other = await joins(robot, context);
+  await expect(turnOf(dashboard)).toContainText('Nobody drives');
+  await dashboard.type(dashboard.target(1), 1800);
+  await expect(turnOf(dashboard)).toContainText('You drive');
+  await expect(turnOf(other)).toContainText('Another window drives');
+  await expect(other.slider(1)).toHaveAttribute('aria-disabled', 'true');
+
+  await other.slider(1).click({ force: true });
+  await expect(turnOf(dashboard)).toContainText('Another window asks to drive');
+  await act(dashboard, 'Refuse');
+  await expect(turnOf(other)).toContainText('Another window drives');
+
+  await act(other, 'Ask to drive');
+  await act(dashboard, 'Allow');
+  await expect(turnOf(other)).toContainText('You drive');
+  await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');
+  await other.type(other.target(2), 1700);
+  await poll(() => lastTarget(robot.bus, 2)).toBe(1700);
+});
+
+test('a driver who says nothing passes it on; taking over asks nobody and stops what moves', async ({
+  dashboard,
+  robot,
+  context,
+}) => {
+  const other = await joins(robot, context);
+  await dashboard.type(dashboard.target(1), 1800);
+  await expect(turnOf(other)).toContainText('drives');
+  await act(other, 'Ask to drive');
+  await expect(turnOf(other)).toContainText('You drive', { timeout: 10_000 });
+
+  await other.type(other.target(1), 900);
+  await act(dashboard, 'Take over');
+  await expect(turnOf(dashboard)).toContainText('You drive');
+  await poll(async () => ofKind(await robot.bus(), 'stop').length).toBeGreaterThanOrEqual(3);
+  await expect(dashboard.status).not.toContainText('Stop');
+});
+
+test('when the driver’s window closes in a move the robot is stopped, and the other may go on', async ({
+  dashboard,
+  robot,
+  context,
+}) => {
+  const driver = await joins(robot, context);
+  await driver.page.getByRole('radio', { name: 'In a set time' }).check();
+  await driver.type(driver.field('Move time in milliseconds'), 20_000);
+  await driver.type(driver.target(1), 1800);
+  await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
+  const before = (await robot.bus()).length;
+  await driver.page.close();
+  await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
+  await expect(dashboard.status).toContainText('Stopped');
+  await dashboard.resume.click();
+  await dashboard.type(dashboard.target(2), 1700);
+  await poll(() => lastTarget(robot.bus, 2)).toBe(1700);
+});

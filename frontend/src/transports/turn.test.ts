@@ -1,0 +1,70 @@
+import { expect, test } from 'vitest';
+import type { ClientMessage, LeaseState } from './messages.generated.ts';
+import { createTurn, type Turn } from './turn.ts';
+
+const FREE: LeaseState = {
+  ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null },
+  ...{ mayDrive: true, mayTake: false },
+};
+const OURS: LeaseState = { ...FREE, driver: 'Anna', drives: true };
+const THEIRS: LeaseState = { ...FREE, driver: 'Bert' };
+
+function page(state: LeaseState): { turn: Turn; said: ClientMessage[] } {
+  const said: ClientMessage[] = [];
+  const turn = createTurn((message) => said.push(message));
+  turn.told(state);
+  return { turn, said };
+}
+
+test('a lease that nobody has is requested, and with its first tick the turn begins', async () => {
+  const { turn, said } = page(FREE);
+  const begun = turn.begin();
+  expect(said).toEqual([{ type: 'lease', action: 'request' }]);
+  turn.told(OURS);
+  turn.ticked('1-1');
+  await expect(begun).resolves.toBeUndefined();
+  expect(turn.nonce).toBe('1-1');
+  await turn.begin();
+  expect(said).toEqual([
+    { type: 'lease', action: 'request' },
+    { type: 'beat', nonce: '1-1' },
+  ]);
+});
+
+test('each tick is answered at once, and the newest counts', () => {
+  const { turn, said } = page(OURS);
+  turn.ticked('1-1');
+  turn.ticked('1-2');
+  expect(said).toEqual([
+    { type: 'beat', nonce: '1-1' },
+    { type: 'beat', nonce: '1-2' },
+  ]);
+  expect(turn.nonce).toBe('1-2');
+});
+
+test('while another drives nothing is requested by moving', async () => {
+  const { turn, said } = page(THEIRS);
+  await expect(turn.begin()).rejects.toMatchObject({ code: 'notDriving', message: 'Bert' });
+  expect(said).toEqual([]);
+});
+
+test('whoever was quicker has it, and the nonce of a turn that is over is gone', async () => {
+  const { turn } = page(FREE);
+  const begun = turn.begin();
+  turn.told(THEIRS);
+  await expect(begun).rejects.toMatchObject({ code: 'notDriving' });
+  turn.told(OURS);
+  turn.ticked('3-1');
+  turn.told(THEIRS);
+  expect(turn.nonce).toBeNull();
+});
+
+test('how many are there is part of it, whichever was told first', () => {
+  const { turn } = page(FREE);
+  turn.counted(3);
+  expect(turn.lease?.others).toBe(2);
+  turn.told(OURS);
+  expect(turn.lease?.others).toBe(2);
+  turn.gone();
+  expect(turn.lease).toBeNull();
+});

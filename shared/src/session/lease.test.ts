@@ -1,0 +1,80 @@
+// What a session makes of a turn that others may have: a shared link over the simulated board.
+
+import { expect, test } from 'vitest';
+import { family as familyOf } from '../protocol/families.ts';
+import { createSimulatedTransport } from '../simulator/transport.ts';
+import { createVirtualClock } from '../simulator/virtualClock.ts';
+import type { Lease } from './lease.ts';
+import { createSession } from './session.ts';
+import type { Transport, TransportEvents } from './transport.ts';
+
+const FREE: Lease = {
+  ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null, others: 1 },
+  ...{ mayDrive: true, mayTake: false },
+};
+const OURS: Lease = { ...FREE, driver: 'Anna', drives: true };
+const THEIRS: Lease = { ...FREE, driver: 'Bert' };
+
+async function sharedSession() {
+  const clock = createVirtualClock();
+  const line = createSimulatedTransport(clock, { onForMs: 60_000 });
+  let tell: TransportEvents['leased'];
+  const left: number[] = [];
+  const transport: Transport = {
+    ...line,
+    open(events) {
+      tell = events.leased;
+      return line.open(events);
+    },
+    send(packet) {
+      left.push(packet[3] ?? 0);
+      return line.send(packet);
+    },
+  };
+  const session = createSession({ transport, clock, family: familyOf('doc') });
+  await session.open();
+  return { clock, session, left, tell: (lease: Lease) => tell?.(lease) };
+}
+
+const TARGET = [{ servo: 1, position: 1500 }];
+
+test('a free lease hinders nobody, and neither does one’s own', async () => {
+  const { session, tell } = await sharedSession();
+  for (const lease of [FREE, OURS]) {
+    tell(lease);
+    expect(() => session.move(TARGET, 100)).not.toThrow();
+  }
+});
+
+test.each([THEIRS, { ...FREE, mayDrive: false }])('whoever looks on moves nothing: %o', async (lease) => {
+  const { session, tell, left } = await sharedSession();
+  tell(lease);
+  expect(() => session.move(TARGET, 100)).toThrow(expect.objectContaining({ code: 'notDriving' }));
+  await expect(session.run(0, 1)).rejects.toMatchObject({ code: 'notDriving' });
+  await expect(session.play([{ durationMs: 100, targets: TARGET }])).rejects.toMatchObject({
+    code: 'notDriving',
+  });
+  expect(left).toEqual([]);
+});
+
+test('what was playing ends with the turn and does not come back with the next', async () => {
+  const { clock, session, tell, left } = await sharedSession();
+  tell(OURS);
+  const playing = session.play([{ durationMs: 300, targets: TARGET }], { times: 0 });
+  await clock.advance(3_000);
+  tell(THEIRS);
+  await playing;
+  const count = left.length;
+  tell(OURS);
+  await clock.advance(3_000);
+  expect(left).toHaveLength(count);
+  expect(session.state.activity.kind).toBe('idle');
+});
+
+test('a link that is gone says nothing of who drives', async () => {
+  const { session, tell } = await sharedSession();
+  tell(THEIRS);
+  expect(session.state.lease).toEqual(THEIRS);
+  await session.close();
+  expect(session.state.lease).toBeNull();
+});
