@@ -1,14 +1,20 @@
 // One robot, several people: one drives, the others look on, ask, take over and stop. The bus tells what the robot was told.
 
-import type { BrowserContext, Locator } from '@playwright/test';
+import type { BrowserContext } from '@playwright/test';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { dashboardOf, type Dashboard } from '../fixtures/dashboard.ts';
 import type { Robot } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
-const turnOf = ({ page }: Dashboard): Locator => page.getByRole('group', { name: 'Who drives' });
-const act = (who: Dashboard, verb: string): Promise<void> =>
-  turnOf(who).getByRole('button', { name: verb, exact: true }).click();
+const act = ({ turn }: Dashboard, verb: string): Promise<void> =>
+  turn.getByRole('button', { name: verb, exact: true }).click();
+
+/** So long that it is under way still when the test has looked. */
+async function movesSlowly(who: Dashboard, servo: number, position: number): Promise<void> {
+  await who.page.getByRole('radio', { name: 'In a set time' }).check();
+  await who.type(who.field('Move time in milliseconds'), 20_000);
+  await who.type(who.target(servo), position);
+}
 
 async function joins(robot: Robot, context: BrowserContext): Promise<Dashboard> {
   const other = dashboardOf(await context.newPage());
@@ -20,7 +26,7 @@ async function joins(robot: Robot, context: BrowserContext): Promise<Dashboard> 
 test('whoever is alone drives without being asked, and never hears of it', async ({ dashboard, robot }) => {
   await dashboard.type(dashboard.target(1), 1800);
   await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
-  await expect(turnOf(dashboard)).toHaveCount(0);
+  await expect(dashboard.turn).toHaveCount(0);
 });
 
 test('one drives, the other looks on, asks, is refused, asks again and is let', async ({
@@ -29,20 +35,20 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   context,
 }) => {
   const other = await joins(robot, context);
-  await expect(turnOf(dashboard)).toContainText('Nobody drives');
+  await expect(dashboard.turn).toContainText('Nobody drives');
   await dashboard.type(dashboard.target(1), 1800);
-  await expect(turnOf(dashboard)).toContainText('You drive');
-  await expect(turnOf(other)).toContainText('Another window drives');
+  await expect(dashboard.turn).toContainText('You drive');
+  await expect(other.turn).toContainText('Another window drives');
   await expect(other.slider(1)).toHaveAttribute('aria-disabled', 'true');
 
   await other.slider(1).click({ force: true });
-  await expect(turnOf(dashboard)).toContainText('Another window asks to drive');
+  await expect(dashboard.turn).toContainText('Another window asks to drive');
   await act(dashboard, 'Refuse');
-  await expect(turnOf(other)).toContainText('Another window drives');
+  await expect(other.turn).toContainText('Another window drives');
 
   await act(other, 'Ask to drive');
   await act(dashboard, 'Allow');
-  await expect(turnOf(other)).toContainText('You drive');
+  await expect(other.turn).toContainText('You drive');
   await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');
   await other.type(other.target(2), 1700);
   await poll(() => lastTarget(robot.bus, 2)).toBe(1700);
@@ -55,13 +61,14 @@ test('a driver who says nothing passes it on; taking over asks nobody and stops 
 }) => {
   const other = await joins(robot, context);
   await dashboard.type(dashboard.target(1), 1800);
-  await expect(turnOf(other)).toContainText('drives');
+  await expect(other.turn).toContainText('drives');
   await act(other, 'Ask to drive');
-  await expect(turnOf(other)).toContainText('You drive', { timeout: 10_000 });
+  await expect(other.turn).toContainText('You drive', { timeout: 10_000 });
 
-  await other.type(other.target(1), 900);
+  await movesSlowly(other, 1, 900);
+  await poll(() => lastTarget(robot.bus, 1)).toBe(900);
   await act(dashboard, 'Take over');
-  await expect(turnOf(dashboard)).toContainText('You drive');
+  await expect(dashboard.turn).toContainText('You drive');
   await poll(async () => ofKind(await robot.bus(), 'stop').length).toBeGreaterThanOrEqual(3);
   await expect(dashboard.status).not.toContainText('Stop');
 });
@@ -72,9 +79,7 @@ test('when the driver’s window closes in a move the robot is stopped, and the 
   context,
 }) => {
   const driver = await joins(robot, context);
-  await driver.page.getByRole('radio', { name: 'In a set time' }).check();
-  await driver.type(driver.field('Move time in milliseconds'), 20_000);
-  await driver.type(driver.target(1), 1800);
+  await movesSlowly(driver, 1, 1800);
   await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
   const before = (await robot.bus()).length;
   await driver.page.close();

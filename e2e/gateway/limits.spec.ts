@@ -34,6 +34,7 @@ test('limits set on one screen hold on the other, while it calibrates too', asyn
   await expect(other.notices).toContainText('Elbow (servo 4): position is 900, allowed 1000..2500');
   await other.type(other.target(4), 1010);
   await poll(() => lastTarget(robot.bus, 4)).toBe(1010);
+  await other.turn.getByRole('button', { name: 'Let go' }).click();
 
   await robots.button('All robots').click();
   await robots.button('Calibrate').click();
@@ -44,6 +45,7 @@ test('limits set on one screen hold on the other, while it calibrates too', asyn
   await robots.creepUntil('lower', () =>
     poll(async () => (await lastTarget(robot.bus, 4)) ?? 9999).toBeLessThan(980),
   );
+  await other.turn.getByRole('button', { name: 'Take over' }).click();
   await other.type(other.target(4), 950);
   await expect(other.notices).toContainText('position is 950');
   await other.page.context().close();
