@@ -37,6 +37,7 @@ export function CalibrationWizard() {
           <div key={`${at.servo.servo} ${at.progress.step}`} className={styles.step}>
             {contentOf(at)}
           </div>
+          <KeepServo at={at} />
           <p className={styles.problem} role="alert">
             {at.problem}
           </p>
@@ -139,15 +140,30 @@ function Steps({ at: { servo, progress, go } }: At) {
   );
 }
 
+function KeepServo({ at: { servo, progress, keepServo } }: At) {
+  if (isServoDone(progress, servo)) return null;
+  return (
+    <div>
+      <Button tone="quiet" onPress={keepServo}>
+        {words.calibration.keepServo(words.robots.called(servo))}
+      </Button>
+    </div>
+  );
+}
+
 function Finished({ at: { robot, progress } }: At) {
   const { view } = useStores();
   if (!robot.servos.every((servo) => isServoDone(progress, servo))) return null;
   return (
     <div className={styles.actions} role="status">
       <p>{words.calibration.finished}</p>
-      <Button tone="primary" onPress={() => view.setState({ robotView: null })}>
-        {words.calibration.done}
+      <Button
+        tone="primary"
+        onPress={() => view.setState({ robotView: null, tab: 'actions', authoring: 'poses' })}
+      >
+        {words.calibration.onToPoses}
       </Button>
+      <Button onPress={() => view.setState({ robotView: null })}>{words.calibration.done}</Button>
     </div>
   );
 }

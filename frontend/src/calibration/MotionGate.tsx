@@ -1,5 +1,5 @@
 // Stands before every step that moves a servo: says why it may not move now, and brings a servo that nobody knows the place of
-// to its middle, slowly and only when told to.
+// to its middle, or all such servos home, slowly and only when told to.
 
 import type { ReactNode } from 'react';
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
@@ -20,7 +20,11 @@ export interface MotionGateProps {
 export function MotionGate({ robot, servo, children }: MotionGateProps) {
   const { device } = useStores();
   const hindrance = useSnapshot(motionHindrance);
-  const isKnown = useDevice(({ targets }) => targets[servo.servo] !== undefined);
+  const targets = useDevice((state) => state.targets);
+  const isKnown = targets[servo.servo] !== undefined;
+  const homes = robot.servos
+    .filter((one) => targets[one.servo] === undefined)
+    .map((one) => ({ servo: one.servo, position: one.home }));
   if (hindrance === 'latched') {
     return (
       <>
@@ -39,6 +43,11 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
       <Button tone="primary" onPress={() => device.creep(middleOf(robot, servo), GENTLE_MOVE_MS)}>
         {words.calibration.goHome}
       </Button>
+      {homes.length > 1 && (
+        <Button onPress={() => device.move(homes, GENTLE_MOVE_MS)}>
+          {words.calibration.allHome(homes.length)}
+        </Button>
+      )}
     </>
   );
 }

@@ -5,6 +5,7 @@ import { flawOf, servoOf, type Robot, type RobotServo } from '#shared/actions/ro
 import {
   beginCalibration,
   partnerDone,
+  servoDone,
   settled,
   stepDone,
   type Calibration,
@@ -24,6 +25,8 @@ export interface CalibrationAtHand {
   accept(edit: (robot: Robot) => Robot, partner?: number): void;
   /** Goes on with the robot as it is. */
   keep(): void;
+  /** Goes on with the next servo. */
+  keepServo(): void;
 }
 
 export function useCalibration(): CalibrationAtHand {
@@ -56,9 +59,11 @@ export function useCalibration(): CalibrationAtHand {
         const { stepNames, stepLabel } = words.calibration;
         return stepLabel(stepNames[begun.step], words.robots.called(servo));
       }, edit);
-      put(partner === undefined ? stepDone(robot, begun) : partnerDone(robot, begun, partner));
+      const next = edit(robot);
+      put(partner === undefined ? stepDone(next, begun) : partnerDone(next, begun, partner));
     },
     keep: () => put(stepDone(robot, begun)),
+    keepServo: () => put(servoDone(robot, begun)),
   };
 }
 

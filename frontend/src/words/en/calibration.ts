@@ -49,6 +49,9 @@ export const calibrationWords = {
     `Lowest ${formatWhole(min)}, home ${formatWhole(home)}, highest ${formatWhole(max)}`,
   partnerNot: 'Its board does not turn that far. Calibrate the partner by itself.',
   takeOver: (name: string): string => `Set ${name} so`,
+  allHome: (count: number): string => `All ${formatWhole(count)} go home, one after another`,
+  keepServo: (name: string): string => `Leave all of ${name} as it is`,
+  onToPoses: 'Go on to poses',
   leaveAsIs: 'Leave it as it is',
   trim: (home: number, centre: number, trim: number): string =>
     `Home stands at ${formatWhole(home)}. With a trim of ${formatWhole(trim)} it is called ${formatWhole(centre)}, so that poses fit other robots of this build. Nothing moves.`,

@@ -46,6 +46,9 @@ export const calibrationWords: typeof english = {
     `最低 ${formatWhole(min)}，初始位 ${formatWhole(home)}，最高 ${formatWhole(max)}`,
   partnerNot: '它的控制板转不了那么远。请单独校准对侧舵机。',
   takeOver: (name) => `这样设置${name}`,
+  allHome: (count) => `全部${formatWhole(count)}个依次回到初始位`,
+  keepServo: (name) => `${name}全部保持不变`,
+  onToPoses: '接着做姿态',
   leaveAsIs: '保持不变',
   trim: (home, centre, trim) =>
     `初始位在 ${formatWhole(home)}。微调设为 ${formatWhole(trim)} 后，它记作 ${formatWhole(centre)}，姿态就能用在同样结构的其他机器人上。机器人不会动。`,

@@ -4,12 +4,13 @@ import {
   beginCalibration,
   isServoDone,
   partnerDone,
+  servoDone,
   settled,
   stepDone,
   stepsOf,
   type Calibration,
 } from './robotCalibration.ts';
-import { removeServo } from './robotEdits.ts';
+import { changeServo, removeServo } from './robotEdits.ts';
 import type { Robot } from './robot.ts';
 
 const ready = (id: ReadyRobotId, board: Robot['board']): Robot =>
@@ -24,15 +25,27 @@ describe('a calibration', () => {
   test('goes through a servo step by step, then to the next one', () => {
     expect(after(ARM, 0)).toMatchObject({ servo: 1, step: 'min' });
     expect(after(ARM, 2)).toMatchObject({ servo: 1, step: 'home' });
-    expect(after(ARM, 5)).toMatchObject({ servo: 2, step: 'min' });
-    expect(isServoDone(after(ARM, 4), ARM.servos[0]!)).toBe(false);
-    expect(isServoDone(after(ARM, 5), ARM.servos[0]!)).toBe(true);
+    expect(after(ARM, 4)).toMatchObject({ servo: 2, step: 'min' });
+    expect(isServoDone(after(ARM, 3), ARM.servos[0]!)).toBe(false);
+    expect(isServoDone(after(ARM, 4), ARM.servos[0]!)).toBe(true);
+  });
+
+  test('asks for a trim only where home is not the middle', () => {
+    const off = changeServo(ARM, 1, { home: 1520 });
+    expect(after(off, 4)).toMatchObject({ servo: 1, step: 'trim' });
+    expect(after(off, 5)).toMatchObject({ servo: 2, step: 'min' });
+  });
+
+  test('leaves a servo as it is as a whole', () => {
+    const kept = servoDone(ARM, after(ARM, 1));
+    expect(kept).toMatchObject({ servo: 2, step: 'min' });
+    expect(isServoDone(kept, ARM.servos[0]!)).toBe(true);
   });
 
   test('begun in the middle it comes round to what was left out, and ends with nothing left', () => {
     const begun = beginCalibration(ARM, 5);
-    expect(after(ARM, 10, begun)).toMatchObject({ servo: 1, step: 'min' });
-    const ended = after(ARM, 30, begun);
+    expect(after(ARM, 8, begun)).toMatchObject({ servo: 1, step: 'min' });
+    const ended = after(ARM, 24, begun);
     expect(ARM.servos.every((servo) => isServoDone(ended, servo))).toBe(true);
     expect(stepDone(ARM, ended)).toMatchObject({ servo: ended.servo, step: ended.step });
   });
@@ -40,7 +53,8 @@ describe('a calibration', () => {
   test('a partner that takes over has only its trim left', () => {
     expect(stepsOf(HUMANOID.servos[2]!)).toContain('partner');
     const atPartner: Calibration = { servo: 3, step: 'partner', done: [] };
-    const taken = partnerDone(HUMANOID, atPartner, 11);
+    const off = changeServo(changeServo(HUMANOID, 3, { home: 1510 }), 11, { home: 1490 });
+    const taken = partnerDone(off, atPartner, 11);
     expect(taken).toMatchObject({ servo: 3, step: 'trim' });
     const left = stepsOf(HUMANOID.servos[10]!).filter(
       (step) => !taken.done.some((one) => one.servo === 11 && one.step === step),

@@ -1,6 +1,7 @@
 // How far the calibration of a robot has come: a servo at a time, a step at a time, in any order a person likes. Pure; what a
 // step does to the robot is robotEdits.ts.
 
+import { FAMILIES } from '../../protocol/families.ts';
 import { servoOf, type Robot, type RobotServo } from './robot.ts';
 
 export const CALIBRATION_STEPS = ['min', 'max', 'home', 'direction', 'partner', 'trim'] as const;
@@ -51,6 +52,13 @@ export function stepDone(robot: Robot, calibration: Calibration): Calibration {
   return onward(robot, { ...calibration, done: [...calibration.done, { servo, step }] });
 }
 
+/** Everything about the servo at hand is as it should be. */
+export function servoDone(robot: Robot, calibration: Calibration): Calibration {
+  const servo = servoOf(robot, calibration.servo);
+  const steps = servo === undefined ? [] : stepsOf(servo).map((step) => ({ servo: servo.servo, step }));
+  return onward(robot, { ...calibration, done: [...calibration.done, ...steps] });
+}
+
 /** The partner took everything over: all that is left of it is its trim. */
 export function partnerDone(robot: Robot, calibration: Calibration, partner: number): Calibration {
   const taken = MIRRORED_STEPS.map((step) => ({ servo: partner, step }));
@@ -62,5 +70,12 @@ function onward(robot: Robot, calibration: Calibration): Calibration {
   const here = all.findIndex(({ servo, step }) => servo === calibration.servo && step === calibration.step);
   const inOrder = [...all.slice(here + 1), ...all.slice(0, here + 1)];
   const next = inOrder.find(({ servo, step }) => !isDone(calibration, servo, step));
+  if (next?.step === 'trim' && isAtCentre(robot, next.servo))
+    return stepDone(robot, { ...calibration, ...next });
   return { ...calibration, ...next };
+}
+
+/** Then there is nothing to trim, and nothing to ask. */
+function isAtCentre(robot: Robot, servo: number): boolean {
+  return servoOf(robot, servo)?.home === FAMILIES[robot.board].centre;
 }
