@@ -110,6 +110,13 @@ test('a figure that cannot be is kept in its field and says why; the others are 
   await robots.button('Undo: Lowest of Elbow').click();
   await expect(lowest).toHaveValue('500');
 
+  const place = robots.dialog.getByRole('button', { name: /^Servo 4, Elbow, at / });
+  const before = await place.getAttribute('aria-label');
+  await place.press('ArrowRight');
+  await expect(place).not.toHaveAttribute('aria-label', before ?? '');
+  await page.keyboard.press('ControlOrMeta+z');
+  await expect(place).toHaveAttribute('aria-label', before ?? '');
+
   await robots.button('Remove Base').click();
   await expect(robots.row('Servo 6, Base')).toBeHidden();
   await robots.button('Add servo').click();

@@ -8,6 +8,7 @@ import { useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import { CellField } from './CellField.tsx';
+import { PlaceEditor } from './PlaceEditor.tsx';
 import { RobotHead } from './RobotHead.tsx';
 import { ServoTable } from './ServoTable.tsx';
 import styles from './RobotEditor.module.css';
@@ -63,6 +64,7 @@ export function RobotEditor() {
       </div>
       <ServoTable />
       <AddServo />
+      <PlaceEditor />
     </>
   );
 }

@@ -37,5 +37,8 @@ export const robotEditorWords = {
   noName: 'A name has at least one letter.',
   reach: (min: number, max: number, unit: PositionUnit): string =>
     `The board turns it from ${formatWhole(min)} to ${formatWhole(max)} ${unitSymbol(unit)}`,
+  places: 'Places on the body',
+  placesHint:
+    'Drag each servo to where it sits on your robot, or push it with the arrow keys. Nothing moves.',
   hint: 'Enter goes on in the row below. What cannot be is not taken, and the field says why.',
 };

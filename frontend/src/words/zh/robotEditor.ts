@@ -36,5 +36,7 @@ export const robotEditorWords: typeof english = {
   notWhole: (text) => `“${text}”不是整数。`,
   noName: '名字至少要有一个字。',
   reach: (min, max, unit) => `控制板能转的范围：${formatWhole(min)}到${formatWhole(max)}${unitSymbol(unit)}`,
+  places: '在机身上的位置',
+  placesHint: '把每个舵机拖到它在机器人上的位置，或用方向键移动。机器人不会动。',
   hint: '按 Enter 跳到下一行。不合理的值不会被接受，旁边会说明原因。',
 };
