@@ -1,27 +1,111 @@
-"""Builds the wheel and looks whether the page is in it: without the page it would build all the same.
+"""Builds the wheel and uses it as a person who installed it would: in its own environment, without Node.
 
-Needs the built page. Knows the packaging only.
+Needs the built page, without which the wheel would build all the same. The libraries are those of the
+environment that runs this, so that nothing is fetched.
 """
 
+import os
+import re
+import signal
+import socket
 import subprocess
 import sys
+import sysconfig
 import tempfile
+import time
+import venv
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from zipfile import ZipFile
 
+import httpx2
+from websockets.sync.client import connect
+
 NEEDED = ("servodeck/static/index.html", "servodeck/__main__.py")
+STOP = bytes.fromhex("55550207")
+READY = re.compile(r"Servodeck is at (\S+)")
+END_S = 3.0
+BIN = "Scripts" if os.name == "nt" else "bin"
 
 
 def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
-        build = [sys.executable, "-m", "hatchling", "build", "--target", "wheel", "--directory", folder]
-        subprocess.run(build, check=True, stdout=subprocess.DEVNULL)
-        (wheel,) = Path(folder).glob("*.whl")
-        names = set(ZipFile(wheel).namelist())
-    missing = [name for name in NEEDED if name not in names]
-    for name in missing:
-        print(f"{wheel.name} lacks {name}")
-    return 1 if missing else 0
+        wheel = build(Path(folder))
+        missing = set(NEEDED) - set(ZipFile(wheel).namelist())
+        if missing:
+            print(f"{wheel.name} lacks {', '.join(sorted(missing))}")
+            return 1
+        if os.name == "posix":  # the end below is a signal
+            use(install(wheel, Path(folder) / "installed"), Path(folder))
+    return 0
+
+
+def build(folder: Path) -> Path:
+    command = [sys.executable, "-m", "hatchling", "build", "--target", "wheel", "--directory", str(folder)]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    (wheel,) = folder.glob("*.whl")
+    return wheel
+
+
+def install(wheel: Path, environment: Path) -> Path:
+    """The folder of the installed commands."""
+    venv.create(environment, symlinks=True)
+    commands = environment / BIN
+    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--python", str(commands / "python")]
+    subprocess.run([*pip, "install", "--quiet", "--no-deps", "--no-index", str(wheel)], check=True)
+    where = {"base": str(environment), "platbase": str(environment)}
+    packages = Path(sysconfig.get_path("purelib", "venv", where))
+    # A path inside such a file is taken as it stands: our own source beside those libraries is not seen.
+    (packages / "libraries.pth").write_text(sysconfig.get_path("purelib"))
+    return commands
+
+
+def use(commands: Path, folder: Path) -> None:
+    """Raises where anything is not as it should be."""
+    with socket.create_server(("127.0.0.1", 0)) as board, served(commands, folder, board) as process:
+        connection, _ = board.accept()
+        assert process.stdout
+        ready = READY.match(process.stdout.readline())
+        assert ready, "it does not say where it is"
+        assert connection.recv(100) == STOP, "the board hears something else than a stop at first"
+        ask(ready[1])
+        leave(process, connection)
+
+
+@contextmanager
+def served(commands: Path, folder: Path, board: socket.socket) -> Iterator["subprocess.Popen[str]"]:
+    serve = [str(commands / "servodeck"), "serve", "--listen", "127.0.0.1:0", "--no-open"]
+    more = ["--serial", f"socket://127.0.0.1:{board.getsockname()[1]}", "--data", str(folder / "data")]
+    # No Node, no source and no settings of whoever runs this.
+    variables = {"PATH": str(commands), "HOME": str(folder)}
+    process = subprocess.Popen([*serve, *more], stdout=subprocess.PIPE, text=True, env=variables, cwd=folder)
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def ask(url: str) -> None:
+    page = httpx2.get(url).raise_for_status().text
+    scripts = re.findall(r'src="\./(assets/[^"]+\.js)"', page)
+    assert scripts, "the page names no script"
+    for script in scripts:
+        httpx2.get(f"{url}/{script}").raise_for_status()
+    health = httpx2.get(f"{url}/api/health").json()
+    assert health["status"] == "ready", health
+    with connect(f"ws{url.removeprefix('http')}/ws", close_timeout=0) as client:
+        welcome = client.recv(5)
+        assert '"type":"welcome"' in str(welcome), welcome
+
+
+def leave(process: "subprocess.Popen[str]", board: socket.socket) -> None:
+    begun_s = time.monotonic()
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(END_S) == 0
+    assert time.monotonic() - begun_s <= END_S
+    assert board.recv(100).startswith(STOP), "it ends without a stop"
 
 
 if __name__ == "__main__":
