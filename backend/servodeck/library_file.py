@@ -87,9 +87,15 @@ def version_of(db: sqlite3.Connection) -> int:
 
 
 def back_up(db: sqlite3.Connection, path: Path) -> None:
-    path.unlink(missing_ok=True)
-    with closing(sqlite3.connect(path)) as copy:
-        db.backup(copy)
+    """Under its name only once it is whole: a copy cut by a full disk must not pass for one."""
+    half = path.with_name(f"{path.name}.part")
+    half.unlink(missing_ok=True)
+    try:
+        with closing(sqlite3.connect(half)) as copy:
+            db.backup(copy)
+        half.replace(path)
+    finally:
+        half.unlink(missing_ok=True)
 
 
 def set_aside(path: Path) -> str:
