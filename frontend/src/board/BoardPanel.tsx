@@ -11,6 +11,7 @@ import { words } from '../words/words.ts';
 import { Absent } from './Absent.tsx';
 import { DownloadControl } from './DownloadControl.tsx';
 import { EraseControl } from './EraseControl.tsx';
+import { PlaceControl } from './PlaceControl.tsx';
 import { RunControl } from './RunControl.tsx';
 import { SpeedControl } from './SpeedControl.tsx';
 import styles from './BoardPanel.module.css';
@@ -71,9 +72,12 @@ function SlotControl() {
           onRefused={(value) => notices.tell('warning', words.refused(words.board.slot, value, min, max))}
         />
       </div>
-      <div className={styles.about} role="status">
-        <Chip truth={FATE_TRUTH[fate]}>{words.board.slotBadge[fate]}</Chip>
-        <p>{words.board.slotAbout[fate]}</p>
+      <div>
+        <div className={styles.about} role="status">
+          <Chip truth={FATE_TRUTH[fate]}>{words.board.slotBadge[fate]}</Chip>
+          <p>{words.board.slotAbout[fate]}</p>
+        </div>
+        <PlaceControl />
       </div>
     </div>
   );

@@ -18,7 +18,7 @@ import { words } from '../words/words.ts';
 import styles from './BoardPanel.module.css';
 
 export function DownloadControl() {
-  const { compiled, notices, slots } = useStores();
+  const { compiled, library, notices, slots } = useStores();
   const { frames, unit } = useGroup();
   const slot = useView((state) => state.slot);
   const frameCount = useCompiled((state) => state.latest.frames.length);
@@ -35,7 +35,8 @@ export function DownloadControl() {
     const group = compiled.now();
     const { name } = group.source.group;
     const [problem] = obstacles(group.report, 'board');
-    if (problem === undefined) slots.download([{ slot, name, frames: group.frames }]);
+    const { openId: documentId } = library.store.getState();
+    if (problem === undefined) slots.download([{ slot, name, documentId, frames: group.frames }]);
     else notices.tell('warning', words.compile.problem(problem, group.source.group));
   };
   return (

@@ -3,6 +3,7 @@
 
 import { useRef } from 'react';
 import { poseAtMs } from '#shared/actions/group/tracks.ts';
+import { isSilent } from '../stores/servoView.ts';
 import { servoViewOf, useStores, type Stores } from '../stores/stores.ts';
 import { timesOf } from '../timeline/groupTimes.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
@@ -25,10 +26,10 @@ function reasonsOf(stores: Stores): readonly unknown[] {
   const { showsPreview, playheadMs } = stores.timeline.getState();
   const { authoring } = stores.view.getState();
   const { family } = stores.device.store.getState();
-  const { muted } = servoViewOf(stores);
+  const { muted, solo } = servoViewOf(stores);
   const { targets } = stores.blend.store.getState();
   const group = stores.document.store.getState().present;
-  return [group, showsPreview, playheadMs, authoring, family, muted, targets];
+  return [group, showsPreview, playheadMs, authoring, family, muted, solo, targets];
 }
 
 function previewOf(stores: Stores): Pose | null {
@@ -39,6 +40,6 @@ function previewOf(stores: Stores): Pose | null {
   const isShown = showsPreview && stores.view.getState().authoring === 'group';
   if (!isShown || group.unit !== stores.device.store.getState().family.unit) return null;
   const pose = poseAtMs(timesOf(group).tracks, playheadMs);
-  const { muted } = servoViewOf(stores);
-  return pose.size === 0 ? null : (servo) => (muted.includes(servo) ? null : (pose.get(servo) ?? null));
+  const view = servoViewOf(stores);
+  return pose.size === 0 ? null : (servo) => (isSilent(view, servo) ? null : (pose.get(servo) ?? null));
 }

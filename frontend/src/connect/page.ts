@@ -20,6 +20,7 @@ import { createLastPoses } from '../stores/lastPoses.ts';
 import { createMacroRun } from '../stores/macroRun.ts';
 import { createMacros } from '../stores/macros.ts';
 import { createMappings } from '../stores/mappings.ts';
+import { followPlace } from '../stores/groupPlace.ts';
 import { createMotionTape } from '../stores/motionTape.ts';
 import { createNotices } from '../stores/notices.ts';
 import { createPad } from '../stores/pad.ts';
@@ -68,7 +69,10 @@ export async function openPage(): Promise<Page> {
   const slots = createSlots({ device, robots, notices, storage, today: Date.now });
   const timeline = createTimeline();
   const playhead = createPlayhead(timeline);
-  const playback = createPlayback({ device, document: written, compiled, slots, notices, view, playhead });
+  const playback = createPlayback({
+    ...{ device, document: written, compiled, slots, notices, view, playhead, robots },
+    documentId: () => library.store.getState().openId,
+  });
   const stores = {
     ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
     ...{ compiled, slots, playhead, playback },
@@ -91,6 +95,7 @@ export async function openPage(): Promise<Page> {
   library.store.subscribe(({ openId }, before) => {
     if (openId !== before.openId) playhead.go(0);
   });
+  followPlace({ document: written, library, view });
   stores.view.subscribe(({ tab, kiosk }) => {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(false);
   });

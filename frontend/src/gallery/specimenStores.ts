@@ -56,7 +56,10 @@ export function specimenStores(family: Family, held: Gamepadlike | null = null):
     timeline,
     ...{ compiled, slots, playhead },
     tape: createMotionTape({ device, robots, clock: pageClock }),
-    playback: createPlayback({ device, document, compiled, slots, notices, view, playhead }),
+    playback: createPlayback({
+      ...{ device, document, compiled, slots, notices, view, playhead, robots },
+      documentId: () => library.store.getState().openId,
+    }),
     boards: createBoards(NO_STORAGE),
     lastPoses: createLastPoses(NO_STORAGE, device),
     macros: createMacros(NO_STORAGE, notices, robots),

@@ -1,21 +1,23 @@
 // Playing the group: from the page, from where the playhead is, or by the board itself, which gets it first where it has not just
 // this. What goes on is said in a line that is always there.
 
-import { fateOf } from '#shared/actions/slots/slotBook.ts';
 import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { SPEED_PERCENT, type PlaybackPhase } from '../stores/playback.ts';
+import { useFates } from '../slots/useFates.ts';
 import { motionHindrance, startHindrance } from '../stores/readiness.ts';
+import { isSilent } from '../stores/servoView.ts';
 import {
-  useCompiled,
   useDevice,
   useGroup,
   usePlayback,
-  useSlots,
+  useRobot,
+  useServoView,
   useSnapshot,
   useStores,
   useTimeline,
   useView,
 } from '../stores/stores.ts';
+import { timesOf } from '../timeline/groupTimes.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
@@ -141,19 +143,26 @@ function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
 /** Whether it downloads first is said before. */
 function useBoardHint(): string {
   const slot = useView((state) => state.slot);
-  const book = useSlots((state) => state.book);
-  const broken = useSnapshot((snapshot) => snapshot.brokenSlots);
-  const { fingerprint, source } = useCompiled((state) => state.latest);
-  const fate = fateOf(book, broken, slot, { name: source.group.name, fingerprint });
+  const fate = useFates()(slot);
   return fate === 'same' ? words.play.onBoardHint(slot) : words.play.onBoardDownloads(slot, fate === 'older');
 }
 
 function Phase({ phase }: { readonly phase: PlaybackPhase | null }) {
   const speedPercent = usePlayback((state) => state.speedPercent);
+  const silent = useSilentRows();
   const { playing, ...others } = words.play.phase;
+  const rests = silent.length === 0 ? '' : words.play.silent(silent);
   return (
     <p className={styles.phase} role="status">
-      {phase === null ? '' : phase === 'playing' ? playing(speedPercent / 100) : others[phase]}
+      {phase === null ? rests : phase === 'playing' ? playing(speedPercent / 100) : others[phase]}
     </p>
   );
+}
+
+/** The servos of the group that are muted, or beside those that play alone, by name. */
+function useSilentRows(): readonly string[] {
+  const { servos } = useRobot();
+  const tracks = timesOf(useGroup()).tracks;
+  const view = useServoView((one) => one);
+  return servos.filter(({ servo }) => tracks.has(servo) && isSilent(view, servo)).map(({ name }) => name);
 }

@@ -39,7 +39,10 @@ export async function createDesk(
   const compiled = createCompiled({ document, device, robots, clock });
   const slots = createSlots({ device, robots, notices, storage, today: () => clock.now() });
   const playhead = createPlayhead(createTimeline());
-  const playback = createPlayback({ device, document, compiled, slots, notices, view, playhead });
+  const playback = createPlayback({
+    ...{ device, document, compiled, slots, notices, view, playhead, robots },
+    documentId: () => 'at hand',
+  });
   device.attach(rig.session, way);
   const tape = createMotionTape({ device, robots, clock });
   const poses = createPoses({ storage, notices, robots, device });

@@ -4,6 +4,7 @@ import { insertFrame, type NewFrame } from '#shared/actions/group/groupEdits.ts'
 import { positionAt, tracksOf } from '#shared/actions/group/tracks.ts';
 import { words } from '../words/words.ts';
 import { createDesk } from './deskUnderTest.ts';
+import { INITIAL_SERVO_VIEW } from './servoView.ts';
 
 const frame = (durationMs: number, position: number, more: Partial<NewFrame> = {}): NewFrame => ({
   durationMs,
@@ -110,6 +111,39 @@ describe('playing from the page', () => {
     expect(compiled.now().frames.length).toBeGreaterThan(4);
   });
 
+  test('muted rows are not sent, nor those beside one that plays alone; time goes on without them', async () => {
+    const both = (durationMs: number, one: number, other: number): NewFrame => ({
+      durationMs,
+      targets: [
+        { servo: 1, position: one },
+        { servo: 2, position: other },
+      ],
+    });
+    const group = groupOf(both(400, 1000, 1500), both(400, 1600, 1500), both(600, 1600, 1800));
+    for (const silence of [{ muted: [2] }, { solo: [1] }]) {
+      const { playback, playhead, draw, moves, ofKind, view, robots, phase } = await deskWith(group);
+      view.setState({ servos: { ...INITIAL_SERVO_VIEW, robotId: robots.current().id, ...silence } });
+      playback.play();
+      await draw(1500 + 400 + 300);
+      expect(phase()).toBe('playing');
+      await draw(600);
+      expect(playhead.at()).toBe(1400);
+      expect(new Set(moves().flatMap(({ targets }) => targets.map(({ servo }) => servo)))).toEqual(
+        new Set([1]),
+      );
+      playback.step(-1);
+      await draw(2000);
+      expect(
+        moves()
+          .at(-1)
+          ?.targets.map(({ servo }) => servo),
+      ).toEqual([1]);
+      playback.runOnBoard();
+      await draw(2000);
+      expect(ofKind('download').map(({ frame: { targets } }) => targets.length)).toEqual([2, 2, 2]);
+    }
+  });
+
   test('a hidden page and STOP end it', async () => {
     for (const end of ['hidden', 'halt'] as const) {
       const { playback, device, draw, phase, activity } = await deskWith(WAVE);
@@ -208,6 +242,14 @@ describe('playing on the board', () => {
     await draw(100);
     expect(ofKind('download').length).toBe(3);
     expect(ofKind('run').length).toBe(2);
+  });
+
+  test('goes to the slot and runs as often as was chosen', async () => {
+    const { playback, view, draw, ofKind } = await deskWith(WAVE);
+    view.setState({ slot: 7, times: 3 });
+    playback.runOnBoard();
+    await draw(1000);
+    expect(ofKind('run')).toEqual([{ kind: 'run', slot: 7, times: 3 }]);
   });
 
   test('downloads again after an edit', async () => {

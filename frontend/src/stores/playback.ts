@@ -7,6 +7,7 @@ import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { frameEnds, poseAtMs, tracksOf } from '#shared/actions/group/tracks.ts';
 import { passMs } from '#shared/motion/motion.ts';
 import { fateOf, recordOf } from '#shared/actions/slots/slotBook.ts';
+import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Activity } from '#shared/session/state.ts';
 import { words } from '../words/words.ts';
 import { obstacles, type CompiledGroup, type CompiledStore } from './compiled.ts';
@@ -15,6 +16,8 @@ import type { Document } from './document.ts';
 import { createFollower, type FollowedPose } from './follower.ts';
 import type { Notices } from './notices.ts';
 import { startHindrance } from './readiness.ts';
+import type { RobotStore } from './robots.ts';
+import { isSilent, servoViewFor } from './servoView.ts';
 import type { Slots } from './slots.ts';
 import type { View } from './view.ts';
 
@@ -65,6 +68,9 @@ export interface PlaybackOptions {
   readonly notices: Notices;
   readonly view: View;
   readonly playhead: Playhead;
+  readonly robots: RobotStore;
+  /** Of the group at hand, in the library. */
+  documentId(): string;
 }
 
 const NEAR_END_MS = 100;
@@ -78,7 +84,7 @@ interface Following {
 }
 
 export function createPlayback(options: PlaybackOptions): Playback {
-  const { device, document, compiled, slots, notices, view, playhead } = options;
+  const { device, document, compiled, slots, notices, view, playhead, robots } = options;
   const { clock } = device;
   const store = createStore<PlaybackState>(() => ({
     ...{ speedPercent: 100, loops: false, isLive: false, phase: null },
@@ -88,7 +94,9 @@ export function createPlayback(options: PlaybackOptions): Playback {
 
   function poseAt(atMs: number): FollowedPose {
     const pose = poseAtMs(tracksOf(document.store.getState().present), atMs);
-    return new Map([...pose].map(([servo, position]) => [servo, Math.round(position)]));
+    return new Map(
+      [...pose].flatMap(([servo, position]) => (isSent({ servo }) ? [[servo, Math.round(position)]] : [])),
+    );
   }
 
   function followPlayhead(): void {
@@ -125,7 +133,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
     const at = playhead.at();
     const begin = range?.fromMs ?? 0;
     const isWithin = at > begin && at < (range?.toMs ?? Infinity);
-    return passageOf(frames, {
+    return passageOf(frames.map(heard), {
       fromMs: isWithin && !loops ? at : begin,
       toMs: range?.toMs ?? null,
       longestMs: source.family.durationMs.max,
@@ -135,6 +143,13 @@ export function createPlayback(options: PlaybackOptions): Playback {
         .filter((servo) => device.motion(servo).estimated === null),
     });
   }
+
+  /** Rows that are muted, or beside those that play alone, are not sent. */
+  function isSent({ servo }: Pick<ServoTarget, 'servo'>): boolean {
+    return !isSilent(servoViewFor(view.getState().servos, robots.current().id), servo);
+  }
+
+  const heard = (frame: Frame): Frame => ({ ...frame, targets: frame.targets.filter(isSent) });
 
   function play(): void {
     const group = playable('page');
@@ -155,11 +170,11 @@ export function createPlayback(options: PlaybackOptions): Playback {
     if (group === null) return;
     const { slot } = view.getState();
     const { brokenSlots } = device.store.getState().snapshot;
-    const { name } = group.source.group;
-    const fate = fateOf(slots.store.getState().book, brokenSlots, slot, { ...group, name });
+    const own = { name: group.source.group.name, documentId: options.documentId() };
+    const fate = fateOf(slots.store.getState().book, brokenSlots, slot, { ...group, ...own });
     if (fate === 'same') return run(slot);
     phase('storing');
-    slots.download([{ slot, name, frames: group.frames }], (isDone) => {
+    slots.download([{ slot, ...own, frames: group.frames }], (isDone) => {
       if (isDone) run(slot);
       else phase(null);
     });
@@ -167,7 +182,9 @@ export function createPlayback(options: PlaybackOptions): Playback {
 
   function run(slot: number): void {
     phase('running');
-    device.run(slot, store.getState().loops ? 0 : 1, (isTaken) => {
+    const { times, untilStopped } = view.getState();
+    const isEndless = untilStopped || store.getState().loops;
+    device.run(slot, isEndless ? 0 : times, (isTaken) => {
       if (!isTaken) phase(null);
     });
   }

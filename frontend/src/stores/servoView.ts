@@ -20,10 +20,10 @@ export interface ServoView {
   /** In the order of selecting: the last one is the one at hand. */
   readonly selected: readonly number[];
   readonly locked: readonly number[];
-  /** Not empty: all others are as if locked. */
+  /** Not empty: all others are as if locked, and as if muted. */
   readonly solo: readonly number[];
   readonly hidden: readonly number[];
-  /** Their keys stay in the group and move nothing. */
+  /** Their keys stay in the group and move nothing from the page. */
   readonly muted: readonly number[];
   /** Groups of which only the header is shown. */
   readonly folded: readonly string[];
@@ -54,8 +54,13 @@ export function servoViewFor(view: ServoView, robotId: number): ServoView {
 }
 
 /** Nothing of the servo panel moves it. */
-export function isHeld({ locked, solo }: ServoView, servo: number): boolean {
+export function isHeld({ locked, solo }: Pick<ServoView, 'locked' | 'solo'>, servo: number): boolean {
   return locked.includes(servo) || (solo.length > 0 && !solo.includes(servo));
+}
+
+/** Nothing of the group is sent to it from the page. */
+export function isSilent({ muted, solo }: Pick<ServoView, 'muted' | 'solo'>, servo: number): boolean {
+  return muted.includes(servo) || (solo.length > 0 && !solo.includes(servo));
 }
 
 export function select(view: ServoView, selected: readonly number[]): ServoView {

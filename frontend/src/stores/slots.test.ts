@@ -5,8 +5,8 @@ import type { Way } from './device.ts';
 
 const USB: Way = { kind: 'webSerial', label: 'USB 1A86:7523', isSimulated: false };
 const at = (position: number) => [{ durationMs: 400, targets: [{ servo: 1, position }] }];
-const WAVE = { slot: 5, name: 'Wave', frames: at(1000) };
-const BOW = { slot: 9, name: 'Bow', frames: [...at(1200), ...at(1400)] };
+const WAVE = { slot: 5, name: 'Wave', documentId: 'wave', frames: at(1000) };
+const BOW = { slot: 9, name: 'Bow', documentId: 'bow', frames: [...at(1200), ...at(1400)] };
 
 async function openDesk(...args: Parameters<typeof createDesk>) {
   const desk = await createDesk(...args);

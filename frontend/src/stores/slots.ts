@@ -10,8 +10,8 @@ import {
   withErasing,
   withStored,
   type SlotBook,
+  type SlotRecord,
 } from '#shared/actions/slots/slotBook.ts';
-import type { Frame } from '#shared/protocol/commands.ts';
 import { words } from '../words/words.ts';
 import { nameOf } from './boards.ts';
 import { boardFingerprint } from './compiled.ts';
@@ -20,11 +20,7 @@ import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';
 import type { RobotStore } from './robots.ts';
 
-export interface SlotDownload {
-  readonly slot: number;
-  readonly name: string;
-  readonly frames: readonly Frame[];
-}
+export type SlotDownload = Pick<SlotRecord, 'slot' | 'name' | 'documentId' | 'frames'>;
 
 export interface SlotJob {
   readonly count: number;
@@ -101,9 +97,11 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     if (isErasing(state) && !isErasing(before)) keep(withErasing(store.getState().book));
   });
 
-  function note({ slot, name, frames }: SlotDownload): void {
+  function note({ slot, name, documentId, frames }: SlotDownload): void {
     const fingerprint = boardFingerprint(robots.current().robot, frames);
-    keep(withStored(store.getState().book, { slot, name, frames, fingerprint, storedAtMs: today() }));
+    keep(
+      withStored(store.getState().book, { slot, name, documentId, frames, fingerprint, storedAtMs: today() }),
+    );
   }
 
   function download(groups: readonly SlotDownload[], settled: Settled = () => undefined): void {

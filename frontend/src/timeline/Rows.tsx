@@ -2,7 +2,7 @@
 // over the lanes a cell for each key, in its place, which the eye sees painted. Only what is in sight is there.
 
 import { memo } from 'react';
-import { isHeld, toggled } from '../stores/servoView.ts';
+import { isHeld, isSilent, toggled } from '../stores/servoView.ts';
 import { editServoView, useStores } from '../stores/stores.ts';
 import { keyName } from '../stores/keySet.ts';
 import { Icon } from '../ui/Icon.tsx';
@@ -129,7 +129,7 @@ function Head({ desk, placed: { row }, openRowMenu }: HeadProps) {
       </button>
       {row.kind === 'servo' && (
         <>
-          <Marks isLocked={isHeld(servoView, servo)} isMuted={servoView.muted.includes(servo)} />
+          <Marks isLocked={isHeld(servoView, servo)} isMuted={isSilent(servoView, servo)} />
           <span className={styles.value} data-value={servo} aria-hidden="true" />
         </>
       )}

@@ -3,7 +3,7 @@
 import type { Marker } from '#shared/actions/group/group.ts';
 import type { Key } from '#shared/actions/group/tracks.ts';
 import { positionRange, type Family, type Range } from '#shared/protocol/families.ts';
-import { isHeld } from '../stores/servoView.ts';
+import { isHeld, isSilent } from '../stores/servoView.ts';
 import { ALL_ROW, type TimelineState } from '../stores/timeline.ts';
 import type { GroupTimes } from './groupTimes.ts';
 import type { Desk } from './desk.ts';
@@ -38,7 +38,7 @@ export function sceneOf(desk: Desk, sizes: Sizes): Scene {
     all: placedAll(all, sizes),
     rows: rowsInSight(placedRows(rest, sizes), state.scrollTop, state.heightPx, sizes),
     held: isOf((servo) => isHeld(servoView, servo)),
-    muted: isOf((servo) => servoView.muted.includes(servo)),
+    muted: isOf((servo) => isSilent(servoView, servo)),
   };
 }
 

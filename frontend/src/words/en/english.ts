@@ -277,6 +277,13 @@ export const english = {
   board: {
     title: 'Board',
     slot: 'Slot',
+    /** What the group at hand says of itself. */
+    place: (slot: number | null, times: number): string =>
+      `This group: ${slot === null ? 'no slot of its own' : `slot ${formatWhole(slot)}`}, ${timesWords(times)}`,
+    keepPlace: 'Keep in the group',
+    keepPlaceHint:
+      'The slot and the times chosen here become this group’s own, for the next time it is opened',
+    steps: { place: 'slot and times' },
     slotAbout: {
       broken: 'Broken: its download did not finish. Download again before running it.',
       stored: 'Holds what was downloaded here.',

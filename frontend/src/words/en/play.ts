@@ -1,6 +1,6 @@
 // Words about playing the group, from the page and on the board.
 
-import { formatPercent, formatSeconds, formatWhole } from './numbers.ts';
+import { formatNames, formatPercent, formatSeconds, formatWhole } from './numbers.ts';
 
 export const playWords = {
   tools: 'Play the group',
@@ -15,6 +15,8 @@ export const playWords = {
     isOlder
       ? `The copy in slot ${formatWhole(slot)} is older: downloads this group first, then runs it`
       : `Downloads to slot ${formatWhole(slot)} first, then runs it`,
+  silent: (names: readonly string[]): string =>
+    `Not sent from here: ${formatNames(names)}. The board plays every row.`,
   back: 'A frame back',
   forth: 'A frame on',
   loop: 'Loop',

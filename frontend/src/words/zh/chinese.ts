@@ -264,6 +264,11 @@ export const chinese: Words = {
   board: {
     title: '控制板',
     slot: '槽位',
+    place: (slot, times) =>
+      `这个动作组：${slot === null ? '没有自己的槽位' : `槽位${formatWhole(slot)}`}，${timesWords(times)}`,
+    keepPlace: '记在动作组里',
+    keepPlaceHint: '这里选的槽位和次数成为这个动作组自己的，下次打开时使用',
+    steps: { place: '槽位和次数' },
     slotAbout: {
       broken: '已损坏：下载没有完成。运行前请重新下载。',
       stored: '存有从这里下载的内容。',

@@ -1,7 +1,7 @@
 // Words about playing the group, from the page and on the board.
 
 import type { playWords as english } from '../en/play.ts';
-import { formatPercent, formatSeconds, formatWhole } from './numbers.ts';
+import { formatNames, formatPercent, formatSeconds, formatWhole } from './numbers.ts';
 
 export const playWords: typeof english = {
   tools: '播放动作组',
@@ -16,6 +16,7 @@ export const playWords: typeof english = {
     isOlder
       ? `槽位${formatWhole(slot)}里是旧版本：先下载这个动作组，再运行`
       : `先下载到槽位${formatWhole(slot)}，再运行`,
+  silent: (names) => `不从页面发送：${formatNames(names)}。控制板会播放每一行。`,
   back: '后退一帧',
   forth: '前进一帧',
   loop: '循环',

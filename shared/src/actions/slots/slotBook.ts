@@ -12,6 +12,8 @@ const recordSchema = z.strictObject({
   slot: whole(255),
   /** The group's. */
   name: z.string().check(z.maxLength(GROUP_NAME_LENGTH)),
+  /** The library's; books of earlier versions name none. */
+  documentId: z.optional(z.string()),
   /** Since 1970. */
   storedAtMs: z.number(),
   /** Of the frames as the board got them, with the trims of that day. */
@@ -37,6 +39,8 @@ const fileSchema = z.strictObject({
 export interface SlotRecord {
   readonly slot: number;
   readonly name: string;
+  /** Which document of the library it is; null where nobody noted it. */
+  readonly documentId: string | null;
   readonly storedAtMs: number;
   readonly fingerprint: string;
   readonly frames: readonly Frame[];
@@ -83,19 +87,25 @@ export function fateOf(
   book: SlotBook,
   broken: readonly number[],
   slot: number,
-  group: Pick<SlotRecord, 'name' | 'fingerprint'> | null,
+  group: Pick<SlotRecord, 'name' | 'documentId' | 'fingerprint'> | null,
 ): SlotFate {
   if (broken.includes(slot)) return 'broken';
   const record = recordOf(book, slot);
   if (record === undefined) return book.isEmptied ? 'empty' : 'unknown';
   if (record.fingerprint === group?.fingerprint) return 'same';
-  return record.name === group?.name ? 'older' : 'other';
+  return group !== null && isOf(record, group) ? 'older' : 'other';
+}
+
+/** A name may change, and two may have the same. */
+function isOf(record: SlotRecord, group: Pick<SlotRecord, 'name' | 'documentId'>): boolean {
+  return record.documentId === null ? record.name === group.name : record.documentId === group.documentId;
 }
 
 export function slotBookToText({ stored, erased, isEmptied }: SlotBook): string {
   const packed = (records: readonly SlotRecord[]) =>
-    records.map((record) => ({
+    records.map(({ documentId, ...record }) => ({
       ...record,
+      ...(documentId !== null && { documentId }),
       frames: record.frames.map(({ durationMs, targets }) => [
         durationMs,
         ...targets.flatMap(({ servo, position }) => [servo, position]),
@@ -113,7 +123,7 @@ export function slotBookFromText(text: string): Read<SlotBook> {
 }
 
 function unpacked(record: z.infer<typeof recordSchema>): SlotRecord {
-  return { ...record, frames: record.frames.map(frameOf) };
+  return { ...record, documentId: record.documentId ?? null, frames: record.frames.map(frameOf) };
 }
 
 function frameOf([durationMs = 0, ...pairs]: readonly number[]): Frame {

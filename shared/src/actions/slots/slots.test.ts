@@ -20,7 +20,7 @@ const at = (durationMs: number, ...positions: readonly number[]) => ({
 const WAVE = [at(400, 1000, 1500), at(600, 2000, 1500)];
 
 const record = (slot: number, name = 'Wave', frames = WAVE): SlotRecord => ({
-  ...{ slot, name, frames, storedAtMs: 1_700_000_000_000 },
+  ...{ slot, name, frames, documentId: `id of ${name}`, storedAtMs: 1_700_000_000_000 },
   fingerprint: fingerprintOf(frames),
 });
 
@@ -57,8 +57,8 @@ describe('a fingerprint', () => {
 });
 
 describe('the book of slots', () => {
-  const group = { name: 'Wave', fingerprint: fingerprintOf(WAVE) };
-  const edited = { name: 'Wave', fingerprint: 'another' };
+  const group = { name: 'Wave', documentId: 'id of Wave', fingerprint: fingerprintOf(WAVE) };
+  const edited = { ...group, fingerprint: 'another' };
 
   test('says of a slot what anybody can know', () => {
     const book = withStored(withStored(EMPTY_SLOT_BOOK, record(5)), record(7, 'Bow', [at(100, 1200)]));
@@ -68,6 +68,24 @@ describe('the book of slots', () => {
     expect(fateOf(book, [], 8, group)).toBe('unknown');
     expect(fateOf(book, [5], 5, group)).toBe('broken');
     expect(fateOf(book, [], 5, null)).toBe('other');
+  });
+
+  test('knows a group that was renamed, and one that only has the name', () => {
+    const book = withStored(EMPTY_SLOT_BOOK, record(5));
+    expect(fateOf(book, [], 5, { ...edited, name: 'Greeting' })).toBe('older');
+    expect(fateOf(book, [], 5, { ...edited, documentId: 'id of another' })).toBe('other');
+  });
+
+  test('of an earlier version is read, and goes by names', () => {
+    const book = { stored: [{ ...record(5), frames: [[400, 1, 1000]] }], erased: [], isEmptied: false };
+    const text = JSON.stringify(
+      { format: 'servodeck-slots', version: 1, content: book },
+      (key, value: unknown) => (key === 'documentId' ? undefined : value),
+    );
+    const read = slotBookFromText(text);
+    if (!('value' in read)) throw new Error(read.problem);
+    expect(fateOf(read.value, [], 5, edited)).toBe('older');
+    expect(JSON.parse(slotBookToText(read.value))).toEqual(JSON.parse(text));
   });
 
   test('a copy of the very same motion is up to date under any name', () => {

@@ -1,0 +1,36 @@
+// Where the group at hand belongs and how often it is run, as it says itself; what is chosen above can be kept in it.
+
+import { setMeta } from '#shared/actions/group/groupEdits.ts';
+import { chosenPlace } from '../stores/groupPlace.ts';
+import { useGroup, useStores, useView } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../words/words.ts';
+import styles from './BoardPanel.module.css';
+
+export function PlaceControl() {
+  const { document, view } = useStores();
+  const { slot, times, frames } = useGroup();
+  const isKept = useView((state) => {
+    const chosen = chosenPlace(state);
+    return chosen.slot === slot && chosen.times === times;
+  });
+  const keep = (): void =>
+    document.edit(
+      () => words.board.steps.place,
+      (group) => setMeta(group, chosenPlace(view.getState())),
+    );
+  return (
+    <div className={styles.place}>
+      <p className={styles.hint}>{words.board.place(slot, times)}</p>
+      <Button
+        tone="quiet"
+        icon="save"
+        hint={words.board.keepPlaceHint}
+        isDisabled={isKept || frames.length === 0}
+        onPress={keep}
+      >
+        {words.board.keepPlace}
+      </Button>
+    </div>
+  );
+}
