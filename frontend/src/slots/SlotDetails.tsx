@@ -17,7 +17,8 @@ import styles from './Slots.module.css';
 
 const VERSION_LENGTH = 6;
 
-export function SlotDetails() {
+/** `onSeveral`: several groups shall be downloaded; null where the board takes none. */
+export function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | null }) {
   const slot = useView((state) => state.slot);
   const { id, commands } = useDevice((state) => state.family);
   const record = useSlots((state) => recordOf(state.book, slot));
@@ -42,6 +43,11 @@ export function SlotDetails() {
       {trigger !== null && <p className={styles.warning}>{words.slots.trigger(trigger)}</p>}
       <Verbs />
       {commands.includes('download') && <DownloadControl />}
+      {onSeveral !== null && (
+        <Button icon="download" onPress={onSeveral}>
+          {words.slots.several.open}
+        </Button>
+      )}
       <Restore />
     </section>
   );

@@ -1,9 +1,11 @@
 // Opens the map of the board's slots.
 
 import { useState } from 'react';
+import { useDevice } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { words } from '../words/words.ts';
+import { SeveralGroups } from './SeveralGroups.tsx';
 import { SlotDetails } from './SlotDetails.tsx';
 import { SlotMap } from './SlotMap.tsx';
 import styles from './Slots.module.css';
@@ -28,13 +30,19 @@ export function SlotsControl() {
   );
 }
 
-export function SlotBoard() {
+export function SlotBoard({ isSeveralFirst = false }: { readonly isSeveralFirst?: boolean }) {
+  const [isSeveral, setSeveral] = useState(isSeveralFirst);
+  const canDownload = useDevice((state) => state.family.commands.includes('download'));
   return (
     <>
       <p className={styles.intro}>{words.slots.intro}</p>
       <div className={styles.sides}>
         <SlotMap />
-        <SlotDetails />
+        {isSeveral && canDownload ? (
+          <SeveralGroups onBack={() => setSeveral(false)} />
+        ) : (
+          <SlotDetails onSeveral={canDownload ? () => setSeveral(true) : null} />
+        )}
       </div>
     </>
   );

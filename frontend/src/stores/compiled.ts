@@ -38,6 +38,8 @@ export interface CompiledStore {
   readonly store: StoreApi<CompiledState>;
   /** Of the group as it is now. */
   now(): CompiledGroup;
+  /** Of another group, under the same error. */
+  of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>): CompiledGroup;
   setMaxError(units: number): void;
 }
 
@@ -98,6 +100,8 @@ export function createCompiled({ document, device, robots, clock }: CompiledOpti
   return {
     store,
     now,
+    of: (group, { family, robot }) =>
+      compiled({ group, family, robot, maxErrorUnits: store.getState().maxErrorUnits[family.unit] }),
     setMaxError(units) {
       const { family } = device.store.getState();
       store.setState((state) => ({ maxErrorUnits: { ...state.maxErrorUnits, [family.unit]: units } }));

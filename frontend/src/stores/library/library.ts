@@ -46,6 +46,8 @@ export interface Library extends LibraryFiles {
   /** Keeps a group as a new document, without showing it. */
   add(group: ActionGroup): void;
   open(id: string): Promise<void>;
+  /** Null where it cannot be read. */
+  group(id: string): Promise<ActionGroup | null>;
   duplicate(id: string): Promise<void>;
   /** Changes any document; the one that is shown undoably. */
   change(id: string, label: Label, edit: (group: ActionGroup) => ActionGroup): Promise<void>;
@@ -254,6 +256,11 @@ export function createLibrary(options: LibraryOptions): Library {
     create,
     add: (group) => put(newId(), groupToText(group)),
     open: (id) => attempt(open(id)),
+    group: (id) =>
+      read(id).catch((error: unknown) => {
+        tell(error);
+        return null;
+      }),
     change: (id, label, edit) => attempt(change(id, label, edit)),
     duplicate: (id) =>
       attempt(

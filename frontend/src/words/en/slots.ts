@@ -67,5 +67,19 @@ export const slotWords = {
   restoreAll: (count: number): string => `Restore all ${formatCount(count)}`,
   restoreHint: 'Downloads again what the last erase took',
   job: (done: number, count: number): string => `${formatCount(done)} of ${formatCount(count)} groups`,
+  several: {
+    open: 'Download several',
+    title: 'Download several groups',
+    hint: 'Each goes to its own slot, one after the other.',
+    list: 'Groups of the library',
+    about: (count: number, durationMs: number): string =>
+      `${frameCount(count)}, ${formatSeconds(durationMs)}`,
+    slotOf: (name: string): string => `Slot for ${name}`,
+    sameSlot: (slot: number): string => `${slotName(slot)} is wanted twice.`,
+    total: (count: number, frames: number, downloadMs: number): string =>
+      `${formatCount(count)} ${count === 1 ? 'group' : 'groups'}, ${frameCount(frames)} on the board, about ${formatSeconds(downloadMs)} to download`,
+    download: 'Download these',
+    back: 'Back to one slot',
+  },
   notSaved: 'The browser does not store what is on the board; it is known until the page is closed.',
 };

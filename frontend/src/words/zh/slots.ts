@@ -68,5 +68,18 @@ export const slotWords: typeof english = {
   restoreAll: (count) => `全部恢复（${formatCount(count)}）`,
   restoreHint: '重新下载上次擦除的内容',
   job: (done, count) => `${formatCount(done)}/${formatCount(count)}个动作组`,
+  several: {
+    open: '下载多个',
+    title: '下载多个动作组',
+    hint: '依次下载，每个放进自己的槽位。',
+    list: '库里的动作组',
+    about: (count, durationMs) => `${frameCount(count)}，${formatSeconds(durationMs)}`,
+    slotOf: (name) => `${name}的槽位`,
+    sameSlot: (slot) => `${slotName(slot)}被用了两次。`,
+    total: (count, frames, downloadMs) =>
+      `${formatCount(count)}个动作组，控制板上${frameCount(frames)}，下载约${formatSeconds(downloadMs)}`,
+    download: '下载这些',
+    back: '回到单个槽位',
+  },
   notSaved: '浏览器不能保存控制板上有什么；关闭页面前它一直知道。',
 };

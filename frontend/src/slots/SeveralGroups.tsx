@@ -1,0 +1,135 @@
+// Several groups of the library for the board: which ones, to which slots, whether each fits; then one download with one progress.
+
+import { useEffect, useMemo, useState } from 'react';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { Listed } from '#shared/actions/library/keeper.ts';
+import { DownloadProgress } from '../board/DownloadProgress.tsx';
+import { startHindrance } from '../stores/readiness.ts';
+import { useDevice, useLibrary, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { NumberField } from '../ui/NumberField.tsx';
+import { words } from '../words/words.ts';
+import { downloadOf, hindranceOf, slotFor, type Wanted } from './several.ts';
+import styles from './Slots.module.css';
+
+interface Pick {
+  readonly documentId: string;
+  readonly slot: number;
+  readonly group: ActionGroup;
+}
+
+export function SeveralGroups({ onBack }: { onBack(): void }) {
+  const { library, slots } = useStores();
+  const documents = useLibrary((state) => state.documents).filter(({ isRemoved }) => !isRemoved);
+  const { wanted, toggle, setSlot } = useWanted();
+  const mayStart = useSnapshot((snapshot) => startHindrance(snapshot) === null);
+  const isReady = wanted.length > 0 && wanted.every((one) => hindranceOf(one, wanted) === null);
+  useEffect(() => void library.refresh(), [library]);
+  return (
+    <section className={styles.details} aria-label={words.slots.several.title}>
+      <h3>{words.slots.several.title}</h3>
+      <p className={styles.dim}>{words.slots.several.hint}</p>
+      <ul className={styles.groups} aria-label={words.slots.several.list}>
+        {documents.map((document) => (
+          <Group
+            key={document.id}
+            {...{ document, toggle, setSlot, all: wanted }}
+            one={wanted.find(({ documentId }) => documentId === document.id)}
+          />
+        ))}
+      </ul>
+      <p className={styles.dim} role="status">
+        {words.slots.several.total(
+          wanted.length,
+          wanted.reduce((sum, { compiled }) => sum + compiled.frames.length, 0),
+          wanted.reduce((sum, { compiled }) => sum + (compiled.report.downloadMs ?? 0), 0),
+        )}
+      </p>
+      <div className={styles.verbs}>
+        <Button
+          tone="primary"
+          icon="download"
+          isDisabled={!mayStart || !isReady}
+          onPress={() => slots.download(wanted.map(downloadOf))}
+        >
+          {words.slots.several.download}
+        </Button>
+        <Button onPress={onBack}>{words.slots.several.back}</Button>
+      </div>
+      <DownloadProgress />
+    </section>
+  );
+}
+
+/** Compiled anew where the board, the robot or what is wanted is another one. */
+function useWanted() {
+  const { library, compiled, slots, device } = useStores();
+  const family = useDevice((state) => state.family);
+  const robot = useRobot();
+  const [picks, setPicks] = useState<readonly Pick[]>([]);
+  const wanted = useMemo(
+    () =>
+      picks.map(({ group, ...pick }): Wanted => ({
+        ...pick,
+        compiled: compiled.of(group, { family, robot }),
+      })),
+    [picks, compiled, family, robot],
+  );
+
+  async function toggle(documentId: string): Promise<void> {
+    if (picks.some((pick) => pick.documentId === documentId))
+      return setPicks((before) => before.filter((pick) => pick.documentId !== documentId));
+    const group = await library.group(documentId);
+    if (group === null) return;
+    setPicks((before) => {
+      const taken = before.map(({ slot }) => slot);
+      const { book } = slots.store.getState();
+      const slot = slotFor(group.slot, book, taken, device.store.getState().family.slot);
+      return [...before.filter((pick) => pick.documentId !== documentId), { documentId, slot, group }];
+    });
+  }
+
+  return {
+    wanted,
+    toggle,
+    setSlot: (documentId: string, slot: number): void =>
+      setPicks((before) => before.map((pick) => (pick.documentId === documentId ? { ...pick, slot } : pick))),
+  };
+}
+
+interface GroupProps {
+  readonly document: Listed;
+  /** Where it is wanted. */
+  readonly one: Wanted | undefined;
+  readonly all: readonly Wanted[];
+  toggle(documentId: string): Promise<void>;
+  setSlot(documentId: string, slot: number): void;
+}
+
+function Group({ document: { id, facts }, one, all, toggle, setSlot }: GroupProps) {
+  const { notices } = useStores();
+  const { min, max } = useDevice((state) => state.family.slot);
+  const label = words.slots.several.slotOf(facts.name);
+  const hindrance = one === undefined ? null : hindranceOf(one, all);
+  return (
+    <li className={styles.group}>
+      <label className={styles.choice}>
+        <input type="checkbox" checked={one !== undefined} onChange={() => void toggle(id)} />
+        <span className={styles.held}>{facts.name}</span>
+        <span className={styles.dim}>{words.slots.several.about(facts.frames, facts.durationMs)}</span>
+      </label>
+      {one !== undefined && (
+        <NumberField
+          label={label}
+          size="small"
+          value={one.slot}
+          min={min}
+          max={max}
+          onChange={(slot) => setSlot(id, slot)}
+          onRefused={(slot) => notices.tell('warning', words.refused(label, slot, min, max))}
+        />
+      )}
+      {hindrance !== null && <p className={styles.warning}>{hindrance}</p>}
+    </li>
+  );
+}

@@ -1,0 +1,39 @@
+import { expect, test } from 'vitest';
+import { emptyGroup } from '#shared/actions/group/group.ts';
+import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { EMPTY_SLOT_BOOK, withStored } from '#shared/actions/slots/slotBook.ts';
+import { createDesk } from '../stores/deskUnderTest.ts';
+import { downloadOf, hindranceOf, slotFor, type Wanted } from './several.ts';
+
+const RANGE = { min: 0, max: 3 };
+
+test('a group goes to its own slot, else to the first one in which nothing is known to be', () => {
+  const record = { slot: 1, name: 'Wave', documentId: null, storedAtMs: 0, fingerprint: '', frames: [] };
+  const book = withStored(EMPTY_SLOT_BOOK, record);
+  expect(slotFor(1, book, [1], RANGE)).toBe(1);
+  expect(slotFor(null, book, [0], RANGE)).toBe(2);
+  expect(slotFor(9, book, [], RANGE)).toBe(0);
+  expect(slotFor(null, book, [0, 2, 3], RANGE)).toBe(0);
+});
+
+test('what does not fit, is empty or wants the slot of another is told; the rest can be downloaded', async () => {
+  const { compiled, device, robots } = await createDesk();
+  const on = { family: device.store.getState().family, robot: robots.current().robot };
+  const wantedOf = (documentId: string, slot: number, ...positions: readonly number[]): Wanted => {
+    const group = positions.reduce(
+      (sum, position) => insertFrame(sum, 9, { durationMs: 400, targets: [{ servo: 1, position }] }),
+      emptyGroup(documentId, 'us'),
+    );
+    return { documentId, slot, compiled: compiled.of(group, on) };
+  };
+  const [wave, bow, far, none] = [
+    wantedOf('wave', 1, 1000, 1200),
+    wantedOf('bow', 2, 1000),
+    wantedOf('far', 3, 2600),
+    wantedOf('none', 4),
+  ];
+  const hindrances = [wave, bow, far, none].map((one) => hindranceOf(one, [wave, bow, far, none]));
+  expect(hindrances.map((text) => text !== null)).toEqual([false, false, true, true]);
+  expect(hindranceOf(bow, [{ ...wave, slot: 2 }, bow])).toBe('Slot 2 is wanted twice.');
+  expect(downloadOf(wave)).toMatchObject({ documentId: 'wave', slot: 1, name: 'wave', frames: [{}, {}] });
+});

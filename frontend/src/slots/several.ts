@@ -1,0 +1,40 @@
+// Several groups that are to go to the board at once: which slot each takes, and what keeps one of them from it. Pure.
+
+import type { SlotBook } from '#shared/actions/slots/slotBook.ts';
+import type { Range } from '#shared/protocol/families.ts';
+import { obstacles, type CompiledGroup } from '../stores/compiled.ts';
+import type { SlotDownload } from '../stores/slots.ts';
+import { words } from '../words/words.ts';
+
+export interface Wanted {
+  readonly documentId: string;
+  readonly slot: number;
+  readonly compiled: CompiledGroup;
+}
+
+/** The group's own, else the first one in which nothing is known to be and nothing else shall go. */
+export function slotFor(
+  own: number | null,
+  { stored }: Pick<SlotBook, 'stored'>,
+  taken: readonly number[],
+  { min, max }: Range,
+): number {
+  if (own !== null && own >= min && own <= max) return own;
+  const full = new Set([...taken, ...stored.map(({ slot }) => slot)]);
+  for (let slot = min; slot <= max; slot++) if (!full.has(slot)) return slot;
+  return min;
+}
+
+/** In words; null where it can go. */
+export function hindranceOf(one: Wanted, all: readonly Wanted[]): string | null {
+  const { group } = one.compiled.source;
+  const [problem] = obstacles(one.compiled.report, 'board');
+  if (problem !== undefined) return words.compile.problem(problem, group);
+  if (group.frames.length === 0) return words.board.nothingToDownload;
+  const isTaken = all.some((other) => other !== one && other.slot === one.slot);
+  return isTaken ? words.slots.several.sameSlot(one.slot) : null;
+}
+
+export function downloadOf({ documentId, slot, compiled }: Wanted): SlotDownload {
+  return { documentId, slot, name: compiled.source.group.name, frames: compiled.frames };
+}
