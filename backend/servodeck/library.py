@@ -119,6 +119,13 @@ class Library:
             require_room(db, "version WHERE document = ?", (document,), MAX_VERSIONS)
             db.execute("INSERT OR REPLACE INTO version VALUES (?, ?, ?, ?, ?)", (document, *version, text))
 
+    def remove_version(self, document: str, version: str) -> None:
+        """For good."""
+        with self._transaction() as db:
+            key = (document, version)
+            found(db.execute("SELECT id FROM version WHERE document = ? AND id = ?", key))
+            db.execute("DELETE FROM version WHERE document = ? AND id = ?", key)
+
     def close(self) -> None:
         """Left to the file's own journal where a request still waits for the disk."""
         if self._lock.acquire(timeout=CLOSE_WAIT_S):

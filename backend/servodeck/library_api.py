@@ -109,6 +109,12 @@ def keep_version(document: Id, version: Id, wanted: VersionWrite, library: Kept)
     library.keep_version(document, Version(version, wanted.name, wanted.at_ms), wanted.text)
 
 
+@library_api.delete("/{document}/versions/{version}", status_code=204)
+def remove_version(document: Id, version: Id, library: Kept) -> None:
+    """That version goes for good; the document and its other versions stay."""
+    library.remove_version(document, version)
+
+
 def check_document(text: str) -> None:
     try:
         is_object = isinstance(json.loads(text), dict)

@@ -110,6 +110,7 @@ def test_the_trash_is_emptied_after_a_month(tmp_path: Path) -> None:
         lambda library: library.remove(["x"]),
         lambda library: library.read_version("x", "v"),
         lambda library: library.keep_version("x", Version("v", "", 0), ""),
+        lambda library: library.remove_version("x", "v"),
     ],
 )
 def test_what_is_not_there_is_not_found(library: Library, ask: Callable[[Library], object]) -> None:

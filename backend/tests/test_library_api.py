@@ -71,6 +71,10 @@ async def test_trash_and_versions(tmp_path: Path) -> None:
             {"id": "v", "name": "First", "atMs": 7}
         ]
         assert (await client.get("/api/library/a/versions/v")).json() == {"text": '{"old":true}'}
+        assert (await client.put("/api/library/a/versions/w", json=version)).status_code == 204
+        assert (await client.delete("/api/library/a/versions/v")).status_code == 204
+        assert (await client.delete("/api/library/a/versions/v")).status_code == 404
+        assert [one["id"] for one in (await client.get("/api/library/a/versions")).json()] == ["w"]
 
 
 @pytest.mark.parametrize("text", ["", "nonsense", "[]", "7", "[" * 100_000])

@@ -73,6 +73,45 @@ test('each group keeps its own undo; versions, tags, copies and the trash work f
   await library.open('Salute, copy');
 });
 
+test.describe('at a gateway that is slow', () => {
+  test.use({ expectedComplaint: /status net::ERR_ABORTED/ });
+
+  test('what was written meanwhile is kept there once it answers', async ({ dashboard, page }) => {
+    const library = libraryOf(page);
+    let answer = (): void => undefined;
+    const silence = new Promise<void>((resolve) => (answer = resolve));
+    await page.route('**/api/status', async (route) => {
+      await silence;
+      await route.continue();
+    });
+    await page.reload();
+    await expect(dashboard.link).toContainText('Ready');
+    await captureGroup(dashboard, [1500, 1700]);
+    await library.call('Early');
+    await library.show();
+    await expect(library.dialog).toContainText('Until then each change is kept in this browser.');
+    answer();
+    await expect(library.dialog).toContainText('Kept by the gateway');
+    await expect(library.card('Early')).toContainText('2 frames');
+  });
+});
+
+test('a version is deleted alone, and comes back', async ({ dashboard, page }) => {
+  const library = libraryOf(page);
+  await captureGroup(dashboard, [1500]);
+  await library.call('Greeting');
+  await library.show();
+  await library.more('Greeting');
+  await library.write('Name of the version', 'First try');
+  await expect(library.button('Go back to First try')).toBeVisible();
+  await library.write('Name of the version', 'Second try');
+  await library.button('Delete version First try').click();
+  await expect(library.button('Go back to First try')).toBeHidden();
+  await expect(library.button('Go back to Second try')).toBeVisible();
+  await dashboard.notices.getByRole('button', { name: 'Undo' }).click();
+  await expect(library.button('Go back to First try')).toBeVisible();
+});
+
 test.describe('two browsers at one gateway', () => {
   test.use({ expectedComplaint: /412/ });
 

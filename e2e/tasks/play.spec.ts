@@ -2,6 +2,7 @@
 
 import { ofKind } from '../fixtures/bus.ts';
 import { captureGroup, downloadGroup } from '../fixtures/group.ts';
+import { libraryOf } from '../fixtures/library.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 test('an example is written out for the board, plays at twice its speed, pauses and goes on', async ({
@@ -81,6 +82,46 @@ test('the map of slots knows an older copy, compares it, and brings back what an
   expect(frames.map(({ slot: at, frame }) => [at, frame.durationMs])).toEqual([
     [8, 400],
     [8, 400],
+  ]);
+});
+
+test('several groups of the library go to their slots with one progress', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  const library = libraryOf(page);
+  await captureGroup(dashboard, [1000, 1400], 400);
+  await library.call('Wave');
+  await dashboard.type(dashboard.slot, 6);
+  await dashboard.button('Keep in the group').click();
+  await library.show();
+  await library.button('New group').click();
+  await captureGroup(dashboard, [1300], 400);
+  await library.call('Bow');
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1300');
+
+  await dashboard.button('Slots').click();
+  const dialog = page.getByRole('dialog', { name: 'Slots of the board' });
+  await dialog.getByRole('button', { name: 'Download several' }).click();
+  const several = dialog.getByRole('region', { name: 'Download several groups' });
+  const slotOf = (name: string) => several.getByRole('textbox', { name: `Slot for ${name}` });
+  await several.getByRole('checkbox', { name: /^Wave/ }).check();
+  await expect(slotOf('Wave')).toHaveValue('6');
+  await several.getByRole('checkbox', { name: /^Bow/ }).check();
+  await expect(slotOf('Bow')).toHaveValue('0');
+  await dashboard.type(slotOf('Bow'), 6);
+  await expect(several).toContainText('Slot 6 is wanted twice.');
+  await expect(several.getByRole('button', { name: 'Download these' })).toBeDisabled();
+  await dashboard.type(slotOf('Bow'), 7);
+  await several.getByRole('button', { name: 'Download these' }).click();
+  await expect(dialog.getByRole('option', { name: /^Slot 6: Wave/ })).toBeVisible();
+  await expect(dialog.getByRole('option', { name: 'Slot 7: Bow. This group, as it is now' })).toBeVisible();
+  const stored = ofKind(await robot.bus(), 'download');
+  expect(stored.map(({ slot, frame }) => [slot, frame.targets[0]?.position])).toEqual([
+    [6, 1000],
+    [6, 1400],
+    [7, 1300],
   ]);
 });
 

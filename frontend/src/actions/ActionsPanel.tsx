@@ -5,6 +5,7 @@
 import { Fragment } from 'react';
 import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
+import { BodyPicture } from '../body/Body.tsx';
 import { FilesArea, FilesButton } from '../files/FilesArea.tsx';
 import { LibraryButton } from '../library/LibraryButton.tsx';
 import { useDevice, useGroup, useStores } from '../stores/stores.ts';
@@ -53,6 +54,11 @@ export function ActionsPanel() {
         className={styles.panel}
       >
         {otherUnit && <p className={styles.warning}>{words.actions.otherUnit(group.unit)}</p>}
+        {layout === 'phone' && (
+          <div className={styles.body}>
+            <BodyPicture />
+          </div>
+        )}
         {layout === 'phone' ? [frames, timeline] : [timeline, frames]}
       </Panel>
     </FilesArea>

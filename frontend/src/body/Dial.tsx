@@ -1,4 +1,4 @@
-// A servo's horn on a scale: the needle is the estimate, the hollow triangle on the rim the target. Unknown is a hatched
+// A servo's horn on a scale: the needle is the estimate, the hollow triangle on the rim the target, a dotted hand the group's pose. Unknown is a hatched
 // face with a question mark. The live one is drawn once a frame from the session's motion, past React.
 
 import { useRef } from 'react';
@@ -6,7 +6,7 @@ import type { ServoMotion } from '#shared/session/state.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
-import { dialDegrees } from './pose.ts';
+import { dialDegrees, type Pose } from './pose.ts';
 import { useMotion } from './useMotion.ts';
 import styles from './Dial.module.css';
 
@@ -23,6 +23,7 @@ export function Dial({ servo, family }: { readonly servo: number; readonly famil
   return (
     <DialFace
       ref={dial}
+      servo={servo}
       label={words.body.gaugeFigure(servo)}
       motion={device.motion(servo)}
       family={family}
@@ -31,13 +32,14 @@ export function Dial({ servo, family }: { readonly servo: number; readonly famil
 }
 
 interface DialFaceProps {
+  readonly servo: number;
   readonly label: string;
   readonly motion: ServoMotion;
   readonly family: Family;
   readonly ref?: React.Ref<SVGSVGElement>;
 }
 
-function DialFace({ label, motion, family, ref }: DialFaceProps) {
+function DialFace({ servo, label, motion, family, ref }: DialFaceProps) {
   const { target, estimated } = motion;
   return (
     <svg ref={ref} className={styles.dial} viewBox="-24 -24 48 48" role="img" aria-label={label}>
@@ -55,8 +57,18 @@ function DialFace({ label, motion, family, ref }: DialFaceProps) {
         <path className={styles.needle} d="M-2.5 4L-1 -14h2L2.5 4z" />
         <circle className={styles.hub} r={4} />
       </g>
+      <path className={styles.preview} data-preview={servo} visibility="hidden" d="M0 -6V-19" />
     </svg>
   );
+}
+
+/** Where the group at hand would have the servos, on all dials within; null: nothing is shown of it. */
+export function drawPreviews(dials: Element, pose: Pose | null, family: Family): void {
+  for (const hand of dials.querySelectorAll<SVGPathElement>('[data-preview]')) {
+    const position = pose?.(Number(hand.dataset.preview)) ?? null;
+    set(hand, 'visibility', visible(position !== null));
+    set(hand, 'transform', turn(position, family));
+  }
 }
 
 function drawDial(dial: SVGSVGElement, { target, estimated }: ServoMotion, family: Family): void {

@@ -1,6 +1,7 @@
 // The gateway's HTTP interface as far as connecting needs it: is there one at the page's own address, which board and ports
 // does it have, open that port. Trusts no answer's shape; every failure is a LinkError.
 
+import type { Clock } from '#shared/clock.ts';
 import type { BoardId } from '#shared/protocol/families.ts';
 import { isLinkErrorCode, LinkError } from '#shared/session/linkError.ts';
 
@@ -15,6 +16,10 @@ export interface GatewayPort {
 }
 
 const ANSWER_WITHIN_MS = 2000;
+const PATIENT_MS = 30_000;
+const ASK_AGAIN_MS = 1000;
+/** Statuses of a server that may be in order a moment later. */
+const FROM_HERE_PASSING = 500;
 
 /** null where no gateway answers: the page came from elsewhere, or the gateway is gone. */
 export async function readGateway(): Promise<GatewayStatus | null> {
@@ -26,6 +31,21 @@ export async function readGateway(): Promise<GatewayStatus | null> {
     return { device: typeof device === 'string' && code !== 'otherDevice' ? device : null };
   } catch {
     return null;
+  }
+}
+
+/**
+ * Asks until somebody answers: a gateway that is slow is one, a server that answers otherwise has none. Documents must not be kept
+ * at two places because of a bad moment.
+ */
+export async function hasGateway(clock: Clock): Promise<boolean> {
+  for (;;) {
+    const answer = await fetch('api/status', { signal: AbortSignal.timeout(PATIENT_MS) }).catch(() => null);
+    if (answer !== null && answer.status < FROM_HERE_PASSING) {
+      const status: unknown = await answer.json().catch(() => null);
+      return isRecord(status) && isRecord(status.port);
+    }
+    await new Promise<void>((resolve) => void clock.after(ASK_AGAIN_MS, resolve));
   }
 }
 

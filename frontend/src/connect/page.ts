@@ -33,7 +33,7 @@ import type { Stores } from '../stores/stores.ts';
 import { createTimeline } from '../stores/timeline.ts';
 import { createView } from '../stores/view.ts';
 import { browserClock } from '../transports/browserClock.ts';
-import { readGateway } from './gatewayApi.ts';
+import { hasGateway } from './gatewayApi.ts';
 import { watchLeaving } from './leaving.ts';
 import { createConnector, type Connector } from './connector.ts';
 
@@ -106,7 +106,7 @@ export async function openPage(): Promise<Page> {
 
 /** The gateway of the page's own address, where there is one. */
 async function chooseKeeper(): Promise<Keeper> {
-  return (await readGateway()) === null ? createBrowserKeeper('servodeck', Date.now) : gatewayKeeper;
+  return (await hasGateway(pageClock)) ? gatewayKeeper : createBrowserKeeper('servodeck', Date.now);
 }
 
 /** Not `randomUUID`, which is there only at secure addresses. */

@@ -30,7 +30,13 @@ function write({ document, compiled }: Stores, ...frames: readonly NewFrame[]): 
 function fill(stores: Stores): void {
   write(stores, frame(400, 900), frame(900, 1900));
   const { frames, fingerprint } = stores.compiled.now();
-  const stored = { name: 'Wave', documentId: stores.library.store.getState().openId, frames, fingerprint, storedAtMs: 1_790_000_000_000 };
+  const stored = {
+    name: 'Wave',
+    documentId: stores.library.store.getState().openId,
+    frames,
+    fingerprint,
+    storedAtMs: 1_790_000_000_000,
+  };
   const book = [
     { ...stored, slot: 0, fingerprint: 'c0ffee00' },
     { ...stored, slot: 1 },

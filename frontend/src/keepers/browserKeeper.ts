@@ -103,6 +103,11 @@ export function createBrowserKeeper(name: string, nowMs: () => number): Keeper {
         required(await rowOf(store, id));
         await done(store('versions').put({ ...version, document: id, text } satisfies VersionRow));
       }),
+    removeVersion: (id, version) =>
+      inside('readwrite', async (store) => {
+        required(await done<VersionRow | undefined>(store('versions').get([id, version])));
+        await done(store('versions').delete([id, version]));
+      }),
   };
 }
 

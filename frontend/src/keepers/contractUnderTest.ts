@@ -69,6 +69,15 @@ export const KEEPER_CASES: Readonly<Record<string, Case>> = {
     same(await keeper.versions(name('b')), []);
     same(await codeOf(keeper.readVersion(name('a'), name('w'))), 'notFound');
   },
+  'a version goes alone': async (keeper, name) => {
+    await keeper.write(name('a'), writing(1, 0));
+    const versions = [5, 9].map((atMs) => ({ id: name(`v${atMs}`), name: 'Kept', atMs }));
+    for (const version of versions) await keeper.keepVersion(name('a'), version, '{"x":1}');
+    await keeper.removeVersion(name('a'), name('v5'));
+    same(await keeper.versions(name('a')), versions.slice(1));
+    same(await codeOf(keeper.removeVersion(name('a'), name('v5'))), 'notFound');
+    same((await keeper.read(name('a'))).text, '{"x":1}');
+  },
   'what is not there is not found': async (keeper, name) => {
     same(await codeOf(keeper.read(name('a'))), 'notFound');
     same(await listed(keeper, name('a')), undefined);

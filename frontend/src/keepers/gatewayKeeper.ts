@@ -64,6 +64,9 @@ export const gatewayKeeper: Keeper = {
     const wanted: VersionWrite = { name, atMs, text };
     await ask(`/${id}/versions/${version}`, 'PUT', nothing, wanted);
   },
+  async removeVersion(id, version) {
+    await ask(`/${id}/versions/${version}`, 'DELETE', nothing);
+  },
 };
 
 async function mark(verb: 'remove' | 'restore', ids: readonly string[]): Promise<void> {

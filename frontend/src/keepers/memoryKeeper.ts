@@ -57,6 +57,11 @@ export function createMemoryKeeper(): Keeper {
         required(documents.get(id));
         versions.set(id, versionsOf(id).set(version.id, { version, text }));
       }),
+    removeVersion: (id, version) =>
+      asked(() => {
+        required(versionsOf(id).get(version));
+        versionsOf(id).delete(version);
+      }),
   };
 }
 

@@ -1,9 +1,9 @@
-// Named versions of a group: keeping one as it is now, and going back to one.
+// Named versions of a group: keeping one as it is now, going back to one, deleting one.
 
 import { useEffect, useState, type SubmitEvent } from 'react';
 import type { Version } from '#shared/actions/library/keeper.ts';
-import { useStores } from '../stores/stores.ts';
-import { Button } from '../ui/Button.tsx';
+import { useLibrary, useStores } from '../stores/stores.ts';
+import { Button, IconButton } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import styles from './Library.module.css';
 
@@ -11,6 +11,7 @@ const MAX_NAME_LENGTH = 64;
 
 export function Versions({ id, onDone }: { readonly id: string; onDone(): void }) {
   const { library } = useStores();
+  const documents = useLibrary((state) => state.documents);
   const [versions, setVersions] = useState<readonly Version[]>([]);
   const [name, setName] = useState('');
 
@@ -22,15 +23,15 @@ export function Versions({ id, onDone }: { readonly id: string; onDone(): void }
     return () => {
       isGone = true;
     };
-  }, [library, id]);
+    // Whoever changed one has had the list of documents read again.
+  }, [library, id, documents]);
 
   async function keep(event: SubmitEvent): Promise<void> {
     event.preventDefault();
     const wanted = name.trim();
     if (wanted === '') return;
-    await library.keepVersion(id, wanted);
     setName('');
-    setVersions(await library.versions(id));
+    await library.keepVersion(id, wanted);
   }
 
   return (
@@ -63,6 +64,11 @@ export function Versions({ id, onDone }: { readonly id: string; onDone(): void }
               >
                 {words.library.goBack}
               </Button>
+              <IconButton
+                icon="trash"
+                label={words.library.removeVersion(version.name)}
+                onPress={() => void library.removeVersion(id, version)}
+              />
             </li>
           ))}
         </ul>

@@ -77,8 +77,10 @@ function useWanted() {
   );
 
   async function toggle(documentId: string): Promise<void> {
-    if (picks.some((pick) => pick.documentId === documentId))
-      return setPicks((before) => before.filter((pick) => pick.documentId !== documentId));
+    if (picks.some((pick) => pick.documentId === documentId)) {
+      setPicks((before) => before.filter((pick) => pick.documentId !== documentId));
+      return;
+    }
     const group = await library.group(documentId);
     if (group === null) return;
     setPicks((before) => {

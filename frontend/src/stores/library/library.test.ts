@@ -120,6 +120,32 @@ describe('keeping', () => {
     expect(page.library.store.getState().isKept).toBe(true);
   });
 
+  test('until the place of the library is known everything waits here, and both sides of a conflict are kept', async () => {
+    const keeper = createMemoryKeeper();
+    const { visit, clock } = createPlace(keeper);
+    const before = visit();
+    before.document.edit(() => 'name', called('Wave'));
+    await before.later();
+
+    let answer: (found: Keeper) => void = () => undefined;
+    const late = createVisit(new Promise((resolve) => (answer = resolve)), clock, before.texts);
+    late.capture(1500);
+    late.library.create();
+    late.document.edit(() => 'name', called('Bow'));
+    await late.later();
+    expect(late.library.store.getState()).toMatchObject({ place: null, isKept: false });
+    const other = visit();
+    await other.library.open(before.openId());
+    other.capture(1900);
+    await other.later();
+
+    answer(keeper);
+    await late.later();
+    expect(late.names()).toEqual(['Bow', 'Wave', 'Wave, other version']);
+    expect(late.library.store.getState().isKept).toBe(true);
+    expect(late.told()).toEqual([words.library.conflict('Wave', 'Wave, other version')]);
+  });
+
   test('a drag is one write, and none while it lasts', async () => {
     const { visit, keeper } = createPlace();
     const page = visit();
@@ -254,6 +280,22 @@ describe('several documents', () => {
     await page.later();
     expect(page.openId()).toBe(id);
     expect(page.document.store.getState().past).toHaveLength(1);
+  });
+
+  test('a version goes alone, and comes back where that is undone', async () => {
+    const { visit } = createPlace();
+    const page = visit();
+    page.capture(1500);
+    await page.library.keepVersion(page.openId(), 'One');
+    await page.library.keepVersion(page.openId(), 'Two');
+    const names = async () => (await page.library.versions(page.openId())).map(({ name }) => name);
+    const [one] = await page.library.versions(page.openId());
+    await page.library.removeVersion(page.openId(), one!);
+    expect(await names()).toEqual(['Two']);
+    expect(page.told()).toEqual([words.library.versionRemoved('One')]);
+    page.act();
+    await page.later();
+    expect((await names()).sort()).toEqual(['One', 'Two']);
   });
 
   test('a named version stays as it was, and going back to it is a step', async () => {

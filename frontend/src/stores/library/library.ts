@@ -55,6 +55,8 @@ export interface Library extends LibraryFiles {
   restore(id: string): Promise<void>;
   versions(id: string): Promise<readonly Version[]>;
   keepVersion(id: string, name: string): Promise<void>;
+  /** The person may take it back. */
+  removeVersion(id: string, version: Version): Promise<void>;
   /** Opens the document and goes back to that version, undoably. */
   restoreVersion(id: string, version: Version): Promise<void>;
 }
@@ -231,6 +233,18 @@ export function createLibrary(options: LibraryOptions): Library {
     await refresh();
   }
 
+  async function removeVersion(id: string, version: Version): Promise<void> {
+    const keeper = await options.keeper;
+    const text = await keeper.readVersion(id, version.id);
+    await keeper.removeVersion(id, version.id);
+    const undo = (): void => void attempt(keeper.keepVersion(id, version, text).then(refresh));
+    notices.tell('info', words.library.versionRemoved(version.name), {
+      label: words.library.undo,
+      act: undo,
+    });
+    await refresh();
+  }
+
   async function start(): Promise<void> {
     const waiting = outbox.entries().map(([id, { text }]) => ({ id, text }));
     const own = waiting.find(({ id }) => id === opened.id());
@@ -283,8 +297,10 @@ export function createLibrary(options: LibraryOptions): Library {
           if (!(await shelving.flush())) return;
           await (await options.keeper).keepVersion(id, { id: newId(), name, atMs: epochMs() }, text);
           view.setState({ said: words.library.versionKept(name) });
+          await refresh();
         })(),
       ),
+    removeVersion: (id, version) => attempt(removeVersion(id, version)),
     restoreVersion: (id, { id: version, name }) =>
       attempt(
         (async () => {

@@ -11,7 +11,12 @@ import { createLibrary } from './library.ts';
 
 export const EPOCH_MS = 1_790_000_000_000;
 
-export function createVisit(keeper: Keeper, clock: VirtualClock, texts = new Map<string, string>()) {
+/** `keeper`: known at once, or some time later. */
+export function createVisit(
+  keeper: Keeper | Promise<Keeper>,
+  clock: VirtualClock,
+  texts = new Map<string, string>(),
+) {
   const storage = {
     getItem: (key: string) => texts.get(key) ?? null,
     setItem: (key: string, text: string) => void texts.set(key, text),

@@ -24,7 +24,8 @@ export const libraryWords = {
     gateway: 'Kept by the gateway, for every browser at it. Each change is kept by itself.',
     browser: 'Kept in this browser. Each change is kept by itself; export it now and then.',
   },
-  looking: 'Looking for the library',
+  looking:
+    'Waiting for the gateway’s word on where the library is. Until then each change is kept in this browser.',
   waiting: 'Not all changes are in the library yet.',
   empty: 'No groups in the library yet',
   emptyHint:
@@ -67,6 +68,8 @@ export const libraryWords = {
   noVersions: 'A version stays as it is while you go on changing the group.',
   restoreVersion: (name: string): string => `Go back to ${name}`,
   goBack: 'Go back to it',
+  removeVersion: (name: string): string => `Delete version ${name}`,
+  versionRemoved: (name: string): string => `Version deleted: ${name}.`,
   at: (epochMs: number): string => formatWhen(epochMs),
   versionKept: (name: string): string => `Version kept: ${name}.`,
 

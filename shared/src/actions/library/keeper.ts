@@ -71,6 +71,8 @@ export interface Keeper {
   versions(id: string): Promise<readonly Version[]>;
   readVersion(id: string, version: string): Promise<string>;
   keepVersion(id: string, version: Version, text: string): Promise<void>;
+  /** For good. */
+  removeVersion(id: string, version: string): Promise<void>;
 }
 
 export const LIBRARY_ERROR_CODES = [
