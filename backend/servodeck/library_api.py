@@ -104,12 +104,12 @@ def read_version(document: Id, version: Id, library: Kept) -> VersionText:
 
 @library_api.put("/{document}/versions/{version}", status_code=204, dependencies=[DRIVER])
 def keep_version(document: Id, version: Id, wanted: VersionWrite, library: Kept) -> None:
-    """Keeps a text beside the document under a name, for good."""
+    """Keeps a text beside the document under a name."""
     check_document(wanted.text)
     library.keep_version(document, Version(version, wanted.name, wanted.at_ms), wanted.text)
 
 
-@library_api.delete("/{document}/versions/{version}", status_code=204)
+@library_api.delete("/{document}/versions/{version}", status_code=204, dependencies=[DRIVER])
 def remove_version(document: Id, version: Id, library: Kept) -> None:
     """That version goes for good; the document and its other versions stay."""
     library.remove_version(document, version)

@@ -32,6 +32,7 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("GET", "/api/library/{document}"): "viewer",
     ("GET", "/api/library/{document}/versions"): "viewer",
     ("GET", "/api/library/{document}/versions/{version}"): "viewer",
+    ("DELETE", "/api/library/{document}/versions/{version}"): "driver",
     ("PUT", "/api/library/{document}"): "driver",
     ("PUT", "/api/library/{document}/versions/{version}"): "driver",
     ("POST", "/api/library/restore"): "driver",

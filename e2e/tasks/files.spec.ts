@@ -1,45 +1,10 @@
 // Groups from the vendors' programs: opened, looked at, undone, saved, and read back the same; a broken file tells where and why.
 
-import { readFileSync } from 'node:fs';
-import { at } from '../../scripts/steps.mjs';
-import type { Dashboard } from '../fixtures/dashboard.ts';
+import { dashboardOf, type Dashboard } from '../fixtures/dashboard.ts';
+import { filesDialogOf, vector } from '../fixtures/files.ts';
 import { captureGroup } from '../fixtures/group.ts';
 import { expect, test } from '../fixtures/test.ts';
-
-interface Given {
-  readonly name: string;
-  readonly content: Buffer;
-}
-
-const vector = (name: string): Given => ({ name, content: readFileSync(at(`shared/vectors/files/${name}`)) });
-
-function filesDialogOf({ page, button }: Dashboard) {
-  const dialog = page.getByRole('dialog', { name: 'Files' });
-  const file = (name: string) => dialog.getByRole('listitem', { name, exact: true });
-  return {
-    dialog,
-    file,
-
-    async open(...files: readonly Given[]): Promise<void> {
-      if (!(await dialog.isVisible())) await button(/^Files/).click();
-      const choosing = page.waitForEvent('filechooser');
-      await dialog.getByRole('button', { name: 'Choose files' }).click();
-      const mimeType = 'application/octet-stream';
-      await (
-        await choosing
-      ).setFiles(files.map(({ name, content }) => ({ name, mimeType, buffer: content })));
-    },
-
-    async save(format: string): Promise<Given> {
-      if (!(await dialog.isVisible())) await button(/^Files/).click();
-      await dialog.getByRole('radio', { name: format, exact: true }).check();
-      const downloading = page.waitForEvent('download');
-      await dialog.getByRole('button', { name: /^Save / }).click();
-      const download = await downloading;
-      return { name: download.suggestedFilename(), content: readFileSync(await download.path()) };
-    },
-  };
-}
+import { timelineOf } from '../fixtures/timeline.ts';
 
 /** What a person reads of each frame. */
 const framesOf = (dashboard: Dashboard) =>
@@ -137,4 +102,40 @@ test('files dropped anywhere on the panel are opened; beside it a drop does noth
   await expect(filesDialogOf(dashboard).dialog).toBeHidden();
   await page.getByRole('region', { name: 'Action group' }).dispatchEvent('drop', { dataTransfer: carried });
   await expect(filesDialogOf(dashboard).file('nod.xml')).toContainText('2 frames, 0.8 sec, 6 servos');
+});
+
+test.describe('on a board that counts in steps', () => {
+  test.use({ boardSettings: { board: 'xarm' } });
+
+  test('pulse widths become steps where the person says so, and only then', async ({
+    page,
+    ptyBoard,
+    newGateway,
+  }) => {
+    const { url } = await newGateway({ serial: ptyBoard.device, board: 'xarm' });
+    const dashboard = dashboardOf(page);
+    await page.goto(url);
+    await expect(dashboard.link).toContainText('Ready');
+    const files = filesDialogOf(dashboard);
+    await files.open(vector('nod.xml'));
+    const nod = files.file('nod.xml');
+    await expect(nod).toContainText('It is made for boards that count in another unit.');
+    const converts = nod.getByRole('switch', { name: /^Convert to steps/ });
+    await expect(converts).not.toBeChecked();
+    await converts.check();
+    await expect(nod).not.toContainText('another unit');
+    await nod.getByRole('button', { name: 'Open nod' }).click();
+    const { key } = timelineOf(page);
+    await expect(key('Gripper, 0.50 s, 100 steps, linear')).toBeVisible();
+    await expect(key('Gripper, 0.75 s, 1000 steps, linear')).toBeVisible();
+    await expect(dashboard.board).toContainText(/Fits/);
+
+    await dashboard.button('Undo: open nod').click();
+    await files.open(vector('nod.xml'));
+    await nod.last().getByRole('button', { name: 'Open nod' }).click();
+    await expect(
+      dashboard.page.getByText('This group is in µs; the connected board counts otherwise.'),
+    ).toBeVisible();
+    await expect(dashboard.button('Play')).toBeDisabled();
+  });
 });

@@ -43,7 +43,8 @@ export async function hasGateway(clock: Clock): Promise<boolean> {
     const answer = await fetch('api/status', { signal: AbortSignal.timeout(PATIENT_MS) }).catch(() => null);
     if (answer !== null && answer.status < FROM_HERE_PASSING) {
       const status: unknown = await answer.json().catch(() => null);
-      return isRecord(status) && isRecord(status.port);
+      // One that wants to be told first who asks is a gateway, too.
+      return isRecord(status) && (isRecord(status.port) || typeof status.code === 'string');
     }
     await new Promise<void>((resolve) => void clock.after(ASK_AGAIN_MS, resolve));
   }
