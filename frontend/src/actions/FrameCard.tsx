@@ -58,13 +58,14 @@ export function FrameCard(props: FrameCardProps) {
         onKeyDown={(event) => onKey(event, frame.id)}
       >
         <span className={styles.number}>{number}</span>
-        {isPlaying && <span className={styles.now}>{words.actions.playingFrame}</span>}
-        <PoseThumb pose={pose} changed={changed} family={family} />
-        {frame.note !== '' && (
+        {isPlaying ? (
+          <span className={styles.now}>{words.actions.playingFrame}</span>
+        ) : (
           <span className={styles.note} title={frame.note}>
             {frame.note}
           </span>
         )}
+        <PoseThumb pose={pose} changed={changed} family={family} />
       </button>
       <div className={styles.foot}>
         <FrameTime frame={frame} number={number} isTabStop={isTabStop} />

@@ -1,14 +1,14 @@
 // What a group becomes on the board, how it is played, and the board's slots, in their states, fed by plain values.
 
 import { useState, type ReactNode } from 'react';
-import { insertFrame, type NewFrame } from '#shared/actions/group/groupEdits.ts';
+import { insertFrame, setMeta, type NewFrame } from '#shared/actions/group/groupEdits.ts';
 import { EMPTY_SLOT_BOOK, withStored } from '#shared/actions/slots/slotBook.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import { BoardPanel } from '../board/BoardPanel.tsx';
 import { PlayBar } from '../play/PlayBar.tsx';
 import { SlotBoard } from '../slots/SlotsControl.tsx';
-import { StoresContext, type Stores } from '../stores/stores.ts';
+import { editServoView, StoresContext, type Stores } from '../stores/stores.ts';
 import { frozenSession } from './frozen.ts';
 import styles from './Gallery.module.css';
 import { specimenStores } from './specimenStores.ts';
@@ -75,7 +75,25 @@ const CASES: readonly { readonly name: string; readonly panel: ReactNode; prepar
         stores.playhead.go(700);
       },
     },
+    {
+      name: 'Ready to play, a row muted',
+      panel: <PlayBar />,
+      prepare(stores) {
+        fill(stores);
+        editServoView(stores, (view) => ({ ...view, muted: [1] }));
+      },
+    },
     { name: 'Slots', panel: <SlotBoard />, prepare: fill },
+    {
+      name: 'Slots, several groups',
+      panel: <SlotBoard isSeveralFirst />,
+      prepare(stores) {
+        fill(stores);
+        stores.library.add(
+          setMeta(stores.document.store.getState().present, { name: 'A long greeting', slot: 12 }),
+        );
+      },
+    },
   ];
 
 export function PlaySpecimens() {

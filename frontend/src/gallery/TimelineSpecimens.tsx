@@ -7,6 +7,7 @@ import { insertFrame, type NewFrame } from '#shared/actions/group/groupEdits.ts'
 import { moveKeys } from '#shared/actions/group/keyEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { ActionsPanel } from '../actions/ActionsPanel.tsx';
+import { select } from '../timeline/desk.ts';
 import { keySet } from '../stores/keySet.ts';
 import { freshRobot } from '../stores/robots.ts';
 import { editServoView, StoresContext, type Stores } from '../stores/stores.ts';
@@ -80,6 +81,15 @@ const CASES: readonly Case[] = [
     name: 'Timeline, tall and looped',
     frames: 6,
     prepare: ({ timeline }) => timeline.setState({ isTall: true, range: { fromMs: 300, toMs: 1200 } }),
+  },
+  {
+    name: 'Timeline in degrees, a key chosen',
+    frames: 6,
+    prepare(stores) {
+      stores.view.setState({ positionsIn: 'degrees' });
+      stores.timeline.setState({ isTall: true });
+      select(stores, keySet([{ frameId: 3, servo: 1 }]), { row: 'servo 1', frameId: 3 });
+    },
   },
   { name: 'Timeline, dragging', frames: 6, prepare: drag },
   {

@@ -39,11 +39,7 @@ export function SeveralGroups({ onBack }: { onBack(): void }) {
         ))}
       </ul>
       <p className={styles.dim} role="status">
-        {words.slots.several.total(
-          wanted.length,
-          wanted.reduce((sum, { compiled }) => sum + compiled.frames.length, 0),
-          wanted.reduce((sum, { compiled }) => sum + (compiled.report.downloadMs ?? 0), 0),
-        )}
+        {wanted.length === 0 ? words.slots.several.none : totalOf(wanted)}
       </p>
       <div className={styles.verbs}>
         <Button
@@ -59,6 +55,12 @@ export function SeveralGroups({ onBack }: { onBack(): void }) {
       <DownloadProgress />
     </section>
   );
+}
+
+function totalOf(wanted: readonly Wanted[]): string {
+  const frames = wanted.reduce((sum, { compiled }) => sum + compiled.frames.length, 0);
+  const downloadMs = wanted.reduce((sum, { compiled }) => sum + (compiled.report.downloadMs ?? 0), 0);
+  return words.slots.several.total(wanted.length, frames, downloadMs);
 }
 
 /** Compiled anew where the board, the robot or what is wanted is another one. */

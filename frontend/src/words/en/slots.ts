@@ -78,6 +78,7 @@ export const slotWords = {
     sameSlot: (slot: number): string => `${slotName(slot)} is wanted twice.`,
     total: (count: number, frames: number, downloadMs: number): string =>
       `${formatCount(count)} ${count === 1 ? 'group' : 'groups'}, ${frameCount(frames)} on the board, about ${formatSeconds(downloadMs)} to download`,
+    none: 'Tick the groups that shall go to the board.',
     download: 'Download these',
     back: 'Back to one slot',
   },
