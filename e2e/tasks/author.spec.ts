@@ -33,6 +33,21 @@ test('three poses become three frames that say what they move, in times the boar
   await expect(dashboard.frameTime(1)).toHaveValue('1000');
 });
 
+test('the robot’s pose is put before or behind the selected frame', async ({ dashboard }) => {
+  await captureGroup(dashboard, [1000, 1200], 400);
+  await dashboard.type(dashboard.target(1), 1500);
+  await dashboard.frame(1).click();
+  await dashboard.button('Insert the pose before').click();
+  await expect(dashboard.frames).toHaveCount(3);
+  await expect(dashboard.frame(1)).toHaveAttribute('aria-pressed', 'true');
+  await expect(dashboard.frame(2)).toHaveAccessibleName('Frame 2, 400 ms, moves servo 1');
+  await dashboard.button('Undo: capture a frame').click();
+  await expect(dashboard.frames).toHaveCount(2);
+  await dashboard.frame(1).click();
+  await dashboard.button('Insert the pose after').click();
+  await expect(dashboard.frame(2)).toHaveAttribute('aria-pressed', 'true');
+});
+
 test('frames are retimed, moved, duplicated and deleted, and each step is undone', async ({
   dashboard,
   page,

@@ -139,6 +139,62 @@ test('the wheel zooms where the pointer is, and all of it fits again', async ({ 
   await expect(timeline.key('Gripper, 0.50 s, 1000 µs, linear')).toBeVisible();
 });
 
+test('positions are read and typed in degrees where the page is', async ({ page, dashboard }) => {
+  await page.getByRole('group', { name: 'Positions in' }).getByRole('radio', { name: '°' }).check();
+  const timeline = timelineOf(page);
+  await timeline.click('Gripper, 1.00 s, -27.0°, linear');
+  await expect(timeline.region).toContainText('nudge with arrows by 20 ms or 1.0°');
+  await page.keyboard.type('9');
+  await page.keyboard.type('.9');
+  await page.keyboard.press('Enter');
+  await expect(timeline.key('Gripper, 1.00 s, 9.9°, linear')).toBeVisible();
+  await page.keyboard.press('ArrowUp');
+  await expect(timeline.key('Gripper, 1.00 s, 10.9°, linear')).toBeVisible();
+  await dashboard.button('Undo: move keys').click();
+  await dashboard.button('Undo: position of keys').click();
+  await expect(timeline.key('Gripper, 1.00 s, -27.0°, linear')).toBeVisible();
+});
+
+test('a stretch is pulled at its beginning, the middle button pans, and the line below says what a press would do', async ({
+  page,
+  dashboard,
+}) => {
+  await expect(dashboard.frames).toHaveCount(3);
+  const timeline = timelineOf(page);
+  const first = await timeline.middleOf(timeline.key('All servos, frame 2, 1.00 s, 2 keys'));
+  const last = await timeline.middleOf(timeline.key('All servos, frame 3, 1.50 s, 2 keys'));
+  await timeline.click('All servos, frame 2, 1.00 s, 2 keys');
+  await timeline.click('All servos, frame 3, 1.50 s, 2 keys', ['Shift']);
+  await page.mouse.move(first.x - 12, first.y);
+  await expect(timeline.region).toContainText('The last key stays.');
+  await page.mouse.down();
+  await page.mouse.move(first.x - 12 - (last.x - first.x) / 2, first.y, { steps: 6 });
+  await page.mouse.up();
+  await expect(
+    timeline.grid.getByRole('gridcell', { name: /^All servos, frame 2, 0\.7\d s, 2 keys$/ }),
+  ).toBeVisible();
+  await expect(timeline.key('All servos, frame 3, 1.50 s, 2 keys')).toBeVisible();
+  await page.mouse.move(last.x, last.y + 60);
+  await page.mouse.down({ button: 'middle' });
+  await page.mouse.move(last.x - 150, last.y + 60, { steps: 4 });
+  await page.mouse.up({ button: 'middle' });
+  const moved = await timeline.middleOf(timeline.key('All servos, frame 3, 1.50 s, 2 keys'));
+  expect(moved.x).toBeCloseTo(last.x - 150, -1);
+});
+
+test('a muted row is not sent when the page plays', async ({ page, dashboard, robot }) => {
+  await expect(dashboard.frames).toHaveCount(3);
+  await dashboard.button('Row of Elbow').click();
+  await page.getByRole('menuitem', { name: 'Mute', exact: true }).click();
+  const tools = page.getByRole('group', { name: 'Play the group' });
+  await expect(tools.getByRole('status')).toHaveText('Not sent from here: Elbow. The board plays every row.');
+  await dashboard.button('Play').click();
+  await expect(dashboard.status).toContainText('Playing');
+  await expect(dashboard.status).toHaveText('Idle');
+  const moves = ofKind(await robot.bus(), 'move');
+  expect(new Set(moves.flatMap(({ targets }) => targets.map(({ servo }) => servo)))).toEqual(new Set([1]));
+});
+
 test('Space plays the group while the timeline has the focus', async ({ page, dashboard }) => {
   await timelineOf(page).grid.focus();
   await page.keyboard.press('Space');
