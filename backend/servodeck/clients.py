@@ -183,7 +183,7 @@ def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:
     with refusing(seat, None):  # a bad pose is told, and the stop goes out all the same
         hold = judge_hold(message.hold, control.board)
     with refusing(seat, None):
-        control.stop(hold)
+        control.stop(hold, seat)
 
 
 def answer(seat: Seat, message_id: int, left: Left) -> None:

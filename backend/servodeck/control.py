@@ -41,6 +41,7 @@ from servodeck.messages import (
 from servodeck.motion import Motion
 from servodeck.packets import FAMILIES, Battery, DecoderEvent, PacketEvent, parse_report
 from servodeck.ports import OpenPort
+from servodeck.relay import Relay
 from servodeck.robot import RobotLimits
 from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire, always
 
@@ -80,6 +81,7 @@ class Control:
         self.hub = Hub()
         self.link = Link(ports, self._make_wire, self, now)
         self.driving = Driving(self.hub, now, epoch, self)
+        self._relay = Relay(self.hub, now)
         self._motion = Motion(FAMILIES[board])
         self._halting: Left | None = None
         self._battery_question: asyncio.Task[int] | None = None
@@ -105,6 +107,7 @@ class Control:
         self.limits.forget(seat)
         self.hub.leave(seat)
         self.driving.leave(seat)
+        self._relay.forget(seat)
         self._tell_state()
 
     def send(self, owner: Owner, packet_hex: str, nonce: str | None = None) -> Left:
@@ -122,12 +125,12 @@ class Control:
             wire.purge(is_run, CancelledError("A stop has overtaken this run."))
         return wire.send(packet, owner, urgent=command == STOP, judge=judge)
 
-    def stop(self, hold: bytes | None) -> Left:
+    def stop(self, hold: bytes | None, owner: Owner = None) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
         stop.
         """
         self._set_latch(True)
-        left = self._halt(hold, LatchedError("Stopped before it left."))
+        left = self._halt(hold, LatchedError("Stopped before it left."), owner)
         if left is not self._halting:
             self._halting = left
             left.add_done_callback(self._halted)
@@ -272,8 +275,8 @@ class Control:
             log.info("stopped" if latch else "resumed")
             self._tell_state()
 
-    def _halt(self, hold: bytes | None, reason: GatewayError) -> Left:
-        return self.link.wire().halt(hold or self._motion.hold(self.now()), reason)
+    def _halt(self, hold: bytes | None, reason: GatewayError, owner: Owner = None) -> Left:
+        return self.link.wire().halt(hold or self._motion.hold(self.now()), reason, owner)
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
@@ -291,8 +294,11 @@ class Control:
         gap_s = FAMILIES[self.board].service_gap_ms / 1000
         return Wire(port, gap_s=gap_s, now=self.now, received=inbox.push, leaving=self._leaving)
 
-    def _leaving(self, _owner: Owner, packet: bytes, at_s: float) -> None:
+    def _leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
         self._motion.left(packet, at_s)
+        is_told = packet[COMMAND_AT] == STOP or not is_harmless(packet)
+        if is_told and owner is not self:  # its own stop at the opening ends nothing that anybody began
+            self._relay.leaving(owner, packet, at_s)
 
     def _take(self, event: DecoderEvent) -> None:
         """One event of the board's decoder."""

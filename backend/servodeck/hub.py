@@ -5,6 +5,7 @@ Knows seats, who sits there, and text; no socket, no message's meaning, no port.
 """
 
 import asyncio
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from servodeck.callers import THIS_COMPUTER, Caller, Role
@@ -33,11 +34,18 @@ class Seat:
 
     def __init__(self, caller: Caller) -> None:
         self.caller = caller
-        self._outbox: asyncio.Queue[str] = asyncio.Queue(OUTBOX_MESSAGES)
+        self._outbox: asyncio.Queue[str | Callable[[], str]] = asyncio.Queue(OUTBOX_MESSAGES)
         self.ended = asyncio.Event()
         self.farewell: Farewell | None = None
 
     def put(self, text: str) -> None:
+        self._put(text)
+
+    def put_later(self, text: Callable[[], str]) -> None:
+        """What is asked for its words only when its turn has come: they shall be the newest then."""
+        self._put(text)
+
+    def _put(self, text: str | Callable[[], str]) -> None:
         if self.ended.is_set():
             return
         try:
@@ -54,7 +62,8 @@ class Seat:
         return self._outbox.qsize()
 
     async def next(self) -> str:
-        return await self._outbox.get()
+        text = await self._outbox.get()
+        return text if isinstance(text, str) else text()
 
 
 class Hub:

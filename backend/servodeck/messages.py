@@ -225,6 +225,13 @@ class LeaseToldMessage(Message):
     lease: LeaseState
 
 
+class LeftMessage(Message):
+    """What others have put on the wire since the last of these, or the gateway itself; no questions."""
+
+    type: Literal["left"] = "left"
+    packets: list[str]
+
+
 class TickMessage(Message):
     """To the driver, four times a second: answer it with a `beat`, and put its nonce into each `send`."""
 
@@ -242,7 +249,8 @@ GatewayMessage = Annotated[
     | StateMessage
     | LimitsMessage
     | LeaseToldMessage
-    | TickMessage,
+    | TickMessage
+    | LeftMessage,
     Field(discriminator="type"),
 ]
 

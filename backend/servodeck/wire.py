@@ -61,6 +61,7 @@ class Halt:
 
     hold: bytes | None
     left: Left
+    owner: Owner = None
     stops_to_go: int = STOP_COUNT
     hold_now: bool = False
     due: float = field(default=float("-inf"))
@@ -78,7 +79,7 @@ class Wire:
         received: Callable[[bytes], None],
         leaving: Callable[[Owner, bytes, float], None] = lambda _owner, _packet, _at_s: None,
     ) -> None:
-        """`leaving` hears whose packet begins to leave and when it will have; a stop sequence is nobody's."""
+        """`leaving` hears whose packet begins to leave and when it will have."""
         self._port = port
         self._gap_s = max(gap_s, STOP_GAP_S)
         self._now = now
@@ -112,7 +113,7 @@ class Wire:
         self._work.set()
         return job.left
 
-    def halt(self, hold: bytes | None, reason: GatewayError) -> Left:
+    def halt(self, hold: bytes | None, reason: GatewayError, owner: Owner = None) -> Left:
         """Drops all that waits and sends the stop sequence, then `hold`. Pressed again, it joins the one
         under way.
         """
@@ -120,7 +121,7 @@ class Wire:
             raise self._ended
         self.purge(lambda _job: True, reason)
         if self._halt is None:
-            self._halt = Halt(hold, asyncio.get_running_loop().create_future())
+            self._halt = Halt(hold, asyncio.get_running_loop().create_future(), owner)
             metrics.stops.inc()
         else:
             self._halt.hold = hold or self._halt.hold
@@ -175,13 +176,13 @@ class Wire:
         """Sends the next packet of a stop sequence; nothing else may leave between them."""
         if halt.hold_now and halt.hold:
             halt.hold_now = False
-            await self._put(halt.hold, None)
+            await self._put(halt.hold, halt.owner)
         elif halt.stops_to_go:
             await self._until(halt.due)
             is_edge = halt.stops_to_go in (STOP_COUNT, 1)
             halt.stops_to_go -= 1
             halt.due = self._now() + STOP_SPACING_S
-            await self._put(STOP_PACKET, None)
+            await self._put(STOP_PACKET, halt.owner)
             halt.hold_now = is_edge and halt.hold is not None
         if halt.stops_to_go == 0 and not halt.hold_now:
             self._halt = None

@@ -25,6 +25,7 @@ class Client(Seat):
         self.beats = True
         self.nonce: str | None = None
         self.lease: dict[str, Any] = {}
+        self.followed: list[bytes] = []
         control.join(self)
 
     def put(self, text: str) -> None:
@@ -42,12 +43,21 @@ class Client(Seat):
             self.control.driving.act(self, "request")
         return self.control.send(self, packet.hex(), self.nonce)
 
+    async def next(self) -> str:
+        """What left the wire is kept apart, in `followed`."""
+        while (message := json.loads(text := await super().next()))["type"] == "left":
+            self.followed += [bytes.fromhex(packet) for packet in message["packets"]]
+            if not self.waiting:
+                return ""
+        return text
+
     async def heard(self) -> list[dict[str, Any]]:
         """All messages that wait, those of the lease apart."""
         await asyncio.sleep(0)
         messages = []
         while self.waiting:
-            messages.append(json.loads(await self.next()))
+            if text := await self.next():
+                messages.append(json.loads(text))
         return messages
 
     def _answer(self, nonce: str) -> None:

@@ -78,7 +78,7 @@ def test_the_schema_names_both_directions_and_leaves_nothing_open() -> None:
     definitions = json_schema()["$defs"]
     assert {"ClientMessage", "GatewayMessage", "PortState"} <= set(definitions)
     assert len(definitions["ClientMessage"]["oneOf"]) == 8
-    assert len(definitions["GatewayMessage"]["oneOf"]) == 10
+    assert len(definitions["GatewayMessage"]["oneOf"]) == 11
     for name, definition in definitions.items():
         if "properties" in definition:
             assert definition["additionalProperties"] is False, name

@@ -41,6 +41,9 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   await expect(other.turn).toContainText('Another window drives');
   await expect(other.slider(1)).toHaveAttribute('aria-disabled', 'true');
 
+  await expect(other.target(1)).toHaveValue('1800');
+  await expect(other.estimate(1)).toHaveText('≈ 1800');
+
   await other.slider(1).click({ force: true });
   await expect(dashboard.turn).toContainText('Another window asks to drive');
   await act(dashboard, 'Refuse');

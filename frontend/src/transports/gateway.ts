@@ -52,6 +52,9 @@ export function createGatewayTransport(url: string): Transport {
         turn.told(message.lease);
         leaseChanged();
         break;
+      case 'left':
+        for (const packet of message.packets) events?.followed?.(fromHex(packet));
+        break;
       case 'tick':
         turn.ticked(message.nonce);
         break;

@@ -20,7 +20,8 @@ export type GatewayMessage =
   | StateMessage
   | LimitsMessage
   | LeaseToldMessage
-  | TickMessage;
+  | TickMessage
+  | LeftMessage;
 
 /**
  * Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none.
@@ -263,4 +264,11 @@ export interface LeaseToldMessage {
 export interface TickMessage {
   type: 'tick';
   nonce: string;
+}
+/**
+ * What others have put on the wire since the last of these, or the gateway itself; no questions.
+ */
+export interface LeftMessage {
+  type: 'left';
+  packets: string[];
 }

@@ -15,7 +15,7 @@ import type { Transport } from './transport.ts';
 export interface Halt {
   halt(): Promise<void>;
   resume(): Promise<void>;
-  /** Another screen stopped a shared link; how the robot was held there is not known here. */
+  /** Another screen stopped a shared link; what that sent is told apart. */
   latchedElsewhere(): void;
   /** The link went: whoever brings it back must look before anything moves again. */
   latchedByLoss(): void;
@@ -45,8 +45,6 @@ export interface HaltOptions {
   holdPacket(): Uint8Array | null;
   /** Servos that it cannot freeze. */
   unheld(): readonly number[];
-  /** Somebody else held the robot: nobody here knows where. */
-  forget(): void;
   dropAll(error: LinkError): void;
   /** Books a packet that a shared link sends for us, as if it had left by our own lanes. */
   sentByOthers(packet: Uint8Array): void;
@@ -110,7 +108,6 @@ export function createHalt(options: HaltOptions): Halt {
 
   return {
     latchedElsewhere() {
-      options.forget();
       latch({ reason: 'elsewhere', stop: 'sent', unheld: [] });
     },
     latchedByLoss: () => latch({ reason: 'reconnected', stop: 'failed', unheld: [] }),

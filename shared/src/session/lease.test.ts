@@ -1,6 +1,8 @@
 // What a session makes of a turn that others may have: a shared link over the simulated board.
 
 import { expect, test } from 'vitest';
+import type { Command } from '../protocol/commands.ts';
+import { encodeCommand } from '../protocol/encode.ts';
 import { family as familyOf } from '../protocol/families.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
@@ -19,11 +21,13 @@ async function sharedSession() {
   const clock = createVirtualClock();
   const line = createSimulatedTransport(clock, { onForMs: 60_000 });
   let tell: TransportEvents['leased'];
+  let follow: TransportEvents['followed'];
+  let latch: TransportEvents['latched'];
   const left: number[] = [];
   const transport: Transport = {
     ...line,
     open(events) {
-      tell = events.leased;
+      ({ leased: tell, followed: follow, latched: latch } = events);
       return line.open(events);
     },
     send(packet) {
@@ -33,7 +37,12 @@ async function sharedSession() {
   };
   const session = createSession({ transport, clock, family: familyOf('doc') });
   await session.open();
-  return { clock, session, left, tell: (lease: Lease) => tell?.(lease) };
+  return {
+    ...{ clock, session, left },
+    tell: (lease: Lease) => tell?.(lease),
+    follow: (command: Command) => follow?.(encodeCommand(command, familyOf('doc'))),
+    latch: () => latch?.(true),
+  };
 }
 
 const TARGET = [{ servo: 1, position: 1500 }];
@@ -77,4 +86,19 @@ test('a link that is gone says nothing of who drives', async () => {
   expect(session.state.lease).toEqual(THEIRS);
   await session.close();
   expect(session.state.lease).toBeNull();
+});
+
+test('whoever looks on knows as well as the driver where the robot is, also when somebody stops it', async () => {
+  const { clock, session, tell, follow, latch } = await sharedSession();
+  tell(THEIRS);
+  follow({ kind: 'move', targets: TARGET, durationMs: 1_000 });
+  await clock.advance(1_000);
+  follow({ kind: 'move', targets: [{ servo: 1, position: 1_000 }], durationMs: 1_000 });
+  await clock.advance(500);
+  expect(session.motion(1)).toEqual({ target: 1_000, estimated: 1_250 });
+  latch();
+  follow({ kind: 'move', targets: [{ servo: 1, position: 1_240 }], durationMs: 20 });
+  await clock.advance(100);
+  expect(session.motion(1)).toEqual({ target: 1_240, estimated: 1_240 });
+  expect(session.state.latch?.reason).toBe('elsewhere');
 });

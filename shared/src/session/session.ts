@@ -106,6 +106,7 @@ export function createSession(options: SessionOptions): Session {
     identified: (board) => identification.told(board),
     limited: (limitsHeld) => store.update({ limitsHeld }),
     leased,
+    followed: sentByOthers,
     latched(latched) {
       if (!latched) halt.released();
       else if (store.state.latch === null) halt.latchedElsewhere();
@@ -130,11 +131,7 @@ export function createSession(options: SessionOptions): Session {
       return hold && encodeOrRefuse(hold, driver.core.family);
     },
     unheld: () => driver.core.robot.unheld(),
-    forget: () => driver.core.robot.forget(),
-    sentByOthers(packet) {
-      note(packet);
-      take(packet);
-    },
+    sentByOthers,
   });
   const resync = createResync(lanes);
   const identification = createIdentification({
@@ -192,6 +189,11 @@ export function createSession(options: SessionOptions): Session {
   function take(packet: Uint8Array): void {
     const command = commandIn(packet);
     if (command !== null) driver.applied(command);
+  }
+
+  function sentByOthers(packet: Uint8Array): void {
+    note(packet);
+    take(packet);
   }
 
   function heard(report: Report, bytes: Uint8Array): void {

@@ -16,6 +16,8 @@ export interface TransportEvents {
   identified?(board: BoardId): void;
   /** Only a shared link: how far it lets the robot's servos be turned, as another end has said; empty: nobody has. */
   limited?(limits: readonly ServoLimits[]): void;
+  /** Only a shared link: this packet of somebody else has left the wire. */
+  followed?(packet: Uint8Array): void;
   /** Only a shared link: who drives. Told once it is open, and on each change. */
   leased?(lease: Lease): void;
 }

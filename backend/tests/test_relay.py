@@ -1,0 +1,89 @@
+"""The driver's hand on everybody's sliders: who hears of what left the wire, when, and how much of it."""
+
+import asyncio
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from servodeck.relay import newest
+from tests.client import Client, gateway_on
+from tests.fake_port import FakePort
+from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, RUN, STOP
+from tests.virtual_time import in_virtual_time
+
+OTHER_SERVO = MOVE[:7] + b"\x02" + MOVE[8:]
+
+
+@in_virtual_time
+async def test_everybody_but_the_sender_hears_what_left_and_no_questions() -> None:
+    async with gateway_on() as control:
+        anna, bert = Client(control), Client(control)
+        for packet in (MOVE, BATTERY, RUN):
+            await anna.send(packet)
+        await asyncio.sleep(0.2)
+        await anna.heard()
+        await bert.heard()
+        assert (anna.followed, bert.followed) == ([], [MOVE, RUN])
+
+
+@in_virtual_time
+async def test_a_stop_is_told_to_everybody_else_with_the_pose_it_holds() -> None:
+    async with gateway_on() as control:
+        anna, bert = Client(control), Client(control)
+        await anna.send(MOVE)
+        await control.stop(MOVE_ELSEWHERE, bert)
+        await asyncio.sleep(0.2)
+        await anna.heard()
+        await bert.heard()
+        assert anna.followed == [STOP, MOVE_ELSEWHERE, STOP, STOP, MOVE_ELSEWHERE]
+        assert bert.followed == [MOVE]
+
+
+@in_virtual_time
+async def test_a_drag_reaches_a_viewer_twenty_times_a_second_and_ends_where_it_ends() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna, bert = Client(control), Client(control)
+        told = 0
+        for position in range(1000, 2000, 10):
+            await anna.send(MOVE[:8] + position.to_bytes(2, "little"))
+            told += bert.waiting
+            await bert.heard()
+        await asyncio.sleep(0.2)
+        await bert.heard()
+        took_s = port.written[-1][0] - port.written[1][0]
+        assert told <= took_s * 20 + 1
+        assert bert.followed[-1] == port.packets()[-1]
+        assert len(bert.followed) < 100
+
+
+@in_virtual_time
+async def test_whoever_does_not_read_has_one_message_of_it_waiting_at_most() -> None:
+    async with gateway_on() as control:
+        anna, deaf = Client(control), Client(control)
+        await deaf.heard()
+        for _ in range(50):
+            await anna.send(MOVE)
+            await anna.send(OTHER_SERVO)
+        await asyncio.sleep(0.2)
+        assert deaf.waiting == 1
+        await deaf.heard()
+        assert deaf.followed == [MOVE, OTHER_SERVO]
+
+
+moves = st.builds(
+    lambda servo, position: MOVE[:7] + bytes([servo]) + position.to_bytes(2, "little"),
+    st.integers(1, 4),
+    st.integers(500, 2500),
+)
+
+
+@given(st.lists(st.one_of(moves, st.sampled_from([STOP, RUN])), max_size=20))
+def test_what_is_left_out_is_void_and_what_is_kept_keeps_its_order(packets: list[bytes]) -> None:
+    kept = newest(tuple(packets))
+    assert newest(kept) == kept
+    assert [packet for packet in kept if packet in (STOP, RUN)] == [p for p in packets if p in (STOP, RUN)]
+    rest = iter(packets)
+    assert all(packet in rest for packet in kept)
+    last = {packet[7]: packet for packet in packets if packet[3] == 3}
+    assert {packet[7]: packet for packet in kept if packet[3] == 3} == last
