@@ -1,0 +1,103 @@
+"""Where the gateway believes the servos to be: the same ways that the page's estimate knows of moves."""
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from servodeck.motion import Motion
+from servodeck.packets import FAMILIES, encode, parse_command
+from servodeck.values import Command, Move, Release, ServoTarget
+from tests.samples import RUN, STOP
+
+DOC = FAMILIES["doc"]
+
+
+def move(duration_ms: int, **positions: int) -> Command:
+    return Move(duration_ms, tuple(ServoTarget(int(name[1:]), at) for name, at in positions.items()))
+
+
+def held(motion: Motion, now: float) -> Command | None:
+    packet = motion.hold(now)
+    return None if packet is None else parse_command(packet)
+
+
+def told(*packets: tuple[float, Command], family: str = "doc") -> Motion:
+    motion = Motion(FAMILIES[family])
+    for at_s, command in packets:
+        motion.left(encode(command, FAMILIES[family]), at_s)
+    return motion
+
+
+def test_nothing_was_moved_so_nothing_is_held() -> None:
+    assert held(told(), 1.0) is None
+
+
+def test_a_first_move_is_held_only_once_it_has_ended() -> None:
+    motion = told((0.0, move(1000, s1=2000)))
+    assert motion.is_moving(0.5)
+    assert held(motion, 0.5) is None
+    assert held(motion, 1.0) == move(20, s1=2000)
+    assert not motion.is_moving(1.0)
+
+
+def test_a_new_target_takes_the_others_with_it_where_boards_share_the_time_and_only_there() -> None:
+    ways = ((0.0, move(0, s1=1000, s2=1000)), (1.0, move(1000, s1=2000)), (1.5, move(1000, s2=2000)))
+    assert held(told(*ways), 2.0) == move(20, s1=1750, s2=1500)
+    assert held(told(*ways, family="lsc-6"), 2.0) == move(20, s1=2000, s2=1500)
+
+
+def test_a_servo_let_go_is_not_held() -> None:
+    motion = told((0.0, move(0, s1=500, s2=600)), (1.0, Release((1,))), family="bus-ctrl")
+    assert held(motion, 2.0) == move(20, s2=600)
+
+
+def test_a_group_may_move_anything_until_it_is_stopped() -> None:
+    motion = told((0.0, move(0, s1=1000)))
+    motion.left(RUN, 1.0)
+    assert motion.group_may_run
+    assert held(motion, 2.0) is None
+    motion.left(encode(move(1000, s1=1500), DOC), 3.0)
+    assert held(motion, 5.0) is None
+    motion.left(STOP, 6.0)
+    assert not motion.group_may_run
+    motion.left(encode(move(1000, s1=1500), DOC), 7.0)
+    assert held(motion, 8.0) == move(20, s1=1500)
+
+
+ways = st.lists(
+    st.tuples(
+        st.floats(0, 2),
+        st.builds(
+            lambda duration_ms, targets: Move(
+                duration_ms, tuple(ServoTarget(servo, at) for servo, at in targets.items())
+            ),
+            st.integers(0, 3000),
+            st.dictionaries(st.integers(1, 6), st.integers(500, 2500), min_size=1),
+        ),
+    ),
+    max_size=8,
+)
+
+
+@given(ways, st.floats(0, 5), st.sampled_from(["doc", "lsc-6"]))
+def test_a_hold_is_a_move_that_the_board_can_take_and_freezes_what_rests(
+    pauses: list[tuple[float, Move]], wait_s: float, family: str
+) -> None:
+    at_s, timed = 0.0, []
+    for pause_s, command in pauses:
+        at_s += pause_s
+        timed.append((at_s, command))
+    motion = told(*timed, family=family)
+    hold = held(motion, at_s + wait_s)
+    if not pauses:
+        assert hold is None
+        return
+    rest = motion.hold(at_s + 10.0)
+    assert rest is not None
+    last = {target.servo: target.position for _, command in timed for target in command.targets}
+    parsed = parse_command(rest)
+    assert isinstance(parsed, Move)
+    assert {target.servo: target.position for target in parsed.targets} == last
+    if hold is not None:
+        assert isinstance(hold, Move)
+        assert 20 <= hold.duration_ms <= 3000
+        assert all(500 <= target.position <= 2500 for target in hold.targets)
