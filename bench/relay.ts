@@ -1,5 +1,6 @@
 // A question and its answer through everything between a page and a port: Chromium, WebSocket, gateway, pty, the board's
-// process, and back; beside pyserial alone on the same port. Nothing is subtracted.
+// process, and back; beside pyserial alone on the same port, and beside an echo by the gateway's kind of server without
+// any port. Nothing is subtracted.
 //
 // The board's line takes no time here, so what is left is the relay's own. The question is to run an empty slot: its
 // answer is immediate and has no parameters, so no decoder holds it back to see what follows it.
@@ -7,8 +8,10 @@
 import type { Page } from '@playwright/test';
 import { encodeCommand, encodeReport } from '#shared/protocol/encode.ts';
 import { family } from '#shared/protocol/families.ts';
+import { freePort } from '../scripts/address.mjs';
+import { endChild, startChild } from '../scripts/children.mjs';
 import { python } from '../scripts/python.mjs';
-import { mustRun } from '../scripts/steps.mjs';
+import { SetupProblem, mustRun } from '../scripts/steps.mjs';
 import type { Figure } from './figure.ts';
 import { withBoard, withPage } from './station.ts';
 import { percentile } from './statistics.ts';
@@ -16,25 +19,89 @@ import { percentile } from './statistics.ts';
 const TRIPS = 400;
 /** Thrown away: caches and compilers warm up, on both sides alike. */
 const WARM_UP_TRIPS = 50;
-/** Longer than the gateway leaves between two packets (the wire's time and 10 ms), so that no question waits for its turn. */
-const PAUSE_MS = 20;
+/** No question waits for its turn: longer than the gateway leaves between two packets, and it takes 30 messages a second. */
+const PAUSE_MS = 45;
+const HOST = '127.0.0.1';
+const START_MS = 10_000;
+const POLL_MS = 20;
 
 const question = hex(encodeCommand({ kind: 'run', slot: 200, times: 1 }, family('doc')));
 const answer = hex(encodeReport({ kind: 'runAccepted' }));
 
 export async function measureRelay(): Promise<Figure[]> {
-  const [throughPage, plain] = await withBoard(['--baud', '0'], async ({ device }) => [
-    await withPage(device, tripsThroughPage),
-    await tripsOfPyserial(device),
-  ]);
-  const figure = (key: string, percent: number, note: string): Figure => ({
-    ...{ key, value: percentile(throughPage.slice(WARM_UP_TRIPS), percent), unit: 'µs', note },
-    against: { what: 'pyserial alone', value: percentile(plain.slice(WARM_UP_TRIPS), percent) },
+  const { relayed, echoed, plain } = await withBoard(['--baud', '0'], async ({ device }) => {
+    const throughPage = await withPage(device, async (page, url) => ({
+      relayed: await tripsThroughPage(page, url),
+      echoed: await tripsOfEcho(page),
+    }));
+    return { ...throughPage, plain: await tripsOfPyserial(device) };
   });
+  const figures = (key: string, what: string, rival: readonly number[]): Figure[] =>
+    [50, 99].map((percent) => ({
+      ...{ key: `relay.${key}P${percent}Us`, value: slowest(relayed, percent), unit: 'µs' },
+      against: { what, value: slowest(rival, percent) },
+      note: `page, gateway, pty, board and back; ${TRIPS} trips`,
+    }));
   return [
-    figure('relay.roundtripP50Us', 50, `page, gateway, pty, board and back; ${TRIPS} trips`),
-    figure('relay.roundtripP99Us', 99, 'the slow ones of the same trips'),
+    ...figures('roundtrip', 'pyserial alone', plain),
+    ...figures('besideEcho', 'bare echo, no port', echoed),
   ];
+}
+
+function slowest(trips: readonly number[], percent: number): number {
+  return percentile(trips.slice(WARM_UP_TRIPS), percent);
+}
+
+/** The same page and pauses against a server that only sends back. */
+async function tripsOfEcho(page: Page): Promise<readonly number[]> {
+  const port = await freePort(HOST);
+  const url = `http://${HOST}:${port}/`;
+  const lines: string[] = [];
+  const server = startChild(python, ['bench/echo_app.py', HOST, String(port)], (line) => lines.push(line));
+  try {
+    await untilAnswers(url, lines);
+    await page.goto(url);
+    return await page.evaluate(echoInPage, { trips: WARM_UP_TRIPS + TRIPS, pauseMs: PAUSE_MS });
+  } finally {
+    await endChild(server);
+  }
+}
+
+async function untilAnswers(url: string, lines: readonly string[]): Promise<void> {
+  const untilMs = performance.now() + START_MS;
+  while (
+    !(await fetch(url).then(
+      ({ ok }) => ok,
+      () => false,
+    ))
+  ) {
+    if (performance.now() > untilMs) throw new SetupProblem(`The echo did not start: ${lines.join('\n')}`);
+    await new Promise((resolve) => setTimeout(resolve, POLL_MS));
+  }
+}
+
+/** Runs in the page, so it may name nothing from outside itself. */
+async function echoInPage({
+  trips,
+  pauseMs,
+}: {
+  trips: number;
+  pauseMs: number;
+}): Promise<readonly number[]> {
+  const socket = new WebSocket(`ws://${location.host}/`);
+  await new Promise((resolve) => (socket.onopen = resolve));
+  const microseconds: number[] = [];
+  for (let trip = 0; trip < trips; trip += 1) {
+    await new Promise((resolve) => setTimeout(resolve, pauseMs));
+    const answered = new Promise<number>((resolve) => {
+      socket.onmessage = () => resolve(performance.now());
+    });
+    const askedMs = performance.now();
+    socket.send(JSON.stringify({ trip }));
+    microseconds.push(((await answered) - askedMs) * 1_000);
+  }
+  socket.close();
+  return microseconds;
 }
 
 /** Any document of the gateway's own address will do. Isolated, a page's clock steps by 5 µs instead of 100. */
@@ -56,9 +123,11 @@ interface Questions {
   readonly pauseMs: number;
 }
 
-/** Runs in the page, so it may name nothing from outside itself. */
+/** Drives as a page does: asks for the lease, answers each tick. Names nothing from outside itself, too. */
 async function askInPage({ question, answer, trips, pauseMs }: Questions): Promise<readonly number[]> {
   const socket = new WebSocket(`ws://${location.host}/ws`);
+  const say = (message: object): void => socket.send(JSON.stringify(message));
+  let nonce: unknown = null;
 
   /** Resolves with the time of the message whose `field` says `value`. */
   const heard = (field: 'type' | 'packet', value: string): Promise<number> =>
@@ -68,6 +137,7 @@ async function askInPage({ question, answer, trips, pauseMs }: Questions): Promi
         const atMs = performance.now();
         const message = JSON.parse(String(data)) as Record<string, unknown>;
         if (message.type === 'refused') reject(new Error(String(data)));
+        if (message.type === 'tick') say({ type: 'beat', nonce: (nonce = message.nonce) });
         if (message[field] !== value) return;
         clearTimeout(late);
         resolve(atMs);
@@ -75,12 +145,16 @@ async function askInPage({ question, answer, trips, pauseMs }: Questions): Promi
     });
 
   await heard('type', 'welcome');
+  say({ type: 'board', board: 'doc' });
+  const ticked = heard('type', 'tick');
+  say({ type: 'lease', action: 'request' });
+  await ticked;
   const microseconds: number[] = [];
   for (let id = 1; id <= trips; id += 1) {
     await new Promise((resolve) => setTimeout(resolve, pauseMs));
     const answered = heard('packet', answer);
     const askedMs = performance.now();
-    socket.send(JSON.stringify({ type: 'send', id, packet: question, nonce: null }));
+    say({ type: 'send', id, packet: question, nonce });
     microseconds.push(((await answered) - askedMs) * 1_000);
   }
   socket.close();
