@@ -11,6 +11,7 @@ test('without a gateway the page starts on the simulated robot, and it moves', a
   await expect(dashboard.battery).toContainText('7.50 V');
   await dashboard.type(dashboard.target(6), 1800);
   await expect(dashboard.estimate(6)).toHaveText('≈ 1800');
+  await expect(dashboard.estimate(6)).toBeVisible();
 });
 
 test('a way that is not possible here says why', async ({ page, servers }) => {

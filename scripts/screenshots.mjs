@@ -1,0 +1,150 @@
+// `npm run screenshots`: takes the pictures of docs/images from the built page on its simulated board; names as arguments take
+// those alone. What a picture shows is done as a person does it. Run `npm run build` first.
+
+import { statSync } from 'node:fs';
+import { chromium } from '@playwright/test';
+import { preview } from 'vite';
+import { findBrowser } from './browser.mjs';
+import { SetupProblem, at, main, say } from './steps.mjs';
+
+/** @typedef {import('@playwright/test').Page} Page */
+/** @typedef {{ width: number, height: number, colorScheme?: 'light', region?: string, act?: (page: Page) => Promise<unknown> }} Shot */
+
+const DESK = { width: 1280, height: 760 };
+const PHONE = { width: 390, height: 844 };
+/** A picture that is larger makes the repository heavy. */
+const LARGEST_BYTES = 150_000;
+/** The arm of a first visit has risen, and the battery was read twice. */
+const SETTLE_MS = 7000;
+
+/** @param {Page} page @param {string | RegExp} name */
+const press = (page, name) => page.getByRole('button', { name, exact: typeof name === 'string' }).click();
+
+/** @param {Page} page @param {string} name */
+const choose = (page, name) => page.getByRole('radio', { name, exact: true }).check();
+
+/** @param {Page} page */
+async function wave(page) {
+  await press(page, 'Begin with an example');
+  await page.getByRole('list', { name: 'Examples' }).getByRole('button').first().click();
+}
+
+/** @param {Page} page */
+async function poses(page) {
+  await choose(page, 'Poses');
+  for (const [servo, position] of [
+    [3, 1200],
+    [4, 1350],
+    [5, 1800],
+  ]) {
+    const target = page.getByRole('textbox', { name: `Servo ${servo} target`, exact: true });
+    await target.fill(String(position));
+    await target.press('Enter');
+    await page.waitForTimeout(1500);
+    await press(page, 'Capture pose');
+  }
+}
+
+/** @param {Page} page */
+async function blend(page) {
+  await poses(page);
+  await page.getByRole('switch', { name: 'Blend', exact: true }).check();
+  await page.getByRole('combobox', { name: 'Blend with' }).selectOption({ index: 1 });
+}
+
+/** @param {Page} page */
+async function calibrate(page) {
+  await press(page, /^Robot: /);
+  await press(page, 'Calibrate');
+}
+
+/** @param {Page} page @param {number} warnMv */
+async function pack(page, warnMv) {
+  await press(page, 'Battery settings');
+  await choose(page, '2S pack');
+  const warn = page.getByRole('textbox', { name: 'Warn at, in millivolts', exact: true });
+  await warn.fill(String(warnMv));
+  await warn.press('Enter');
+}
+
+/** @type {Readonly<Record<string, Shot>>} */
+const SHOTS = {
+  dashboard: { ...DESK, act: wave },
+  light: { ...DESK, colorScheme: 'light', act: wave },
+  phone: PHONE,
+  timeline: { ...DESK, region: 'Action group', act: wave },
+  poses: { ...DESK, region: 'Poses', act: blend },
+  pad: { ...DESK, region: 'Keys and pad', act: (page) => choose(page, 'Keys and pad') },
+  battery: { ...DESK, act: (page) => pack(page, 7000) },
+  'low-battery': {
+    ...DESK,
+    region: 'Battery',
+    async act(page) {
+      await pack(page, 7600);
+      await press(page, 'Close');
+      await page.getByText(/^The battery is low/).waitFor({ timeout: 30_000 });
+    },
+  },
+  calibration: { ...DESK, act: calibrate },
+  slots: { ...DESK, act: (page) => press(page, 'Slots') },
+  library: {
+    ...DESK,
+    async act(page) {
+      await wave(page);
+      await page.waitForTimeout(1500);
+      await press(page, 'Library');
+    },
+  },
+  stopped: { ...DESK, act: (page) => press(page, /^Stop/) },
+  disconnected: {
+    ...DESK,
+    async act(page) {
+      await press(page, 'Connect');
+      await press(page, 'Disconnect');
+    },
+  },
+};
+
+/** @param {import('@playwright/test').Browser} browser @param {string} url @param {string} name */
+async function take(browser, url, name) {
+  const shot = SHOTS[name];
+  if (shot === undefined)
+    throw new SetupProblem(`No picture is called ${name}: ${Object.keys(SHOTS).join(', ')}`);
+  const { width, height, colorScheme = 'dark', region, act } = shot;
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme, locale: 'en-GB' });
+  const page = await context.newPage();
+  await page.goto(url);
+  await page.waitForTimeout(SETTLE_MS);
+  await act?.(page);
+  await page.waitForTimeout(1000);
+  const file = at(`docs/images/${name}.png`);
+  const shown = region === undefined ? page : page.getByRole('region', { name: region, exact: true });
+  await shown.screenshot({ path: file });
+  await context.close();
+  const { size } = statSync(file);
+  say(`docs/images/${name}.png: ${Math.round(size / 1000)} kB${size > LARGEST_BYTES ? ', too large' : ''}`);
+  return size <= LARGEST_BYTES;
+}
+
+await main(async () => {
+  const executablePath = findBrowser();
+  if (executablePath === null) throw new SetupProblem('Pictures are taken by a Chromium, and there is none.');
+  // A gateway that happens to run here has no part in it.
+  const server = await preview({
+    configFile: at('vite.config.ts'),
+    logLevel: 'warn',
+    preview: { port: 0, proxy: {} },
+  });
+  const browser = await chromium.launch({
+    executablePath,
+    args: process.getuid?.() === 0 ? ['--no-sandbox'] : [],
+  });
+  const url = server.resolvedUrls?.local[0] ?? '';
+  const names = process.argv.slice(2);
+  let areSmall = true;
+  for (const name of names.length > 0 ? names : Object.keys(SHOTS))
+    areSmall = (await take(browser, url, name)) && areSmall;
+  await browser.close();
+  await server.close();
+  return areSmall ? 0 : 1;
+});
