@@ -102,13 +102,8 @@ class StopLink(Message):
     picture: str
 
 
-def json_schema() -> dict[str, object]:
-    read = {"PairWish": PairWish, "PersonChange": PersonChange, "InviteWish": InviteWish}
-    read |= {"TokenWish": TokenWish, "StopLinkWish": StopLinkWish}
-    written = {"Me": Me, "People": People, "Invitation": Invitation, "Token": Token, "StopLink": StopLink}
-    return schema_of("PeopleMessage", dict(read), dict(written))
-
-
 if __name__ == "__main__":
-    json.dump(json_schema(), sys.stdout, indent=2)
+    said = {"PeopleRequest": PairWish | PersonChange | InviteWish | TokenWish | StopLinkWish}
+    answered = {"PeopleAnswer": Me | You | People | Person | Invitation | Token | StopLink}
+    json.dump(schema_of("PeopleMessage", said, answered), sys.stdout, indent=2)
     sys.stdout.write("\n")

@@ -14,6 +14,7 @@ import { LogDrawer } from './console/LogDrawer.tsx';
 import { LogPanel } from './console/LogPanel.tsx';
 import { Messages } from './console/Messages.tsx';
 import { LibraryDialog } from './library/LibraryDialog.tsx';
+import { PeopleDialog } from './people/PeopleDialog.tsx';
 import { RobotDialog } from './robots/RobotDialog.tsx';
 import { Authoring } from './authoring/Authoring.tsx';
 import { ButtonsPage } from './macros/ButtonsPage.tsx';
@@ -67,6 +68,7 @@ function Dashboard({ page }: { readonly page: Page }) {
       <ConnectDialog connector={page.connector} />
       <RobotDialog />
       <LibraryDialog />
+      <PeopleDialog />
     </div>
   );
 }

@@ -11,6 +11,7 @@ import type { Boards } from '../stores/boards.ts';
 import type { Device, Way } from '../stores/device.ts';
 import type { TextStorage } from '../stores/document.ts';
 import type { Notices } from '../stores/notices.ts';
+import type { You } from '../stores/people.generated.ts';
 import { createGatewayTransport } from '../transports/gateway.ts';
 import { createSimulatedTransport } from '../transports/simulated.ts';
 import {
@@ -81,11 +82,13 @@ export interface ConnectorOptions {
   readonly notices: Notices;
   readonly boards: Boards;
   readonly storage: TextStorage;
+  /** What whoever opened the page may do at its gateway. */
+  readonly role: You['role'];
   isWatched(): boolean;
 }
 
 export function createConnector(options: ConnectorOptions): Connector {
-  const { device, notices, boards, storage, isWatched } = options;
+  const { device, notices, boards, storage, role, isWatched } = options;
   const store = createStore<ConnectState>(() => ({
     board: 'doc',
     reconnects: recallReconnects(storage),
@@ -137,7 +140,7 @@ export function createConnector(options: ConnectorOptions): Connector {
 
   async function look(): Promise<void> {
     const [gateway, granted] = await Promise.all([readGateway(), grantedPorts()]);
-    const ports = gateway === null ? [] : await readPorts();
+    const ports = gateway === null || role !== 'owner' ? [] : await readPorts();
     store.setState({
       gateway: gateway ?? 'absent',
       gatewayPorts: ports,
@@ -156,9 +159,12 @@ export function createConnector(options: ConnectorOptions): Connector {
       if (last === null) greet();
     } else if (!reconnects) return;
     else if (last?.kind === 'webSerial' && port !== undefined) await connect(serialTransport(port.port));
-    else if (typeof gateway === 'object') await connect(createGatewayTransport(gatewayUrl()));
+    else if (typeof gateway === 'object') await connect(gatewayTransport());
     else await connect(simulated());
   }
+
+  const gatewayTransport = (): Transport =>
+    createGatewayTransport(gatewayUrl(), { tellsLimits: role !== 'viewer' });
 
   const simulated = (): Transport => createSimulatedTransport(simulatedAs(store.getState().board));
 
@@ -183,11 +189,11 @@ export function createConnector(options: ConnectorOptions): Connector {
       store.setState({ board });
       chosen(simulated());
     },
-    useGateway: () => chosen(createGatewayTransport(gatewayUrl())),
+    useGateway: () => chosen(gatewayTransport()),
     async useGatewayPort(path) {
       await openGatewayPort(path, boards.recall({ kind: 'gateway', label: path })?.family ?? 'unknown');
       await look();
-      chosen(createGatewayTransport(gatewayUrl()));
+      chosen(gatewayTransport());
     },
     useSerialPort: (port) => chosen(serialTransport(port)),
     async chooseSerialPort() {

@@ -3,6 +3,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 import type { BoardId } from '#shared/protocol/families.ts';
+import { OWN_PAGE } from '../keepers/ownPage.ts';
 import { isLinkErrorCode, LinkError } from '#shared/session/linkError.ts';
 
 export interface GatewayStatus {
@@ -58,11 +59,7 @@ export async function readPorts(): Promise<readonly GatewayPort[]> {
 }
 
 export async function openGatewayPort(device: string, board: BoardId): Promise<void> {
-  await ask('api/port', {
-    method: 'PUT',
-    headers: { 'content-type': 'application/json' },
-    body: JSON.stringify({ device, board }),
-  });
+  await ask('api/port', { device, board });
 }
 
 /** The gateway's WebSocket beside the page. */
@@ -72,15 +69,19 @@ export function gatewayUrl(): string {
   return url.href;
 }
 
-async function ask(path: string, request: RequestInit = {}): Promise<unknown> {
-  const response = await fetch(path, { ...request, signal: AbortSignal.timeout(ANSWER_WITHIN_MS) }).catch(
-    (error: unknown) => {
-      throw new LinkError('gatewayUnreachable', 'the gateway does not answer', { cause: error });
-    },
-  );
-  const body: unknown = await response.json().catch(() => null);
-  if (response.ok) return body;
-  throw problem(body);
+/** Without a body it is a question. */
+async function ask(path: string, body?: object): Promise<unknown> {
+  const request =
+    body === undefined
+      ? { headers: OWN_PAGE }
+      : { method: 'PUT', headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) };
+  const signal = AbortSignal.timeout(ANSWER_WITHIN_MS);
+  const response = await fetch(path, { ...request, signal }).catch((error: unknown) => {
+    throw new LinkError('gatewayUnreachable', 'the gateway does not answer', { cause: error });
+  });
+  const answer: unknown = await response.json().catch(() => null);
+  if (response.ok) return answer;
+  throw problem(answer);
 }
 
 function problem(body: unknown): LinkError {

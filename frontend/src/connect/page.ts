@@ -8,7 +8,7 @@ import { pollBattery } from '../stores/batteryPoll.ts';
 import { createBlend } from '../stores/blend.ts';
 import { createBoards } from '../stores/boards.ts';
 import { createCompiled } from '../stores/compiled.ts';
-import { createDevice } from '../stores/device.ts';
+import { createDevice, type Device } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import type { Keeper } from '#shared/actions/library/keeper.ts';
 import { createBrowserKeeper } from '../keepers/browserKeeper.ts';
@@ -24,6 +24,8 @@ import { followPlace } from '../stores/groupPlace.ts';
 import { createMotionTape } from '../stores/motionTape.ts';
 import { createNotices } from '../stores/notices.ts';
 import { createPad } from '../stores/pad.ts';
+import { createPeople } from '../stores/people.ts';
+import type { Me } from '../stores/people.generated.ts';
 import { createPlayback } from '../stores/playback.ts';
 import { createPlayhead } from '../stores/playhead.ts';
 import { createPoses } from '../stores/poses.ts';
@@ -32,8 +34,11 @@ import { createSlots } from '../stores/slots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createTimeline } from '../stores/timeline.ts';
 import { createView } from '../stores/view.ts';
+import { words } from '../words/words.ts';
 import { browserClock } from '../transports/browserClock.ts';
 import { hasGateway } from './gatewayApi.ts';
+import { isAnother, type Arrival } from './arrival.ts';
+import { peopleApi, readMe } from './peopleApi.ts';
 import { watchLeaving } from './leaving.ts';
 import { createConnector, type Connector } from './connector.ts';
 
@@ -45,7 +50,8 @@ export interface Page {
   readonly connector: Connector;
 }
 
-export async function openPage(): Promise<Page> {
+/** `arrival` says who is here; a page without a gateway belongs to whoever opens it. */
+export async function openPage({ me, problem }: Arrival): Promise<Page> {
   const storage = browserStorage();
   const notices = createNotices(pageClock);
   const view = createView(storage);
@@ -56,14 +62,14 @@ export async function openPage(): Promise<Page> {
   const boards = createBoards(storage);
   const battery = createBattery(device, robots);
   const mappings = createMappings(storage, notices, robots);
-  const readPads = () => navigator.getGamepads();
+  const readPads = () => (isSecureContext ? navigator.getGamepads() : []);
   const pad = createPad({ device, robots, mappings, notices, clock: pageClock, readPads });
   const poses = createPoses({ storage, notices, robots, device });
   const macroRun = createMacroRun({ device, poses, robots, notices, clock: pageClock });
   const written = createDocument(storage, notices);
   const library = createLibrary({
     ...{ document: written, storage, notices, robots, view, clock: pageClock },
-    ...{ keeper: chooseKeeper(), epochMs: Date.now, newId },
+    ...{ keeper: chooseKeeper(me), epochMs: Date.now, newId },
   });
   const compiled = createCompiled({ document: written, device, robots, clock: pageClock });
   const slots = createSlots({ device, robots, notices, storage, today: Date.now });
@@ -77,13 +83,23 @@ export async function openPage(): Promise<Page> {
     ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
     ...{ compiled, slots, playhead, playback },
     blend: createBlend(device),
+    people: createPeople({ api: peopleApi, me, notices, now: pageClock.now }),
     tape: createMotionTape({ device, robots, clock: pageClock }),
     macros: createMacros(storage, notices, robots),
     document: written,
     lastPoses: createLastPoses(storage, device),
     timeline,
   };
-  const connector = createConnector({ device, notices, boards, storage, isWatched });
+  const connector = createConnector({
+    device,
+    notices,
+    boards,
+    storage,
+    isWatched,
+    role: me?.you?.role ?? 'owner',
+  });
+  if (problem !== null) notices.tell('warning', words.people.problem(problem.code, problem.message));
+  beginAnewAsAnother(device, me);
   connector.start().catch(notices.tellError);
   const paused = (): void => {
     playback.hidden();
@@ -104,9 +120,22 @@ export async function openPage(): Promise<Page> {
   return { stores, connector };
 }
 
-/** The gateway of the page's own address, where there is one. */
-async function chooseKeeper(): Promise<Keeper> {
-  return (await hasGateway(pageClock)) ? gatewayKeeper : createBrowserKeeper('servodeck', Date.now);
+/** The gateway's, where there is one to write to: what a viewer tries out stays in the viewer's browser. */
+async function chooseKeeper(me: Me | null): Promise<Keeper> {
+  const isViewer = me?.you?.role === 'viewer';
+  const isKept = !isViewer && (me !== null || (await hasGateway(pageClock)));
+  return isKept ? gatewayKeeper : createBrowserKeeper('servodeck', Date.now);
+}
+
+/** A lost gateway may have sent this device away, or made more or less of it. */
+function beginAnewAsAnother(device: Device, me: Me | null): void {
+  if (me === null || me.mode === 'local') return;
+  device.store.subscribe(({ snapshot }, before) => {
+    if (snapshot.link.status !== 'lost' || before.snapshot.link.status === 'lost') return;
+    void readMe().then((now) => {
+      if (isAnother(me.you, now)) location.reload();
+    });
+  });
 }
 
 /** Not `randomUUID`, which is there only at secure addresses. */

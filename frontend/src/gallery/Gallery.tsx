@@ -24,6 +24,7 @@ import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
 import { FileSpecimens } from './FileSpecimens.tsx';
 import { LibrarySpecimens } from './LibrarySpecimens.tsx';
+import { PeopleSpecimens } from './PeopleSpecimens.tsx';
 import { PlaySpecimens } from './PlaySpecimens.tsx';
 import { PoseSpecimens } from './PoseSpecimens.tsx';
 import { TimelineSpecimens } from './TimelineSpecimens.tsx';
@@ -62,6 +63,7 @@ export function Gallery() {
             <PlaySpecimens />
             <FileSpecimens newStores={() => storesOf(BLANK)} />
             <LibrarySpecimens />
+            <PeopleSpecimens />
             <TimelineSpecimens />
             <RobotSpecimens newStores={() => storesOf(BLANK)} />
           </StoresContext>

@@ -17,6 +17,7 @@ import { createMappings } from '../stores/mappings.ts';
 import { createMotionTape } from '../stores/motionTape.ts';
 import { createNotices } from '../stores/notices.ts';
 import { createPad, type Gamepadlike } from '../stores/pad.ts';
+import { createPeople, PeopleError, type PeopleApi } from '../stores/people.ts';
 import { createPlayback } from '../stores/playback.ts';
 import { createPlayhead } from '../stores/playhead.ts';
 import { createPoses } from '../stores/poses.ts';
@@ -26,6 +27,11 @@ import type { Stores } from '../stores/stores.ts';
 import { createTimeline } from '../stores/timeline.ts';
 import { createView } from '../stores/view.ts';
 
+const none = () => Promise.reject(new PeopleError('unreachable', ''));
+const NOBODY: PeopleApi = {
+  ...{ list: none, invite: none, withdraw: none, change: none, revoke: none },
+  ...{ makeToken: none, makeStopLink: none },
+};
 const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined };
 
 export function specimenStores(family: Family, held: Gamepadlike | null = null): Stores {
@@ -54,6 +60,7 @@ export function specimenStores(family: Family, held: Gamepadlike | null = null):
     battery: createBattery(device, robots),
     blend: createBlend(device),
     timeline,
+    people: createPeople({ api: NOBODY, me: null, notices, now: pageClock.now }),
     ...{ compiled, slots, playhead },
     tape: createMotionTape({ device, robots, clock: pageClock }),
     playback: createPlayback({

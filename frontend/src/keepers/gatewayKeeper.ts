@@ -7,6 +7,7 @@ import {
   type Keeper,
   type LibraryErrorCode,
 } from '#shared/actions/library/keeper.ts';
+import { OWN_PAGE } from './ownPage.ts';
 import type {
   DocumentIds,
   DocumentWrite,
@@ -78,10 +79,8 @@ async function ask<T>(path: string, method: string, schema: z.ZodMiniType<T>, bo
   const response = await fetch(`api/library${path}`, {
     method,
     signal: AbortSignal.timeout(ANSWER_WITHIN_MS),
-    ...(body !== undefined && {
-      headers: { 'content-type': 'application/json' },
-      body: JSON.stringify(body),
-    }),
+    headers: { ...OWN_PAGE, ...(body !== undefined && { 'content-type': 'application/json' }) },
+    ...(body !== undefined && { body: JSON.stringify(body) }),
   }).catch((error: unknown) => {
     throw new LibraryError('unreachable', 'the gateway does not answer', { cause: error });
   });

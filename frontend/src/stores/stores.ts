@@ -23,6 +23,7 @@ import { servoViewFor, type ServoView, type Stand } from './servoView.ts';
 import type { Pad, PadState } from './pad.ts';
 import type { MacroRun } from './macroRun.ts';
 import type { Playback, PlaybackState, Playhead } from './playback.ts';
+import type { PeopleStore } from './people.ts';
 import type { Poses } from './poses.ts';
 import type { Slots, SlotsState } from './slots.ts';
 import type { Undoable } from './undoable.ts';
@@ -45,6 +46,7 @@ export interface Stores {
   readonly pad: Pad;
   readonly poses: Poses;
   readonly blend: Blend;
+  readonly people: PeopleStore;
   readonly macros: Undoable<MacroPage>;
   readonly macroRun: MacroRun;
   readonly compiled: CompiledStore;

@@ -27,6 +27,7 @@ export interface ViewState {
   readonly authoring: 'group' | 'poses' | 'pad';
   readonly connectOpen: boolean;
   readonly libraryOpen: boolean;
+  readonly peopleOpen: boolean;
   /** What of the robots is open; null: nothing. */
   readonly robotView: 'list' | 'edit' | 'calibrate' | null;
   /** How far the calibration of one robot, by its id, has come. */
@@ -72,6 +73,7 @@ export const INITIAL_VIEW: ViewState = {
   authoring: 'group',
   connectOpen: false,
   libraryOpen: false,
+  peopleOpen: false,
   robotView: null,
   calibration: null,
   logOpen: false,

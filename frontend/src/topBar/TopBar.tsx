@@ -8,6 +8,7 @@ import { RobotButton } from '../robots/RobotButton.tsx';
 import { BatteryReadout } from '../battery/BatteryReadout.tsx';
 import { IconButton } from '../ui/Button.tsx';
 import type { IconName } from '../ui/Icon.tsx';
+import { PeopleButton } from '../people/PeopleDialog.tsx';
 import { PageSwitch } from '../macros/PageSwitch.tsx';
 import { words } from '../words/words.ts';
 import { LanguageControl } from './LanguageControl.tsx';
@@ -29,6 +30,7 @@ export function TopBar({ onMoveHere }: StatusLineProps) {
       </div>
       <BatteryReadout />
       <div className={styles.looks}>
+        <PeopleButton />
         <LanguageControl />
         <ThemeButton />
       </div>

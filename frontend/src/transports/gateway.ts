@@ -12,8 +12,8 @@ import { createTurn } from './turn.ts';
 
 type Settle = { resolve: () => void; reject: (error: LinkError) => void };
 
-/** `url` is the gateway's WebSocket, e.g. `ws://127.0.0.1:8300/ws`. */
-export function createGatewayTransport(url: string): Transport {
+/** `url` is the gateway's WebSocket, e.g. `ws://127.0.0.1:8300/ws`. Whoever only looks on has no limits to tell. */
+export function createGatewayTransport(url: string, { tellsLimits = true } = {}): Transport {
   let socket: WebSocket | null = null;
   let port: PortState | null = null;
   let events: TransportEvents | null = null;
@@ -163,6 +163,10 @@ export function createGatewayTransport(url: string): Transport {
     if (socket?.readyState === WebSocket.OPEN) post(message);
   }
 
+  function tellLimits(message: ClientMessage): void {
+    if (tellsLimits) postIfOpen(message);
+  }
+
   const nextState = (): Promise<void> =>
     new Promise((resolve, reject) => stateWaiters.add({ resolve: () => resolve(), reject }));
 
@@ -180,8 +184,8 @@ export function createGatewayTransport(url: string): Transport {
         naming.add({ resolve, reject });
       });
     },
-    setLimits: (own) => postIfOpen({ type: 'limits', servos: [...own] }),
-    calibrate: (servo) => postIfOpen({ type: 'calibrate', servo }),
+    setLimits: (own) => tellLimits({ type: 'limits', servos: [...own] }),
+    calibrate: (servo) => tellLimits({ type: 'calibrate', servo }),
     get label() {
       return port?.device ?? '';
     },

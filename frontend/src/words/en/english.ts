@@ -23,6 +23,7 @@ import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { leaseWords } from './lease.ts';
 import { libraryWords } from './library.ts';
+import { peopleWords } from './people.ts';
 import { rangeText } from './refusals.ts';
 import { robotEditorWords } from './robotEditor.ts';
 import { padWords } from './pad.ts';
@@ -343,6 +344,7 @@ export const english = {
 
   battery: batteryWords,
   library: libraryWords,
+  people: peopleWords,
 
   log: {
     title: 'Log',

@@ -13,6 +13,7 @@ import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { leaseWords } from './lease.ts';
 import { libraryWords } from './library.ts';
+import { peopleWords } from './people.ts';
 import { macroWords } from './macros.ts';
 import {
   formatAge,
@@ -319,6 +320,7 @@ export const chinese: Words = {
 
   battery: batteryWords,
   library: libraryWords,
+  people: peopleWords,
 
   log: {
     title: '日志',

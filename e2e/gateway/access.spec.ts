@@ -1,0 +1,98 @@
+// A gateway on the network: who comes in and how, what each may do, and that whoever looks can stop the robot.
+
+import { ofKind, type Bus } from '../fixtures/bus.ts';
+import { firstInvitation, newDevice, pairCardOf, peopleOf, ready } from '../fixtures/people.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+
+const stops = async (bus: Bus): Promise<number> => ofKind(await bus(), 'stop').length;
+
+test('an owner comes in by the terminal’s link, lets a viewer in, who stops the robot, and revokes it', async ({
+  newGateway,
+  ptyBoard,
+  browser,
+}) => {
+  const gateway = await newGateway({ serial: ptyBoard.device, lan: true });
+  const { link } = await firstInvitation(gateway);
+  const owner = await ready(await newDevice(browser, link));
+  expect(owner.page.url()).not.toContain('#');
+  const people = peopleOf(owner);
+  await people.opener.click();
+  const invitation = await people.invite('viewer', 'Ben');
+
+  const ben = await ready(await newDevice(browser, invitation.link));
+  await expect(people.person('Ben')).toContainText('Here now');
+  await expect(peopleOf(ben).opener).toBeHidden();
+  const before = await stops(ptyBoard.bus);
+  await ben.stop.click();
+  await poll(() => stops(ptyBoard.bus)).toBeGreaterThanOrEqual(before + 3);
+  await expect(ben.status).toContainText('Stop was pressed');
+
+  const used = await newDevice(browser, invitation.link);
+  await expect(pairCardOf(used).problem).toContainText('used already');
+
+  await people.person('Ben').getByRole('button', { name: 'Revoke' }).click();
+  await owner.page
+    .getByRole('alertdialog', { name: 'Revoke Ben?' })
+    .getByRole('button', { name: 'Revoke' })
+    .click();
+  await expect(pairCardOf(ben.page).title).toBeVisible();
+  await expect(people.person('Ben')).toBeHidden();
+});
+
+test('people come in by the digits, one after the other, until five were wrong', async ({
+  newGateway,
+  ptyBoard,
+  browser,
+}) => {
+  const gateway = await newGateway({ serial: ptyBoard.device, lan: true });
+  const first = await firstInvitation(gateway);
+  const address = first.link.replace(/#.*/, '');
+  const ownerPage = await newDevice(browser, address);
+  await pairCardOf(ownerPage).type('Anna', first.code);
+  const owner = await ready(ownerPage);
+  const people = peopleOf(owner);
+  await people.opener.click();
+  await expect(people.person('Anna')).toContainText('You');
+  const { code } = await people.invite('driver', '');
+
+  const benPage = await newDevice(browser, address);
+  await pairCardOf(benPage).type('Ben', code);
+  const ben = await ready(benPage);
+  await expect(people.person('Ben')).toContainText('Here now');
+  await ben.type(ben.target(1), 1600);
+  await poll(async () => ofKind(await ptyBoard.bus(), 'move').length).toBeGreaterThan(0);
+
+  const next = people.dialog.getByText(/^\d{4} \d{4}$/);
+  await expect(next).not.toHaveText(code);
+  const right = await next.innerText();
+  const wrong = right === '1234 5678' ? '8765 4321' : '1234 5678';
+  const guesser = pairCardOf(await newDevice(browser, address));
+  for (let attempt = 1; attempt < 5; attempt++) {
+    await guesser.type('Eve', wrong);
+    await expect(guesser.problem).toContainText('is wrong');
+  }
+  await guesser.type('Eve', wrong);
+  await expect(guesser.problem).toContainText('no code counts any more');
+  await guesser.type('Eve', right);
+  await expect(guesser.problem).toContainText('no code counts any more');
+});
+
+test('a stop-only link has one button, which stops the robot', async ({ newGateway, ptyBoard, browser }) => {
+  const gateway = await newGateway({ serial: ptyBoard.device, lan: true });
+  const owner = await ready(await newDevice(browser, (await firstInvitation(gateway)).link));
+  const people = peopleOf(owner);
+  await people.opener.click();
+  await people.dialog.getByRole('textbox', { name: 'What for' }).fill('On the robot');
+  await people.dialog.getByRole('button', { name: 'Make a stop-only QR code' }).click();
+  const link = await people.dialog.getByText(/#stop=/).innerText();
+
+  const passer = await newDevice(browser, link);
+  await expect(passer.getByRole('button')).toHaveCount(1);
+  const before = await stops(ptyBoard.bus);
+  await passer.getByRole('button', { name: 'Stop' }).click();
+  await expect(passer.getByRole('status')).toContainText('Stop was sent');
+  expect(await stops(ptyBoard.bus)).toBeGreaterThanOrEqual(before + 3);
+  await expect(owner.status).toContainText('Stopped');
+  await passer.reload();
+  await expect(passer.getByRole('heading', { name: 'Stop the robot' })).toBeVisible();
+});

@@ -1,0 +1,33 @@
+import { expect, test } from 'vitest';
+import { deviceName, isAnother, wishIn } from './arrival.ts';
+
+test.each([
+  ['', null],
+  ['#', null],
+  ['#pair=', null],
+  ['#pair', null],
+  ['#state=open', null],
+  ['#pair=abc-_1', { secret: 'abc-_1' }],
+  ['#stop=id.secret', { stop: 'id.secret' }],
+])('the address %j asks for %j', (hash, wish) => {
+  expect(wishIn(hash)).toEqual(wish);
+});
+
+test.each([
+  ['Mozilla/5.0 (iPhone; CPU iPhone OS 18_0 like Mac OS X)', 'iPhone'],
+  ['Mozilla/5.0 (Linux; Android 15; Pixel 9)', 'Android'],
+  ['Mozilla/5.0 (Windows NT 10.0; Win64; x64)', 'Windows'],
+  ['Mozilla/5.0 (X11; Linux x86_64)', 'Linux'],
+])('%s calls itself %s', (userAgent, name) => {
+  expect(deviceName(userAgent)).toBe(name);
+});
+
+test('somebody who was revoked, or may more or less now, is another one', () => {
+  const ben = { id: 'ben', name: 'Ben', role: 'driver' } as const;
+  const me = { mode: 'lan', overheard: true } as const;
+  expect(isAnother(ben, { ...me, you: ben })).toBe(false);
+  expect(isAnother(ben, { ...me, you: { ...ben, name: 'Bert' } })).toBe(false);
+  expect(isAnother(ben, { ...me, you: { ...ben, role: 'viewer' } })).toBe(true);
+  expect(isAnother(ben, { ...me, you: null })).toBe(true);
+  expect(isAnother(ben, null)).toBe(false);
+});

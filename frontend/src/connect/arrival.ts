@@ -1,0 +1,62 @@
+// How somebody arrives at the page: with a link that pairs, with one that only stops, or with neither. What is secret in the
+// address leaves it at once, so that neither history nor a screenshot keeps it.
+
+import { PeopleError } from '../stores/people.ts';
+import type { Me, PairWish, You } from '../stores/people.generated.ts';
+import { pair, readMe } from './peopleApi.ts';
+
+export interface Arrival {
+  /** null: no gateway serves this page. */
+  readonly me: Me | null;
+  /** Why the link in the address did not let in. */
+  readonly problem: PeopleError | null;
+}
+
+const LINKS = { pair: 'secret', stop: 'stop' } as const;
+
+/** What the address says, as a wish to the gateway; null for an ordinary one. */
+export function wishIn(hash: string): PairWish | null {
+  const [name, secret = ''] = hash.replace(/^#/, '').split('=', 2);
+  if ((name !== 'pair' && name !== 'stop') || secret === '') return null;
+  return { [LINKS[name]]: secret };
+}
+
+export async function arrive(page: Window): Promise<Arrival> {
+  const wish = wishIn(page.location.hash);
+  if (wish !== null) page.history.replaceState(null, '', page.location.pathname + page.location.search);
+  page.addEventListener('hashchange', () => {
+    if (wishIn(page.location.hash) !== null) page.location.reload();
+  });
+  const problem = wish === null ? null : await tryToPair(wish);
+  return { me: await readMe(), problem };
+}
+
+async function tryToPair(wish: PairWish): Promise<PeopleError | null> {
+  try {
+    await pair({ ...wish, name: deviceName(navigator.userAgent) });
+    return null;
+  } catch (error) {
+    if (error instanceof PeopleError) return error;
+    throw error;
+  }
+}
+
+/** What a device calls itself until an owner calls it otherwise; names of makers, the same in every language. */
+const DEVICES: readonly (readonly [RegExp, string])[] = [
+  [/iphone/i, 'iPhone'],
+  [/ipad/i, 'iPad'],
+  [/android/i, 'Android'],
+  [/cros/i, 'Chromebook'],
+  [/windows/i, 'Windows'],
+  [/mac/i, 'Mac'],
+];
+
+export function deviceName(userAgent: string): string {
+  return DEVICES.find(([sign]) => sign.test(userAgent))?.[1] ?? 'Linux';
+}
+
+/** Whether somebody who was `before` is another one now: revoked, or with another role. */
+export function isAnother(before: You | null, now: Me | null): boolean {
+  if (now === null || before === null) return false;
+  return now.you?.id !== before.id || now.you.role !== before.role;
+}

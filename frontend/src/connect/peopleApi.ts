@@ -1,0 +1,98 @@
+// The gateway's HTTP interface as far as coming in and letting in need it. Trusts no answer's shape; every failure is a
+// PeopleError.
+
+import * as z from 'zod/mini';
+import { OWN_PAGE } from '../keepers/ownPage.ts';
+import { PeopleError, type PeopleApi, type PeopleErrorCode } from '../stores/people.ts';
+import type { Invitation, Me, PairWish, People, StopLink, Token, You } from '../stores/people.generated.ts';
+
+const ANSWER_WITHIN_MS = 4000;
+
+const CODES: Readonly<Record<string, PeopleErrorCode>> = {
+  notPaired: 'notPaired',
+  pairingFailed: 'failed',
+  pairingLocked: 'locked',
+};
+
+const role = z.enum(['stopper', 'viewer', 'driver', 'owner']);
+const youSchema: z.ZodMiniType<You> = z.object({ id: z.string(), name: z.string(), role });
+const meSchema: z.ZodMiniType<Me> = z.object({
+  mode: z.enum(['local', 'lan', 'proxy']),
+  overheard: z.boolean(),
+  you: z.nullable(youSchema),
+});
+const peopleSchema: z.ZodMiniType<People> = z.object({
+  people: z.array(
+    z.object({
+      id: z.string(),
+      kind: z.enum(['device', 'token', 'stopLink']),
+      name: z.string(),
+      role,
+      pairedAtMs: z.number(),
+      lastSeenMs: z.nullable(z.number()),
+      here: z.boolean(),
+    }),
+  ),
+  openInvites: z.array(z.string()),
+});
+const link = { id: z.string(), link: z.string(), picture: z.string() };
+const invitationSchema: z.ZodMiniType<Invitation> = z.object({
+  ...link,
+  code: z.nullable(z.string()),
+  expiresInMs: z.number(),
+});
+const stopLinkSchema: z.ZodMiniType<StopLink> = z.object(link);
+const tokenSchema: z.ZodMiniType<Token> = z.object({ id: z.string(), token: z.string() });
+const nothing = z.unknown();
+
+/** null where no gateway answers: the page came from elsewhere. */
+export async function readMe(): Promise<Me | null> {
+  return ask('me', 'GET', meSchema).catch(() => null);
+}
+
+export const pair = (wish: PairWish): Promise<You> => ask('pair', 'POST', youSchema, wish);
+
+/** Resolves when the stops have left the wire, or when there was no port to send them to. */
+export async function stopRobot(): Promise<void> {
+  await ask('stop', 'POST', nothing);
+}
+
+export const peopleApi: PeopleApi = {
+  list: () => ask('people', 'GET', peopleSchema),
+  invite: (wish) => ask('invites', 'POST', invitationSchema, wish),
+  withdraw: async (id) => {
+    await ask(`invites/${id}`, 'DELETE', nothing);
+  },
+  change: async (id, wanted) => {
+    await ask(`people/${id}`, 'PATCH', nothing, wanted);
+  },
+  revoke: async (id) => {
+    await ask(`people/${id}`, 'DELETE', nothing);
+  },
+  makeToken: (wish) => ask('tokens', 'POST', tokenSchema, wish),
+  makeStopLink: (name) => ask('stop-links', 'POST', stopLinkSchema, { name }),
+};
+
+async function ask<T>(path: string, method: string, schema: z.ZodMiniType<T>, body?: object): Promise<T> {
+  const response = await fetch(`api/${path}`, {
+    method,
+    signal: AbortSignal.timeout(ANSWER_WITHIN_MS),
+    headers: { ...OWN_PAGE, ...(body !== undefined && { 'content-type': 'application/json' }) },
+    ...(body !== undefined && { body: JSON.stringify(body) }),
+  }).catch((error: unknown) => {
+    throw new PeopleError('unreachable', 'the gateway does not answer', { cause: error });
+  });
+  const answer: unknown = await response.json().catch(() => null);
+  if (!response.ok) throw problem(answer);
+  const read = schema.safeParse(answer);
+  if (!read.success) throw new PeopleError('unreachable', 'no gateway is at this address');
+  return read.data;
+}
+
+const problemSchema = z.object({ code: z.string(), detail: z.string() });
+
+function problem(answer: unknown): PeopleError {
+  const read = problemSchema.safeParse(answer);
+  if (!read.success) return new PeopleError('unreachable', 'no gateway is at this address');
+  return new PeopleError(CODES[read.data.code] ?? 'refused', read.data.detail);
+}

@@ -1,0 +1,116 @@
+// Coming in and letting in, in each state: a stranger's card, the stop-only page, and what an owner sees.
+
+import { PairCard } from '../people/PairCard.tsx';
+import { PeopleView } from '../people/PeopleView.tsx';
+import { StopFace, type StopOutcome } from '../people/StopPage.tsx';
+import { PeopleError, type PeopleState } from '../stores/people.ts';
+import styles from './Gallery.module.css';
+
+/** No QR code that anybody could use. */
+const PICTURE =
+  'data:image/svg+xml,%3Csvg xmlns=%22http://www.w3.org/2000/svg%22 viewBox=%220 0 7 7%22%3E%3Cpath d=%22M1 1h2v2H1zM4 1h2v2H4zM1 4h2v2H1zM5 5h1v1H5z%22/%3E%3C/svg%3E';
+const AT_MS = 1_790_000_000_000;
+
+const EMPTY: PeopleState = {
+  me: { mode: 'lan', overheard: true, you: { id: 'anna', name: 'Anna', role: 'owner' } },
+  people: [
+    person('anna', 'Anna', 'owner', true),
+    person('ben', 'Ben, whose name is rather long for one row', 'driver', true),
+    person('cleo', 'iPhone', 'viewer', false),
+  ],
+  invitation: null,
+  shown: null,
+};
+
+const CASES: readonly { readonly name: string; readonly state: PeopleState }[] = [
+  { name: 'People', state: EMPTY },
+  {
+    name: 'People, invitation open',
+    state: {
+      ...EMPTY,
+      invitation: {
+        ...{ id: 'one', role: 'driver', code: '12345678', picture: PICTURE },
+        ...{ link: 'http://192.168.1.5:8300/#pair=not-a-real-one', expiresInMs: 120_000, untilMs: 120_000 },
+      },
+    },
+  },
+  {
+    name: 'People, codes spent',
+    state: {
+      ...EMPTY,
+      invitation: {
+        ...{ id: 'one', role: 'viewer', code: null, picture: PICTURE },
+        ...{ link: 'http://192.168.1.5:8300/#pair=not-a-real-one', expiresInMs: 120_000, untilMs: 120_000 },
+      },
+    },
+  },
+  {
+    name: 'People, token shown',
+    state: { ...EMPTY, shown: { kind: 'token', name: 'Script', token: 'abc123.not-a-real-one' } },
+  },
+  {
+    name: 'People, stop-only link shown',
+    state: {
+      ...EMPTY,
+      people: [
+        ...EMPTY.people,
+        { ...person('link', 'On the robot', 'stopper', false), kind: 'stopLink', lastSeenMs: null },
+      ],
+      shown: {
+        kind: 'stopLink',
+        name: 'On the robot',
+        link: 'http://192.168.1.5:8300/#stop=x',
+        picture: PICTURE,
+      },
+    },
+  },
+];
+
+function person(id: string, name: string, role: PeopleState['people'][number]['role'], here: boolean) {
+  return { id, kind: 'device', name, role, here, pairedAtMs: AT_MS, lastSeenMs: AT_MS } as const;
+}
+
+const PROBLEMS: readonly (PeopleError | null)[] = [
+  null,
+  new PeopleError('failed', ''),
+  new PeopleError('locked', ''),
+];
+const OUTCOMES: readonly StopOutcome[] = ['idle', 'sending', 'sent', new PeopleError('notPaired', '')];
+
+export function PeopleSpecimens() {
+  const nothing = (): void => undefined;
+  const wishes = {
+    ...{ invite: nothing, endInvitation: nothing, change: nothing, revoke: nothing },
+    ...{ makeToken: nothing, makeStopLink: nothing, closeShown: nothing },
+  };
+  return (
+    <>
+      {PROBLEMS.map((problem, index) => (
+        <Specimen key={index} name={`Pair card ${index + 1}`}>
+          <PairCard problem={problem} overheard onPair={nothing} />
+        </Specimen>
+      ))}
+      {OUTCOMES.map((outcome, index) => (
+        <Specimen key={index} name={`Stop only ${index + 1}`}>
+          <StopFace outcome={outcome} onPress={nothing} />
+        </Specimen>
+      ))}
+      {CASES.map(({ name, state }) => (
+        <Specimen key={name} name={name}>
+          <PeopleView state={state} wishes={wishes} now={() => 0} />
+        </Specimen>
+      ))}
+    </>
+  );
+}
+
+function Specimen({ name, children }: { readonly name: string; readonly children: React.ReactNode }) {
+  return (
+    <article className={styles.specimen} aria-label={name}>
+      <h2 className={styles.name} lang="en">
+        {name}
+      </h2>
+      <div className={styles.dialog}>{children}</div>
+    </article>
+  );
+}

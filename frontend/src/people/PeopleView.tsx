@@ -1,0 +1,106 @@
+// Whom an owner lets in and who may come in already. Plain values in, wishes out; so every case can be shown.
+
+import type { Person } from '../stores/people.generated.ts';
+import { PERSON_ROLES, type PeopleState, type PeopleWishes, type PersonRole } from '../stores/people.ts';
+import { Chip } from '../ui/Chip.tsx';
+import { Confirm } from '../ui/Confirm.tsx';
+import { NameField } from '../ui/NameField.tsx';
+import { Select } from '../ui/Select.tsx';
+import { words } from '../words/words.ts';
+import { InviteCard } from './InviteCard.tsx';
+import { ScriptsCard } from './ScriptsCard.tsx';
+import styles from './People.module.css';
+
+export interface PeopleViewProps {
+  readonly state: PeopleState;
+  readonly wishes: PeopleWishes;
+  now(): number;
+}
+
+export function PeopleView({ state, wishes, now }: PeopleViewProps) {
+  return (
+    <div className={styles.people}>
+      <InviteCard invitation={state.invitation} wishes={wishes} now={now} />
+      <section className={styles.card} aria-label={words.people.list}>
+        <h3>{words.people.list}</h3>
+        <ul className={styles.list}>
+          {state.people.map((person) => (
+            <PersonRow
+              key={person.id}
+              person={person}
+              isYou={person.id === state.me?.you?.id}
+              wishes={wishes}
+            />
+          ))}
+        </ul>
+      </section>
+      <ScriptsCard shown={state.shown} wishes={wishes} />
+      {state.me?.overheard === true && <p className={styles.dim}>{words.people.overheard}</p>}
+      {!window.isSecureContext && <p className={styles.dim}>{words.people.insecure}</p>}
+    </div>
+  );
+}
+
+interface PersonRowProps {
+  readonly wishes: PeopleWishes;
+  readonly person: Person;
+  readonly isYou: boolean;
+}
+
+function PersonRow({ person, isYou, wishes }: PersonRowProps) {
+  const { id, kind, name, role } = person;
+  return (
+    <li className={styles.person}>
+      <div className={styles.who}>
+        <NameField
+          isFramed
+          label={words.people.rename(name)}
+          name={name}
+          onRename={(wanted) => wishes.change(id, { name: wanted })}
+        />
+        <span className={styles.dim}>{isYou ? words.people.you : words.people.kinds[kind]}</span>
+      </div>
+      {role === 'stopper' ? (
+        <span className={styles.role}>{words.people.roleNames.stopper}</span>
+      ) : (
+        <RoleSelect
+          label={words.people.roleOf(name)}
+          role={role}
+          onChange={(wanted) => wishes.change(id, { role: wanted })}
+        />
+      )}
+      <Presence person={person} />
+      <Confirm
+        tone="quiet"
+        icon="trash"
+        label={words.people.revoke}
+        title={words.people.revokeOf(name)}
+        text={words.people.revokeText}
+        keepLabel={words.people.keep}
+        confirmLabel={words.people.revoke}
+        closeLabel={words.close}
+        onConfirm={() => wishes.revoke(id)}
+      />
+    </li>
+  );
+}
+
+function Presence({ person: { here, lastSeenMs } }: { readonly person: Person }) {
+  if (here) return <Chip truth="confirmed">{words.people.here}</Chip>;
+  return (
+    <span className={styles.dim}>
+      {lastSeenMs === null ? words.people.never : words.people.seen(lastSeenMs)}
+    </span>
+  );
+}
+
+interface RoleSelectProps {
+  readonly label: string;
+  readonly role: PersonRole;
+  onChange(role: PersonRole): void;
+}
+
+function RoleSelect({ label, role, onChange }: RoleSelectProps) {
+  const options = PERSON_ROLES.map((value) => ({ value, label: words.people.roleNames[value] }));
+  return <Select label={label} value={role} options={options} onChange={onChange} />;
+}
