@@ -12,7 +12,7 @@ const NAMES = `
   GND RX TX LEN PC App Esc Ctrl Shift Alt START mV English`.split(/\s+/u);
 /** What people call their own things in the gallery, and what a browser calls a pad. */
 const GIVEN = [
-  ...['Shelf arm', 'Desk arm', 'Greet the visitor', 'Look down', 'Sit', 'Dance', 'wave', 'nod'],
+  ...['Shelf arm', 'Desk arm', 'Greet the visitor', 'Look down', 'Look up', 'Sit', 'Dance', 'wave', 'nod'],
   ...[
     'Pick up the red cube and put it down',
     'Wave to the visitors at the door',
@@ -23,7 +23,15 @@ const GIVEN = [
     'show',
     'work',
   ],
-  ...['A robot of somebody else', 'dev/ttyUSB', 'dev/ttyACM', 'Wireless Controller', 'detail of the failure'],
+  ...[
+    'Anna',
+    'Bert',
+    'A robot of somebody else',
+    'dev/ttyUSB',
+    'dev/ttyACM',
+    'Wireless Controller',
+    'detail of the failure',
+  ],
 ];
 
 /** What opens each, and what closes it. */

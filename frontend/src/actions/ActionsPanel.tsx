@@ -4,6 +4,7 @@
 
 import { Fragment } from 'react';
 import { totalDurationMs } from '#shared/actions/group/group.ts';
+import { rename } from '#shared/actions/group/groupEdits.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { BodyPicture } from '../body/Body.tsx';
 import { FilesArea, FilesButton } from '../files/FilesArea.tsx';
@@ -11,6 +12,7 @@ import { LibraryButton } from '../library/LibraryButton.tsx';
 import { useDevice, useGroup, useStores } from '../stores/stores.ts';
 import { EmptyState } from '../ui/EmptyState.tsx';
 import { useLayout } from '../ui/useLayout.ts';
+import { NameField } from '../ui/NameField.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
@@ -18,13 +20,17 @@ import { CaptureBar } from './CaptureBar.tsx';
 import { FrameStrip } from './FrameStrip.tsx';
 import { FrameTools } from './FrameTools.tsx';
 import { Timeline } from '../timeline/Timeline.tsx';
-import { GroupName } from './GroupName.tsx';
 import styles from './ActionsPanel.module.css';
 
 export function ActionsPanel() {
   const group = useGroup();
   const { playback, document } = useStores();
   const layout = useLayout();
+  const call = (name: string): void =>
+    document.edit(
+      () => words.actions.steps.rename,
+      (before) => rename(before, name),
+    );
   const otherUnit = useDevice((state) => state.family.unit !== group.unit) && group.frames.length > 0;
   const timeline = <Timeline key="timeline" onPlay={() => playback.toggle()} />;
   const frames = (
@@ -42,7 +48,7 @@ export function ActionsPanel() {
         note={
           <span className={styles.named}>
             <LibraryButton />
-            <GroupName />
+            <NameField label={words.actions.name} name={group.name} onRename={call} />
           </span>
         }
         tools={

@@ -90,7 +90,7 @@ const CASES: readonly { readonly name: string; readonly panel: ReactNode; prepar
       prepare(stores) {
         fill(stores);
         stores.library.add(
-          setMeta(stores.document.store.getState().present, { name: 'A long greeting', slot: 12 }),
+          setMeta(stores.document.store.getState().present, { name: 'Greet the visitor', slot: 12 }),
         );
       },
     },
