@@ -7,6 +7,7 @@ import { parseArgs } from 'node:util';
 import { endChildren, onEnd } from '../scripts/children.mjs';
 import { SetupProblem, main, say } from '../scripts/steps.mjs';
 import { measureCodec } from './codec.ts';
+import { measureCrowd } from './crowd.ts';
 import { measureDownload } from './download.ts';
 import { measureDrag } from './drag.ts';
 import { toRecord, type Figure } from './figure.ts';
@@ -26,6 +27,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   download: measureDownload,
   relay: measureRelay,
   stop: measureStop,
+  crowd: measureCrowd,
   frames: measureFrames,
   lanes: measureLanes,
   start: measureStart,

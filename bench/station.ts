@@ -54,10 +54,10 @@ function temporaryFolder(): string {
   return folder;
 }
 
-/** Lends `work` an empty page of a browser and the address of a gateway whose port is open. */
-export async function withPage<Result>(
+/** Lends `work` the address and the process of a gateway whose port is open. */
+export async function withGateway<Result>(
   device: string,
-  work: (page: Page, url: string) => Promise<Result>,
+  work: (url: string, pid: number) => Promise<Result>,
 ): Promise<Result> {
   const lines: string[] = [];
   const listen = ['--listen', '127.0.0.1:0', '--data', temporaryFolder()];
@@ -65,14 +65,26 @@ export async function withPage<Result>(
   const gateway = startChild(python, [...serve, '--no-open', '--exit-with-stdin'], (line) =>
     lines.push(line),
   );
+  try {
+    return await work(await openedGateway(lines), gateway.pid ?? 0);
+  } finally {
+    await endChild(gateway);
+  }
+}
+
+/** Lends `work` an empty page of a browser too. */
+export async function withPage<Result>(
+  device: string,
+  work: (page: Page, url: string) => Promise<Result>,
+): Promise<Result> {
   const browser = await startBrowser();
   try {
-    const url = await openedGateway(lines);
-    // Pages of this computer may always speak to it; one whose headers a measurement changed has to be allowed.
-    return await work(await browser.newPage({ permissions: ['local-network-access'] }), url);
+    return await withGateway(device, async (url) =>
+      // Pages of this computer may always speak to it; one whose headers a measurement changed has to be allowed.
+      work(await browser.newPage({ permissions: ['local-network-access'] }), url),
+    );
   } finally {
     await browser.close();
-    await endChild(gateway);
   }
 }
 
