@@ -5,6 +5,9 @@ import { fedBy } from '#shared/actions/battery/batterySupply.ts';
 import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
+import { createSession } from '#shared/session/session.ts';
+import type { Transport } from '#shared/session/transport.ts';
+import { createSimulatedTransport } from '#shared/simulator/transport.ts';
 import { words } from '../words/words.ts';
 import { createBattery } from './battery.ts';
 import { applyBatteryPolicy, REST_MOVE_MS, REST_WARNING_MS } from './batteryPolicy.ts';
@@ -210,6 +213,28 @@ describe('a robot that goes to rest', () => {
     expect(desk.told()).toContain(words.battery.goingToRest(REST_WARNING_MS));
     return desk;
   }
+
+  test.each([
+    { driver: 'Bert', drives: false, goes: false },
+    { driver: 'Anna', drives: true, goes: true },
+  ])('is a matter of the screen that drives: $driver', async ({ driver, drives, goes }) => {
+    const { clock, device, told } = await createDesk(6500, 'rest');
+    const line = createSimulatedTransport(clock, { onForMs: 60_000, batteryMv: 6500 });
+    const others = { asker: null, asks: false, answerInMs: null, others: 1, mayDrive: true, mayTake: false };
+    const transport: Transport = {
+      ...line,
+      async open(events) {
+        await line.open(events);
+        events.leased?.({ driver, drives, ...others });
+      },
+    };
+    const session = createSession({ transport, clock, family: FAMILIES.doc });
+    device.attach(session, WAY);
+    await session.open();
+    await clock.advance(SETTLED_MS + REST_WARNING_MS + 5000);
+    expect(told().includes(words.battery.goingToRest(REST_WARNING_MS))).toBe(goes);
+    expect(session.state.latch !== null).toBe(goes);
+  });
 
   test('is announced, goes home slowly with the servos that are known, and is stopped', async () => {
     const { clock, device, ofKind, latch } = await createTiredRobot();

@@ -1,5 +1,6 @@
 // What a low battery brings about, as the person chose for the robot: they are told, new runs are refused, the robot goes to
-// rest and is stopped. The one place where the battery acts, and only on readings that agree and are fresh.
+// rest and is stopped. The one place where the battery acts, only on readings that agree and are fresh, and on
+// a shared robot only where it is driven from.
 
 import { isActionable, type Level } from '#shared/actions/battery/batteryGauge.ts';
 import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
