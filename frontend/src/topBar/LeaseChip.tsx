@@ -13,7 +13,7 @@ export function LeaseChip() {
   const lease = useSnapshot((snapshot) => snapshot.lease);
   if (lease === null || (lease.others === 0 && lease.mayDrive)) return null;
   return (
-    <div className={styles.lease} role="group" aria-label={words.lease.label}>
+    <div className={styles.lease} data-turn role="group" aria-label={words.lease.label}>
       {lease.drives ? <Driving lease={lease} /> : <Watching lease={lease} />}
     </div>
   );
