@@ -9,7 +9,8 @@ import { expect, test } from '../fixtures/test.ts';
 const NAMES = `
   Servodeck Chrome Edge Firefox Windows macOS Linux ChromeOS Arch Snap Flatpak Python Arduino XML CSV
   LSC OpenArm uHand xArm LeArm TonyPi SpiderPi MasterPi ArmPi AiNex AI ESP PWM CH SER WCH USB TTL COM LPT
-  GND RX TX LEN PC App Esc Ctrl Shift Alt START mV English`.split(/\s+/u);
+  GND RX TX LEN PC App Esc Ctrl Shift Alt START mV English
+  http https Tailscale SSH Caddy Authorization Bearer`.split(/\s+/u);
 /** What people call their own things in the gallery, and what a browser calls a pad. */
 const GIVEN = [
   ...['Shelf arm', 'Desk arm', 'Greet the visitor', 'Look down', 'Look up', 'Sit', 'Dance', 'wave', 'nod'],
@@ -31,6 +32,14 @@ const GIVEN = [
     'dev/ttyACM',
     'Wireless Controller',
     'detail of the failure',
+    'Ben, whose name is rather long for one row',
+    'On the robot',
+    'iPhone',
+  ],
+  ...[
+    'http://192.168.1.5:8300/#pair=not-a-real-one',
+    'http://192.168.1.5:8300/#stop=x',
+    'abc123.not-a-real-one',
   ],
 ];
 
