@@ -66,7 +66,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   const pad = createPad({ device, robots, mappings, notices, clock: pageClock, readPads });
   const poses = createPoses({ storage, notices, robots, device });
   const macroRun = createMacroRun({ device, poses, robots, notices, clock: pageClock });
-  const written = createDocument(storage, notices);
+  const written = createDocument(storage, notices, pageClock);
   const library = createLibrary({
     ...{ document: written, storage, notices, robots, view, clock: pageClock },
     ...{ keeper: chooseKeeper(me), epochMs: Date.now, newId },
@@ -101,11 +101,20 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   if (problem !== null) notices.tell('warning', words.people.problem(problem.code, problem.message));
   beginAnewAsAnother(device, me);
   connector.start().catch(notices.tellError);
+  const save = (): void => {
+    written.flush();
+    library.flush();
+  };
   const paused = (): void => {
     playback.hidden();
     macroRun.end();
+    save();
   };
-  watchLeaving(window, { hidden: paused, left: () => connector.leave() });
+  const left = (): void => {
+    connector.leave();
+    save();
+  };
+  watchLeaving(window, { hidden: paused, left });
   applyBatteryPolicy({ device, battery, robots, notices });
   watchInputs(window, pad);
   library.store.subscribe(({ openId }, before) => {

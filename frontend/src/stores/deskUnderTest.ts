@@ -34,7 +34,7 @@ export async function createDesk(
   const notices = createNotices(clock);
   const robots = createRobots(storage, notices);
   const device = createDevice({ family: FAMILIES.doc, clock, notices, robots });
-  const document = createDocument(storage, notices);
+  const document = createDocument(storage, notices, clock);
   const view = createView(storage);
   const compiled = createCompiled({ document, device, robots, clock });
   const slots = createSlots({ device, robots, notices, storage, today: () => clock.now() });

@@ -16,14 +16,17 @@ function createDesk(texts: Record<string, string> = {}, broken: Partial<TextStor
     setItem: (key, text) => void stored.set(key, text),
     ...broken,
   };
-  const notices = createNotices(createVirtualClock());
-  const document = createDocument(storage, notices);
+  const clock = createVirtualClock();
+  const notices = createNotices(clock);
+  const document = createDocument(storage, notices, clock);
+  /** What the page finds when it is opened again. */
   const saved = () => {
+    document.flush();
     const read = groupFromText(stored.get('servodeck.group') ?? '');
     return 'value' in read ? read.value : null;
   };
   const told = () => notices.store.getState().map((notice) => notice.text);
-  return { document, stored, storage, saved, told, group: () => document.store.getState().present };
+  return { document, stored, storage, saved, told, clock, group: () => document.store.getState().present };
 }
 
 describe('the document', () => {
@@ -42,8 +45,45 @@ describe('the document', () => {
     expect(saved()!.frames).toHaveLength(1);
     document.redo();
     expect(saved()!.frames).toHaveLength(2);
-    const again = createDocument(storage, createNotices(createVirtualClock()));
+    const later = createVirtualClock();
+    const again = createDocument(storage, createNotices(later), later);
     expect(again.store.getState().present.frames).toHaveLength(2);
+  });
+
+  test('many edits in a moment are written once, soon after the first, or at once when the page goes', async () => {
+    const written: string[] = [];
+    const { document, clock } = createDesk({}, { setItem: (_, text) => void written.push(text) });
+    const add = () =>
+      document.edit(
+        () => 'capture',
+        (group) => insertFrame(group, 0, FRAME),
+      );
+    add();
+    await clock.advance(200);
+    add();
+    expect(written).toHaveLength(0);
+    await clock.advance(100);
+    expect(written).toHaveLength(1);
+    await clock.advance(1000);
+    expect(written).toHaveLength(1);
+    add();
+    document.flush();
+    document.flush();
+    await clock.advance(1000);
+    expect(written).toHaveLength(2);
+    expect(written[1]).toContain('"nextId": 4');
+  });
+
+  test('what a drag shows is not saved by an edit that came before it', async () => {
+    const { document, saved, clock } = createDesk();
+    document.edit(
+      () => 'capture',
+      (group) => insertFrame(group, 0, FRAME),
+    );
+    document.begin(() => 'move');
+    document.preview((group) => insertFrame(group, 1, FRAME));
+    await clock.advance(1000);
+    expect(saved()!.frames).toHaveLength(1);
   });
 
   test('a drag is one step, saved once it ends', () => {
@@ -106,10 +146,12 @@ describe('the document', () => {
       () => 'capture',
       (before) => insertFrame(before, 0, FRAME),
     );
+    document.flush();
     document.edit(
       () => 'capture',
       (before) => insertFrame(before, 0, FRAME),
     );
+    document.flush();
     expect(group().frames).toHaveLength(2);
     expect(told()).toEqual([words.actions.notSaved]);
   });

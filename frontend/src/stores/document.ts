@@ -1,11 +1,13 @@
-// The action group being written: undoable, saved in the browser's storage after each edit. Text that cannot be read is
+// The action group being written: undoable, saved in the browser's storage soon after each edit. Text that cannot be read is
 // never thrown away: it is set aside under another key and the person is told. Never moves the robot.
 
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
 import type { History } from '#shared/actions/history.ts';
+import type { Clock } from '#shared/clock.ts';
 import { words } from '../words/words.ts';
 import type { Notices } from './notices.ts';
+import { createSoon } from './soon.ts';
 import { createUndoable, type Undoable } from './undoable.ts';
 
 export type DocumentState = History<ActionGroup>;
@@ -13,6 +15,8 @@ export type DocumentState = History<ActionGroup>;
 export interface Document extends Undoable<ActionGroup> {
   /** Shows another group, with the steps that it was left with. */
   take(history: History<ActionGroup>): void;
+  /** Saves at once what waits for it: the page goes. */
+  flush(): void;
 }
 
 /** The part of the browser's Storage that is needed; it may throw, as it does where storage is forbidden or full. */
@@ -23,13 +27,16 @@ export interface TextStorage {
 
 const KEY = 'servodeck.group';
 const ASIDE_KEY = 'servodeck.group.unreadable';
+/** To write a large group takes longer than the edit; a held key makes thirty edits a second. */
+export const SAVED_AFTER_MS = 300;
 
-export function createDocument(storage: TextStorage, notices: Notices): Document {
+export function createDocument(storage: TextStorage, notices: Notices, clock: Clock): Document {
   let savingFailed = false;
+  let settled = load(storage, notices);
 
-  function save(group: ActionGroup): void {
+  function save(): void {
     try {
-      storage.setItem(KEY, groupToText(group));
+      storage.setItem(KEY, groupToText(settled));
       savingFailed = false;
     } catch {
       if (!savingFailed) notices.tell('warning', words.actions.notSaved);
@@ -37,13 +44,20 @@ export function createDocument(storage: TextStorage, notices: Notices): Document
     }
   }
 
-  const document = createUndoable(load(storage, notices), save);
+  const saving = createSoon(clock, SAVED_AFTER_MS, save);
+  function saveSoon(group: ActionGroup): void {
+    settled = group;
+    saving.ask();
+  }
+
+  const document = createUndoable(settled, saveSoon);
   return {
     ...document,
     take(history) {
       document.store.setState(history, true);
-      save(history.present);
+      saveSoon(history.present);
     },
+    flush: saving.flush,
   };
 }
 

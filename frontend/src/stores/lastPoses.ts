@@ -8,6 +8,7 @@ import { nameOf } from './boards.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { TextStorage } from './document.ts';
 import type { Stand } from './servoView.ts';
+import { createSoon } from './soon.ts';
 
 export interface LastPose {
   /** Another family means another unit. */
@@ -26,18 +27,12 @@ const KEEP_AFTER_MS = 500;
 export function createLastPoses(storage: TextStorage, device: Device): LastPoses {
   const store: LastPoses = createStore(() => load(storage));
   let latest: DeviceState | null = null;
-  let isDue = false;
-
-  function keepSoon(): void {
-    if (!isDue) device.clock.after(KEEP_AFTER_MS, keep);
-    isDue = true;
-  }
+  const keeping = createSoon(device.clock, KEEP_AFTER_MS, keep);
 
   function keep(): void {
-    isDue = false;
     if (latest === null) return;
     store.setState(withPoseOf(latest, store.getState()), true);
-    if (latest.snapshot.waitingToStart.length > 0) keepSoon();
+    if (latest.snapshot.waitingToStart.length > 0) keeping.ask();
     try {
       storage.setItem(KEY, JSON.stringify(store.getState()));
     } catch {
@@ -52,7 +47,7 @@ export function createLastPoses(storage: TextStorage, device: Device): LastPoses
       keep();
       latest = null;
     }
-    if (state.targets !== before.targets) keepSoon();
+    if (state.targets !== before.targets) keeping.ask();
   });
   return store;
 }

@@ -34,7 +34,7 @@ const NOTHING_HELD: Held = { ctrl: false, shift: false, alt: false };
 export async function createTimelineDesk() {
   const { device, notices, robots, told } = await createDesk();
   const storage = { getItem: () => null, setItem: () => undefined };
-  const document = createDocument(storage, notices);
+  const document = createDocument(storage, notices, device.clock);
   const stores = { device, notices, robots, document, view: createView(storage), timeline: createTimeline() };
   document.edit(() => 'fill', smallGroup);
   stores.timeline.setState({

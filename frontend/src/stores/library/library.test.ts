@@ -3,7 +3,7 @@ import { rename } from '#shared/actions/group/groupEdits.ts';
 import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
 import { emptyGroup } from '#shared/actions/group/group.ts';
 import { LibraryError, type Keeper } from '#shared/actions/library/keeper.ts';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createVirtualClock, type VirtualClock } from '#shared/simulator/virtualClock.ts';
 import { createMemoryKeeper } from '../../keepers/memoryKeeper.ts';
 import { words } from '../../words/words.ts';
 import { createVisit } from './libraryUnderTest.ts';
@@ -88,11 +88,17 @@ describe('keeping', () => {
     expect(page.names()).toEqual(['Old']);
   });
 
-  test('what a crash cut off is kept at the next visit, which is told', async () => {
-    const { visit } = createPlace();
+  test.each([
+    ['the page went at once', (first: ReturnType<typeof createVisit>) => first.leave()],
+    ['it crashed a moment later', (_: unknown, clock: VirtualClock) => clock.advance(300)],
+  ])('what was not kept yet is kept at the next visit, which is told: %s', async (_name, end) => {
+    const { visit, clock } = createPlace();
     const first = visit();
+    await clock.advance(0);
     first.document.edit(() => 'name', called('Wave'));
     first.capture(1500);
+    expect(first.library.store.getState().isKept).toBe(false);
+    await end(first, clock);
     const second = visit(first.texts);
     await second.later();
     expect(second.names()).toEqual(['Wave']);

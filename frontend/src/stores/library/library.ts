@@ -18,9 +18,10 @@ import {
   type Version,
 } from '#shared/actions/library/keeper.ts';
 import { words } from '../../words/words.ts';
-import type { Document, TextStorage } from '../document.ts';
+import { SAVED_AFTER_MS, type Document, type TextStorage } from '../document.ts';
 import type { Notices } from '../notices.ts';
 import type { RobotStore } from '../robots.ts';
+import { createSoon } from '../soon.ts';
 import type { View } from '../view.ts';
 import { createLibraryFiles, type LibraryFiles } from './libraryFiles.ts';
 import { createOpenDocument } from './openDocument.ts';
@@ -59,6 +60,8 @@ export interface Library extends LibraryFiles {
   removeVersion(id: string, version: Version): Promise<void>;
   /** Opens the document and goes back to that version, undoably. */
   restoreVersion(id: string, version: Version): Promise<void>;
+  /** Nothing of what is shown waits to be written down: the page goes. */
+  flush(): void;
 }
 
 export interface LibraryOptions {
@@ -113,7 +116,12 @@ export function createLibrary(options: LibraryOptions): Library {
 
   const attempt = (work: Promise<void>): Promise<void> => work.catch(tell);
 
-  const tellKept = (): void => store.setState({ openId: opened.id(), isKept: outbox.entries().length === 0 });
+  const noting = createSoon(options.clock, SAVED_AFTER_MS, () => {
+    outbox.put(opened.id(), { text: groupToText(noted), revision: opened.revisionOf(opened.id()) });
+  });
+
+  const tellKept = (): void =>
+    store.setState({ openId: opened.id(), isKept: !noting.isDue() && outbox.entries().length === 0 });
 
   function put(id: string, text: string): void {
     outbox.put(id, { text, revision: opened.revisionOf(id) });
@@ -124,8 +132,20 @@ export function createLibrary(options: LibraryOptions): Library {
   document.store.subscribe(({ present, gesture }) => {
     if (isShowing || gesture !== null || present === noted) return;
     noted = present;
-    put(opened.id(), groupToText(present));
+    noting.ask();
+    shelving.soon();
+    tellKept();
   });
+
+  function unkeptOf(id: string): Stored | undefined {
+    noting.flush();
+    return outbox.get(id);
+  }
+
+  function flush(): Promise<boolean> {
+    noting.flush();
+    return shelving.flush();
+  }
 
   /** The newer text stays under its name; ours goes on as a document of its own. */
   function keepBoth(id: string, { text }: Stored): void {
@@ -147,7 +167,7 @@ export function createLibrary(options: LibraryOptions): Library {
   /** As it is here, if something of it waits here; else as the keeper has it. */
   async function read(id: string): Promise<ActionGroup> {
     if (id === opened.id()) return shown();
-    const unkept = outbox.get(id);
+    const unkept = unkeptOf(id);
     if (unkept !== undefined) return groupOf(unkept.text);
     const { text, revision } = await (await options.keeper).read(id);
     opened.setRevision(id, revision);
@@ -155,6 +175,7 @@ export function createLibrary(options: LibraryOptions): Library {
   }
 
   function show(id: string, group: ActionGroup): void {
+    noting.flush();
     isShowing = true;
     opened.show(id, group, () => words.library.steps.elsewhere);
     isShowing = false;
@@ -186,12 +207,12 @@ export function createLibrary(options: LibraryOptions): Library {
   async function follow(documents: readonly Listed[]): Promise<void> {
     const id = opened.id();
     const listed = documents.find((one) => one.id === id);
-    if (outbox.get(id) !== undefined) return;
+    if (unkeptOf(id) !== undefined) return;
     if (listed === undefined && opened.revisionOf(id) > 0) put(id, groupToText(shown()));
     if (listed === undefined || listed.revision === opened.revisionOf(id)) return;
     const { text, revision } = await (await options.keeper).read(id);
     const { gesture } = document.store.getState();
-    if (id !== opened.id() || gesture !== null || outbox.get(id) !== undefined) return;
+    if (id !== opened.id() || gesture !== null || unkeptOf(id) !== undefined) return;
     opened.setRevision(id, revision);
     show(id, groupOf(text));
   }
@@ -203,7 +224,7 @@ export function createLibrary(options: LibraryOptions): Library {
   }
 
   async function flushAndRefresh(): Promise<void> {
-    if (await shelving.flush()) await refresh();
+    if (await flush()) await refresh();
   }
 
   /** Asked for again and again: a keeper that stays away is told of once. */
@@ -219,7 +240,7 @@ export function createLibrary(options: LibraryOptions): Library {
 
   async function remove(id: string): Promise<void> {
     const { name } = await read(id);
-    if (!(await shelving.flush())) return;
+    if (!(await flush())) return;
     const wasOpen = id === opened.id();
     await (await options.keeper).remove([id]);
     if (wasOpen) create();
@@ -252,7 +273,7 @@ export function createLibrary(options: LibraryOptions): Library {
     else if (own === undefined && !opened.wasRemembered && shown().frames.length > 0)
       put(opened.id(), groupToText(shown()));
     tellKept();
-    if (!(await shelving.flush())) return;
+    if (!(await flush())) return;
     if (waiting.length > 0)
       notices.tell('info', words.library.recovered(waiting.map(({ text }) => groupOf(text).name)));
     await refresh();
@@ -262,10 +283,11 @@ export function createLibrary(options: LibraryOptions): Library {
 
   return {
     ...createLibraryFiles({
-      ...{ keeper: options.keeper, notices, newId, tell, refresh, flush: shelving.flush },
+      ...{ keeper: options.keeper, notices, newId, tell, refresh, flush },
       factsOf: (group, updatedAtMs) => factsOf(group, { updatedAtMs, robot: '' }),
     }),
     store,
+    flush: noting.flush,
     refresh: look,
     create,
     add: (group) => put(newId(), groupToText(group)),
@@ -294,7 +316,7 @@ export function createLibrary(options: LibraryOptions): Library {
       attempt(
         (async () => {
           const text = groupToText(await read(id));
-          if (!(await shelving.flush())) return;
+          if (!(await flush())) return;
           await (await options.keeper).keepVersion(id, { id: newId(), name, atMs: epochMs() }, text);
           view.setState({ said: words.library.versionKept(name) });
           await refresh();

@@ -22,7 +22,7 @@ export function createVisit(
     setItem: (key: string, text: string) => void texts.set(key, text),
   };
   const notices = createNotices(clock);
-  const document = createDocument(storage, notices);
+  const document = createDocument(storage, notices, clock);
   const view = createView(storage);
   const robots = createRobots(storage, notices);
   const library = createLibrary({
@@ -50,6 +50,11 @@ export function createVisit(
       ),
     /** Long enough for what was written to be kept, or tried again. */
     later: () => clock.advance(5800),
+    /** The page goes, as the browser tells it. */
+    leave(): void {
+      document.flush();
+      library.flush();
+    },
   };
 }
 
