@@ -45,7 +45,6 @@ export function App({ page }: { readonly page: Page }) {
 
 function Dashboard({ page }: { readonly page: Page }) {
   const layout = useLayout();
-  const said = useView((state) => state.said);
   const { device, notices, pad, playback } = useStores();
   const isKiosk = useView((state) => state.kiosk === 'on');
   const moveHere = (): void => void page.connector.moveHere().catch(notices.tellError);
@@ -62,9 +61,7 @@ function Dashboard({ page }: { readonly page: Page }) {
       {!isKiosk && <TopBar onMoveHere={moveHere} />}
       <StopButton />
       {isKiosk ? <Kiosk onMoveHere={moveHere} /> : layout === 'phone' ? <PhoneWork /> : <DeskWork />}
-      <p className={styles.said} role="status">
-        {said}
-      </p>
+      <Said />
       <ConnectDialog connector={page.connector} />
       <RobotDialog />
       <LibraryDialog />
@@ -164,6 +161,15 @@ function PhoneWork() {
         </TabPanel>
       </main>
     </Tabs>
+  );
+}
+
+function Said() {
+  const said = useView((state) => state.said);
+  return (
+    <p className={styles.said} role="status">
+      {said}
+    </p>
   );
 }
 

@@ -3,13 +3,12 @@
 // the robot moves only by Play and by loading a pose.
 
 import { Fragment } from 'react';
-import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { rename } from '#shared/actions/group/groupEdits.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { BodyPicture } from '../body/Body.tsx';
 import { FilesArea, FilesButton } from '../files/FilesArea.tsx';
 import { LibraryButton } from '../library/LibraryButton.tsx';
-import { useDevice, useGroup, useStores } from '../stores/stores.ts';
+import { useDevice, useDocument, useStores } from '../stores/stores.ts';
 import { EmptyState } from '../ui/EmptyState.tsx';
 import { useLayout } from '../ui/useLayout.ts';
 import { NameField } from '../ui/NameField.tsx';
@@ -23,21 +22,23 @@ import { Timeline } from '../timeline/Timeline.tsx';
 import styles from './ActionsPanel.module.css';
 
 export function ActionsPanel() {
-  const group = useGroup();
+  const unit = useDocument(({ present }) => present.unit);
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const name = useDocument(({ present }) => present.name);
   const { playback, document } = useStores();
   const layout = useLayout();
-  const call = (name: string): void =>
+  const call = (wanted: string): void =>
     document.edit(
       () => words.actions.steps.rename,
-      (before) => rename(before, name),
+      (before) => rename(before, wanted),
     );
-  const otherUnit = useDevice((state) => state.family.unit !== group.unit) && group.frames.length > 0;
+  const otherUnit = useDevice((state) => state.family.unit !== unit) && !isEmpty;
   const timeline = <Timeline key="timeline" onPlay={() => playback.toggle()} />;
   const frames = (
     <Fragment key="frames">
-      {group.frames.length === 0 ? <Empty /> : <FrameStrip />}
+      {isEmpty ? <Empty /> : <FrameStrip />}
       <FrameTools />
-      <CaptureBar totalMs={totalDurationMs(group.frames)} />
+      <CaptureBar />
     </Fragment>
   );
   return (
@@ -48,7 +49,7 @@ export function ActionsPanel() {
         note={
           <span className={styles.named}>
             <LibraryButton />
-            <NameField label={words.actions.name} name={group.name} onRename={call} />
+            <NameField label={words.actions.name} name={name} onRename={call} />
           </span>
         }
         tools={
@@ -59,7 +60,7 @@ export function ActionsPanel() {
         }
         className={styles.panel}
       >
-        {otherUnit && <p className={styles.warning}>{words.actions.otherUnit(group.unit)}</p>}
+        {otherUnit && <p className={styles.warning}>{words.actions.otherUnit(unit)}</p>}
         {layout === 'phone' && (
           <div className={styles.body}>
             <BodyPicture />

@@ -1,17 +1,17 @@
 // The foot of the action group: capture the pose as a frame, the group's length, and playing it.
 
+import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { ExamplesControl } from '../examples/ExamplesControl.tsx';
 import { PlayBar } from '../play/PlayBar.tsx';
 import { RecordControl } from '../record/RecordControl.tsx';
-import { useGroup, useStores } from '../stores/stores.ts';
+import { useDocument, useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { captureFrame } from './capture.ts';
 import { CaptureButton } from './CaptureButton.tsx';
 import styles from './CaptureBar.module.css';
 
-export function CaptureBar({ totalMs }: { readonly totalMs: number }) {
+export function CaptureBar() {
   const stores = useStores();
-  const count = useGroup().frames.length;
   return (
     <>
       <div className={styles.bar}>
@@ -22,9 +22,15 @@ export function CaptureBar({ totalMs }: { readonly totalMs: number }) {
         />
         <RecordControl />
         <ExamplesControl />
-        <p className={styles.total}>{count === 0 ? '' : words.actions.total(count, totalMs)}</p>
+        <Total />
       </div>
       <PlayBar />
     </>
   );
+}
+
+function Total() {
+  const count = useDocument(({ present }) => present.frames.length);
+  const totalMs = useDocument(({ present }) => totalDurationMs(present.frames));
+  return <p className={styles.total}>{count === 0 ? '' : words.actions.total(count, totalMs)}</p>;
 }

@@ -1,15 +1,15 @@
 // One frame as a card: its number, its pose, the servos it moves, its time. The face selects; the grip drags.
 
-import type { KeyboardEvent } from 'react';
+import { memo } from 'react';
 import type { GroupFrame } from '#shared/actions/group/group.ts';
 import { setDuration } from '#shared/actions/group/timeEdits.ts';
-import { PoseThumb } from '../body/PoseThumb.tsx';
+import { PoseThumb, sameLook } from '../body/PoseThumb.tsx';
 import { useDevice, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { showFrame } from '../timeline/inStep.ts';
-import { words } from '../words/words.ts';
+import { useWords, words } from '../words/words.ts';
 import { useFrameDrag } from './useFrameDrag.ts';
 import card from '../ui/Card.module.css';
 import styles from './FrameCard.module.css';
@@ -23,11 +23,12 @@ export interface FrameCardProps {
   readonly isSelected: boolean;
   readonly isTabStop: boolean;
   readonly isPlaying: boolean;
-  onKey(event: KeyboardEvent, id: number): void;
 }
 
-export function FrameCard(props: FrameCardProps) {
-  const { frame, index, pose, changed, isSelected, isTabStop, isPlaying, onKey } = props;
+/** Drawn again only where it is another: a strip has dozens, and an edit concerns one or two. */
+export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
+  const { frame, index, pose, changed, isSelected, isTabStop, isPlaying } = props;
+  useWords();
   const stores = useStores();
   const family = useDevice((state) => state.family);
   const { isDragged, startDrag } = useFrameDrag(frame.id, index);
@@ -55,7 +56,6 @@ export function FrameCard(props: FrameCardProps) {
         aria-current={isPlaying ? 'step' : undefined}
         tabIndex={isTabStop ? 0 : -1}
         onClick={() => showFrame(stores, frame.id)}
-        onKeyDown={(event) => onKey(event, frame.id)}
       >
         <span className={styles.number}>{number}</span>
         {isPlaying ? (
@@ -75,6 +75,12 @@ export function FrameCard(props: FrameCardProps) {
       </div>
     </li>
   );
+}, isSame);
+
+const PLAIN = ['frame', 'index', 'isSelected', 'isTabStop', 'isPlaying'] as const;
+
+function isSame(one: FrameCardProps, other: FrameCardProps): boolean {
+  return PLAIN.every((name) => one[name] === other[name]) && sameLook(one, other);
 }
 
 function FrameTime({ frame, number, isTabStop }: { frame: GroupFrame; number: number; isTabStop: boolean }) {

@@ -49,6 +49,7 @@ export function FrameStrip() {
       ref={list}
       className={styles.strip}
       aria-label={words.actions.frames}
+      onKeyDown={key}
       style={{ paddingInline: `calc(var(--s4) + ${roomBeforePx}px) calc(var(--s4) + ${roomBehindPx}px)` }}
     >
       {group.frames.slice(first, end).map((frame, index) => (
@@ -58,7 +59,6 @@ export function FrameStrip() {
           isSelected={frame.id === selected}
           isTabStop={frame.id === tabStop}
           isPlaying={playing === first + index}
-          onKey={key}
         />
       ))}
     </ol>

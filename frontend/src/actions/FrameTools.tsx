@@ -9,7 +9,7 @@ import {
 } from '#shared/actions/group/groupEdits.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
-import { useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useDocument, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import { captureFrame } from './capture.ts';
@@ -25,16 +25,17 @@ const INSERTS = [
 export function FrameTools() {
   const stores = useStores();
   const { device, document, view } = stores;
-  const group = useGroup();
   const id = useView((state) => state.selectedFrame) ?? -1;
-  const index = indexOfFrame(group, id);
-  const frame = group.frames[index];
+  const index = useDocument(({ present }) => indexOfFrame(present, id));
+  const count = useDocument(({ present }) => present.frames.length);
+  const unit = useDocument(({ present }) => present.unit);
   const knowsPose = useKnowsPose();
   const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
-  const sameUnit = useDevice((state) => state.family.unit === group.unit);
-  const none = frame === undefined;
+  const sameUnit = useDevice((state) => state.family.unit === unit);
+  const none = index < 0;
 
   const load = (): void => {
+    const frame = document.store.getState().present.frames[index];
     if (frame !== undefined) device.move(frame.targets, Math.max(frame.durationMs, GENTLE_MOVE_MS));
   };
   const update = (): void =>
@@ -50,14 +51,15 @@ export function FrameTools() {
     view.setState({ said: words.actions.moved(index + 1, to + 1) });
   };
   const remove = (): void => {
-    view.setState({ selectedFrame: group.frames[index + 1]?.id ?? group.frames[index - 1]?.id ?? null });
+    const { frames } = document.store.getState().present;
+    view.setState({ selectedFrame: frames[index + 1]?.id ?? frames[index - 1]?.id ?? null });
     document.edit(
       () => words.actions.steps.delete(index + 1),
       (before) => deleteFrame(before, id),
     );
   };
   const duplicate = (): void => {
-    view.setState({ selectedFrame: group.nextId });
+    view.setState({ selectedFrame: document.store.getState().present.nextId });
     document.edit(
       () => words.actions.steps.duplicate(index + 1),
       (before) => duplicateFrame(before, id),
@@ -92,7 +94,7 @@ export function FrameTools() {
         <IconButton
           icon="later"
           label={words.actions.later}
-          isDisabled={none || index === group.frames.length - 1}
+          isDisabled={none || index === count - 1}
           onPress={move(index + 1)}
         />
         <IconButton icon="copy" label={words.actions.duplicate} isDisabled={none} onPress={duplicate} />

@@ -19,7 +19,8 @@ export interface Cards<List extends HTMLElement> {
   readonly list: RefObject<List | null>;
   /** The card that Tab leads to. */
   readonly tabStop: number | null;
-  key(event: KeyboardEvent, id: number): void;
+  /** To be heard by the list, so that a card is drawn again only when it is another. */
+  key(event: KeyboardEvent): void;
 }
 
 export function useCards<List extends HTMLElement>(options: CardsOptions): Cards<List> {
@@ -43,7 +44,9 @@ export function useCards<List extends HTMLElement>(options: CardsOptions): Cards
   return {
     list,
     tabStop: selected !== null && ids.includes(selected) ? selected : (ids[0] ?? null),
-    key(event, id) {
+    key(event) {
+      const id = idOf(event.target, attribute);
+      if (id === null) return;
       const index = ids.indexOf(id);
       const to = neighbour(event.key, index, ids.length);
       if (event.key === 'Delete' || event.key === 'Backspace') {
@@ -57,4 +60,10 @@ export function useCards<List extends HTMLElement>(options: CardsOptions): Cards
       event.preventDefault();
     },
   };
+}
+
+/** Of the card whose face it is; null for anything else in a card. */
+function idOf(target: EventTarget, attribute: string): number | null {
+  if (!(target instanceof HTMLElement) || !('cardFace' in target.dataset)) return null;
+  return Number(target.closest(`[${attribute}]`)?.getAttribute(attribute));
 }

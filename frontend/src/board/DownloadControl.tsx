@@ -2,7 +2,7 @@
 
 import { obstacles } from '../stores/compiled.ts';
 import { startHindrance } from '../stores/readiness.ts';
-import { useCompiled, useDevice, useGroup, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useCompiled, useDevice, useDocument, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import { DownloadProgress } from './DownloadProgress.tsx';
@@ -10,18 +10,18 @@ import styles from './BoardPanel.module.css';
 
 export function DownloadControl() {
   const { compiled, library, notices, slots } = useStores();
-  const { frames, unit } = useGroup();
+  const unit = useDocument(({ present }) => present.unit);
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const slot = useView((state) => state.slot);
   const frameCount = useCompiled((state) => state.latest.frames.length);
   const isDownloading = useSnapshot(({ activity }) => activity.kind === 'downloading');
   const sameUnit = useDevice((state) => state.family.unit === unit);
   const mayStart = useSnapshot((snapshot) => startHindrance(snapshot) === null);
-  const hint =
-    frames.length === 0
-      ? words.board.nothingToDownload
-      : sameUnit
-        ? words.board.downloadHint(frameCount, slot)
-        : words.actions.otherUnit(unit);
+  const hint = isEmpty
+    ? words.board.nothingToDownload
+    : sameUnit
+      ? words.board.downloadHint(frameCount, slot)
+      : words.actions.otherUnit(unit);
   const download = (): void => {
     const group = compiled.now();
     const { name } = group.source.group;
@@ -32,12 +32,7 @@ export function DownloadControl() {
   };
   return (
     <div className={styles.row}>
-      <Button
-        wide
-        icon="download"
-        isDisabled={!mayStart || !sameUnit || frames.length === 0}
-        onPress={download}
-      >
+      <Button wide icon="download" isDisabled={!mayStart || !sameUnit || isEmpty} onPress={download}>
         {words.board.download}
       </Button>
       {isDownloading ? <DownloadProgress /> : <p className={styles.hint}>{hint}</p>}

@@ -22,8 +22,13 @@ export const PoseThumb = memo(function PoseThumb(props: PoseThumbProps) {
 }, isSame);
 
 function isSame(one: PoseThumbProps, other: PoseThumbProps): boolean {
+  return one.family === other.family && sameLook(one, other);
+}
+
+type Look = Omit<PoseThumbProps, 'family'>;
+
+export function sameLook(one: Look, other: Look): boolean {
   return (
-    one.family === other.family &&
     one.pose.size === other.pose.size &&
     one.changed.join() === other.changed.join() &&
     [...one.pose].every(([servo, position]) => other.pose.get(servo) === position)
@@ -65,21 +70,28 @@ export function BarThumb(props: PoseThumbProps) {
   );
 }
 
+const LOOKS = ['unknown', 'changed', 'kept'] as const;
+
+/** One path for all that look alike: a strip of cards shows hundreds of bars. */
 function Bars({ servos, pose, changed, family }: PoseThumbProps & { readonly servos: readonly number[] }) {
   const width = 100 / servos.length;
+  const paths = { unknown: '', changed: '', kept: '' };
+  for (const [index, servo] of servos.entries()) {
+    const position = pose.get(servo);
+    const look = position === undefined ? 'unknown' : changed.includes(servo) ? 'changed' : 'kept';
+    const [top, bottom] = position === undefined ? [10, 12] : [topOf(position, family), 22];
+    const left = ((index + 0.15) * width).toFixed(2);
+    paths[look] += `M${left} ${bottom}V${top.toFixed(2)}h${(width * 0.7).toFixed(2)}V${bottom}z`;
+  }
   return (
     <svg className={styles.bars} viewBox="0 0 100 22" preserveAspectRatio="none">
-      {servos.map((servo, index) => {
-        const position = pose.get(servo);
-        const x = index * width + width * 0.15;
-        if (position === undefined) {
-          return <rect key={servo} className={styles.unknown} x={x} y={10} width={width * 0.7} height={2} />;
-        }
-        // A file may bring positions that no board takes: they stand at the edge.
-        const top = 20 - Math.min(1, Math.max(0, fraction(position, family.position))) * 18;
-        const className = changed.includes(servo) ? styles.changed : styles.kept;
-        return <rect key={servo} className={className} x={x} y={top} width={width * 0.7} height={22 - top} />;
-      })}
+      {LOOKS.map(
+        (look) => paths[look] !== '' && <path key={look} className={styles[look]} d={paths[look]} />,
+      )}
     </svg>
   );
 }
+
+/** A file may bring positions that no board takes: they stand at the edge. */
+const topOf = (position: number, family: Family): number =>
+  20 - Math.min(1, Math.max(0, fraction(position, family.position))) * 18;

@@ -4,7 +4,7 @@ import { useState } from 'react';
 import { exampleGroup, examplesFor, type ExampleId } from '#shared/actions/examples/examples.ts';
 import { poseAt, totalDurationMs } from '#shared/actions/group/group.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
-import { useDevice, useGroup, useRobot, useStores } from '../stores/stores.ts';
+import { useDevice, useDocument, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { words } from '../words/words.ts';
@@ -12,7 +12,7 @@ import styles from './Examples.module.css';
 
 export function ExamplesControl() {
   const [isOpen, setOpen] = useState(false);
-  const isEmpty = useGroup().frames.length === 0;
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const isUnit = useDevice((state) => state.family.id !== 'unknown');
   return (
     <>

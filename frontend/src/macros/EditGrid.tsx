@@ -1,6 +1,5 @@
 // The buttons while they are changed: a press selects, a drag or Alt with an arrow moves. Nothing starts.
 
-import type { KeyboardEvent } from 'react';
 import type { Macro } from '#shared/actions/macros/macro.ts';
 import { addMacro, moveMacro, removeMacro } from '#shared/actions/macros/macroEdits.ts';
 import { useCards } from '../actions/useCards.ts';
@@ -47,14 +46,13 @@ export function EditGrid() {
   }
 
   return (
-    <ul ref={gridRef} className={styles.grid} aria-label={words.macros.list}>
+    <ul ref={gridRef} className={styles.grid} aria-label={words.macros.list} onKeyDown={key}>
       {list.map((macro) => (
         <EditCard
           key={macro.id}
           macro={macro}
           isSelected={macro.id === selected}
           isTabStop={macro.id === tabStop}
-          onKey={key}
         />
       ))}
       <li className={styles.add}>
@@ -70,10 +68,9 @@ interface EditCardProps {
   readonly macro: Macro;
   readonly isSelected: boolean;
   readonly isTabStop: boolean;
-  onKey(event: KeyboardEvent, id: number): void;
 }
 
-function EditCard({ macro, isSelected, isTabStop, onKey }: EditCardProps) {
+function EditCard({ macro, isSelected, isTabStop }: EditCardProps) {
   const { view } = useStores();
   const { isDragged, startDrag } = useMacroDrag(macro);
   return (
@@ -87,7 +84,6 @@ function EditCard({ macro, isSelected, isTabStop, onKey }: EditCardProps) {
         aria-pressed={isSelected}
         tabIndex={isTabStop ? 0 : -1}
         onClick={() => view.setState({ selectedButton: macro.id })}
-        onKeyDown={(event) => onKey(event, macro.id)}
       >
         <MacroFace macro={macro} progress={null} />
       </button>

@@ -8,17 +8,17 @@ import { motionHindrance, startHindrance } from '../stores/readiness.ts';
 import { isSilent } from '../stores/servoView.ts';
 import {
   useDevice,
-  useGroup,
+  useDocument,
   usePlayback,
   useRobot,
   useServoView,
   useSnapshot,
   useStores,
-  useTimeline,
   useView,
 } from '../stores/stores.ts';
 import { timesOf } from '../timeline/groupTimes.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
+import { LiveText } from '../ui/LiveText.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
@@ -53,23 +53,34 @@ export function PlayBar() {
 
 /** Something of the group can be sent now. */
 function useMayPlay(): boolean {
-  const group = useGroup();
+  const unit = useDocument(({ present }) => present.unit);
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const isFree = useSnapshot((snapshot) => startHindrance(snapshot) === null);
-  const isSameUnit = useDevice((state) => state.family.unit === group.unit);
-  return isFree && isSameUnit && group.frames.length > 0;
+  const isSameUnit = useDevice((state) => state.family.unit === unit);
+  return isFree && isSameUnit && !isEmpty;
 }
 
 function PlayButton() {
   const { playback } = useStores();
   const mayPlay = useMayPlay();
-  const lengthMs = totalDurationMs(useGroup().frames);
-  const atMs = useTimeline((state) => state.playheadMs);
-  const loops = usePlayback((state) => state.loops);
-  const isWithin = atMs > 0 && atMs < lengthMs && !loops;
   return (
     <Button icon="play" isDisabled={!mayPlay} onPress={() => playback.play()}>
-      {isWithin ? words.play.playFrom(atMs) : words.play.play}
+      <PlayWords />
     </Button>
+  );
+}
+
+/** From where, as the playhead goes. */
+function PlayWords() {
+  const { playback, playhead, document } = useStores();
+  return (
+    <LiveText
+      text={() => {
+        const atMs = playhead.at();
+        const isWithin = atMs > 0 && atMs < totalDurationMs(document.store.getState().present.frames);
+        return isWithin && !playback.store.getState().loops ? words.play.playFrom(atMs) : words.play.play;
+      }}
+    />
   );
 }
 

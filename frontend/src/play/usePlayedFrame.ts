@@ -9,6 +9,8 @@ export function usePlayedFrame(): number | null {
   const { frames } = useGroup();
   const ends = useMemo(() => frameEnds(frames), [frames]);
   const isPlaying = usePlayback(({ phase }) => phase !== null && phase !== 'storing');
-  const index = useTimeline(({ playheadMs }) => ends.findIndex((endMs) => endMs >= playheadMs));
-  return isPlaying && index !== -1 ? index : null;
+  const index = useTimeline(({ playheadMs }) =>
+    isPlaying ? ends.findIndex((endMs) => endMs >= playheadMs) : -1,
+  );
+  return index === -1 ? null : index;
 }

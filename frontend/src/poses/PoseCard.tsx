@@ -1,6 +1,5 @@
 // One pose as a card: its picture, its name, the way to it. The face selects; the grip drags.
 
-import type { KeyboardEvent } from 'react';
 import type { Pose } from '#shared/actions/poses/pose.ts';
 import { movePose, renamePose } from '#shared/actions/poses/poseEdits.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
@@ -21,10 +20,9 @@ export interface PoseCardProps {
   readonly marks: string;
   readonly isSelected: boolean;
   readonly isTabStop: boolean;
-  onKey(event: KeyboardEvent, id: number): void;
 }
 
-export function PoseCard({ pose, marks, isSelected, isTabStop, onKey }: PoseCardProps) {
+export function PoseCard({ pose, marks, isSelected, isTabStop }: PoseCardProps) {
   const { poses, view } = useStores();
   const family = useDevice((state) => state.family);
   const all = useRobot().servos.length;
@@ -41,7 +39,6 @@ export function PoseCard({ pose, marks, isSelected, isTabStop, onKey }: PoseCard
         aria-pressed={isSelected}
         tabIndex={isTabStop ? 0 : -1}
         onClick={() => view.setState({ selectedPose: id })}
-        onKeyDown={(event) => onKey(event, id)}
       >
         <span className={styles.marks}>{marks}</span>
         <PoseThumb

@@ -40,7 +40,7 @@ export function PoseList() {
       .join(words.comma);
 
   return (
-    <ol ref={list} className={styles.list} aria-label={words.poses.list}>
+    <ol ref={list} className={styles.list} aria-label={words.poses.list} onKeyDown={key}>
       {book.poses.map((pose) => (
         <PoseCard
           key={pose.id}
@@ -48,7 +48,6 @@ export function PoseList() {
           marks={marks(pose)}
           isSelected={pose.id === selected}
           isTabStop={pose.id === tabStop}
-          onKey={key}
         />
       ))}
     </ol>

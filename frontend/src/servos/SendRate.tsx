@@ -1,8 +1,7 @@
 // How busy the wire is: packets sent in the last second, and servos whose newest target still waits for it. For the eye only.
 
-import { useRef } from 'react';
 import { useStores } from '../stores/stores.ts';
-import { useEachFrame } from '../ui/useEachFrame.ts';
+import { LiveText } from '../ui/LiveText.tsx';
 import { words } from '../words/words.ts';
 import { sentSince } from './sentSince.ts';
 import styles from './MoveTimeControl.module.css';
@@ -13,18 +12,15 @@ const WRITE_EACH_MS = 250;
 
 export function SendRate() {
   const { device } = useStores();
-  const output = useRef<HTMLSpanElement>(null);
-  const writtenMs = useRef(-Infinity);
-  useEachFrame(() => {
-    const nowMs = device.clock.now();
-    if (output.current === null || nowMs - writtenMs.current < WRITE_EACH_MS) return;
-    writtenMs.current = nowMs;
-    output.current.textContent = words.servoPanel.sending(
-      sentSince(device.traffic, nowMs - WINDOW_MS),
-      device.waiting(),
-    );
-  });
   return (
-    <span ref={output} className={styles.rate} title={words.servoPanel.sendingHint} aria-hidden="true" />
+    <LiveText
+      isSilent
+      text={() =>
+        words.servoPanel.sending(sentSince(device.traffic, device.clock.now() - WINDOW_MS), device.waiting())
+      }
+      eachMs={WRITE_EACH_MS}
+      className={styles.rate}
+      title={words.servoPanel.sendingHint}
+    />
   );
 }

@@ -12,10 +12,11 @@ import { sizesNow } from './lanes.ts';
 import { scaleAt } from './positions.ts';
 import { sceneOf } from './scene.ts';
 import { xOf } from './timeScale.ts';
-import type { SeenDesk } from './useDesk.ts';
+import { useDesk, type SeenDesk } from './useDesk.ts';
 import styles from './AskBox.module.css';
 
-export function AskBox({ desk, onClose }: { readonly desk: SeenDesk; onClose(): void }) {
+export function AskBox({ onClose }: { onClose(): void }) {
+  const desk = useDesk();
   const { asks } = desk.state;
   return asks === null ? <KeyValue desk={desk} /> : <Asked key={asks} ask={asks} onClose={onClose} />;
 }

@@ -1,35 +1,39 @@
 // The whole group in one line: where its keys are, what of it is in sight, where the playhead is. Dragged, it shows another part.
 
 import { useEffect, useRef, type PointerEvent } from 'react';
-import { useStores } from '../stores/stores.ts';
+import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
-import { deskOf } from './desk.ts';
+import { timesOf, type GroupTimes } from './groupTimes.ts';
 import { lookOf } from './look.ts';
 import { setTime } from './looking.ts';
 import { panned, seenSpan } from './timeScale.ts';
-import type { SeenDesk } from './useDesk.ts';
 import styles from './Minimap.module.css';
 
-export function Minimap({ desk, lanes }: { readonly desk: SeenDesk; readonly lanes: string }) {
+export function Minimap({ lanes }: { readonly lanes: string }) {
   const stores = useStores();
   const canvas = useRef<HTMLCanvasElement>(null);
-  const { times, state } = desk;
-  const seen = seenSpan(state.time, state.widthPx);
-  const allMs = Math.max(times.lengthMs, 1);
+  const time = useTimeline((state) => state.time);
+  const widthPx = useTimeline((state) => state.widthPx);
+  const lines = useDocument(({ present }) => linesOf(timesOf(present)));
+  const allMs = useDocument(({ present }) => Math.max(timesOf(present).lengthMs, 1));
+  const seen = seenSpan(time, widthPx);
   const share = (atMs: number): number => Math.min(1, Math.max(0, atMs / allMs));
   const [from, to] = [share(seen.fromMs), share(seen.toMs)];
 
   useEffect(() => {
-    if (canvas.current !== null) paintKeys(canvas.current, times);
-  }, [times, state.widthPx]);
+    const request = requestAnimationFrame(() => {
+      if (canvas.current !== null) paintKeys(canvas.current, lines);
+    });
+    return () => cancelAnimationFrame(request);
+  }, [lines, widthPx]);
 
   const look = (event: PointerEvent<HTMLElement>): void => {
     if (event.buttons !== 1) return;
     const { left, width } = event.currentTarget.getBoundingClientRect();
     const middleMs = ((event.clientX - left) / width) * allMs;
-    setTime(deskOf(stores), (time) => {
-      const { fromMs, toMs } = seenSpan(time, state.widthPx);
-      return panned(time, (middleMs - (fromMs + toMs) / 2) / time.msPerPx);
+    setTime({ stores }, (now) => {
+      const { fromMs, toMs } = seenSpan(now, widthPx);
+      return panned(now, (middleMs - (fromMs + toMs) / 2) / now.msPerPx);
     });
   };
 
@@ -58,17 +62,26 @@ export function Minimap({ desk, lanes }: { readonly desk: SeenDesk; readonly lan
 }
 
 const HEIGHT_PX = 16;
+const STEPS = 1000;
 
-/** The more servos a frame moves, the taller its line. */
-function paintKeys(canvas: HTMLCanvasElement, { frames, ends, lengthMs, tracks }: SeenDesk['times']): void {
+/** A line for each frame: where it ends and how tall it is, the taller the more servos it moves. As text: positions change none of it. */
+function linesOf({ frames, ends, lengthMs, tracks }: GroupTimes): string {
+  const lines = frames.map(({ targets }, index) => {
+    const height = 2 + Math.round(((HEIGHT_PX - 4) * targets.length) / Math.max(1, tracks.size));
+    return `${Math.round((STEPS * (ends[index] ?? 0)) / Math.max(1, lengthMs))} ${height}`;
+  });
+  return lines.join();
+}
+
+function paintKeys(canvas: HTMLCanvasElement, lines: string): void {
   const ctx = canvas.getContext('2d');
   if (ctx === null) return;
   canvas.width = canvas.clientWidth;
   canvas.height = HEIGHT_PX;
   ctx.fillStyle = lookOf(canvas).edge;
-  for (const [index, { targets }] of frames.entries()) {
-    const height = 2 + ((HEIGHT_PX - 4) * targets.length) / Math.max(1, tracks.size);
-    const x = ((ends[index] ?? 0) / Math.max(1, lengthMs)) * (canvas.width - 1);
-    ctx.fillRect(Math.round(x), HEIGHT_PX - height, 1, height);
+  if (lines === '') return;
+  for (const line of lines.split(',')) {
+    const [step = 0, height = 0] = line.split(' ').map(Number);
+    ctx.fillRect(Math.round((step / STEPS) * (canvas.width - 1)), HEIGHT_PX - height, 1, height);
   }
 }

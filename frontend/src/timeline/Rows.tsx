@@ -1,23 +1,19 @@
-// The rows for those who read or hear them: at the left each row's name, its position at the playhead and what is done to it, and
-// over the lanes a cell for each key, in its place, which the eye sees painted. Only what is in sight is there.
+// The rows for those who read or hear them: at the left each row's head, and over the lanes a cell for each key, in its place,
+// which the eye sees painted. Only what is in sight is there, and a row is drawn again only where something of it changed.
 
 import { memo } from 'react';
-import { isHeld, isSilent, toggled } from '../stores/servoView.ts';
-import { editServoView, useStores } from '../stores/stores.ts';
-import { keyName } from '../stores/keySet.ts';
-import { Icon } from '../ui/Icon.tsx';
+import { useDevice, useDocument, useRobot, useStores, useTimeline, useView } from '../stores/stores.ts';
+import { keyName, type KeySet } from '../stores/keySet.ts';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/words.ts';
-import { cellName, rowName } from './cellName.ts';
-import { deskOf, rangeOf } from './desk.ts';
-import { keysOfFrame } from './groupTimes.ts';
-import { selectRow } from './looking.ts';
-import { scaleAt } from './positions.ts';
-import type { PlacedRow } from './rows.ts';
-import { keysInRow, keyY, sceneOf, within, type Scene } from './scene.ts';
+import { useWords } from '../words/words.ts';
+import { nameOfKey } from './cellName.ts';
+import { keysOfFrame, timesOf, type GroupTimes } from './groupTimes.ts';
+import { RowHead } from './RowHead.tsx';
+import type { Row } from './rows.ts';
+import { keysInRow, within } from './rowKeys.ts';
+import { keyY, placedInSight } from './scene.ts';
 import type { Sizes } from './sizes.ts';
 import { seenSpan, xOf } from './timeScale.ts';
-import type { SeenDesk } from './useDesk.ts';
 import styles from './Rows.module.css';
 
 /** With more keys in sight only the cursor's row has cells, near the cursor. */
@@ -26,183 +22,116 @@ const BESIDE_CURSOR = 20;
 const CELL_PX = 18;
 
 export interface RowsProps {
-  readonly desk: SeenDesk;
+  readonly rows: readonly Row[];
   readonly sizes: Sizes;
   readonly id: string;
+  /** The same function each time. */
   openRowMenu(row: string, button: HTMLElement): void;
 }
 
 export const cellId = (grid: string, row: string, frameId: number | null): string =>
   `${grid} ${row} ${frameId ?? ''}`.replaceAll(' ', '-');
 
-export function Rows({ desk, sizes, id, openRowMenu }: RowsProps) {
-  const scene = sceneOf({ ...desk, state: { ...desk.state, playheadMs: 0 } }, sizes);
-  const placed = [scene.all, ...scene.rows];
-  const cells = placed.map((row) => keysInSight(scene, row));
-  const isDense = cells.reduce((sum, keys) => sum + keys.length, 0) > MOST_CELLS;
-  return placed.map((row, index) => (
-    <div
-      key={row.row.id}
-      id={cellId(id, row.row.id, null)}
-      role="row"
-      aria-rowindex={desk.rows.findIndex(({ id: rowId }) => rowId === row.row.id) + 1}
-      className={cx(styles.row, row === scene.all && styles.all)}
-      style={{ top: row.top, height: row.height }}
-    >
-      <Head desk={desk} placed={row} openRowMenu={openRowMenu} />
-      {(isDense ? nearCursor(desk, row, cells[index] ?? []) : (cells[index] ?? [])).map((key) => (
-        <div
-          key={key.frameId}
-          id={cellId(id, row.row.id, key.frameId)}
-          role="gridcell"
-          aria-colindex={(desk.times.places.get(key.frameId) ?? 0) + 1}
-          aria-selected={isSelected(desk, row, key.frameId)}
-          aria-label={cellName(desk, { row: row.row.id, frameId: key.frameId })}
-          className={styles.cell}
-          style={{
-            insetInlineStart: `calc(var(--heads) + ${xOf(desk.state.time, key.atMs) - CELL_PX / 2}px)`,
-            top: keyY(row, key.position, desk.family) - row.top - CELL_PX / 2,
-          }}
-        />
-      ))}
-    </div>
+export function Rows({ rows, sizes, id, openRowMenu }: RowsProps) {
+  const scrollTop = useTimeline((state) => state.scrollTop);
+  const heightPx = useTimeline((state) => state.heightPx);
+  const placed = placedInSight(rows, { scrollTop, heightPx }, sizes);
+  const isDense = useIsDense(placed.map(({ row }) => row));
+  return placed.map(({ row, top, height }) => (
+    <RowParts key={row.id} {...{ row, top, height, id, isDense, openRowMenu }} index={rows.indexOf(row)} />
   ));
 }
 
-function keysInSight(scene: Scene, row: PlacedRow) {
-  const keys = keysInRow(row, scene.times);
-  const { fromMs, toMs } = seenSpan(scene.state.time, scene.widthPx);
-  const [from, to] = within(keys, fromMs, toMs);
-  return keys.slice(from, to).filter(({ atMs }) => atMs >= fromMs && atMs <= toMs);
+function useIsDense(rows: readonly Row[]): boolean {
+  const time = useTimeline((state) => state.time);
+  const widthPx = useTimeline((state) => state.widthPx);
+  const span = seenSpan(time, widthPx);
+  return useDocument(({ present }) => {
+    const times = timesOf(present);
+    const counts = rows.map((row) => keysWithin(row, times, span).length);
+    return counts.reduce((sum, count) => sum + count, 0) > MOST_CELLS;
+  });
 }
 
-function nearCursor<Key extends { readonly frameId: number }>(
-  { state: { cursor } }: SeenDesk,
-  { row }: PlacedRow,
-  keys: readonly Key[],
-): readonly Key[] {
-  if (row.id !== cursor.row) return [];
-  const index = keys.findIndex(({ frameId }) => frameId === cursor.frameId);
-  return keys.slice(Math.max(0, index - BESIDE_CURSOR), Math.max(0, index) + BESIDE_CURSOR);
-}
+const keysWithin = (row: Row, times: GroupTimes, { fromMs, toMs }: ReturnType<typeof seenSpan>) => {
+  const keys = keysInRow(row, times);
+  return keys.slice(...within(keys, fromMs, toMs)).filter(({ atMs }) => atMs >= fromMs && atMs <= toMs);
+};
 
-function isSelected({ times, state }: SeenDesk, { row }: PlacedRow, frameId: number): boolean {
-  const keys = keysOfFrame(times, row.servos, frameId);
-  return keys.length > 0 && keys.every((key) => state.selected.has(keyName(key)));
-}
-
-interface HeadProps {
-  readonly desk: SeenDesk;
-  readonly placed: PlacedRow;
+interface RowPartsProps {
+  readonly row: Row;
+  readonly index: number;
+  readonly top: number;
+  readonly height: number;
+  readonly id: string;
+  readonly isDense: boolean;
   openRowMenu(row: string, button: HTMLElement): void;
 }
 
-function Head({ desk, placed: { row }, openRowMenu }: HeadProps) {
-  const stores = useStores();
-  const { servoView, state } = desk;
-  const name = rowName(row);
-  const [servo = -1] = row.servos;
+const RowParts = memo(function RowParts({ index, isDense, openRowMenu, ...placed }: RowPartsProps) {
+  const { row, top, height, id } = placed;
+  useWords();
+  const isAtCursor = useTimeline(({ cursor }) => cursor.row === row.id);
   return (
-    <div role="rowheader" className={cx(styles.head, state.cursor.row === row.id && styles.atCursor)}>
-      {row.kind === 'limb' && (
-        <Fold
-          limb={row.name}
-          name={name}
-          count={row.servos.length}
-          isFolded={servoView.folded.includes(row.name)}
-        />
-      )}
-      <button
-        type="button"
-        tabIndex={-1}
-        className={cx(styles.name, row.kind !== 'servo' && styles.summary)}
-        aria-label={words.timeline.rows.select(name)}
-        onClick={(event) =>
-          selectRow(
-            deskOf(stores),
-            row.id,
-            event.ctrlKey || event.metaKey ? 'toggles' : event.shiftKey ? 'adds' : 'replaces',
-          )
-        }
-      >
-        {name}
-      </button>
-      {row.kind === 'servo' && (
-        <>
-          <Marks isLocked={isHeld(servoView, servo)} isMuted={isSilent(servoView, servo)} />
-          <span className={styles.value} data-value={servo} aria-hidden="true" />
-        </>
-      )}
-      {row.kind !== 'all' && (
-        <button
-          type="button"
-          tabIndex={-1}
-          className={styles.tools}
-          aria-label={words.timeline.rows.tools(name)}
-          onClick={(event) => openRowMenu(row.id, event.currentTarget)}
-        >
-          <Icon name="more" />
-        </button>
-      )}
-      {row.kind === 'servo' && state.isTall && <Axis desk={desk} servo={servo} />}
+    <div
+      id={cellId(id, row.id, null)}
+      role="row"
+      aria-rowindex={index + 1}
+      className={cx(styles.row, row.kind === 'all' && styles.all)}
+      style={{ top, height }}
+    >
+      <RowHead row={row} isAtCursor={isAtCursor} openRowMenu={openRowMenu} />
+      {(isAtCursor || !isDense) && <Cells {...placed} isDense={isDense} />}
     </div>
   );
-}
-
-/** What the upper and the lower edge of a tall row stand for. */
-function Axis({ desk, servo }: { readonly desk: SeenDesk; readonly servo: number }) {
-  const { min, max } = rangeOf(desk, servo);
-  const { text } = scaleAt(desk, servo);
-  return (
-    <span className={styles.axis} aria-hidden="true">
-      <span>{text(max)}</span>
-      <span>{text(min)}</span>
-    </span>
-  );
-}
-
-function Fold(props: {
-  readonly limb: string;
-  readonly name: string;
-  readonly count: number;
-  readonly isFolded: boolean;
-}) {
-  const stores = useStores();
-  return (
-    <button
-      type="button"
-      tabIndex={-1}
-      className={styles.fold}
-      aria-expanded={!props.isFolded}
-      aria-label={words.timeline.rows.fold(props.name, props.count)}
-      onClick={() =>
-        editServoView(stores, (view) => ({ ...view, folded: toggled(view.folded, [props.limb]) }))
-      }
-    >
-      <Icon name={props.isFolded ? 'later' : 'down'} />
-    </button>
-  );
-}
-
-const Marks = memo(function Marks({
-  isLocked,
-  isMuted,
-}: {
-  readonly isLocked: boolean;
-  readonly isMuted: boolean;
-}) {
-  return (
-    <span className={styles.marks}>
-      {isLocked && (
-        <span role="img" aria-label={words.timeline.rows.locked}>
-          <Icon name="lock" />
-        </span>
-      )}
-      {isMuted && (
-        <span role="img" aria-label={words.timeline.rows.muted}>
-          <Icon name="mute" />
-        </span>
-      )}
-    </span>
-  );
 });
+
+type CellsProps = Pick<RowPartsProps, 'row' | 'top' | 'height' | 'id' | 'isDense'>;
+
+function Cells({ row, top, height, id, isDense }: CellsProps) {
+  const { document } = useStores();
+  // What a cell says depends on these; each is the very same object as long as it is the same.
+  useDocument(({ present }) => keysInRow(row, timesOf(present)));
+  useDocument(({ present }) => timesOf(present).places);
+  useDocument(({ present }) => present.unit);
+  const time = useTimeline((state) => state.time);
+  const widthPx = useTimeline((state) => state.widthPx);
+  const selected = useTimeline((state) => state.selected);
+  const cursor = useTimeline((state) => (isDense ? state.cursor.frameId : null));
+  const family = useDevice((state) => state.family);
+  const robot = useRobot();
+  const positionsIn = useView((state) => state.positionsIn);
+  const group = document.store.getState().present;
+  const times = timesOf(group);
+  const inSight = keysWithin(row, times, seenSpan(time, widthPx));
+  const keys = isDense ? near(inSight, cursor) : inSight;
+  return keys.map((key) => (
+    <div
+      key={key.frameId}
+      id={cellId(id, row.id, key.frameId)}
+      role="gridcell"
+      aria-colindex={(times.places.get(key.frameId) ?? 0) + 1}
+      aria-selected={isSelected(times, row, key.frameId, selected)}
+      aria-label={nameOfKey({ robot, family, group, positionsIn, times }, row, key.frameId)}
+      className={styles.cell}
+      style={{
+        insetInlineStart: `calc(var(--heads) + ${xOf(time, key.atMs) - CELL_PX / 2}px)`,
+        top: keyY({ row, top, height }, key.position, family) - top - CELL_PX / 2,
+      }}
+    />
+  ));
+}
+
+function near<Key extends { readonly frameId: number }>(
+  keys: readonly Key[],
+  cursor: number | null,
+): readonly Key[] {
+  const index = keys.findIndex(({ frameId }) => frameId === cursor);
+  return keys.slice(Math.max(0, index - BESIDE_CURSOR), Math.max(0, index) + BESIDE_CURSOR);
+}
+
+function isSelected(times: GroupTimes, row: Row, frameId: number, selected: KeySet): boolean {
+  if (selected.size === 0) return false;
+  const keys = keysOfFrame(times, row.servos, frameId);
+  return keys.length > 0 && keys.every((key) => selected.has(keyName(key)));
+}

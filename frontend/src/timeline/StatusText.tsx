@@ -9,16 +9,11 @@ import { selectedKeys } from './groupTimes.ts';
 import { servoAtHand } from './moving.ts';
 import { turnText } from './positions.ts';
 import { servoRowId } from './rows.ts';
-import type { SeenDesk } from './useDesk.ts';
+import { useDesk, type SeenDesk } from './useDesk.ts';
 import styles from './StatusText.module.css';
 
-export function StatusText({
-  desk,
-  status,
-}: {
-  readonly desk: SeenDesk;
-  readonly status: StatusName | null;
-}) {
+export function StatusText({ status }: { readonly status: StatusName | null }) {
+  const desk = useDesk();
   const stores = useStores();
   const hidden = useServoView((view) => view.hidden.length);
   return (

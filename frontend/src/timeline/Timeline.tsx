@@ -11,8 +11,8 @@ import {
   type ClipboardEvent,
   type KeyboardEvent,
 } from 'react';
-import { useStore } from 'zustand';
-import { useStores } from '../stores/stores.ts';
+import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
+import { LiveText } from '../ui/LiveText.tsx';
 import { words } from '../words/words.ts';
 import { AskBox } from './AskBox.tsx';
 import { copy, cut, paste } from './changes.ts';
@@ -29,13 +29,12 @@ import { topOfRows } from './sizes.ts';
 import { StatusText } from './StatusText.tsx';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
-import { useDesk } from './useDesk.ts';
+import { useRows } from './useRows.ts';
 import styles from './Timeline.module.css';
 
 /** `onPlay`: the play key was pressed here. */
 export function Timeline({ onPlay }: { onPlay(): void }) {
   const stores = useStores();
-  const desk = useDesk();
   const id = useId();
   const [menu, setMenu] = useState<OpenMenu | null>(null);
   const [status, setStatus] = useState<StatusName | null>(null);
@@ -46,12 +45,23 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
   const playhead = useRef<HTMLDivElement>(null);
   const box = useRef<HTMLDivElement>(null);
   const menuSpot = useRef<HTMLSpanElement>(null);
-  const { state, rows } = desk;
-  const sizes = sizesNow(state);
+  const rows = useRows();
+  const columns = useDocument(({ present }) => present.frames.length);
+  const isTall = useTimeline((state) => state.isTall);
+  const heightPx = useTimeline((state) => state.heightPx);
+  const active = useTimeline(({ cursor }) => cellId(id, cursor.row, cursor.frameId));
+  const sizes = sizesNow({ isTall });
   const totalPx = topOfRows(sizes) + heightOf(placedRows(rows.slice(1), sizes));
   const openMenu = useCallback((kind: OpenMenu['kind'], anchor: Element | null) => {
     setMenu({ kind, anchor: { current: anchor } });
   }, []);
+  const openRowMenu = useCallback(
+    (row: string, button: Element) => {
+      stores.timeline.setState({ cursor: { row, frameId: null } });
+      openMenu('row', button);
+    },
+    [stores, openMenu],
+  );
 
   useLayoutEffect(() => {
     const [area, lane] = [scroller.current, lanes.current];
@@ -98,10 +108,9 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
     event.preventDefault();
   }
 
-  const active = cellId(id, state.cursor.row, state.cursor.frameId);
   const cellAtCursor = (): Element | null =>
     window.document.getElementById(active) ??
-    window.document.getElementById(cellId(id, state.cursor.row, null));
+    window.document.getElementById(cellId(id, stores.timeline.getState().cursor.row, null));
 
   function put(event: ClipboardEvent, clip: ReturnType<typeof copy>): void {
     if (clip === null) return;
@@ -111,7 +120,7 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
 
   function take(event: ClipboardEvent): void {
     const text = event.clipboardData.getData('text/plain');
-    paste(deskOf(stores), (text === '' ? null : clipFromText(text)) ?? state.clip);
+    paste(deskOf(stores), (text === '' ? null : clipFromText(text)) ?? stores.timeline.getState().clip);
     event.preventDefault();
   }
 
@@ -119,7 +128,7 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
 
   return (
     <section className={styles.timeline} aria-label={words.timeline.title}>
-      <TimelineTools desk={desk} openMenu={(button) => openMenu('keys', button)} />
+      <TimelineTools openMenu={openMenu} />
       <div
         ref={scroller}
         className={styles.scroller}
@@ -127,7 +136,7 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
         onScroll={(event) => stores.timeline.setState({ scrollTop: event.currentTarget.scrollTop })}
       >
         <div style={{ height: totalPx }}>
-          <div className={styles.stage} style={{ height: state.heightPx }}>
+          <div className={styles.stage} style={{ height: heightPx }}>
             <div
               ref={grid}
               id={`${id}lanes`}
@@ -136,7 +145,7 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
               className={styles.grid}
               aria-label={words.timeline.grid}
               aria-rowcount={rows.length}
-              aria-colcount={desk.times.frames.length}
+              aria-colcount={columns}
               aria-multiselectable="true"
               aria-activedescendant={active}
               onKeyDown={key}
@@ -151,21 +160,15 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
                 <div ref={box} className={styles.box} aria-hidden="true" hidden />
                 <span ref={menuSpot} className={styles.menuSpot} aria-hidden="true" />
               </div>
-              <Rows
-                {...{ desk, sizes, id }}
-                openRowMenu={(row, button) => {
-                  stores.timeline.setState({ cursor: { row, frameId: null } });
-                  openMenu('row', button);
-                }}
-              />
+              <Rows {...{ rows, sizes, id, openRowMenu }} />
             </div>
             <Corner />
-            <AskBox desk={desk} onClose={takeFocus} />
+            <AskBox onClose={takeFocus} />
           </div>
         </div>
       </div>
-      <Minimap desk={desk} lanes={`${id}lanes`} />
-      <StatusText desk={desk} status={status} />
+      <Minimap lanes={`${id}lanes`} />
+      <StatusText status={status} />
       <TimelineMenu
         menu={menu}
         onClose={() => {
@@ -184,12 +187,11 @@ function areThere<Parts extends object>(
 
 /** Above the names: where the playhead is. */
 function Corner() {
-  const { timeline } = useStores();
-  const playheadMs = useStore(timeline, (state) => state.playheadMs);
+  const { playhead } = useStores();
   return (
     <p className={styles.corner}>
       <span className={styles.cornerName}>{words.timeline.playhead}</span>
-      {words.timeline.instant(playheadMs)}
+      <LiveText text={() => words.timeline.instant(playhead.at())} />
     </p>
   );
 }

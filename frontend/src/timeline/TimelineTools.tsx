@@ -1,17 +1,18 @@
 // The toolbar of the timeline: its verbs for hands without a keyboard, and the switches that say how edits behave.
 
+import { memo } from 'react';
 import { Toolbar } from 'react-aria-components/Toolbar';
-import { EASINGS, type Easing } from '#shared/actions/group/group.ts';
-import { useStores } from '../stores/stores.ts';
+import { EASINGS, type Easing, type GroupFrame } from '#shared/actions/group/group.ts';
+import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Hint } from '../ui/Hint.tsx';
 import { Select } from '../ui/Select.tsx';
+import { refsOf, type KeySet } from '../stores/keySet.ts';
 import { ToggleButton } from '../ui/ToggleButton.tsx';
-import { words } from '../words/words.ts';
+import { useWords, words } from '../words/words.ts';
 import { ease } from './changes.ts';
 import { deskOf } from './desk.ts';
 import { mayRun, VERBS, type VerbName } from './verbs.ts';
-import type { SeenDesk } from './useDesk.ts';
 import styles from './TimelineTools.module.css';
 
 const VERB_GROUPS: readonly (readonly VerbName[])[] = [
@@ -25,62 +26,72 @@ const SWITCHES = [
   ['isTall', 'tallHint'],
 ] as const;
 
-export function TimelineTools({
-  desk,
+/** `openMenu`: the same function each time. */
+export const TimelineTools = memo(function TimelineTools({
   openMenu,
 }: {
-  readonly desk: SeenDesk;
-  openMenu(button: Element): void;
+  openMenu(kind: 'keys', button: Element): void;
 }) {
-  const { timeline } = useStores();
+  useWords();
   return (
     <Toolbar className={styles.tools ?? ''} aria-label={words.timeline.toolbar}>
       {VERB_GROUPS.map((verbs) => (
         <div key={verbs[0]} className={styles.group}>
           {verbs.map((verb) => (
-            <VerbButton key={verb} verb={verb} desk={desk} />
+            <VerbButton key={verb} verb={verb} />
           ))}
         </div>
       ))}
-      <IconButton icon="more" label={words.timeline.more} onPress={({ target }) => openMenu(target)} />
-      <EasingChoice desk={desk} />
+      <IconButton
+        icon="more"
+        label={words.timeline.more}
+        onPress={({ target }) => openMenu('keys', target)}
+      />
+      <EasingChoice />
       <div className={styles.group}>
         {SWITCHES.map(([name, hint]) => (
           <Hint key={name} text={words.timeline[hint]}>
-            <ToggleButton isOn={desk.state[name]} onChange={(isOn) => timeline.setState({ [name]: isOn })}>
-              {words.timeline.switches[name]}
-            </ToggleButton>
+            <Switch name={name} />
           </Hint>
         ))}
       </div>
     </Toolbar>
   );
+});
+
+function Switch({ name }: { readonly name: (typeof SWITCHES)[number][0] }) {
+  const { timeline } = useStores();
+  const isOn = useTimeline((state) => state[name]);
+  return (
+    <ToggleButton isOn={isOn} onChange={(wanted) => timeline.setState({ [name]: wanted })}>
+      {words.timeline.switches[name]}
+    </ToggleButton>
+  );
 }
 
-function VerbButton({ verb, desk }: { readonly verb: VerbName; readonly desk: SeenDesk }) {
+function VerbButton({ verb }: { readonly verb: VerbName }) {
   const stores = useStores();
+  const mayNow = useTimeline((state) => mayRun({ state }, VERBS[verb]));
   return (
     <IconButton
       icon={VERBS[verb].icon}
       label={words.timeline.verbs[verb]}
-      isDisabled={!mayRun(desk, VERBS[verb])}
+      isDisabled={!mayNow}
       onPress={() => VERBS[verb].run(deskOf(stores))}
     />
   );
 }
 
 /** Of the frames with selected keys; empty where they differ. */
-function EasingChoice({ desk: { times, state } }: { readonly desk: SeenDesk }) {
+function EasingChoice() {
   const stores = useStores();
-  const frames = new Set([...state.selected].map((name) => Number(name.split('/')[0])));
-  const easings = new Set(times.frames.filter(({ id }) => frames.has(id)).map(({ easing }) => easing));
-  const [only] = easings;
-  const value: Easing | '' = easings.size === 1 && only !== undefined ? only : '';
+  const selected = useTimeline((state) => state.selected);
+  const value = useDocument(({ present }) => commonEasing(present.frames, selected));
   return (
     <Select<Easing | ''>
       label={words.timeline.easing}
       value={value}
-      isDisabled={frames.size === 0}
+      isDisabled={selected.size === 0}
       options={[
         ...(value === '' ? [{ value, label: words.timeline.easing } as const] : []),
         ...EASINGS.map((easing) => ({ value: easing, label: words.timeline.easings[easing] })),
@@ -88,4 +99,11 @@ function EasingChoice({ desk: { times, state } }: { readonly desk: SeenDesk }) {
       onChange={(easing) => easing !== '' && ease(deskOf(stores), easing)}
     />
   );
+}
+
+function commonEasing(frames: readonly GroupFrame[], selected: KeySet): Easing | '' {
+  const wanted = new Set(refsOf(selected).map(({ frameId }) => frameId));
+  const easings = new Set(frames.filter(({ id }) => wanted.has(id)).map(({ easing }) => easing));
+  const [only = ''] = easings;
+  return easings.size === 1 ? only : '';
 }

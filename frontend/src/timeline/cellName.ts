@@ -14,9 +14,12 @@ export function rowName({ kind, name, servos }: Row): string {
 }
 
 export function cellName(desk: Reader & Pick<Desk, 'rows' | 'times'>, { row: id, frameId }: Cursor): string {
-  const { rows, times } = desk;
-  const row = rows.find((one) => one.id === id);
-  if (row === undefined) return '';
+  const row = desk.rows.find((one) => one.id === id);
+  return row === undefined ? '' : nameOfKey(desk, row, frameId);
+}
+
+export function nameOfKey(desk: Reader & Pick<Desk, 'times'>, row: Row, frameId: number | null): string {
+  const { times } = desk;
   const name = rowName(row);
   const place = frameId === null ? undefined : times.places.get(frameId);
   if (frameId === null || place === undefined) return words.timeline.noKey(name);

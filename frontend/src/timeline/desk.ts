@@ -7,7 +7,7 @@ import type { KeyRef } from '#shared/actions/group/tracks.ts';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { positionRange, type Family, type Range } from '#shared/protocol/families.ts';
-import { keyName, keySet, type KeySet } from '../stores/keySet.ts';
+import { keySet, type KeySet } from '../stores/keySet.ts';
 import { isHeld, type ServoView } from '../stores/servoView.ts';
 import { servoViewOf, type Stores } from '../stores/stores.ts';
 import type { TimelineState } from '../stores/timeline.ts';
@@ -38,7 +38,7 @@ export function deskOf(stores: DeskStores): Desk {
   return {
     ...{ stores, group, times, robot, servoView },
     state: stores.timeline.getState(),
-    rows: rowsOf(robot, times.tracks, servoView),
+    rows: rowsOf(robot, [...times.tracks.keys()], servoView),
     family: stores.device.store.getState().family,
     positionsIn: stores.view.getState().positionsIn,
   };
@@ -76,12 +76,16 @@ export function apply({ stores }: Pick<Desk, 'stores'>, { label, edit, selects }
   select(stores, selects === undefined ? null : keySet(selects(times)));
 }
 
+/** The very set that was there, where it says the same: whoever shows it has nothing to do. */
+const sameOr = (before: KeySet, after: KeySet): KeySet =>
+  before.size === after.size && [...after].every((name) => before.has(name)) ? before : after;
+
 /** Null: what is still there. The frame strip goes along. */
 export function select(stores: DeskStores, wanted: KeySet | null, cursor?: TimelineState['cursor']): void {
   const times = timesOf(stores.document.store.getState().present);
   const before = stores.timeline.getState();
   const keys = selectedKeys(times, wanted ?? before.selected);
-  const selected = new Set(keys.map(keyName));
+  const selected = sameOr(before.selected, keySet(keys));
   stores.timeline.setState({ selected, marker: null, ...(cursor !== undefined && { cursor }) });
   const frames = new Set(keys.map(({ frameId }) => frameId));
   const at = (cursor ?? before.cursor).frameId;

@@ -15,7 +15,7 @@ export interface GroupTimes {
 }
 
 const known = new WeakMap<readonly GroupFrame[], GroupTimes>();
-let latest: Tracks | undefined;
+let latest: GroupTimes | undefined;
 
 export function timesOf({ frames }: { readonly frames: readonly GroupFrame[] }): GroupTimes {
   const before = known.get(frames);
@@ -23,14 +23,22 @@ export function timesOf({ frames }: { readonly frames: readonly GroupFrame[] }):
   const ends = frameEnds(frames);
   const times = {
     frames,
-    tracks: tracksOf({ frames }, latest),
+    tracks: tracksOf({ frames }, latest?.tracks),
     ends,
     lengthMs: ends.at(-1) ?? 0,
-    places: new Map(frames.map(({ id }, index) => [id, index])),
+    places: placesOf(frames, latest),
   };
-  latest = times.tracks;
+  latest = times;
   known.set(frames, times);
   return times;
+}
+
+/** The very same ones where the frames are the same by name, as they are after most edits. */
+function placesOf(frames: readonly GroupFrame[], before: GroupTimes | undefined): GroupTimes['places'] {
+  const isSame =
+    before?.frames.length === frames.length &&
+    before.frames.every(({ id }, index) => id === frames[index]?.id);
+  return isSame ? before.places : new Map(frames.map(({ id }, index) => [id, index]));
 }
 
 /** When the frame is done; null where there is none. */

@@ -5,7 +5,8 @@ import type { TimelineState } from '../stores/timeline.ts';
 import type { KeyRef } from '#shared/actions/group/tracks.ts';
 import { keysOfFrame, selectedKeys, spanOf, type GroupTimes } from './groupTimes.ts';
 import type { PlacedRow, Row } from './rows.ts';
-import { keysInRow, keyY, within, type Scene } from './scene.ts';
+import { keysInRow, within } from './rowKeys.ts';
+import { keyY, type Scene } from './scene.ts';
 import { msAt, xOf, type Span } from './timeScale.ts';
 
 export type Hit =
@@ -101,7 +102,7 @@ function handleAt({ times, state, sizes }: Scene, x: number): Hit | null {
 
 function keyAt(scene: Scene, placed: PlacedRow, { x, y }: Spot): Hit | null {
   const { times, state, sizes, family } = scene;
-  const keys = keysInRow(placed, times);
+  const keys = keysInRow(placed.row, times);
   const reachMs = sizes.reach * state.time.msPerPx;
   const atMs = msAt(state.time, x);
   const [from, to] = within(keys, atMs - reachMs, atMs + reachMs);
@@ -136,7 +137,7 @@ export function keysInBox(scene: Scene, one: Spot, other: Spot): readonly KeyRef
   return [all, ...rows]
     .filter((placed) => placed.top + placed.height > top && placed.top < bottom)
     .flatMap((placed) =>
-      keysInRow(placed, times)
+      keysInRow(placed.row, times)
         .filter(({ atMs, position }) => {
           const y = keyY(placed, position, family);
           return atMs >= fromMs && atMs <= toMs && y >= top && y <= bottom;

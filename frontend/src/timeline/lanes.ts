@@ -75,10 +75,10 @@ export function bringToLife(parts: LaneParts, stores: DeskStores, host: LaneHost
   };
 }
 
-/** What of the page's view the lanes show. */
-const LOOKS = ['servos', 'theme', 'positionsIn'] as const;
-
 const middle = (spots: readonly Spot[]): number => spots.reduce((sum, { y }) => sum + y, 0) / spots.length;
+
+/** What of the servo panel shows here; a drag there changes other things of it all the time. */
+const SHOWN = ['robotId', 'hidden', 'folded', 'locked', 'solo', 'muted'] as const;
 
 function paintOnChange(parts: LaneParts, stores: DeskStores, sizes: () => Sizes): () => void {
   let request = 0;
@@ -103,7 +103,11 @@ function paintOnChange(parts: LaneParts, stores: DeskStores, sizes: () => Sizes)
     ),
     stores.document.store.subscribe(repaint),
     stores.robots.store.subscribe(repaint),
-    stores.view.subscribe((state, before) => later(LOOKS.some((name) => state[name] !== before[name]))),
+    stores.view.subscribe((state, before) => {
+      const { servos, theme, positionsIn } = before;
+      const isSame = SHOWN.every((name) => state.servos[name] === servos[name]);
+      if (!isSame || state.theme !== theme || state.positionsIn !== positionsIn) repaint();
+    }),
     stores.device.store.subscribe(({ family }, before) => family !== before.family && repaint()),
   ];
   repaint();
@@ -135,7 +139,8 @@ function showPlayhead({ stage, playhead }: LaneParts, desk: Desk): void {
     const servo = Number(value.dataset.value);
     const track = times.tracks.get(servo);
     const position = track === undefined ? null : positionAt(track, state.playheadMs);
-    value.textContent = position === null ? '' : scaleAt(desk, servo).digits(position);
+    const text = position === null ? '' : scaleAt(desk, servo).digits(position);
+    if (value.textContent !== text) value.textContent = text;
   }
 }
 

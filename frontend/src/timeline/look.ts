@@ -6,7 +6,19 @@ const NAMES = ['ink', 'ink-dim', 'line', 'edge', 'panel', 'raised', 'well', 'com
 export type LookName = (typeof NAMES)[number];
 export type Look = Readonly<Record<LookName, string>> & { readonly font: string };
 
+/** What the page's colours depend on. */
+const SCHEMES = ['(prefers-color-scheme: dark)', '(prefers-contrast: more)', '(forced-colors: active)'];
+let latest: { readonly key: string; readonly look: Look } | undefined;
+
+/** Asked for at each repaint, and worked out only when it may be another: reading styles makes the browser compute them all. */
 export function lookOf(element: Element): Look {
+  const { theme = '' } = document.documentElement.dataset;
+  const key = [theme, ...SCHEMES.map((scheme) => matchMedia(scheme).matches)].join();
+  if (latest?.key !== key) latest = { key, look: readLook(element) };
+  return latest.look;
+}
+
+function readLook(element: Element): Look {
   const style = getComputedStyle(element);
   const colours = Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`)]));
   return { ...(colours as Record<LookName, string>), font: style.fontFamily };

@@ -8,7 +8,8 @@ import type { Brush } from './brush.ts';
 import type { Look } from './look.ts';
 import { paintHeads } from './paintHeads.ts';
 import type { PlacedRow } from './rows.ts';
-import { keysInRow, keyY, within, type Scene } from './scene.ts';
+import { keysInRow, within } from './rowKeys.ts';
+import { keyY, type Scene } from './scene.ts';
 import { seenSpan, xOf } from './timeScale.ts';
 import { topOfRows } from './sizes.ts';
 import { keysOfFrame } from './groupTimes.ts';
@@ -105,7 +106,7 @@ function paintBoundaries({ ctx, look, scene }: Brush, top: number, bottom: numbe
 function paintRow(brush: Brush, placed: PlacedRow): void {
   const { ctx, look, scene } = brush;
   const { state, times, widthPx, muted } = scene;
-  const keys = keysInRow(placed, times);
+  const keys = keysInRow(placed.row, times);
   const { fromMs, toMs } = seenSpan(state.time, widthPx);
   const [from, to] = within(keys, fromMs, toMs);
   ctx.globalAlpha = muted.has(placed.row.id) ? 0.4 : 1;

@@ -5,7 +5,9 @@ import { inUnits, scaleOf, type Scale } from '../servos/scale.ts';
 import { words } from '../words/words.ts';
 import { rangeOf, type Desk } from './desk.ts';
 
-export type Reader = Pick<Desk, 'robot' | 'family' | 'group' | 'positionsIn'>;
+export type Reader = Pick<Desk, 'robot' | 'family' | 'positionsIn'> & {
+  readonly group: Pick<Desk['group'], 'unit'>;
+};
 
 export function scaleAt({ robot, family, group, positionsIn }: Reader, servo: number): Scale {
   const own = servoOf(robot, servo);

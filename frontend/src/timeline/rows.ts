@@ -1,6 +1,5 @@
 // The rows of the timeline: one for all, one for each limb, one for each servo, in the robot's order. Pure.
 
-import type { Tracks } from '#shared/actions/group/tracks.ts';
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
 import type { ServoView } from '../stores/servoView.ts';
@@ -19,10 +18,10 @@ export interface Row {
 
 export const servoRowId = (servo: number): string => `servo ${servo}`;
 
-/** The first one is that of all servos. */
+/** The first one is that of all servos. `keyed`: servos that have keys, those the robot does not have too. */
 export function rowsOf(
   { servos }: Robot,
-  tracks: Tracks,
+  keyed: readonly number[],
   { hidden, folded }: Pick<ServoView, 'hidden' | 'folded'>,
 ): readonly Row[] {
   const shown = servos.filter(({ servo }) => !hidden.includes(servo));
@@ -32,7 +31,7 @@ export function rowsOf(
     if (limbs.length === 1) return rows;
     return [limbRow(group, members), ...(folded.includes(group) ? [] : rows)];
   });
-  const strange = [...tracks.keys()].filter(
+  const strange = keyed.filter(
     (number) => !hidden.includes(number) && !servos.some(({ servo }) => servo === number),
   );
   const all = [...shown.map(({ servo }) => servo), ...strange];

@@ -1,7 +1,6 @@
 // Everything that is on the lanes now, with its geometry: what painting and hitting have in common. Pure.
 
 import type { Marker } from '#shared/actions/group/group.ts';
-import type { Key } from '#shared/actions/group/tracks.ts';
 import { positionRange, type Family, type Range } from '#shared/protocol/families.ts';
 import { isHeld, isSilent } from '../stores/servoView.ts';
 import { ALL_ROW, type TimelineState } from '../stores/timeline.ts';
@@ -36,21 +35,28 @@ export function sceneOf(desk: Desk, sizes: Sizes): Scene {
     ...{ state, times, family, sizes, markers: group.markers },
     ...{ widthPx: state.widthPx, heightPx: state.heightPx },
     all: placedAll(all, sizes),
-    rows: rowsInSight(placedRows(rest, sizes), state.scrollTop, state.heightPx, sizes),
+    rows: rowsInSight(rest, state, sizes),
     held: isOf((servo) => isHeld(servoView, servo)),
     muted: isOf((servo) => isSilent(servoView, servo)),
   };
 }
 
-/** `placed`: the rows that scroll, from 0 on. */
+type Sight = Pick<TimelineState, 'scrollTop' | 'heightPx'>;
+
+/** Of all rows: that of all servos, and what is seen of the others. */
+export function placedInSight(rows: readonly Row[], sight: Sight, sizes: Sizes): readonly PlacedRow[] {
+  const [all, ...rest] = rows;
+  return all === undefined ? [] : [placedAll(all, sizes), ...rowsInSight(rest, sight, sizes)];
+}
+
+/** `rows`: those that scroll. */
 function rowsInSight(
-  placed: readonly PlacedRow[],
-  scrollTop: number,
-  heightPx: number,
+  rows: readonly Row[],
+  { scrollTop, heightPx }: Sight,
   sizes: Sizes,
 ): readonly PlacedRow[] {
   const top = topOfRows(sizes);
-  return seenRows(placed, scrollTop, heightPx - top).map((one) => ({
+  return seenRows(placedRows(rows, sizes), scrollTop, heightPx - top).map((one) => ({
     ...one,
     top: one.top - scrollTop + top,
   }));
@@ -72,50 +78,4 @@ export function keyY({ row, top, height }: PlacedRow, position: number, family: 
   const { min, max } = rangeOfRow(row, family);
   const share = Math.min(1, Math.max(0, (position - min) / (max - min)));
   return top + INSET_PX + (1 - share) * (height - 2 * INSET_PX);
-}
-
-/** In rows of several servos one for each frame that has a key of any. */
-export function keysInRow({ row }: PlacedRow, times: GroupTimes): readonly Key[] {
-  const [only] = row.servos;
-  if (row.kind === 'servo') return times.tracks.get(only ?? -1)?.keys ?? [];
-  return summaryKeys(row, times);
-}
-
-const summaries = new WeakMap<GroupTimes, Map<string, readonly Key[]>>();
-
-function summaryKeys(row: Row, times: GroupTimes): readonly Key[] {
-  const known = summaries.get(times) ?? new Map<string, readonly Key[]>();
-  summaries.set(times, known);
-  const name = `${row.id} ${row.servos.join(' ')}`;
-  const before = known.get(name);
-  if (before !== undefined) return before;
-  const servos = new Set(row.servos);
-  let atMs = 0;
-  const keys = times.frames.flatMap(({ id: frameId, durationMs, targets, easing }) => {
-    atMs += durationMs;
-    const isIn = row.kind === 'all' || targets.some(({ servo }) => servos.has(servo));
-    return isIn ? [{ frameId, servo: -1, atMs, position: 0, easing }] : [];
-  });
-  known.set(name, keys);
-  return keys;
-}
-
-/** First and last place in a list in the order of time that lies within, with one more on each side. */
-export function within(
-  keys: readonly { readonly atMs: number }[],
-  fromMs: number,
-  toMs: number,
-): readonly [number, number] {
-  return [Math.max(0, firstFrom(keys, fromMs) - 1), Math.min(keys.length, firstFrom(keys, toMs) + 1)];
-}
-
-function firstFrom(keys: readonly { readonly atMs: number }[], atMs: number): number {
-  let low = 0;
-  let high = keys.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if ((keys[middle]?.atMs ?? Infinity) < atMs) low = middle + 1;
-    else high = middle;
-  }
-  return low;
 }

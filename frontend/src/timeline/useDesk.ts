@@ -1,39 +1,26 @@
-// What the timeline's own parts read, anew whenever something of it changed. The playhead is left out: what follows it is drawn
-// past React.
+// What small parts of the timeline that show a bit of everything read, anew whenever something of it changed. The playhead is left
+// out: what follows it is drawn past React. So is what the servo panel changes all the time while it drags.
 
-import { useMemo } from 'react';
-import { useStore } from 'zustand';
 import { useShallow } from 'zustand/react/shallow';
-import { useDevice, useGroup, useRobot, useServoView, useStores, useView } from '../stores/stores.ts';
-import { type Desk } from './desk.ts';
-import { timesOf } from './groupTimes.ts';
-import { rowsOf } from './rows.ts';
+import {
+  useDevice,
+  useGroup,
+  useRobot,
+  useServoView,
+  useStores,
+  useTimeline,
+  useView,
+} from '../stores/stores.ts';
+import { deskOf, type Desk } from './desk.ts';
 
 export type SeenDesk = Omit<Desk, 'state'> & { readonly state: Omit<Desk['state'], 'playheadMs'> };
 
 export function useDesk(): SeenDesk {
-  const stores = useStores();
-  const group = useGroup();
-  const robot = useRobot();
-  const family = useDevice((state) => state.family);
-  const servoView = useServoView((view) => view);
-  const positionsIn = useView((view) => view.positionsIn);
-  const state = useStore(
-    stores.timeline,
-    useShallow(({ playheadMs: _, ...rest }) => rest),
-  );
-  return useMemo(() => {
-    const times = timesOf(group);
-    return {
-      stores,
-      group,
-      times,
-      robot,
-      family,
-      servoView,
-      positionsIn,
-      state,
-      rows: rowsOf(robot, times.tracks, servoView),
-    };
-  }, [stores, group, robot, family, servoView, positionsIn, state]);
+  useGroup();
+  useRobot();
+  useDevice((state) => state.family);
+  useView((state) => state.positionsIn);
+  useServoView(useShallow(({ gang: _, ...shown }) => shown));
+  useTimeline(useShallow(({ playheadMs: _, ...shown }) => shown));
+  return deskOf(useStores());
 }

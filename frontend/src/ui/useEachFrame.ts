@@ -24,3 +24,9 @@ export function useEachFrame(draw: () => void): void {
   const drawNow = useEffectEvent(draw);
   useEffect(() => add(() => drawNow()), []);
 }
+
+let turns = 0;
+const FRAME_MS = 1000 / 60;
+
+/** Where in its interval something begins that is drawn now and then: many of them take turns, a few in each frame. */
+export const turnOf = (eachMs: number): number => (eachMs === 0 ? 0 : (turns++ * FRAME_MS) % eachMs);

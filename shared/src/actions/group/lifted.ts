@@ -20,7 +20,8 @@ export function lifted(
   const keys: LiftedKeys[] = [];
   const kept = momentsOf(group).map((moment) => {
     const { atMs, frame } = moment;
-    const servos = meant.get(frame.id) ?? NO_SERVOS;
+    const servos = meant.get(frame.id);
+    if (servos === undefined) return moment;
     const targets = frame.targets.filter(({ servo }) => servos.has(servo));
     if (targets.length === 0) return moment;
     keys.push({ atMs, frame, targets });
@@ -31,8 +32,6 @@ export function lifted(
   });
   return { kept, keys };
 }
-
-const NO_SERVOS: ReadonlySet<number> = new Set();
 
 export function servosByFrame(refs: readonly KeyRef[]): ReadonlyMap<number, ReadonlySet<number>> {
   const servos = new Map<number, Set<number>>();

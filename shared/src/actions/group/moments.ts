@@ -45,6 +45,7 @@ export function withMoments(
   let nextId = moments.reduce((next, { frame }) => Math.max(next, frame.id + 1), group.nextId);
   let lastMs = 0;
   const add = (frame: GroupFrame, durationMs: number): void => {
+    if (frame.durationMs === durationMs && frame === before.get(frame.id)) return void frames.push(frame);
     const id = frame.id === UNNUMBERED ? nextId++ : frame.id;
     frames.push(sameFrame(before.get(id), { ...frame, id, durationMs }));
   };

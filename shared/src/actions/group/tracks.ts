@@ -36,40 +36,41 @@ export function frameEnds(frames: readonly Frame[]): readonly number[] {
   return frames.map(({ durationMs }) => (atMs += durationMs));
 }
 
-/** A servo whose keys are the same as in `before` keeps its track object. */
+/** What is the same as in `before` at the same place is the very same: key objects, and tracks of nothing but such keys. */
 export function tracksOf({ frames }: Pick<ActionGroup, 'frames'>, before = NO_TRACKS): Tracks {
   const keys = new Map<number, Key[]>();
   let atMs = 0;
   for (const frame of frames) {
     atMs += frame.durationMs;
-    addKeys(keys, frame, atMs);
+    addKeys(keys, frame, atMs, before);
   }
   const servos = [...keys].sort(([one], [other]) => one - other);
   return new Map(servos.map(([servo, own]) => [servo, trackOf(servo, own, before.get(servo))]));
 }
 
-function addKeys(keys: Map<number, Key[]>, { id: frameId, easing, targets }: GroupFrame, atMs: number): void {
+function addKeys(
+  keys: Map<number, Key[]>,
+  { id: frameId, easing, targets }: GroupFrame,
+  atMs: number,
+  before: Tracks,
+): void {
   for (const { servo, position } of targets) {
-    const key = { frameId, servo, atMs, position, easing };
-    const own = keys.get(servo);
-    if (own === undefined) keys.set(servo, [key]);
-    else own.push(key);
+    const own = keys.get(servo) ?? [];
+    if (own.length === 0) keys.set(servo, own);
+    const there = before.get(servo)?.keys[own.length];
+    const isSame =
+      there?.frameId === frameId &&
+      there.atMs === atMs &&
+      there.position === position &&
+      there.easing === easing;
+    own.push(isSame ? there : { frameId, servo, atMs, position, easing });
   }
 }
 
 function trackOf(servo: number, keys: readonly Key[], before: Track | undefined): Track {
   const isSame =
-    before?.keys.length === keys.length && before.keys.every((key, index) => sameKey(key, keys[index]));
+    before?.keys.length === keys.length && before.keys.every((key, index) => key === keys[index]);
   return isSame ? before : { servo, keys };
-}
-
-function sameKey(one: Key, other: Key | undefined): boolean {
-  return (
-    one.frameId === other?.frameId &&
-    one.atMs === other.atMs &&
-    one.position === other.position &&
-    one.easing === other.easing
-  );
 }
 
 /**

@@ -1,0 +1,85 @@
+// The keys of a row in the order of time, and those within a stretch of it. Pure; knows no screen.
+
+import type { Key } from '#shared/actions/group/tracks.ts';
+import type { GroupTimes } from './groupTimes.ts';
+import type { Row } from './rows.ts';
+
+const NONE: readonly Key[] = [];
+
+/** The very same list as long as it says the same. In rows of several servos one for each frame that has a key of any. */
+export function keysInRow(row: Row, times: GroupTimes): readonly Key[] {
+  const [only] = row.servos;
+  if (row.kind === 'servo') return times.tracks.get(only ?? -1)?.keys ?? NONE;
+  return summaryKeys(row, times);
+}
+
+interface Summary {
+  readonly frames: GroupTimes['frames'];
+  readonly keys: readonly Key[];
+}
+
+const summaries = new WeakMap<GroupTimes, Map<string, Summary>>();
+const latest = new Map<string, Summary>();
+
+/** The very same list as before where no key came, went or moved in time. */
+function summaryKeys(row: Row, times: GroupTimes): readonly Key[] {
+  const known = summaries.get(times) ?? new Map<string, Summary>();
+  summaries.set(times, known);
+  const name = `${row.id} ${row.servos.join(' ')}`;
+  const there = known.get(name);
+  if (there !== undefined) return there.keys;
+  const before = latest.get(name);
+  const isSame = before !== undefined && sameShape(before.frames, times.frames);
+  const summary = { frames: times.frames, keys: isSame ? before.keys : newSummary(row, times) };
+  known.set(name, summary);
+  latest.set(name, summary);
+  return summary.keys;
+}
+
+/** The same but for positions. */
+function sameShape(before: GroupTimes['frames'], after: GroupTimes['frames']): boolean {
+  return (
+    before.length === after.length &&
+    before.every((one, index) => {
+      const other = after[index];
+      if (one === other) return true;
+      return (
+        one.id === other?.id &&
+        one.durationMs === other.durationMs &&
+        one.easing === other.easing &&
+        one.targets.length === other.targets.length &&
+        one.targets.every(({ servo }, place) => servo === other.targets[place]?.servo)
+      );
+    })
+  );
+}
+
+function newSummary(row: Row, times: GroupTimes): readonly Key[] {
+  const servos = new Set(row.servos);
+  let atMs = 0;
+  return times.frames.flatMap(({ id: frameId, durationMs, targets, easing }) => {
+    atMs += durationMs;
+    const isIn = row.kind === 'all' || targets.some(({ servo }) => servos.has(servo));
+    return isIn ? [{ frameId, servo: -1, atMs, position: 0, easing }] : [];
+  });
+}
+
+/** First and last place in a list in the order of time that lies within, with one more on each side. */
+export function within(
+  keys: readonly { readonly atMs: number }[],
+  fromMs: number,
+  toMs: number,
+): readonly [number, number] {
+  return [Math.max(0, firstFrom(keys, fromMs) - 1), Math.min(keys.length, firstFrom(keys, toMs) + 1)];
+}
+
+function firstFrom(keys: readonly { readonly atMs: number }[], atMs: number): number {
+  let low = 0;
+  let high = keys.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((keys[middle]?.atMs ?? Infinity) < atMs) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
