@@ -2,22 +2,25 @@
 // target, the bar below it the estimate. The input is uncontrolled so that a finger on it is never pushed about by what
 // the session says meanwhile.
 
-import { useEffect, useRef, type CSSProperties, type KeyboardEvent, type RefObject } from 'react';
+import { useRef, type CSSProperties, type KeyboardEvent } from 'react';
 import { fraction } from '../body/pose.ts';
 import { useMotion } from '../body/useMotion.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Family, Range } from '#shared/protocol/families.ts';
+import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
 import { stepped, type Scale } from './scale.ts';
 import { useRawDrag } from './useRawDrag.ts';
+import { targetOf, useTarget } from './useTarget.ts';
 import styles from './PositionSlider.module.css';
 
 export interface PositionSliderProps {
   readonly servo: RobotServo;
   readonly family: Family;
   readonly scale: Scale;
-  readonly target: number | null;
+  /** It has been asked for something. */
+  readonly isKnown: boolean;
   /** Where it may stand while nobody knows. */
   readonly guess: number | null;
   readonly blocked: boolean;
@@ -31,7 +34,7 @@ export function PositionSlider({
   servo,
   family,
   scale,
-  target,
+  isKnown,
   guess,
   blocked,
   onMove,
@@ -41,28 +44,37 @@ export function PositionSlider({
   const input = useRef<HTMLInputElement>(null);
   const held = useRef(false);
   const { min, max, home } = servo;
-  const shown = target ?? guess ?? home;
+  const { device } = useStores();
+  const shown = (): number => targetOf(device, servo.servo) ?? guess ?? home;
 
   useRawDrag(input, (position) => blocked || onDrag(position));
-  useEffect(() => {
-    if (input.current !== null && !held.current) input.current.value = String(shown);
-  }, [shown]);
+  // Past React: dozens of them may change in each frame.
+  useTarget(servo.servo, (target) => {
+    if (input.current === null) return;
+    if (!held.current) input.current.value = String(shown());
+    input.current.ariaValueText = valueText(scale, target, guess);
+  });
 
   /** Blocked, it keeps the focus and its place, and takes nothing. */
   function moved(element: HTMLInputElement): void {
-    if (blocked) element.value = String(shown);
+    if (blocked) element.value = String(shown());
     else onMove(element.valueAsNumber);
+  }
+
+  function release(): void {
+    held.current = false;
+    if (input.current !== null) input.current.value = String(shown());
   }
 
   function stepByKey(event: KeyboardEvent<HTMLInputElement>): void {
     const change = keyStep(event, scale);
     if (change === 0) return;
     event.preventDefault();
-    if (!blocked) onMove(stepped(scale, shown, change));
+    if (!blocked) onMove(stepped(scale, shown(), change));
   }
 
   return (
-    <div className={cx(styles.slider, blocked && styles.blocked, target === null && styles.unknown)}>
+    <div className={cx(styles.slider, blocked && styles.blocked, !isKnown && styles.unknown)}>
       <Track servo={servo} range={family.position} scale={scale} />
       <EstimateMark servo={servo.servo} range={family.position} />
       {guess !== null && <GuessMark share={fraction(guess, family.position)} />}
@@ -72,18 +84,17 @@ export function PositionSlider({
         className={styles.input}
         style={between(servo, family.position)}
         aria-label={words.servos.position(servo.servo)}
-        aria-valuetext={valueText(scale, target, guess)}
         aria-disabled={blocked}
         min={min}
         max={max}
         step={1}
-        defaultValue={shown}
+        defaultValue={home}
         onInput={(event) => moved(event.currentTarget)}
         onKeyDown={stepByKey}
         onDoubleClick={() => blocked || onHome()}
         onPointerDown={() => (held.current = true)}
-        onPointerUp={() => release(held, input.current, shown)}
-        onPointerCancel={() => release(held, input.current, shown)}
+        onPointerUp={release}
+        onPointerCancel={release}
       />
     </div>
   );
@@ -92,11 +103,6 @@ export function PositionSlider({
 function valueText(scale: Scale, target: number | null, guess: number | null): string {
   if (target !== null) return scale.text(target);
   return guess === null ? words.servos.unknownValue : words.firstMoves.guessedValue(scale.text(guess));
-}
-
-function release(held: RefObject<boolean>, input: HTMLInputElement | null, shown: number): void {
-  held.current = false;
-  if (input !== null) input.value = String(shown);
 }
 
 /** The way between the limits; beyond them hatched, with the limits in figures. */

@@ -1,5 +1,4 @@
-// One servo: dial, name, slider, value. The target comes from the row's own number in the device store; the estimate is
-// drawn once a frame past React, so that a moving servo costs nothing elsewhere.
+// One servo: dial, name, slider, value. Its target and its estimate are drawn past React, so that dozens may move in each frame.
 
 import { memo, useRef } from 'react';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
@@ -12,9 +11,10 @@ import { useWords, words } from '../words/words.ts';
 import { Estimate } from './Estimate.tsx';
 import { PositionSlider } from './PositionSlider.tsx';
 import { Reported } from './Reported.tsx';
-import { scaleOf, stepped } from './scale.ts';
+import { scaleOf, stepped, type Scale } from './scale.ts';
 import { ServoName } from './ServoName.tsx';
 import { useHand } from './useHand.ts';
+import { targetOf, useReadTarget } from './useTarget.ts';
 import { useWheelSteps } from './useWheelSteps.ts';
 import styles from './ServoRow.module.css';
 
@@ -38,10 +38,10 @@ export const ServoRow = memo(function ServoRow({ servo: own, order }: ServoRowPr
 
 export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
   const { servo } = own;
-  const { device, notices } = useStores();
+  const { device } = useStores();
   const hand = useHand();
   const family = useDevice((state) => state.family);
-  const target = useDevice((state) => state.targets[servo] ?? null);
+  const isKnown = useDevice((state) => state.targets[servo] !== undefined);
   const guess = useGuess(own);
   const scale = scaleOf(
     own,
@@ -56,7 +56,8 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
 
   const area = useRef<HTMLDivElement>(null);
   useWheelSteps(area, (change, isFar) => {
-    if (!blocked) move(stepped(scale, target ?? guess ?? own.home, change * (isFar ? 10 : 1)));
+    const from = targetOf(device, servo) ?? guess ?? own.home;
+    if (!blocked) move(stepped(scale, from, change * (isFar ? 10 : 1)));
   });
 
   return (
@@ -66,22 +67,12 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
       onPointerDown={hindrance === 'watching' ? () => device.lease('request') : undefined}
     >
       <PositionSlider
-        {...{ servo: own, family, scale, target, guess, blocked }}
+        {...{ servo: own, family, scale, isKnown, guess, blocked }}
         onMove={move}
         onDrag={(position) => hand.drag(servo, position)}
         onHome={() => hand.home([servo])}
       />
-      <NumberField
-        label={words.servos.target(servo)}
-        size="large"
-        value={target === null ? null : scale.shown(target)}
-        {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals }}
-        placeholder={guess === null ? words.servos.unknown : words.firstMoves.guessed(scale.digits(guess))}
-        start={scale.shown(guess ?? own.home)}
-        isReadOnly={blocked}
-        onChange={(shown) => move(scale.position(shown))}
-        onRefused={(shown) => notices.tell('warning', refusal(own, shown, scale))}
-      />
+      <TargetField {...{ servo: own, scale, guess, blocked }} onMove={move} />
       <div className={styles.readings}>
         <Estimate servo={servo} scale={scale} />
         {isTelling && <Reported servo={servo} scale={scale} />}
@@ -90,7 +81,37 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
   );
 }
 
-function refusal({ servo, name }: RobotServo, shown: number, { min, max, unit }: ReturnType<typeof scaleOf>) {
+interface TargetFieldProps {
+  readonly servo: RobotServo;
+  readonly scale: Scale;
+  readonly guess: number | null;
+  readonly blocked: boolean;
+  onMove(position: number): void;
+}
+
+function TargetField({ servo: own, scale, guess, blocked, onMove }: TargetFieldProps) {
+  const { notices } = useStores();
+  const [target, readAgain] = useReadTarget(own.servo);
+  const take = (shown: number): void => {
+    onMove(scale.position(shown));
+    readAgain();
+  };
+  return (
+    <NumberField
+      label={words.servos.target(own.servo)}
+      size="large"
+      value={target === null ? null : scale.shown(target)}
+      {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals }}
+      placeholder={guess === null ? words.servos.unknown : words.firstMoves.guessed(scale.digits(guess))}
+      start={scale.shown(guess ?? own.home)}
+      isReadOnly={blocked}
+      onChange={take}
+      onRefused={(shown) => notices.tell('warning', refusal(own, shown, scale))}
+    />
+  );
+}
+
+function refusal({ servo, name }: RobotServo, shown: number, { min, max, unit }: Scale) {
   const text = (value: number): string => (unit === '°' ? `${value}°` : `${value}`);
   return words.servoPanel.refused(name || words.servos.name(servo), text(shown), text(min), text(max));
 }
