@@ -4,6 +4,7 @@ import { ofKind } from '../fixtures/bus.ts';
 import type { Dashboard } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
+import { keepGroup } from '../fixtures/timeline.ts';
 
 /** Each frame's time, in order: what tells the frames apart here. */
 async function frameTimes(dashboard: Dashboard): Promise<readonly string[]> {
@@ -113,4 +114,34 @@ test('the group and its name outlive a reload of the page', async ({ dashboard, 
   await page.reload();
   await expect(dashboard.frames).toHaveCount(2);
   await expect(name).toHaveValue('Wave');
+});
+
+test.describe('of a long group', () => {
+  test.beforeEach(({ page }) =>
+    keepGroup(
+      page,
+      Array.from({ length: 120 }, (_, index) => 1000 + index),
+    ),
+  );
+
+  test('only the cards in sight are there, and they come and go by scrolling alone', async ({
+    dashboard,
+    page,
+  }) => {
+    const strip = page.getByRole('list', { name: 'Frames' });
+    await expect(dashboard.frame(1)).toBeVisible();
+    const cameOrWent = await strip.evaluate(async (list) => {
+      let changes = 0;
+      const observer = new MutationObserver((records) => (changes += records.length));
+      observer.observe(list, { childList: true });
+      for (let frame = 0; frame < 20; frame += 1) await new Promise(requestAnimationFrame);
+      observer.disconnect();
+      return changes;
+    });
+    expect(cameOrWent).toBe(0);
+    expect(await dashboard.frames.count()).toBeLessThan(40);
+    await strip.evaluate((list) => list.scrollTo({ left: list.scrollWidth }));
+    await expect(dashboard.frame(120)).toBeInViewport();
+    await expect(dashboard.frame(1)).toBeHidden();
+  });
 });

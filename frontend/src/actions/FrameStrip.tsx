@@ -1,7 +1,7 @@
 // The frames in order, one card each, for people who think in poses. The frame that plays is marked, and those with keys that
 // are selected in the timeline.
 
-import { useMemo } from 'react';
+import { useMemo, type CSSProperties } from 'react';
 import { deleteFrame, indexOfFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { useGroup, useStores, useView } from '../stores/stores.ts';
@@ -50,7 +50,7 @@ export function FrameStrip() {
       className={styles.strip}
       aria-label={words.actions.frames}
       onKeyDown={key}
-      style={{ paddingInline: `calc(var(--s4) + ${roomBeforePx}px) calc(var(--s4) + ${roomBehindPx}px)` }}
+      style={roomOf(roomBeforePx, roomBehindPx)}
     >
       {group.frames.slice(first, end).map((frame, index) => (
         <FrameCard
@@ -64,5 +64,10 @@ export function FrameStrip() {
     </ol>
   );
 }
+
+const roomOf = (beforePx: number, behindPx: number): CSSProperties => ({
+  ['--before' as string]: `${beforePx}px`,
+  ['--behind' as string]: `${behindPx}px`,
+});
 
 const NO_POSE = { pose: new Map<number, number>(), changed: [] };

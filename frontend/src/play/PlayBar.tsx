@@ -9,6 +9,7 @@ import { isSilent } from '../stores/servoView.ts';
 import {
   useDevice,
   useDocument,
+  useGroup,
   usePlayback,
   useRobot,
   useServoView,
@@ -174,6 +175,10 @@ function Phase({ phase }: { readonly phase: PlaybackPhase | null }) {
 function useSilentRows(): readonly string[] {
   const { servos } = useRobot();
   const tracks = timesOf(useGroup()).tracks;
-  const view = useServoView((one) => one);
-  return servos.filter(({ servo }) => tracks.has(servo) && isSilent(view, servo)).map(({ name }) => name);
+  // Not all of the view: a servo that is dragged changes it in each frame.
+  const muted = useServoView((view) => view.muted);
+  const solo = useServoView((view) => view.solo);
+  return servos
+    .filter(({ servo }) => tracks.has(servo) && isSilent({ muted, solo }, servo))
+    .map(({ name }) => name);
 }

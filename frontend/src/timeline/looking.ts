@@ -94,11 +94,15 @@ export function zoom(desk: Desk, step: 1 | -1): void {
 }
 
 export function fitAll({ stores, times }: Pick<Desk, 'stores' | 'times'>): void {
-  stores.timeline.setState(({ widthPx }) => ({
-    time: fitted({ fromMs: 0, toMs: times.lengthMs }, widthPx),
+  stores.timeline.setState(({ time, widthPx }) => ({
+    time: sameOr(time, fitted({ fromMs: 0, toMs: times.lengthMs }, widthPx)),
     followsGroup: true,
   }));
 }
+
+/** Whoever shows a stretch that is the same has nothing to do. */
+const sameOr = (before: TimeView, after: TimeView): TimeView =>
+  before.fromMs === after.fromMs && before.msPerPx === after.msPerPx ? before : after;
 
 const selectedSpan = ({ times, state }: Desk): Span | null => spanOf(selectedKeys(times, state.selected));
 

@@ -198,8 +198,8 @@ function paintKey(brush: Brush, placed: PlacedRow, key: Key, crowded: boolean): 
   }
 }
 
-function selectedShare({ state, times }: Scene, { row }: PlacedRow, key: Key): number {
-  if (state.selected.size === 0) return 0;
+function selectedShare({ state, times, selectedFrames }: Scene, { row }: PlacedRow, key: Key): number {
+  if (!selectedFrames.has(key.frameId)) return 0;
   if (key.servo !== -1) return state.selected.has(keyName(key)) ? 1 : 0;
   const own = keysOfFrame(times, row.servos, key.frameId);
   return own.length === 0 ? 0 : own.filter((one) => state.selected.has(keyName(one))).length / own.length;

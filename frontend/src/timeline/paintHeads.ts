@@ -2,7 +2,6 @@
 
 import { words } from '../words/words.ts';
 import { hasAll } from './hit.ts';
-import { keysOfFrame } from './groupTimes.ts';
 import { colourOf } from './look.ts';
 import { marksWithin, markStep } from './marks.ts';
 import type { Brush } from './brush.ts';
@@ -66,13 +65,13 @@ function paintFrames(brush: Brush): void {
 }
 
 function paintFrame({ ctx, look, scene }: Brush, index: number, from: number, to: number): void {
-  const { times, state, sizes } = scene;
+  const { times, state, sizes, selectedFrames } = scene;
   const frame = times.frames[index];
   const width = to - from;
   if (frame === undefined || width < NARROWEST_PX) return;
   const [top, height] = [sizes.ruler + 1, sizes.heads - 2];
-  const servos = frame.targets.map(({ servo }) => servo);
-  const isSelected = hasAll(state.selected, keysOfFrame(times, servos, frame.id));
+  const keys = frame.targets.map(({ servo }) => ({ frameId: frame.id, servo }));
+  const isSelected = selectedFrames.has(frame.id) && hasAll(state.selected, keys);
   const tint = isSelected ? look.ink : colourOf(look, frame.colour);
   if (tint !== null) {
     ctx.globalAlpha = isSelected ? 0.22 : 0.5;

@@ -2,6 +2,7 @@
 
 import type { Marker } from '#shared/actions/group/group.ts';
 import { positionRange, type Family, type Range } from '#shared/protocol/families.ts';
+import { refsOf } from '../stores/keySet.ts';
 import { isHeld, isSilent } from '../stores/servoView.ts';
 import { ALL_ROW, type TimelineState } from '../stores/timeline.ts';
 import type { GroupTimes } from './groupTimes.ts';
@@ -23,6 +24,8 @@ export interface Scene {
   /** Rows whose keys cannot be changed, and those that move nothing. */
   readonly held: ReadonlySet<string>;
   readonly muted: ReadonlySet<string>;
+  /** Those with a selected key. */
+  readonly selectedFrames: ReadonlySet<number>;
 }
 
 export function sceneOf(desk: Desk, sizes: Sizes): Scene {
@@ -38,6 +41,7 @@ export function sceneOf(desk: Desk, sizes: Sizes): Scene {
     rows: rowsInSight(rest, state, sizes),
     held: isOf((servo) => isHeld(servoView, servo)),
     muted: isOf((servo) => isSilent(servoView, servo)),
+    selectedFrames: new Set(refsOf(state.selected).map(({ frameId }) => frameId)),
   };
 }
 
