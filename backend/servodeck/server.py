@@ -21,6 +21,7 @@ from starlette.types import ASGIApp
 from servodeck import __version__, supervisor
 from servodeck.control import Control
 from servodeck.errors import PortError
+from servodeck.impatient import ImpatientProtocol
 
 MESSAGE_BYTES = 16 * 1024
 LEAVE_S = 1
@@ -37,6 +38,7 @@ class Server(uvicorn.Server):
         super().__init__(
             uvicorn.Config(
                 app,
+                http=ImpatientProtocol,
                 ws="websockets-sansio",
                 ws_per_message_deflate=False,
                 ws_max_size=MESSAGE_BYTES,

@@ -1,0 +1,65 @@
+"""HTTP connections that cannot be held open by saying little: a request comes soon and whole, with a head of
+sane size, or the connection ends.
+
+Knows time and bytes, no request's meaning. uvicorn itself waits for ever; an upgraded connection is not ours
+any more.
+"""
+
+import asyncio
+
+from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
+
+# Browsers open a connection or two ahead of need.
+FIRST_BYTE_S = 10.0
+HEAD_S = 1.0
+# A library of 3 MiB over a poor wireless link.
+BODY_S = 30.0
+HEAD_BYTES = 32 * 1024
+
+
+class ImpatientProtocol(HttpToolsProtocol):
+    _timer: asyncio.TimerHandle | None = None
+    _head_bytes = 0
+    _in_head = False
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self._end_in(FIRST_BYTE_S)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._end_in(None)
+        super().connection_lost(exc)
+
+    def data_received(self, data: bytes) -> None:
+        super().data_received(data)
+        if self._in_head:
+            self._count(len(data))
+
+    def handle_websocket_upgrade(self) -> None:
+        self._end_in(None)
+        super().handle_websocket_upgrade()
+
+    def on_message_begin(self) -> None:
+        super().on_message_begin()
+        self._in_head, self._head_bytes = True, 0
+        self._end_in(HEAD_S)
+
+    def on_headers_complete(self) -> None:
+        self._in_head = False
+        self._end_in(BODY_S)
+        super().on_headers_complete()
+
+    def on_message_complete(self) -> None:
+        self._end_in(None)
+        super().on_message_complete()
+
+    def _count(self, size: int) -> None:
+        self._head_bytes += size
+        if self._head_bytes > HEAD_BYTES:
+            self.transport.abort()
+
+    def _end_in(self, seconds: float | None) -> None:
+        """The connection, unless this is called again before; None lets it be."""
+        if self._timer:
+            self._timer.cancel()
+        self._timer = None if seconds is None else self.loop.call_later(seconds, self.transport.abort)
