@@ -38,7 +38,9 @@ test.describe('a bus servo board', () => {
 
     const second = await context.newPage();
     await second.goto(url);
-    await expect(dashboardOf(second).slider(6)).toBeEnabled();
+    await expect(dashboardOf(second).link).toContainText('Ready');
+    await expect(dashboardOf(second).bar).toContainText('Desk arm');
+    await expect(dashboardOf(second).slider(6)).toHaveAttribute('max', '1000');
   });
 });
 

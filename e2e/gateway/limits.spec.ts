@@ -39,9 +39,8 @@ test('limits set on one screen hold on the other, while it calibrates too', asyn
   await robots.button('All robots').click();
   await robots.button('Calibrate').click();
   await robots.button(/^Elbow, /).click();
-  await robots.button('Go slowly to the middle').click();
-  await poll(() => lastTarget(robot.bus, 4)).toBe(1500);
-  await expect(robots.dialog.getByText('≈ 1500')).toBeVisible();
+  // What the other screen did is known here, so nothing has to find out where the servo stands.
+  await expect(robots.dialog.getByText('≈ 1010')).toBeVisible();
   await robots.creepUntil('lower', () =>
     poll(async () => (await lastTarget(robot.bus, 4)) ?? 9999).toBeLessThan(980),
   );

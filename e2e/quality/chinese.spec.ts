@@ -91,7 +91,7 @@ test('no state of the gallery has an English sentence left', async ({ page, serv
   // Every state at once is a large page.
   test.slow();
   await page.goto(`${(await servers.files()).url}/gallery.html?language=zh`);
-  await expect(page.getByRole('article').first()).toBeVisible({ timeout: 30_000 });
+  await expect(page.getByRole('article').first()).toBeVisible({ timeout: 60_000 });
   await expectChinese(page, 'gallery');
 });
 

@@ -85,7 +85,8 @@ test.describe('at a gateway that is slow', () => {
       await route.continue();
     });
     await page.reload();
-    await expect(dashboard.link).toContainText('Ready');
+    // It waits a while for each of the two questions.
+    await expect(dashboard.link).toContainText('Ready', { timeout: 15_000 });
     await captureGroup(dashboard, [1500, 1700]);
     await library.call('Early');
     await library.show();
