@@ -10,10 +10,12 @@ import { SetupProblem, at, main, say } from './steps.mjs';
 /** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {{ width: number, height: number, colorScheme?: 'light', region?: string, act?: (page: Page) => Promise<unknown> }} Shot */
 
-const DESK = { width: 1280, height: 760 };
+const DESK = { width: 1440, height: 900 };
+/** High enough for a panel as a whole. */
+const TALL = { width: 1440, height: 1230 };
 const PHONE = { width: 390, height: 844 };
 /** A picture that is larger makes the repository heavy. */
-const LARGEST_BYTES = 150_000;
+const LARGEST_BYTES = 200_000;
 /** The arm of a first visit has risen, and the battery was read twice. */
 const SETTLE_MS = 7000;
 
@@ -27,6 +29,9 @@ const choose = (page, name) => page.getByRole('radio', { name, exact: true }).ch
 async function wave(page) {
   await press(page, 'Begin with an example');
   await page.getByRole('list', { name: 'Examples' }).getByRole('button').first().click();
+  await page.getByRole('region', { name: 'Action group', exact: true }).hover({ position: { x: 20, y: 20 } });
+  await page.mouse.wheel(0, -2000);
+  await page.mouse.move(0, 0);
 }
 
 /** @param {Page} page */
@@ -72,7 +77,7 @@ const SHOTS = {
   dashboard: { ...DESK, act: wave },
   light: { ...DESK, colorScheme: 'light', act: wave },
   phone: PHONE,
-  timeline: { ...DESK, region: 'Action group', act: wave },
+  timeline: { ...TALL, region: 'Action group', act: wave },
   poses: { ...DESK, region: 'Poses', act: blend },
   pad: { ...DESK, region: 'Keys and pad', act: (page) => choose(page, 'Keys and pad') },
   battery: { ...DESK, act: (page) => pack(page, 7000) },
