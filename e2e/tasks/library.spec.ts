@@ -94,6 +94,10 @@ test.describe('at a gateway that is slow', () => {
     answer();
     await expect(library.dialog).toContainText('Kept by the gateway');
     await expect(library.card('Early')).toContainText('2 frames');
+    await page.keyboard.press('Escape');
+    await dashboard.notices.getByRole('button', { name: 'Go to the gateway' }).click();
+    await expect(dashboard.link).not.toContainText('Simulated');
+    await expect(dashboard.link).toContainText('Ready');
   });
 });
 

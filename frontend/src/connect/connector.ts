@@ -20,8 +20,10 @@ import {
   grantedPorts,
   webSerialObstacle,
 } from '../transports/webSerial.ts';
+import { words } from '../words/words.ts';
 import {
   gatewayUrl,
+  hasGateway,
   openGatewayPort,
   readGateway,
   readPorts,
@@ -161,6 +163,17 @@ export function createConnector(options: ConnectorOptions): Connector {
     else if (last?.kind === 'webSerial' && port !== undefined) await connect(serialTransport(port.port));
     else if (typeof gateway === 'object') await connect(gatewayTransport());
     else await connect(simulated());
+    if (gateway === 'absent') void offerLateGateway();
+  }
+
+  /** One that was too slow to be found: nobody is to take the robot in the page for the real one. */
+  async function offerLateGateway(): Promise<void> {
+    if (!(await hasGateway(device.clock)) || current?.transport.kind !== 'simulated') return;
+    await look();
+    notices.tell('warning', words.link.gatewayAnswers, {
+      label: words.link.useGateway,
+      act: () => chosen(gatewayTransport()),
+    });
   }
 
   const gatewayTransport = (): Transport =>

@@ -21,7 +21,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
   let limits: readonly ServoLimits[] = [];
   let board: BoardId = 'unknown';
   let nextId = 1;
-  const turn = createTurn(post);
+  const turn = createTurn(post, () => performance.now());
   const sending = new Map<number, Settle>();
   const halting = new Set<Settle>();
   const resuming = new Set<Settle>();

@@ -9,11 +9,15 @@ const FREE: LeaseState = {
 const OURS: LeaseState = { ...FREE, driver: 'Anna', drives: true };
 const THEIRS: LeaseState = { ...FREE, driver: 'Bert' };
 
-function page(state: LeaseState): { turn: Turn; said: ClientMessage[] } {
+function page(state: LeaseState): { turn: Turn; said: ClientMessage[]; pass: (ms: number) => void } {
   const said: ClientMessage[] = [];
-  const turn = createTurn((message) => said.push(message));
+  let nowMs = 0;
+  const turn = createTurn(
+    (message) => said.push(message),
+    () => nowMs,
+  );
   turn.told(state);
-  return { turn, said };
+  return { turn, said, pass: (ms) => (nowMs += ms) };
 }
 
 test('a lease that nobody has is requested, and with its first tick the turn begins', async () => {
@@ -40,6 +44,21 @@ test('each tick is answered at once, and the newest counts', () => {
     { type: 'beat', nonce: '1-2' },
   ]);
   expect(turn.nonce).toBe('1-2');
+});
+
+test('a page that was busy says nothing with an old nonce, but waits for the next', async () => {
+  const { turn, said, pass } = page(OURS);
+  turn.ticked('1-1');
+  pass(250);
+  await turn.begin();
+  pass(100);
+  let hasBegun = false;
+  const begun = turn.begin().then(() => (hasBegun = true));
+  await Promise.resolve();
+  expect(hasBegun).toBe(false);
+  turn.ticked('1-2');
+  await begun;
+  expect(said.map(({ type }) => type)).toEqual(['beat', 'beat']);
 });
 
 test('while another drives nothing is requested by moving', async () => {

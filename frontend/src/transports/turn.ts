@@ -13,7 +13,7 @@ export interface Turn {
   /** How many are at the gateway, this page among them. */
   counted(clients: number): void;
   ticked(nonce: string): void;
-  /** Resolves when this page drives; rejects where somebody else does. */
+  /** Resolves when this page drives and its nonce is of now; rejects where somebody else drives. */
   begin(): Promise<void>;
   /** Whoever waits for it waits in vain. */
   fail(error: LinkError): void;
@@ -26,10 +26,17 @@ interface Waiter {
   readonly reject: (error: LinkError) => void;
 }
 
-export function createTurn(post: (message: ClientMessage) => void): Turn {
+/**
+ * Ticks come every 250 ms; one that is late waits behind what kept this page busy, and with the one before it the gateway would
+ * refuse what is said now for its age.
+ */
+const FRESH_MS = 300;
+
+export function createTurn(post: (message: ClientMessage) => void, now: () => number): Turn {
   let lease: Lease | null = null;
   let others = 0;
   let nonce: string | null = null;
+  let tickedMs = -Infinity;
   let waiters: readonly Waiter[] = [];
 
   function settle(each: (waiter: Waiter) => void): void {
@@ -58,14 +65,15 @@ export function createTurn(post: (message: ClientMessage) => void): Turn {
     },
     ticked(next) {
       nonce = next;
+      tickedMs = now();
       post({ type: 'beat', nonce });
       settle(({ resolve }) => resolve());
     },
     begin() {
-      if (nonce !== null) return Promise.resolve();
+      if (nonce !== null && now() - tickedMs <= FRESH_MS) return Promise.resolve();
       if (isWatching(lease)) return Promise.reject(notDriving(lease));
       return new Promise((resolve, reject) => {
-        post({ type: 'lease', action: 'request' });
+        if (nonce === null) post({ type: 'lease', action: 'request' });
         waiters = [...waiters, { resolve, reject }];
       });
     },

@@ -79,6 +79,8 @@ export const english = {
     disconnect: 'Disconnect',
     retryNow: 'Try now',
     moveHere: 'Move it here',
+    gatewayAnswers: 'The gateway answers now. Until now this page drove its simulated robot.',
+    useGateway: 'Go to the gateway',
     retryIn: (ms: number): string => `Next try in ${formatWhole(Math.max(0, Math.ceil(ms / 1000)))} s`,
     needsYou: 'Waiting for you',
   },

@@ -77,6 +77,8 @@ export const chinese: Words = {
     disconnect: '断开连接',
     retryNow: '立即重试',
     moveHere: '移到这里',
+    gatewayAnswers: '网关现在有响应了。此前本页面驱动的是模拟机器人。',
+    useGateway: '连接网关',
     retryIn: (ms) => `${formatWhole(Math.max(0, Math.ceil(ms / 1000)))}秒后重试`,
     needsYou: '等待您处理',
   },
