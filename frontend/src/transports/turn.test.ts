@@ -61,6 +61,16 @@ test('a page that was busy says nothing with an old nonce, but waits for the nex
   expect(said.map(({ type }) => type)).toEqual(['beat', 'beat']);
 });
 
+test('a page that wakes when its turn is over is told so, and waits for no tick', async () => {
+  const { turn, said, pass } = page(OURS);
+  turn.ticked('1-1');
+  pass(20_000);
+  const begun = turn.begin();
+  turn.told(FREE);
+  await expect(begun).rejects.toMatchObject({ code: 'expired' });
+  expect(said).toEqual([{ type: 'beat', nonce: '1-1' }]);
+});
+
 test('while another drives nothing is requested by moving', async () => {
   const { turn, said } = page(THEIRS);
   await expect(turn.begin()).rejects.toMatchObject({ code: 'notDriving', message: 'Bert' });

@@ -2,7 +2,7 @@
 // nonce that shows that what is said is of now. Knows no packet. It needs no timer, which a browser would slow down.
 
 import { isWatching, notDriving, type Lease } from '#shared/session/lease.ts';
-import type { LinkError } from '#shared/session/linkError.ts';
+import { LinkError } from '#shared/session/linkError.ts';
 import type { ClientMessage, LeaseState } from './messages.generated.ts';
 
 export interface Turn {
@@ -56,8 +56,11 @@ export function createTurn(post: (message: ClientMessage) => void, now: () => nu
     },
     told(state) {
       lease = { ...state, others };
+      const wasOurs = nonce !== null;
       if (!state.drives) nonce = null;
       if (isWatching(lease)) fail(notDriving(lease));
+      // Whoever waited for the next tick of it: there will be none.
+      else if (wasOurs && !state.drives) fail(new LinkError('expired', 'this page’s turn to drive was over'));
     },
     counted(clients) {
       others = clients - 1;
