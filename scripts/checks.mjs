@@ -116,7 +116,7 @@ export function gateway({ long }) {
 export function endToEnd() {
   return {
     name: 'end to end',
-    command: node('@playwright/test/cli.js', 'test', '--reporter=line,json'),
+    command: node('@playwright/test/cli.js', 'test', '--reporter=dot,json'),
     env: { PLAYWRIGHT_JSON_OUTPUT_FILE: at(playwrightReport), CHROMIUM_PATH: findBrowser() ?? '' },
     count: countPlaywright,
   };

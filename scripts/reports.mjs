@@ -1,4 +1,4 @@
-// Where each test tool leaves its report and how many tests it speaks of. Runs nothing.
+// Where each test tool leaves its report, how many tests it speaks of and which of them failed. Runs nothing.
 
 import { mkdirSync, readFileSync, rmSync } from 'node:fs';
 import { at } from './steps.mjs';
@@ -16,14 +16,23 @@ export function clearReports() {
   mkdirSync(at(folder), { recursive: true });
 }
 
+/**
+ * @typedef {object} VitestReport the part that is read here
+ * @property {number} numPassedTests
+ * @property {number} numFailedTests
+ * @property {number} numPendingTests
+ * @property {number} numTodoTests
+ * @property {{assertionResults: {status: string, fullName: string}[]}[]} testResults
+ */
+
 /** @returns {Counts} */
 export function countVitest() {
-  const report =
-    /** @type {{numPassedTests: number, numFailedTests: number, numPendingTests: number, numTodoTests: number}} */ (
-      JSON.parse(readFileSync(at(vitestReport), 'utf8'))
-    );
+  const report = /** @type {VitestReport} */ (JSON.parse(readFileSync(at(vitestReport), 'utf8')));
   const skipped = report.numPendingTests + report.numTodoTests;
-  return { passed: report.numPassedTests, failed: report.numFailedTests, skipped };
+  const failures = report.testResults.flatMap(({ assertionResults }) =>
+    assertionResults.filter(({ status }) => status === 'failed').map(({ fullName }) => fullName),
+  );
+  return { passed: report.numPassedTests, failed: report.numFailedTests, skipped, failures };
 }
 
 /** @returns {Counts} */
@@ -34,13 +43,24 @@ export function countPytest() {
   const failed = figure('failures') + figure('errors');
   const skipped = figure('skipped');
   const reasons = [...report.matchAll(/<skipped[^>]* message="([^"]*)"/g)].map(([, reason = '']) => reason);
-  return { passed: figure('tests') - failed - skipped, failed, skipped, reasons };
+  const failures = [...report.matchAll(/<testcase [^>]*name="([^"]*)"[^>]*><(?:failure|error)/g)];
+  return {
+    passed: figure('tests') - failed - skipped,
+    failed,
+    skipped,
+    reasons,
+    failures: failures.map(([, name = '']) => name),
+  };
 }
 
 /**
  * @typedef {object} Suite the part of Playwright's JSON report that is read here
- * @property {{tests: {annotations: {type: string, description?: string}[]}[]}[]} [specs]
+ * @property {Spec[]} [specs]
  * @property {Suite[]} [suites]
+ * @typedef {object} Spec
+ * @property {string} title
+ * @property {string} file
+ * @property {{status: string, projectName: string, annotations: {type: string, description?: string}[]}[]} tests
  * @typedef {{expected: number, unexpected: number, flaky: number, skipped: number}} Stats
  */
 
@@ -50,16 +70,33 @@ export function countPlaywright() {
     JSON.parse(readFileSync(at(playwrightReport), 'utf8'))
   );
   const { expected, unexpected, flaky, skipped } = report.stats;
-  // A test that passed on a second try has failed once; nobody should get used to that.
-  const failed = unexpected + flaky + report.errors.length;
-  return { passed: expected, failed, skipped, reasons: skipReasons(report) };
+  const specs = specsOf(report);
+  return {
+    passed: expected + flaky,
+    failed: unexpected + report.errors.length,
+    skipped,
+    reasons: skipReasons(specs),
+    failures: specsThatWere('unexpected', specs),
+    flaky: specsThatWere('flaky', specs),
+  };
 }
 
-/** @param {Suite} suite @returns {string[]} */
-function skipReasons({ specs = [], suites = [] }) {
+/** @param {Suite} suite @returns {Spec[]} */
+function specsOf({ specs = [], suites = [] }) {
+  return [...specs, ...suites.flatMap(specsOf)];
+}
+
+/** @param {readonly Spec[]} specs @returns {string[]} */
+function skipReasons(specs) {
   const notes = specs.flatMap(({ tests }) => tests.flatMap(({ annotations }) => annotations));
-  const here = notes.flatMap(({ type, description }) =>
-    type === 'skip' && description ? [description] : [],
+  return notes.flatMap(({ type, description }) => (type === 'skip' && description ? [description] : []));
+}
+
+/** @param {string} wanted @param {readonly Spec[]} specs @returns {string[]} */
+function specsThatWere(wanted, specs) {
+  return specs.flatMap(({ title, file, tests }) =>
+    tests
+      .filter(({ status }) => status === wanted)
+      .map(({ projectName }) => `[${projectName}] ${file} › ${title}`),
   );
-  return [...here, ...suites.flatMap(skipReasons)];
 }

@@ -1,11 +1,18 @@
-// Runs checks side by side and reports them as a table: one line each, the whole output of what failed, one closing
-// line with the tests counted. Knows no particular check.
+// Runs checks side by side and reports them as a table: one line each, the names and the whole output of what failed,
+// one closing line with the tests counted. Knows no particular check.
 
 import { availableParallelism } from 'node:os';
 import { run, say } from './steps.mjs';
 
 /**
- * @typedef {{passed: number, failed: number, skipped: number, reasons?: readonly string[]}} Counts
+ * @typedef {object} Counts
+ * @property {number} passed
+ * @property {number} failed
+ * @property {number} skipped
+ * @property {readonly string[]} [reasons] why tests were skipped
+ * @property {readonly string[]} [failures] names of tests
+ * @property {readonly string[]} [flaky] names of tests that passed on a second try only
+ *
  * @typedef {object} Task
  * @property {string} name
  * @property {readonly [string, ...string[]]} command
@@ -21,6 +28,7 @@ const usualLimitMs = 10 * 60_000;
 /** Tools see a pipe and not the terminal behind it. */
 const colours = process.stdout.isTTY ? { FORCE_COLOR: '1' } : { FORCE_COLOR: undefined, NO_COLOR: '1' };
 
+/** @type {Counts} */
 const nothing = { passed: 0, failed: 0, skipped: 0 };
 
 /** Two at least: some wait for a disk or a browser. */
@@ -54,11 +62,12 @@ async function runTask(task) {
   say(
     `${ok ? 'ok    ' : 'FAILED'}  ${task.name.padEnd(22)} ${seconds.toFixed(1).padStart(6)} s  ${tally(task, counts)}`,
   );
+  for (const failure of counts.failures ?? []) say(`        ${failure}`);
   if (!ok) say(`\n${output.trimEnd() || '(it printed nothing)'}\n${proved ? '' : 'No test ran.\n'}`);
   return { task, ok, counts, seconds };
 }
 
-/** @param {() => Counts} count */
+/** @param {() => Counts} count @returns {Counts} */
 function counted(count) {
   try {
     return count();
@@ -87,6 +96,8 @@ export function conclude(results) {
   if (broken.length > 0) say(`failed: ${broken.join(', ')}`);
   for (const reason of new Set(results.flatMap(({ counts }) => counts.reasons ?? [])))
     say(`skipped: ${reason}`);
+  for (const name of results.flatMap(({ counts }) => counts.flaky ?? []))
+    say(`passed on a second try only, look into it: ${name}`);
   say(
     `${sum(({ counts }) => counts.passed)} passed, ${failed} failed, ${sum(({ counts }) => counts.skipped)} skipped`,
   );
