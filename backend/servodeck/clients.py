@@ -153,7 +153,7 @@ def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
         case ResumeMessage():
             control.resume()
         case BoardMessage():
-            control.take_for(message.board)
+            control.name_board(seat, message.board)
         case LimitsMessage():
             control.limit(seat, message.servos)
         case CalibrateMessage():

@@ -142,6 +142,12 @@ class Control:
             raise PortLostError(self.link.state.detail or "The serial port is gone.")
         self._set_latch(False)
 
+    def name_board(self, seat: Seat, board: str) -> None:
+        """Raises NotDrivingError where somebody else drives whatever else it was."""
+        if board != self.board and not self.driving.may_rule(seat):
+            raise NotDrivingError("Somebody else drives: which board it is changes only under their hands.")
+        self.take_for(board)
+
     def take_for(self, board: str) -> None:
         """What every later packet is judged by; `unknown` lets only harmless questions pass. Everybody is
         told, also where nothing changed.
@@ -158,7 +164,12 @@ class Control:
         self._tell_state()
 
     def limit(self, seat: Seat, servos: list[ServoLimits]) -> None:
-        """How far the robot's servos may be turned, by whoever said so last; every other client is told."""
+        """How far the robot's servos may be turned, by whoever said so last; every other client is told.
+        Who may not say so now is told what holds.
+        """
+        if not self.driving.may_rule(seat):
+            seat.put(encode(LimitsMessage(type="limits", servos=self.limits.told())))
+            return
         self.limits.set(servos)
         self._tell(LimitsMessage(type="limits", servos=servos), but=seat)
 

@@ -54,6 +54,10 @@ class Driving:
         """Raises NotDrivingError or ExpiredError."""
         self._lease.judge(permit, self._now())
 
+    def may_rule(self, seat: Seat) -> bool:
+        """Whether it may change what moves are judged by: while another drives, only an owner may."""
+        return self.driver in (None, seat) or seat.caller.may("owner")
+
     def state_for(self, seat: Seat) -> LeaseState:
         lease = self._lease
         answer_in_s = lease.answer_in_s(self._now())

@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from servodeck.callers import Caller
 from servodeck.clients import hear, intake_of
 from servodeck.control import Control
 from servodeck.errors import OutOfRangeError
@@ -16,6 +17,7 @@ from tests.virtual_time import in_virtual_time
 
 # MOVE takes servo 1 to 2000, DOWNLOAD and MOVE_ELSEWHERE to 1500.
 ELBOW = ServoLimits(servo=1, name="Elbow", min=600, max=1800)
+PUPIL, OTHER_PUPIL = Caller("anna", "Anna", "driver"), Caller("bert", "Bert", "driver")
 REFUSAL = "Elbow (servo 1): position is 2000, allowed 600..1800"
 
 
@@ -122,3 +124,23 @@ async def test_limits_end_with_their_board_or_by_word() -> None:
         control.limits.set([ELBOW])
         say(control, anna, type="limits", servos=[])
         await anna.send(MOVE)
+
+
+@in_virtual_time
+async def test_who_does_not_drive_changes_no_rules_for_whoever_does() -> None:
+    async with gateway_on() as control:
+        anna, bert, owner = Client(control, PUPIL), Client(control, OTHER_PUPIL), Client(control)
+        say(control, bert, type="limits", servos=[ELBOW.model_dump()])
+        control.driving.act(anna, "request")
+        await bert.heard()
+        say(control, bert, type="limits", servos=[])
+        say(control, bert, type="board", board="lsc-6")
+        assert (control.board, control.limits.told()) == ("doc", [ELBOW])
+        told = await bert.heard()
+        assert {"type": "limits", "servos": [ELBOW.model_dump()]} in told
+        assert [message["code"] for message in told if message["type"] == "refused"] == ["notDriving"]
+        say(control, bert, type="board", board="doc")  # what it is taken for already
+        assert [message["type"] for message in await bert.heard()] == ["state"]
+        say(control, owner, type="limits", servos=[])
+        say(control, anna, type="board", board="lsc-6")
+        assert (control.board, control.limits.told()) == ("lsc-6", [])
