@@ -107,7 +107,7 @@ async def status(control: Controlled) -> Status:
 
 
 def age_of(control: Control) -> BatteryAge | None:
-    reading = control.battery
+    reading = control.battery.newest
     if reading is None:
         return None
     return BatteryAge(battery_mv=reading.battery_mv, age_ms=round((control.now() - reading.at_s) * 1000))
@@ -157,4 +157,4 @@ async def resume(control: Controlled) -> Status:
 @api.get("/battery", dependencies=[VIEWER])
 async def battery(control: Controlled) -> Battery:
     """Asks the board now; 504 where it does not answer."""
-    return Battery(battery_mv=await control.read_battery())
+    return Battery(battery_mv=await control.battery.read())

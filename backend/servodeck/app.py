@@ -23,10 +23,12 @@ from servodeck.guard import Guard
 from servodeck.health_api import health_api
 from servodeck.library import Library
 from servodeck.library_api import library_api
+from servodeck.motion_api import motion_api
 from servodeck.page import STATIC, page
 from servodeck.people_api import people_api
 from servodeck.pulse import Pulse
 from servodeck.roles import ANYBODY, require_roles
+from servodeck.scripts import Scripts
 from servodeck.supervisor import sign_of_life
 
 CODE_OF_STATUS: dict[int, ErrorCode] = {
@@ -50,6 +52,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
         lifespan=lifespan,
     )
     app.state.control = control
+    app.state.scripts = Scripts(control)
     app.state.library = library
     app.state.pulse = Pulse(sign_of_life())
     app.state.disk = Disk(library.folder, control.now)
@@ -57,6 +60,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     app.include_router(api)
     app.include_router(health_api)
     app.include_router(library_api)
+    app.include_router(motion_api)
     app.include_router(people_api)
     app.include_router(socket)
     add_docs(app)

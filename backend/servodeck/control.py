@@ -8,16 +8,16 @@ import asyncio
 import contextlib
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from servodeck import __version__, metrics
+from servodeck.answers import Answers
+from servodeck.battery import BatteryWatch
 from servodeck.decoder import COMMAND_AT
 from servodeck.driving import Driving
 from servodeck.errors import (
     CancelledError,
     GatewayError,
     LatchedError,
-    NoAnswerError,
     NotDrivingError,
     OutOfRangeError,
     PortLostError,
@@ -39,22 +39,14 @@ from servodeck.messages import (
     encode,
 )
 from servodeck.motion import Motion
-from servodeck.packets import FAMILIES, Battery, DecoderEvent, PacketEvent, parse_report
+from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_report
 from servodeck.ports import OpenPort
 from servodeck.relay import Relay
 from servodeck.robot import RobotLimits
 from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire, always
 
-BATTERY_PACKET = "5555020f"
-BATTERY_WAIT_S = 0.5  # boards.md 6: an answer takes 300 ms at most
 DRAIN_S = 0.5
 log = logging.getLogger("servodeck.robot")
-
-
-@dataclass(frozen=True, slots=True)
-class BatteryReading:
-    battery_mv: int
-    at_s: float
 
 
 class Control:
@@ -76,16 +68,17 @@ class Control:
         self._simulated_device = named_device if simulated else None
         self.now = now
         self.latch = False
-        self.battery: BatteryReading | None = None
+        self.answers = Answers()
+        self.battery = BatteryWatch(self.answers, lambda packet: self.send(self, packet), now)
         self.limits = RobotLimits()
         self.hub = Hub()
         self.link = Link(ports, self._make_wire, self, now)
         self.driving = Driving(self.hub, now, epoch, self)
         self._relay = Relay(self.hub, now)
-        self._motion = Motion(FAMILIES[board])
+        self.motion = Motion(FAMILIES[board])
+        self.halts = 0
+        """How often what was under way has been ended."""
         self._halting: Left | None = None
-        self._battery_question: asyncio.Task[int] | None = None
-        self._battery_answer: asyncio.Future[int] | None = None
 
     @property
     def port(self) -> PortState:
@@ -136,6 +129,14 @@ class Control:
             left.add_done_callback(self._halted)
         return left
 
+    async def end_motion(self) -> None:
+        """Without the latch: what moves ends, because its driver begins something else."""
+        if self.may_move():
+            await self._halt(None, CancelledError("Its driver has begun something else."))
+
+    def may_move(self) -> bool:
+        return self.motion.group_may_run or self.motion.is_moving(self.now())
+
     def resume(self) -> None:
         """Refused while the port is lost: whoever resumes shall see the robot's answer."""
         if self.link.state.status == "lost":
@@ -157,8 +158,8 @@ class Control:
         if board != self.board:
             self.board = board
             self._forget_limits()
-            self.battery = None
-            self._motion = Motion(FAMILIES[board])
+            self.battery.forget()
+            self.motion = Motion(FAMILIES[board])
             with contextlib.suppress(GatewayError):
                 self.link.wire().purge(is_no_stop, CancelledError("The board is taken for another one now."))
         self._tell_state()
@@ -172,13 +173,6 @@ class Control:
             return
         self.limits.set(servos)
         self._tell(LimitsMessage(type="limits", servos=servos), but=seat)
-
-    async def read_battery(self) -> int:
-        """In mV. Whoever asks while a question is under way shares its answer."""
-        if self._battery_question is None:
-            self._battery_question = asyncio.create_task(self._ask_battery())
-            self._battery_question.add_done_callback(self._battery_asked)
-        return await asyncio.shield(self._battery_question)
 
     async def use_port(self, device: str, board: str | None = None) -> None:
         await self._quiet()
@@ -205,12 +199,12 @@ class Control:
 
     def port_opened(self, wire: Wire) -> None:
         metrics.port_openings.inc()
-        self._motion = Motion(FAMILIES[self.board])
+        self.motion = Motion(FAMILIES[self.board])
         wire.send(STOP_PACKET, self, urgent=True)
 
     def port_lost(self) -> None:
         metrics.port_losses.inc()
-        self._motion = Motion(FAMILIES[self.board])
+        self.motion = Motion(FAMILIES[self.board])
         self.latch = True  # the change of the port's state follows and tells both
 
     def port_changed(self) -> None:
@@ -220,11 +214,11 @@ class Control:
 
     def driver_quiet(self) -> None:
         self._drop(self.driving.driver, CancelledError("Its driver was not heard any more."))
-        if self._motion.is_moving(self.now()):
+        if self.motion.is_moving(self.now()):
             self._stop_for_nobody()
 
     def driver_silent(self) -> None:
-        if self._may_move():
+        if self.may_move():
             self._stop_for_nobody()
 
     def driver_lost(self) -> None:
@@ -232,7 +226,7 @@ class Control:
 
     def driver_changed(self) -> None:
         """What one driver began does not go on under the next; nobody has to resume for it."""
-        if self._may_move():
+        if self.may_move():
             with contextlib.suppress(GatewayError):
                 self._halt(None, NotDrivingError("Somebody else drives now."))
 
@@ -248,9 +242,6 @@ class Control:
     def _drop(self, owner: Owner, reason: GatewayError) -> None:
         with contextlib.suppress(GatewayError):
             self.link.wire().purge(lambda job: job.owner is owner, reason)
-
-    def _may_move(self) -> bool:
-        return self._motion.group_may_run or self._motion.is_moving(self.now())
 
     def _stop_for_nobody(self) -> None:
         """STOP because nobody watches over what moves: whoever goes on has to look first."""
@@ -287,7 +278,8 @@ class Control:
             self._tell_state()
 
     def _halt(self, hold: bytes | None, reason: GatewayError, owner: Owner = None) -> Left:
-        return self.link.wire().halt(hold or self._motion.hold(self.now()), reason, owner)
+        self.halts += 1
+        return self.link.wire().halt(hold or self.motion.hold(self.now()), reason, owner)
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
@@ -295,10 +287,10 @@ class Control:
 
     async def _quiet(self) -> None:
         """Before the port is given up: ends a group that only this gateway could still stop."""
-        if self._motion.group_may_run:
+        if self.motion.group_may_run:
             with contextlib.suppress(GatewayError):
                 await self._halt(None, CancelledError("The port is being closed."))
-        self._motion = Motion(FAMILIES[self.board])
+        self.motion = Motion(FAMILIES[self.board])
 
     def _make_wire(self, port: OpenPort) -> Wire:
         inbox = Inbox(self._take)
@@ -306,7 +298,7 @@ class Control:
         return Wire(port, gap_s=gap_s, now=self.now, received=inbox.push, leaving=self._leaving)
 
     def _leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
-        self._motion.left(packet, at_s)
+        self.motion.left(packet, at_s)
         is_told = packet[COMMAND_AT] == STOP or not is_harmless(packet)
         if is_told and owner is not self:  # its own stop at the opening ends nothing that anybody began
             self._relay.leaving(owner, packet, at_s)
@@ -322,23 +314,9 @@ class Control:
             self.link.wire().answered(event.packet.command)
         self._tell(ReceivedMessage(packet=event.bytes.hex()))
         report = parse_report(event.packet, FAMILIES[self.board])
-        if isinstance(report, Battery):
-            self.battery = BatteryReading(report.battery_mv, self.now())
-            if self._battery_answer and not self._battery_answer.done():
-                self._battery_answer.set_result(report.battery_mv)
-
-    async def _ask_battery(self) -> int:
-        self._battery_answer = asyncio.get_running_loop().create_future()
-        await self.send(self, BATTERY_PACKET)
-        try:
-            return await asyncio.wait_for(self._battery_answer, BATTERY_WAIT_S)
-        except TimeoutError:
-            raise NoAnswerError("The board did not tell its battery voltage. Not every board can.") from None
-
-    def _battery_asked(self, question: asyncio.Task[int]) -> None:
-        self._battery_question = None
-        if not question.cancelled():
-            question.exception()  # whoever asked has it; nobody may be left to take it
+        self.motion.heard(report, self.now())
+        self.battery.heard(report)
+        self.answers.heard(report)
 
 
 def is_no_stop(job: Job) -> bool:

@@ -6,6 +6,7 @@ Knows seats and timers, no packet and no port; what must stop when a driver is l
 import asyncio
 from collections.abc import Callable
 
+from servodeck.errors import NotDrivingError
 from servodeck.hub import Hub, Seat
 from servodeck.lease import BEAT_S, Lease, LeaseEvents, Permit
 from servodeck.messages import LeaseAction, LeaseState, LeaseToldMessage, TickMessage, encode
@@ -22,6 +23,11 @@ class Driving:
     @property
     def driver(self) -> Seat | None:
         return self._lease.driver
+
+    @property
+    def epoch(self) -> int:
+        """Another one with each driver."""
+        return self._lease.epoch
 
     def act(self, seat: Seat, action: LeaseAction) -> None:
         """Raises ForbiddenError, BusyError or NotDrivingError."""
@@ -45,6 +51,25 @@ class Driving:
 
     def beat(self, seat: Seat, nonce: str) -> None:
         self._lease.beat(seat, nonce)
+
+    def speak_for(self, seat: Seat, *, take: bool) -> str:
+        """For a program, which asks for one thing at a time: a nonce of now, with the lease where it is free
+        or taken. Raises ForbiddenError, or NotDrivingError that names who drives.
+        """
+        seat.caller.require("driver")
+        driver = self._lease.driver
+        if take:
+            self.act(seat, "take")
+        elif driver is None:
+            self.act(seat, "request")
+        elif driver is not seat:
+            raise NotDrivingError(f'{driver.caller.name} drives. An owner may take it: "take": true.')
+        return self._lease.issue(self._now())
+
+    def vouch(self, seat: Seat, for_s: float) -> None:
+        """What that program asked lasts for so long from now."""
+        self._lease.vouch(seat, self._now() + for_s)
+        self._plan()
 
     def permit(self, seat: object, nonce: str | None) -> Permit:
         """Raises NotDrivingError or ExpiredError."""

@@ -112,6 +112,13 @@ class BusyError(GatewayError):
     status: ClassVar[int] = 429
 
 
+class MovingError(GatewayError):
+    """The robot is not at rest, or may not be."""
+
+    code: ClassVar[ErrorCode] = "busy"
+    status: ClassVar[int] = 409
+
+
 class CancelledError(GatewayError):
     """Taken out of the queue before it left."""
 

@@ -89,5 +89,6 @@ def note_present(control: Control, pulse: Pulse) -> None:
         metrics.port_state.labels(status).set(status == control.port.status)
     metrics.latched.set(control.latch)
     metrics.clients.set(len(control.hub))
-    metrics.battery.set(control.battery.battery_mv if control.battery else float("nan"))
+    reading = control.battery.newest
+    metrics.battery.set(reading.battery_mv if reading else float("nan"))
     metrics.loop_delay.set(pulse.worst_s)

@@ -58,6 +58,7 @@ class Lease(Generic[H]):
         self._events = events
         self._answer_until_s = 0.0
         self._heard_s = 0.0
+        self._patience_s = GONE_S
         self._count = 0
         self._issued: dict[str, float] = {}
 
@@ -116,6 +117,15 @@ class Lease(Generic[H]):
         if who is self.driver and issued_s > self._heard_s:
             self._heard_s, self.silence = issued_s, "none"
 
+    def vouch(self, who: H, until_s: float) -> None:
+        """What a program asked lasts until then, which is as good as hearing it then: it has no heartbeat.
+        Nor is it waited for as long as a person.
+        """
+        if who is self.driver:
+            self._patience_s = SILENT_S
+            if until_s > self._heard_s:
+                self._heard_s, self.silence = until_s, "none"
+
     def permit(self, who: H, nonce: str | None, now: float) -> Permit:
         """For one command. Raises NotDrivingError or ExpiredError."""
         if who is not self.driver:
@@ -143,7 +153,7 @@ class Lease(Generic[H]):
         """When `advance` has something to do, if nothing is heard until then."""
         if self.driver is None:
             return None
-        rung_s = self._heard_s + NEXT_RUNG_S[self.silence]
+        rung_s = self._heard_s + min(NEXT_RUNG_S[self.silence], self._patience_s)
         return rung_s if self.asker is None else min(rung_s, self._answer_until_s)
 
     def advance(self, now: float) -> None:
@@ -161,7 +171,7 @@ class Lease(Generic[H]):
         if self.silence == "quiet" and silence_s >= SILENT_S:
             self.silence = "silent"
             self._events.driver_silent()
-        if silence_s >= GONE_S and self.driver is not None:
+        if silence_s >= self._patience_s and self.driver is not None:
             self._events.driver_lost()
             self._pass_on(self._heard_s + silence_s)
 
@@ -178,7 +188,7 @@ class Lease(Generic[H]):
         before = self.driver
         self.epoch += 1
         self.driver, self.asker = who, None
-        self.silence, self._heard_s = "none", now
+        self.silence, self._heard_s, self._patience_s = "none", now, GONE_S
         self._issued.clear()
         if before is not None:
             self._events.driver_changed()

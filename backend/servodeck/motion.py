@@ -1,17 +1,22 @@
-"""Where the packets that left this wire have taken the servos: what a stop needs when no page tells it.
+"""Where the packets that left this wire have taken the servos: what a stop needs when no page tells it, and
+what a script may ask for.
 
 Pure: time comes in. Knows moves only: once a group may have run, the page's estimate (shared/src/motion)
 knows more, and this one nothing until the next moves have ended.
 """
 
+import math
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from servodeck.families import Family
-from servodeck.packets import encode, parse_command
-from servodeck.values import Command, Move, Release, Run, ServoTarget, Stop
+from servodeck.packets import Report, encode, parse_command
+from servodeck.values import Command, Move, Release, Run, RunFinished, RunStopped, ServoTarget, Stop
 
 SHORTEST_MOVE_MS = 20  # S25, S27
 LONGEST_MOVE_MS = 30_000  # S25, L5
+# Longer than the end of the run before takes to be told: that shall not end this one.
+RUN_END_S = 0.5
 # Any new target re-times every servo of these (S26); the others' servos keep their own time.
 SHARED_TIME = frozenset({"doc", "openarm-old", "openarm-new"})
 
@@ -41,25 +46,46 @@ class Motion:
     def __init__(self, family: Family) -> None:
         self._family = family
         self._tracks: dict[int, Track] = {}
-        self.group_may_run = False
+        self.run: Run | None = None
+        """The group that may run: nobody has stopped it, and the board has not said that it ended."""
+        self._run_s = 0.0
+
+    @property
+    def group_may_run(self) -> bool:
+        return self.run is not None
 
     def left(self, packet: bytes, at_s: float) -> None:
         """The last bit of that packet leaves then."""
         match parse_command(packet):
             case Move(duration_ms, targets) if not self.group_may_run:
                 self._move(duration_ms, targets, at_s)
-            case Run():
-                self.group_may_run = True
+            case Run() as run:
+                self.run, self._run_s = run, at_s
                 self._tracks.clear()
             case Stop():
-                self.group_may_run = False
+                self.run = None
             case Release(servos):
                 for servo in servos:
                     self._tracks.pop(servo, None)
 
+    def heard(self, report: Report, at_s: float) -> None:
+        if isinstance(report, RunFinished | RunStopped) and at_s - self._run_s >= RUN_END_S:
+            self.run = None
+
     def is_moving(self, now: float) -> bool:
         """A move is under way; a group is another matter."""
         return any(now < track.end_s for track in self._tracks.values())
+
+    def is_unknown(self, servo: int) -> bool:
+        """Nobody has said where it shall go, so nobody knows where it stands."""
+        return servo not in self._tracks
+
+    def first_moves_ms(self, servos: Collection[int], now: float) -> int:
+        """How long first moves still take that a move of those servos would make faster or slower."""
+        retimed = self._tracks if self._family.id in SHARED_TIME else servos
+        tracks = [self._tracks[servo] for servo in retimed if servo in self._tracks]
+        ends_s = [track.end_s for track in tracks if track.at(now) is None]
+        return math.ceil((max(ends_s, default=now) - now) * 1000)
 
     def hold(self, now: float) -> bytes | None:
         """The move that freezes each servo whose place is known, as soon as that makes no other one jump."""

@@ -11,11 +11,13 @@ from starlette.requests import HTTPConnection
 
 from servodeck.api import Controlled, Problem, called_by_own_page
 from servodeck.callers import Caller
+from servodeck.control import Control
 from servodeck.devices import Device
 from servodeck.entrance import Entrance
 from servodeck.errors import ForbiddenError, MalformedError, StorageError
 from servodeck.hub import Hub
 from servodeck.links import link_base, pair_link, picture_of, stop_link
+from servodeck.motion_api import Scripted
 from servodeck.people_messages import (
     Invitation,
     InviteWish,
@@ -31,6 +33,7 @@ from servodeck.people_messages import (
     You,
 )
 from servodeck.roles import ANYBODY, OWNER, entrance_of
+from servodeck.scripts import Scripts
 
 # As long as browsers keep one: a device stays until it is revoked.
 COOKIE_S = 400 * 24 * 3600
@@ -125,20 +128,27 @@ def person_of(device: Device, hub: Hub) -> Person:
 
 
 @people_api.patch("/people/{person}", dependencies=[OWNER])
-async def change(person: str, wanted: PersonChange, entrance: Entered, control: Controlled) -> Person:
+async def change(
+    person: str, wanted: PersonChange, entrance: Entered, control: Controlled, scripts: Scripted
+) -> Person:
     """Another name or role. What was open under the old ones is closed and may come back."""
     changed = entrance.devices.change(person, wanted.name, wanted.role)
-    control.hub.send_away(person, "Your name or role is another one now.")
+    send_away(person, "Your name or role is another one now.", control, scripts)
     await entrance.devices.keep()
     return person_of(changed, control.hub)
 
 
 @people_api.delete("/people/{person}", status_code=204, dependencies=[OWNER])
-async def revoke(person: str, entrance: Entered, control: Controlled) -> None:
+async def revoke(person: str, entrance: Entered, control: Controlled, scripts: Scripted) -> None:
     """May not come in any more; what it has open is closed at once."""
     entrance.devices.revoke(person)
-    control.hub.send_away(person, "This device is not paired any more.")
+    send_away(person, "This device is not paired any more.", control, scripts)
     await entrance.devices.keep()
+
+
+def send_away(person: str, reason: str, control: Control, scripts: Scripts) -> None:
+    control.hub.send_away(person, reason)
+    scripts.forget(person)
 
 
 @people_api.post("/invites", dependencies=[OWNER])

@@ -25,6 +25,11 @@ class RobotLimits:
     def told(self) -> list[ServoLimits]:
         return list(self._limits.values())
 
+    def name_of(self, servo: int) -> str:
+        """As people are told of it."""
+        limits = self._limits.get(servo)
+        return f"{limits.name} (servo {servo})" if limits else f"servo {servo}"
+
     def calibrate(self, owner: Owner, servo: int | None) -> None:
         """Whoever looks for the limits of a servo may pass the old ones, with that servo alone and until
         `forget`.
@@ -49,7 +54,7 @@ class RobotLimits:
             limits = self._limits.get(target.servo)
             if limits and target.servo != free and not limits.min <= target.position <= limits.max:
                 raise OutOfRangeError(
-                    f"{limits.name} (servo {target.servo}): position is {target.position}, "
+                    f"{self.name_of(target.servo)}: position is {target.position}, "
                     f"allowed {limits.min}..{limits.max}"
                 )
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from httpx2 import ASGITransport, AsyncClient
+from starlette.types import ASGIApp
 
 from servodeck import access
 from servodeck.access import Access
@@ -47,10 +48,14 @@ async def http_to(
     if device:
         await control.use_port(device)
     app = create_app(control, library or NO_LIBRARY, entrance or entrance_to(), static)
-    transport = ASGITransport(app, raise_app_exceptions=False)
-    async with AsyncClient(transport=transport, base_url=f"http://127.0.0.1:{PORT}") as client:
+    async with client_of(app) as client:
         yield client, control
     await control.link.close()
+
+
+def client_of(app: ASGIApp) -> AsyncClient:
+    transport = ASGITransport(app, raise_app_exceptions=False)
+    return AsyncClient(transport=transport, base_url=f"http://127.0.0.1:{PORT}")
 
 
 @dataclass

@@ -193,11 +193,11 @@ async def test_the_battery_is_asked_once_for_all_who_want_to_know() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         at(now() + 0.1, lambda: port.say(BATTERY_REPORT))
-        first, second = await asyncio.gather(control.read_battery(), control.read_battery())
+        first, second = await asyncio.gather(control.battery.read(), control.battery.read())
         assert first == second == 7500
         assert port.packets()[1:] == [BATTERY]
-        assert control.battery
-        assert control.battery.battery_mv == 7500
+        assert control.battery.newest
+        assert control.battery.newest.battery_mv == 7500
 
 
 @in_virtual_time
@@ -205,10 +205,10 @@ async def test_a_board_that_does_not_tell_its_battery_gets_half_a_second() -> No
     async with gateway_on() as control:
         begun_s = now()
         with pytest.raises(NoAnswerError):
-            await control.read_battery()
+            await control.battery.read()
         assert (now() - begun_s) * 1000 == pytest.approx(wire_ms(BATTERY) + 500, abs=1)
         with pytest.raises(NoAnswerError):
-            await control.read_battery()
+            await control.battery.read()
 
 
 @in_virtual_time

@@ -148,6 +148,26 @@ def test_a_driver_who_is_heard_again_in_time_goes_on_driving() -> None:
     assert (lease.driver, told.take()) == ("anna", ["quiet"])
 
 
+def test_a_program_is_waited_for_as_long_as_what_it_asked_lasts_and_two_seconds() -> None:
+    lease, told = new_lease()
+    lease.request("script", 0.0)
+    lease.vouch("script", 10.0)
+    lease.vouch("script", 3.0)
+    lease.vouch("anna", 90.0)
+    for at_s, expected in (
+        (10.0 + QUIET_S - 0.001, []),
+        (10.0 + QUIET_S, ["quiet"]),
+        (10.0 + SILENT_S - 0.001, []),
+        (10.0 + SILENT_S, ["silent", "lost", "changed"]),
+    ):
+        assert lease.due_s() is not None
+        lease.advance(at_s)
+        assert told.take() == expected
+    lease.request("anna", 20.0)
+    lease.advance(20.0 + SILENT_S)
+    assert lease.driver == "anna"
+
+
 def test_an_old_nonce_is_no_sign_of_life() -> None:
     lease, told = new_lease()
     lease.request("anna", 0.0)

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from servodeck.motion import Motion
 from servodeck.packets import FAMILIES, encode, parse_command
-from servodeck.values import Command, Move, Release, ServoTarget
+from servodeck.values import Command, Move, Release, RunAccepted, RunFinished, ServoTarget
 from tests.samples import RUN, STOP
 
 DOC = FAMILIES["doc"]
@@ -48,6 +48,26 @@ def test_a_new_target_takes_the_others_with_it_where_boards_share_the_time_and_o
 def test_a_servo_let_go_is_not_held() -> None:
     motion = told((0.0, move(0, s1=500, s2=600)), (1.0, Release((1,))), family="bus-ctrl")
     assert held(motion, 2.0) == move(20, s2=600)
+
+
+def test_a_group_is_over_when_the_board_says_so_but_not_by_the_word_about_the_one_before() -> None:
+    motion = told()
+    motion.left(RUN, 1.0)
+    motion.heard(RunFinished(None), 1.4)
+    assert motion.group_may_run
+    motion.heard(RunAccepted(), 2.0)
+    assert motion.group_may_run
+    motion.heard(RunFinished(None), 3.0)
+    assert not motion.group_may_run
+
+
+def test_what_was_moved_is_known_and_a_first_move_counts_down() -> None:
+    motion = told((0.0, move(2000, s1=1000)))
+    assert (motion.is_unknown(1), motion.is_unknown(2)) == (False, True)
+    assert motion.first_moves_ms([1], 0.5) == motion.first_moves_ms([2], 0.5) == 1500
+    assert motion.first_moves_ms([1], 2.0) == 0
+    own_time = told((0.0, move(2000, s1=1000)), family="lsc-6")
+    assert (own_time.first_moves_ms([1], 0.5), own_time.first_moves_ms([2], 0.5)) == (1500, 0)
 
 
 def test_a_group_may_move_anything_until_it_is_stopped() -> None:

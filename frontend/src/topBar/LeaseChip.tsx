@@ -2,7 +2,7 @@
 
 import { useState } from 'react';
 import { useSnapshot, useStores } from '../stores/stores.ts';
-import type { Lease } from '#shared/session/lease.ts';
+import { isWatching, type Lease } from '#shared/session/lease.ts';
 import { Button } from '../ui/Button.tsx';
 import { Mark, type Truth } from '../ui/Chip.tsx';
 import { useNow } from '../ui/useNow.ts';
@@ -11,12 +11,17 @@ import styles from './LeaseChip.module.css';
 
 export function LeaseChip() {
   const lease = useSnapshot((snapshot) => snapshot.lease);
-  if (lease === null || (lease.others === 0 && lease.mayDrive)) return null;
+  if (lease === null || isAlone(lease)) return null;
   return (
     <div className={styles.lease} data-turn role="group" aria-label={words.lease.label}>
       {lease.drives ? <Driving lease={lease} /> : <Watching lease={lease} />}
     </div>
   );
+}
+
+/** No other page is here, and no script drives or asks to. */
+function isAlone(lease: Lease): boolean {
+  return lease.others === 0 && lease.mayDrive && !isWatching(lease) && lease.asker === null;
 }
 
 function Driving({ lease }: { readonly lease: Lease }) {

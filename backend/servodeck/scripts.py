@@ -1,0 +1,170 @@
+"""What scripts set in motion: each request speaks for itself, with the lease for as long as what it asked
+lasts (docs/adr/0014).
+
+Knows what is asked and in which order it leaves; no HTTP. Who may drive is `driving`'s to say, what may leave
+`control`'s.
+"""
+
+import asyncio
+import contextlib
+from collections.abc import Awaitable, Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from servodeck.callers import THIS_COMPUTER, Caller
+from servodeck.control import Control
+from servodeck.errors import CancelledError, MovingError, NoAnswerError
+from servodeck.families import Family
+from servodeck.gate import judge_latch
+from servodeck.hub import Seat
+from servodeck.messages import LeaseState
+from servodeck.packets import FAMILIES
+from servodeck.script_moves import packet_of, plan_move
+from servodeck.values import Erase, Erased, Run, RunAccepted, RunStarted
+from servodeck.wire import Left
+
+RUN_WAIT_S = 0.5  # S18, S52
+ERASE_WAIT_S = 1.0  # boards.md section 3: 403 ms at worst
+
+ScriptAction = Literal["request", "take", "release", "beat"]
+RunOutcome = Literal["acknowledged", "silent", "sent"]
+IsWanted = Callable[[], Awaitable[bool]]
+
+
+class ScriptSeat(Seat):
+    """Whose requests come one by one: nobody is there to be told anything."""
+
+    def put(self, text: str) -> None:
+        """Unread."""
+
+
+@dataclass(frozen=True, slots=True)
+class Moved:
+    packets: int
+    over_in_ms: int
+    first_moves: tuple[int, ...]
+
+
+class Turn:
+    """One request's leave to move the robot. It ends with the next stop, and with another driver."""
+
+    def __init__(self, control: Control, seat: Seat, packet: bytes, *, take: bool) -> None:
+        """Raises what keeps its first packet from leaving."""
+        control.link.wire()
+        judge_latch(packet, control.latch)
+        self._control = control
+        self._seat = seat
+        control.driving.speak_for(seat, take=take)
+        self._mark = self._present()
+
+    async def end_what_moves(self) -> None:
+        self._judge()
+        await self._control.end_motion()
+        self._mark = (self._mark[0], self._present()[1])
+
+    def send(self, packet: bytes, lasts_s: float = 0.0) -> Left:
+        """`lasts_s`: what it sets in motion."""
+        self._judge()
+        driving = self._control.driving
+        nonce = driving.speak_for(self._seat, take=False)
+        left = self._control.send(self._seat, packet.hex(), nonce)
+        driving.vouch(self._seat, 0.0)
+        left.add_done_callback(lambda _: driving.vouch(self._seat, lasts_s))
+        return left
+
+    def _present(self) -> tuple[int, int]:
+        return self._control.driving.epoch, self._control.halts
+
+    def _judge(self) -> None:
+        if self._mark != self._present():
+            raise CancelledError("Stopped, or taken over, before all of it had left.")
+
+
+class Scripts:
+    def __init__(self, control: Control) -> None:
+        self._control = control
+        self._seats: dict[str, ScriptSeat] = {}
+        self._asks_the_board = False
+
+    async def move(
+        self,
+        caller: Caller,
+        duration_ms: int,
+        positions: Mapping[int, int],
+        *,
+        take: bool,
+        is_wanted: IsWanted,
+    ) -> Moved:
+        """Until its last packet has left; what is not wanted any more does not leave."""
+        control, seat = self._control, self._seat_of(caller)
+        family, now = self._family(), control.now()
+        if control.motion.group_may_run:
+            raise MovingError("A group may be running: stop it, then resume.")
+        plan = plan_move(duration_ms, positions, family, control.motion, now, control.limits.name_of)
+        for step in plan.steps:
+            control.limits.judge(step.packet, seat)
+        turn = Turn(control, seat, plan.steps[0].packet, take=take)
+        for step in plan.steps:
+            await asyncio.sleep(step.after_s)
+            if not await is_wanted():
+                raise CancelledError("Whoever asked has hung up.")
+            await turn.send(step.packet, duration_ms / 1000)
+        return Moved(len(plan.steps), duration_ms, plan.first_moves)
+
+    async def run(self, caller: Caller, slot: int, times: int, *, take: bool) -> RunOutcome:
+        """What moves ends first."""
+        family = self._family()
+        packet = packet_of(Run(slot, times), family)
+        with self._asking_the_board():
+            turn = Turn(self._control, self._seat_of(caller), packet, take=take)
+            await turn.end_what_moves()
+            left = turn.send(packet)
+            if "run" not in family.answers:
+                await left
+                return "sent"
+            answers = self._control.answers
+            taken = await answers.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
+            return "silent" if taken is None else "acknowledged"
+
+    async def erase(self, caller: Caller, *, take: bool) -> None:
+        """Until the board says that it is done."""
+        packet = packet_of(Erase(), self._family())
+        if self._control.may_move():
+            raise MovingError("The robot moves: wait for its end, or stop it first.")
+        with self._asking_the_board():
+            turn = Turn(self._control, self._seat_of(caller), packet, take=take)
+            left = turn.send(packet, ERASE_WAIT_S)
+            if await self._control.answers.to(left, ERASE_WAIT_S, Erased) is None:
+                raise NoAnswerError("The board did not say whether its groups are erased.")
+
+    def act(self, caller: Caller, action: ScriptAction) -> LeaseState:
+        """On the lease alone; `beat` says that somebody watches over what this script has begun."""
+        seat, driving = self._seat_of(caller), self._control.driving
+        if action != "beat":
+            driving.act(seat, action)
+        driving.vouch(seat, 0.0)
+        return driving.state_for(seat)
+
+    def forget(self, caller_id: str) -> None:
+        """It may not come in any more, or as somebody else: what it began ends."""
+        seat = self._seats.pop(caller_id, None)
+        if seat:
+            self._control.driving.leave(seat)
+
+    def _family(self) -> Family:
+        return FAMILIES[self._control.board]
+
+    def _seat_of(self, caller: Caller) -> ScriptSeat:
+        name = "A script on this computer" if caller is THIS_COMPUTER else caller.name
+        return self._seats.setdefault(caller.id, ScriptSeat(replace(caller, name=name)))
+
+    @contextlib.contextmanager
+    def _asking_the_board(self) -> Iterator[None]:
+        """One at a time: the board's answers do not say to whom."""
+        if self._asks_the_board:
+            raise MovingError("The board is being asked for something else.")
+        self._asks_the_board = True
+        try:
+            yield
+        finally:
+            self._asks_the_board = False

@@ -1,0 +1,294 @@
+"""What a script may set in motion over HTTP, and when it ends."""
+
+import asyncio
+import json
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from httpx2 import AsyncClient, Response
+from starlette.types import ASGIApp, Message
+
+from servodeck import access
+from servodeck.app import create_app
+from servodeck.callers import Caller, Role
+from servodeck.control import Control
+from servodeck.messages import ServoLimits
+from servodeck.packets import FAMILIES, encode
+from servodeck.values import Move, ServoTarget
+from tests.client import Client
+from tests.fake_port import FakePort, FakePorts
+from tests.knocking import scope_of
+from tests.running import DEVICE, NO_LIBRARY, PORT, client_of, entrance_to
+from tests.samples import ERASE, RUN, STOP, wire_ms
+from tests.test_gate import headers_of
+from tests.virtual_time import at, in_virtual_time, now
+
+RUN_TAKEN = bytes.fromhex("55550206")
+RUN_ENDED = bytes.fromhex("55550207")
+ERASED = bytes.fromhex("55550208")
+STOPS = [STOP, STOP, STOP]
+ANNA = Caller("anna", "Anna", "driver")
+
+
+def move(time_ms: int, **positions: int) -> bytes:
+    targets = tuple(ServoTarget(int(name[1:]), position) for name, position in positions.items())
+    return encode(Move(time_ms, targets), FAMILIES["doc"])
+
+
+@dataclass
+class Scripted:
+    """A script with a token at a gateway on a LAN."""
+
+    client: AsyncClient
+    control: Control
+    port: FakePort
+    app: ASGIApp
+    owner: dict[str, str]
+    token_id: str
+
+    async def post(self, path: str, *, owner: bool = False, **body: Any) -> Response:
+        return await self.client.post(f"/api/{path}", json=body, headers=self.owner if owner else {})
+
+    async def move(
+        self, time_ms: int, *, take: bool = False, owner: bool = False, **positions: int
+    ) -> Response:
+        named = {name[1:]: position for name, position in positions.items()}
+        return await self.post("move", owner=owner, timeMs=time_ms, positions=named, take=take)
+
+    def sent(self) -> list[bytes]:
+        """Behind the stop at the opening."""
+        return self.port.packets()[1:]
+
+
+@asynccontextmanager
+async def script(role: Role = "driver") -> AsyncIterator[Scripted]:
+    port, entrance = FakePort(), entrance_to(access.lan(PORT), now)
+    _, owner = entrance.devices.admit("device", "Olga", "owner")
+    device, token = entrance.devices.admit("token", "Dance", role)
+    control = Control(FakePorts(port), now, "doc")
+    await control.use_port(DEVICE)
+    await asyncio.sleep(0.1)
+    app = create_app(control, NO_LIBRARY, entrance)
+    async with client_of(app) as client:
+        client.headers["authorization"] = f"Bearer {token}"
+        yield Scripted(client, control, port, app, {"authorization": f"Bearer {owner}"}, device.id)
+
+
+def refusal(answer: Response) -> tuple[int, str]:
+    return answer.status_code, answer.json()["code"]
+
+
+@in_virtual_time
+async def test_a_move_answers_when_it_has_left_and_says_when_it_will_be_over() -> None:
+    async with script() as here:
+        begun = await here.move(1500, s1=2000)
+        assert begun.json() == {"packets": 1, "overInMs": 1500, "firstMoves": [1]}
+        assert here.sent() == [move(1500, s1=2000)]
+        await asyncio.sleep(1.5)
+        assert (await here.move(300, s1=1000)).json()["firstMoves"] == []
+        assert here.sent()[1:] == [move(300, s1=1000)]
+
+
+@in_virtual_time
+async def test_servos_of_unknown_place_start_a_quarter_of_a_second_apart() -> None:
+    async with script() as here:
+        refused = await here.move(1000, s1=2000)
+        assert refusal(refused) == (422, "outOfRange")
+        begun = await here.move(2000, s1=2000, s2=1000, s3=700)
+        assert begun.json()["firstMoves"] == [1, 2, 3]
+        assert here.sent() == [move(2000, s1=2000), move(2000, s2=1000), move(2000, s3=700)]
+        starts = here.port.times_ms()[1:]
+        apart = [later - earlier for earlier, later in pairwise(starts)]
+        assert apart == pytest.approx([250 + wire_ms(move(2000, s1=2000))] * 2, abs=1)
+
+
+@in_virtual_time
+async def test_the_limits_of_the_robot_hold_for_scripts() -> None:
+    async with script() as here:
+        here.control.limits.set([ServoLimits(servo=2, name="Elbow", min=900, max=1800)])
+        refused = await here.move(1500, s1=1000, s2=1900)
+        assert refused.json()["detail"] == "Elbow (servo 2): position is 1900, allowed 900..1800"
+        assert "Elbow (servo 2)" in (await here.move(500, s2=1000)).json()["detail"]
+        assert refusal(await here.move(1500, s1=400)) == (422, "outOfRange")
+        assert refusal(await here.move(1500, s33=1500)) == (422, "outOfRange")
+        assert here.sent() == []
+
+
+@in_virtual_time
+async def test_a_script_drives_under_its_name_for_as_long_as_its_move_lasts_and_two_seconds() -> None:
+    async with script() as here:
+        anna = Client(here.control, ANNA)
+        assert anna.lease == {}
+        await here.move(3000, s1=2000)
+        assert (anna.lease["driver"], anna.lease["drives"]) == ("Dance", False)
+        await asyncio.sleep(4.9)
+        assert anna.lease["driver"] == "Dance"
+        await asyncio.sleep(0.2)
+        assert anna.lease["driver"] is None
+        assert (here.sent(), here.control.latch) == ([move(3000, s1=2000)], False)
+
+
+@in_virtual_time
+async def test_where_somebody_else_drives_it_is_refused_by_name_and_an_owner_may_take_it() -> None:
+    async with script() as here:
+        anna = Client(here.control, ANNA)
+        await anna.send(move(1500, s1=2000))
+        refused = await here.move(1500, s1=1000)
+        assert refusal(refused) == (409, "notDriving")
+        assert refused.json()["detail"].startswith("Anna drives")
+        assert refusal(await here.move(1500, take=True, s1=1000)) == (403, "forbidden")
+        await asyncio.sleep(1.5)
+        assert (await here.move(1500, take=True, owner=True, s1=1000)).status_code == 200
+        assert anna.lease["driver"] == "Olga"
+        assert here.sent()[1:] == [move(1500, s1=1000)]
+
+
+@in_virtual_time
+async def test_a_page_asks_a_script_as_it_asks_anybody_and_what_moves_is_stopped_first() -> None:
+    async with script() as here:
+        anna = Client(here.control, ANNA)
+        await here.move(30_000, s1=2000)
+        here.control.driving.act(anna, "request")
+        await asyncio.sleep(4.9)
+        assert here.sent() == [move(30_000, s1=2000)]
+        await asyncio.sleep(0.5)
+        assert anna.lease["drives"] is True
+        assert here.sent()[1:] == STOPS
+
+
+@in_virtual_time
+async def test_a_stop_ends_what_has_not_left_also_where_somebody_resumes_at_once() -> None:
+    async with script() as here:
+        waiting = asyncio.create_task(here.move(1500, s1=2000, s2=2000, s3=2000))
+        await asyncio.sleep(0.1)
+        here.control.stop(None)
+        here.control.resume()
+        assert refusal(await waiting) == (409, "cancelled")
+        await asyncio.sleep(1)
+        assert here.sent() == [move(1500, s1=2000), *STOPS]
+        here.control.stop(None)
+        assert refusal(await here.move(1500, s1=2000)) == (409, "latched")
+
+
+@in_virtual_time
+async def test_whoever_takes_over_between_two_first_moves_ends_those_that_wait() -> None:
+    async with script() as here:
+        waiting = asyncio.create_task(here.move(1500, s1=2000, s2=2000))
+        await asyncio.sleep(0.1)
+        owner = Client(here.control)
+        here.control.driving.act(owner, "take")
+        here.control.driving.act(owner, "release")
+        assert refusal(await waiting) == (409, "cancelled")
+        await asyncio.sleep(1)
+        assert here.sent() == [move(1500, s1=2000), *STOPS]
+
+
+@in_virtual_time
+async def test_a_run_that_nobody_watches_is_stopped_after_two_seconds() -> None:
+    async with script() as here:
+        at(now() + 0.05, lambda: here.port.say(RUN_TAKEN))
+        assert (await here.post("slots/8/run", times=1)).json() == {"outcome": "acknowledged"}
+        assert here.sent() == [RUN]
+        begun_s = now()
+        await asyncio.sleep(2.5)
+        assert here.sent() == [RUN, *STOPS]
+        assert here.port.written[2][0] - begun_s <= 2.0
+        assert here.control.latch is True
+
+
+@in_virtual_time
+async def test_beats_keep_a_run_going_and_letting_go_ends_it_without_the_latch() -> None:
+    async with script() as here:
+        assert (await here.post("slots/8/run")).json() == {"outcome": "silent"}
+        for _ in range(10):
+            await asyncio.sleep(1)
+            assert (await here.post("lease", action="beat")).json()["drives"] is True
+        assert here.sent() == [RUN]
+        assert (await here.post("lease", action="release")).json()["driver"] is None
+        await asyncio.sleep(1)
+        assert here.sent() == [RUN, *STOPS]
+        assert here.control.latch is False
+
+
+@in_virtual_time
+async def test_another_run_ends_the_one_before_and_a_move_waits_for_its_end() -> None:
+    async with script() as here:
+        await here.post("slots/8/run")
+        assert refusal(await here.move(1500, s1=2000)) == (409, "busy")
+        await here.post("slots/8/run")
+        assert here.sent() == [RUN, *STOPS, RUN]
+        await asyncio.sleep(0.6)
+        here.port.say(RUN_ENDED)
+        await asyncio.sleep(0.1)
+        assert (await here.move(1500, s1=2000)).status_code == 200
+
+
+@in_virtual_time
+async def test_erasing_is_an_owners_needs_rest_and_waits_for_the_boards_word() -> None:
+    async with script() as here:
+        assert refusal(await here.post("erase")) == (403, "forbidden")
+        await here.move(1500, s1=2000)
+        assert refusal(await here.post("erase", owner=True)) == (409, "busy")
+        await asyncio.sleep(4)
+        at(now() + 0.4, lambda: here.port.say(ERASED))
+        assert (await here.post("erase", owner=True)).json() == {"erased": True}
+        assert refusal(await here.post("erase", owner=True)) == (504, "noAnswer")
+        assert here.sent()[1:] == [ERASE, ERASE]
+
+
+@in_virtual_time
+async def test_who_is_not_let_in_any_more_is_stopped() -> None:
+    async with script() as here:
+        await here.post("slots/8/run")
+        revoked = await here.client.delete(f"/api/people/{here.token_id}", headers=here.owner)
+        assert revoked.status_code == 204
+        await asyncio.sleep(0.5)
+        assert here.sent() == [RUN, *STOPS]
+        assert (await here.move(1500, s1=2000)).status_code == 401
+
+
+@in_virtual_time
+async def test_what_nobody_waits_for_any_more_does_not_leave() -> None:
+    async with script() as here:
+        body = json.dumps({"timeMs": 1500, "positions": {"1": 2000, "2": 2000, "3": 2000}}).encode()
+        headers = [*headers_of(f"localhost:{PORT}", None), (b"content-type", b"application/json")]
+        headers.append((b"authorization", here.owner["authorization"].encode()))
+        heard = [{"type": "http.request", "body": body}]
+        hung_up, answers = asyncio.Event(), []
+
+        async def receive() -> Message:
+            if not heard:
+                await hung_up.wait()
+            return heard.pop() if heard else {"type": "http.disconnect"}
+
+        async def send(message: Message) -> None:
+            answers.append(message)
+
+        at(now() + 0.1, hung_up.set)
+        await here.app(scope_of("http", "POST", "/api/move", headers), receive, send)
+        await asyncio.sleep(1)
+        assert here.sent() == [move(1500, s1=2000)]
+        assert answers[0]["status"] == 409
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        {"timeMs": 1500, "positions": {}},
+        {"timeMs": 1500, "positions": {"0": 1500}},
+        {"timeMs": 1500, "positions": {"one": 1500}},
+        {"timeMs": 1500, "positions": {"1": 1500.5}},
+        {"timeMs": 1500, "positions": {"1": "1500"}},
+        {"timeMs": -1, "positions": {"1": 1500}},
+        {"timeMs": 1500, "positions": {"1": 1500}, "speed": 3},
+    ],
+)
+@in_virtual_time
+async def test_what_cannot_be_read_is_refused_and_moves_nothing(body: dict[str, Any]) -> None:
+    async with script() as here:
+        assert refusal(await here.post("move", **body)) == (422, "malformed")
+        assert here.sent() == []
