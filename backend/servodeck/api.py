@@ -14,9 +14,10 @@ from servodeck import __version__
 from servodeck.callers import Caller
 from servodeck.clients import serve_client
 from servodeck.control import Control
+from servodeck.driving import name_of
 from servodeck.errors import ErrorCode, OutOfRangeError
 from servodeck.gate import judge_script
-from servodeck.messages import Message, PortState
+from servodeck.messages import Message, PortState, UnattendedRun
 from servodeck.packets import FAMILIES
 from servodeck.ports import list_devices
 from servodeck.roles import DRIVER, OWNER, STOPPER, VIEWER
@@ -41,6 +42,8 @@ class Status(Message):
     latch: bool
     clients: int
     battery: BatteryAge | None
+    driver: str | None
+    unattended: UnattendedRun | None
 
 
 class Device(Message):
@@ -103,6 +106,8 @@ async def status(control: Controlled) -> Status:
         latch=control.latch,
         clients=len(control.hub),
         battery=age_of(control),
+        driver=name_of(control.driving.driver),
+        unattended=control.unattended.told(),
     )
 
 

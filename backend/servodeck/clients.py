@@ -24,6 +24,7 @@ from servodeck.messages import (
     BeatMessage,
     BoardMessage,
     CalibrateMessage,
+    ContinueMessage,
     LeaseMessage,
     LimitsMessage,
     RefusedMessage,
@@ -52,6 +53,7 @@ ROLES: dict[type[AnyClientMessage], Role] = {
     LimitsMessage: "driver",
     CalibrateMessage: "driver",
     LeaseMessage: "viewer",
+    ContinueMessage: "driver",
     BeatMessage: "driver",
 }
 
@@ -160,6 +162,11 @@ def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
             control.limits.calibrate(seat, message.servo)
         case LeaseMessage():
             take_lease(message, seat, control)
+        case ContinueMessage():
+            with contextlib.suppress(
+                GatewayError
+            ):  # how it stands says so: a `refused` without id is a stop's
+                control.let_go_on(seat, message.for_ms)
         case BeatMessage():
             control.driving.beat(seat, message.nonce)
 

@@ -43,6 +43,7 @@ from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_report
 from servodeck.ports import OpenPort
 from servodeck.relay import Relay
 from servodeck.robot import RobotLimits
+from servodeck.unattended import Unattended
 from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire, always
 
 DRAIN_S = 0.5
@@ -76,6 +77,7 @@ class Control:
         self.driving = Driving(self.hub, now, epoch, self)
         self._relay = Relay(self.hub, now)
         self.motion = Motion(FAMILIES[board])
+        self.unattended = Unattended(now, self._end_alone, self._tell_state)
         self.halts = 0
         """How often what was under way has been ended."""
         self._halting: Left | None = None
@@ -159,10 +161,24 @@ class Control:
             self.board = board
             self._forget_limits()
             self.battery.forget()
-            self.motion = Motion(FAMILIES[board])
+            self._forget_motion()
             with contextlib.suppress(GatewayError):
                 self.link.wire().purge(is_no_stop, CancelledError("The board is taken for another one now."))
         self._tell_state()
+
+    def let_go_on(self, seat: Seat, for_ms: int | None) -> None:
+        """The run under way, without its driver; None: not any more."""
+        if self.driving.driver is not seat:
+            raise NotDrivingError("Only who drives may let a run go on.")
+        if for_ms is None:
+            self.unattended.end()
+            return
+        run = self.motion.run
+        if run is None:
+            raise CancelledError("Nothing runs any more.")
+        if run.times == 0:
+            raise OutOfRangeError("times is 0: what goes on without its driver has an end.")
+        self.unattended.allow(run, seat, for_ms / 1000)
 
     def limit(self, seat: Seat, servos: list[ServoLimits]) -> None:
         """How far the robot's servos may be turned, by whoever said so last; every other client is told.
@@ -199,13 +215,13 @@ class Control:
 
     def port_opened(self, wire: Wire) -> None:
         metrics.port_openings.inc()
-        self.motion = Motion(FAMILIES[self.board])
+        self._forget_motion()
         wire.send(STOP_PACKET, self, urgent=True)
 
     def port_lost(self) -> None:
         metrics.port_losses.inc()
-        self.motion = Motion(FAMILIES[self.board])
         self.latch = True  # the change of the port's state follows and tells both
+        self._forget_motion()
 
     def port_changed(self) -> None:
         self._tell_state()
@@ -218,7 +234,7 @@ class Control:
             self._stop_for_nobody()
 
     def driver_silent(self) -> None:
-        if self.may_move():
+        if self.may_move() and not self.unattended.by:
             self._stop_for_nobody()
 
     def driver_lost(self) -> None:
@@ -226,11 +242,13 @@ class Control:
 
     def driver_changed(self) -> None:
         """What one driver began does not go on under the next; nobody has to resume for it."""
-        if self.may_move():
-            with contextlib.suppress(GatewayError):
-                self._halt(None, NotDrivingError("Somebody else drives now."))
+        goes_on_alone = self.unattended.by and self.driving.driver is None
+        if self.may_move() and not goes_on_alone:
+            self._end_quietly(NotDrivingError("Somebody else drives now."))
 
     def lease_changed(self) -> None:
+        if self.driving.driver and self.unattended.by not in (None, self.driving.driver):
+            self._end_quietly(NotDrivingError("Somebody else drives now."))
         self.driving.tell_all()
 
     # Inside
@@ -242,6 +260,14 @@ class Control:
     def _drop(self, owner: Owner, reason: GatewayError) -> None:
         with contextlib.suppress(GatewayError):
             self.link.wire().purge(lambda job: job.owner is owner, reason)
+
+    def _end_quietly(self, reason: GatewayError) -> None:
+        """Without the latch: somebody is there, or it was said beforehand."""
+        with contextlib.suppress(GatewayError):
+            self._halt(None, reason)
+
+    def _end_alone(self) -> None:
+        self._end_quietly(CancelledError("The time in which it might go on alone is over."))
 
     def _stop_for_nobody(self) -> None:
         """STOP because nobody watches over what moves: whoever goes on has to look first."""
@@ -255,12 +281,19 @@ class Control:
             port=self.port,
             latch=self.latch,
             clients=len(self.hub),
+            unattended=self.unattended.told(),
             limits=self.limits.told(),
             lease=self.driving.state_for(seat),
         )
 
     def _tell_state(self, but: Seat | None = None) -> None:
-        state = StateMessage(board=self.board, port=self.port, latch=self.latch, clients=len(self.hub))
+        state = StateMessage(
+            board=self.board,
+            port=self.port,
+            latch=self.latch,
+            clients=len(self.hub),
+            unattended=self.unattended.told(),
+        )
         self.hub.tell_all(encode(state), but)
 
     def _tell(self, message: Message, but: Seat | None = None) -> None:
@@ -290,7 +323,11 @@ class Control:
         if self.motion.group_may_run:
             with contextlib.suppress(GatewayError):
                 await self._halt(None, CancelledError("The port is being closed."))
+        self._forget_motion()
+
+    def _forget_motion(self) -> None:
         self.motion = Motion(FAMILIES[self.board])
+        self.unattended.follow(None)
 
     def _make_wire(self, port: OpenPort) -> Wire:
         inbox = Inbox(self._take)
@@ -299,6 +336,7 @@ class Control:
 
     def _leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
         self.motion.left(packet, at_s)
+        self.unattended.follow(self.motion.run)
         is_told = packet[COMMAND_AT] == STOP or not is_harmless(packet)
         if is_told and owner is not self:  # its own stop at the opening ends nothing that anybody began
             self._relay.leaving(owner, packet, at_s)
@@ -315,6 +353,7 @@ class Control:
         self._tell(ReceivedMessage(packet=event.bytes.hex()))
         report = parse_report(event.packet, FAMILIES[self.board])
         self.motion.heard(report, self.now())
+        self.unattended.follow(self.motion.run)
         self.battery.heard(report)
         self.answers.heard(report)
 

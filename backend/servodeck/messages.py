@@ -69,6 +69,15 @@ class PortState(Message):
     retry_in_ms: int | None = None
 
 
+class UnattendedRun(Message):
+    """A run that may go on without its driver `by`, for so long at most."""
+
+    slot: int
+    times: int
+    by: str
+    ends_in_ms: int
+
+
 class SendMessage(Message):
     """Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none."""
 
@@ -139,6 +148,18 @@ class LeaseMessage(Message):
     action: LeaseAction
 
 
+ContinueMs = Annotated[
+    int, Field(ge=1000, le=3_600_000, description="After that it is stopped, at the latest.")
+]
+
+
+class ContinueMessage(Message):
+    """The driver's: the run under way may go on without me, for so long at most. `null`: it may not."""
+
+    type: Literal["continue"]
+    for_ms: ContinueMs | None
+
+
 class BeatMessage(Message):
     """The answer to each `tick`: somebody is there who drives."""
 
@@ -154,6 +175,7 @@ AnyClientMessage = (
     | LimitsMessage
     | CalibrateMessage
     | LeaseMessage
+    | ContinueMessage
     | BeatMessage
 )
 ClientMessage = Annotated[AnyClientMessage, Field(discriminator="type")]
@@ -168,6 +190,7 @@ class WelcomeMessage(Message):
     port: PortState
     latch: bool
     clients: int
+    unattended: UnattendedRun | None
     limits: list[ServoLimits]
     lease: LeaseState
 
@@ -216,6 +239,7 @@ class StateMessage(Message):
     port: PortState
     latch: bool
     clients: int
+    unattended: UnattendedRun | None
 
 
 class LeaseToldMessage(Message):

@@ -10,7 +10,7 @@ from starlette.requests import HTTPConnection
 
 from servodeck.api import Problem, called_by_own_page
 from servodeck.callers import Caller
-from servodeck.messages import LeaseState, Message
+from servodeck.messages import ContinueMs, LeaseState, Message
 from servodeck.roles import DRIVER, OWNER
 from servodeck.scripts import RunOutcome, ScriptAction, Scripts
 
@@ -37,9 +37,10 @@ class MoveBegun(Message):
 
 
 class RunWish(Message):
-    """`times` 0: until stopped. Without a `beat` every second somebody has to have it stopped."""
+    """`times` 0: until stopped. `continueForMs`: it goes on without a `beat`, for so long at most."""
 
     times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
+    continue_for_ms: ContinueMs | None = None
     take: Take = False
 
 
@@ -100,8 +101,11 @@ async def move(wish: MoveWish, request: Request, caller: Driving, scripts: Scrip
 async def run(
     slot: Annotated[int, Path(ge=0, le=255)], wish: RunWish, caller: Driving, scripts: Scripted
 ) -> RunBegun:
-    """Runs the group in that slot; what moves ends first. It is stopped 2 s after the last `beat`."""
-    return RunBegun(outcome=await scripts.run(caller, slot, wish.times, take=wish.take))
+    """Runs the group in that slot; what moves ends first. It is stopped 2 s after the last `beat`, unless it
+    may continue.
+    """
+    outcome = await scripts.run(caller, slot, wish.times, take=wish.take, continue_ms=wish.continue_for_ms)
+    return RunBegun(outcome=outcome)
 
 
 @motion_api.post("/erase")

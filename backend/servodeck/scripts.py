@@ -13,7 +13,7 @@ from typing import Literal
 
 from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.control import Control
-from servodeck.errors import CancelledError, MovingError, NoAnswerError
+from servodeck.errors import CancelledError, MovingError, NoAnswerError, OutOfRangeError
 from servodeck.families import Family
 from servodeck.gate import judge_latch
 from servodeck.hub import Seat
@@ -111,20 +111,22 @@ class Scripts:
             await turn.send(step.packet, duration_ms / 1000)
         return Moved(len(plan.steps), duration_ms, plan.first_moves)
 
-    async def run(self, caller: Caller, slot: int, times: int, *, take: bool) -> RunOutcome:
+    async def run(
+        self, caller: Caller, slot: int, times: int, *, take: bool, continue_ms: int | None = None
+    ) -> RunOutcome:
         """What moves ends first."""
-        family = self._family()
+        family, seat = self._family(), self._seat_of(caller)
         packet = packet_of(Run(slot, times), family)
+        if continue_ms is not None and times == 0:
+            raise OutOfRangeError("times is 0: what goes on without its driver has an end.")
         with self._asking_the_board():
-            turn = Turn(self._control, self._seat_of(caller), packet, take=take)
+            turn = Turn(self._control, seat, packet, take=take)
             await turn.end_what_moves()
             left = turn.send(packet)
-            if "run" not in family.answers:
-                await left
-                return "sent"
-            answers = self._control.answers
-            taken = await answers.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
-            return "silent" if taken is None else "acknowledged"
+            outcome = await self._outcome_of_run(left, family)
+        if continue_ms is not None:
+            self._control.let_go_on(seat, continue_ms)
+        return outcome
 
     async def erase(self, caller: Caller, *, take: bool) -> None:
         """Until the board says that it is done."""
@@ -150,6 +152,13 @@ class Scripts:
         seat = self._seats.pop(caller_id, None)
         if seat:
             self._control.driving.leave(seat)
+
+    async def _outcome_of_run(self, left: Left, family: Family) -> RunOutcome:
+        if "run" not in family.answers:
+            await left
+            return "sent"
+        taken = await self._control.answers.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
+        return "silent" if taken is None else "acknowledged"
 
     def _family(self) -> Family:
         return FAMILIES[self._control.board]

@@ -26,6 +26,8 @@ async def test_status_tells_how_everything_stands() -> None:
             "latch": False,
             "clients": 0,
             "battery": None,
+            "driver": None,
+            "unattended": None,
         }
 
 

@@ -9,6 +9,7 @@ export type ClientMessage =
   | LimitsMessage
   | CalibrateMessage
   | LeaseMessage
+  | ContinueMessage
   | BeatMessage;
 export type GatewayMessage =
   | WelcomeMessage
@@ -96,6 +97,13 @@ export interface LeaseMessage {
   action: 'request' | 'release' | 'take' | 'refuse';
 }
 /**
+ * The driver's: the run under way may go on without me, for so long at most. `null`: it may not.
+ */
+export interface ContinueMessage {
+  type: 'continue';
+  forMs: number | null;
+}
+/**
  * The answer to each `tick`: somebody is there who drives.
  */
 export interface BeatMessage {
@@ -115,6 +123,7 @@ export interface WelcomeMessage {
   port: PortState;
   latch: boolean;
   clients: number;
+  unattended: UnattendedRun | null;
   limits: ServoLimits[];
   lease: LeaseState;
 }
@@ -160,6 +169,15 @@ export interface PortState {
     | null;
   detail: string | null;
   retryInMs: number | null;
+}
+/**
+ * A run that may go on without its driver `by`, for so long at most.
+ */
+export interface UnattendedRun {
+  slot: number;
+  times: number;
+  by: string;
+  endsInMs: number;
 }
 /**
  * Who drives and who asks to, by name; `drives` and `asks`: that is this client. `answerInMs`: how long
@@ -250,6 +268,7 @@ export interface StateMessage {
   port: PortState;
   latch: boolean;
   clients: number;
+  unattended: UnattendedRun | null;
 }
 /**
  * Something of the lease changed.

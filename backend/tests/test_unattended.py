@@ -1,0 +1,156 @@
+"""A run that may go on without its driver: bounded, seen by all, ended by anybody."""
+
+import asyncio
+
+import pytest
+
+from servodeck.callers import Caller
+from servodeck.clients import take
+from servodeck.control import Control
+from servodeck.errors import CancelledError, NotDrivingError, OutOfRangeError
+from servodeck.messages import ContinueMessage, StopMessage
+from tests.client import Client, gateway_on
+from tests.fake_port import FakePort
+from tests.samples import MOVE, RUN, STOP
+from tests.test_motion_api import RUN_ENDED, STOPS, refusal, script
+from tests.virtual_time import in_virtual_time, now
+
+ANNA = Caller("anna", "Anna", "driver")
+BERT = Caller("bert", "Bert", "viewer")
+ENDLESS = bytes.fromhex("55550506080000")
+
+
+async def begin(control: Control, for_ms: int = 60_000) -> Client:
+    """Anna starts a group and lets it go on."""
+    anna = Client(control, ANNA)
+    await anna.send(RUN)
+    take(ContinueMessage(type="continue", for_ms=for_ms), anna, control)
+    return anna
+
+
+async def told(seat: Client) -> object:
+    """The newest word about it."""
+    return next(message["unattended"] for message in reversed(await seat.heard()) if "unattended" in message)
+
+
+@in_virtual_time
+async def test_it_outlives_the_silence_and_the_leaving_of_its_driver_and_everybody_sees_it() -> None:
+    for leaves in (False, True):
+        port = FakePort()
+        async with gateway_on(port) as control:
+            bert = Client(control, BERT)
+            anna = await begin(control)
+            assert await told(bert) == {"slot": 8, "times": 1, "by": "Anna", "endsInMs": 60_000}
+            anna.beats = False
+            if leaves:
+                control.leave(anna)
+            await asyncio.sleep(30)
+            assert control.driving.driver is None
+            assert (port.packets(), control.latch) == ([STOP, RUN], False)
+            late = Client(control, BERT)
+            assert await told(late) == {"slot": 8, "times": 1, "by": "Anna", "endsInMs": 30_000}
+
+
+@in_virtual_time
+async def test_it_ends_when_its_time_is_over_and_nobody_has_to_resume() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        bert = Client(control, BERT)
+        begun_s = now()
+        control.leave(await begin(control))
+        await asyncio.sleep(61)
+        assert port.packets() == [STOP, RUN, *STOPS]
+        assert port.written[2][0] - begun_s == pytest.approx(60, abs=0.1)
+        assert (await told(bert), control.latch) == (None, False)
+
+
+@in_virtual_time
+async def test_anybody_stops_it() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        bert = Client(control, BERT)
+        control.leave(await begin(control))
+        take(StopMessage(type="stop", hold=None), bert, control)
+        await asyncio.sleep(0.5)
+        assert port.packets() == [STOP, RUN, *STOPS]
+        assert (await told(bert), control.latch) == (None, True)
+        await asyncio.sleep(120)
+        assert port.packets() == [STOP, RUN, *STOPS]
+
+
+@in_virtual_time
+async def test_whoever_drives_next_ends_it_first() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        control.leave(await begin(control))
+        carl = Client(control)
+        await carl.send(MOVE)
+        assert port.packets() == [STOP, RUN, *STOPS, MOVE]
+        assert await told(carl) is None
+
+
+@in_virtual_time
+async def test_the_one_who_began_it_may_come_back_to_it_and_take_that_back() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = await begin(control)
+        control.driving.act(anna, "release")
+        control.driving.act(anna, "request")
+        await asyncio.sleep(1)
+        assert port.packets() == [STOP, RUN]
+        take(ContinueMessage(type="continue", for_ms=None), anna, control)
+        assert await told(anna) is None
+        control.leave(anna)
+        await asyncio.sleep(1)
+        assert port.packets() == [STOP, RUN, *STOPS]
+
+
+@in_virtual_time
+async def test_the_boards_word_that_it_ended_and_another_run_end_the_leave_too() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = await begin(control)
+        await asyncio.sleep(1)
+        port.say(RUN_ENDED)
+        await asyncio.sleep(0.1)
+        assert await told(anna) is None
+        again = await begin(control) if control.driving.driver is None else anna
+        await again.send(RUN)
+        take(ContinueMessage(type="continue", for_ms=60_000), again, control)
+        await again.send(RUN)
+        assert await told(again) is None
+        control.leave(again)
+        await asyncio.sleep(1)
+        assert port.packets()[-3:] == STOPS
+
+
+@in_virtual_time
+async def test_only_what_runs_and_has_an_end_may_go_on_and_only_its_driver_says_so() -> None:
+    async with gateway_on() as control:
+        anna, carl = Client(control, ANNA), Client(control)
+        with pytest.raises(NotDrivingError):
+            control.let_go_on(anna, 60_000)
+        await anna.send(MOVE)
+        with pytest.raises(CancelledError):
+            control.let_go_on(anna, 60_000)
+        await anna.send(ENDLESS)
+        with pytest.raises(OutOfRangeError):
+            control.let_go_on(anna, 60_000)
+        await anna.send(RUN)
+        with pytest.raises(NotDrivingError):
+            control.let_go_on(carl, 60_000)
+
+
+@in_virtual_time
+async def test_a_script_says_so_with_the_run_itself() -> None:
+    async with script() as here:
+        assert refusal(await here.post("slots/8/run", times=0, continueForMs=10_000)) == (422, "outOfRange")
+        assert (await here.post("slots/8/run", times=2, continueForMs=10_000)).status_code == 200
+        status = (await here.client.get("/api/status")).json()
+        assert (status["unattended"]["by"], status["driver"]) == ("Dance", "Dance")
+        await asyncio.sleep(8)
+        assert (await here.client.get("/api/status")).json()["driver"] is None
+        assert len(here.sent()) == 1
+        await asyncio.sleep(3)
+        assert here.sent()[1:] == STOPS
+        assert (await here.client.get("/api/status")).json()["unattended"] is None
