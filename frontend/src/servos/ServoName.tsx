@@ -38,9 +38,9 @@ export function ServoName({ servo: own, order }: ServoNameProps) {
     >
       <Dial servo={servo} family={family} />
       <span className={styles.texts}>
-        {name}
-        <span className={styles.joint}>
-          {joint === name ? '' : joint}
+        <span className={styles.joint}>{joint || name}</span>
+        <span className={styles.number}>
+          {joint && joint !== name && name}
           {isReversed && <Icon name="reverse" />}
           {isLocked && <Icon name="lock" />}
         </span>
