@@ -3,8 +3,8 @@
 import type { Level } from '#shared/actions/battery/batteryGauge.ts';
 import type { BatteryKind, BatteryPolicy } from '#shared/actions/robot/robot.ts';
 import {
+  counted,
   formatAge,
-  formatCount,
   formatSeconds,
   formatTick,
   formatTimeOfDay,
@@ -81,7 +81,7 @@ export const batteryWords = {
 
   tab: (volts: string, product: string): string => `Low battery, ${volts} – ${product}`,
   plot: (lowest: string, highest: string, now: string, runs: number): string =>
-    `Volts in this visit: lowest ${lowest}, highest ${highest}, now ${now}; ${formatCount(runs)} ${runs === 1 ? 'run' : 'runs'}`,
+    `Volts in this visit: lowest ${lowest}, highest ${highest}, now ${now}; ${counted(runs, 'run')}`,
   noPlot: 'Volts in this visit: none yet',
   timeOfDay: formatTimeOfDay,
   tick: formatTick,

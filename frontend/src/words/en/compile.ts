@@ -3,6 +3,7 @@
 import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import {
+  counted,
   formatCount,
   formatDegrees,
   formatMs,
@@ -48,8 +49,8 @@ export const compileWords = {
   label: 'On the board',
   error: 'Error up to',
   errorField: 'Largest error allowed on the board',
-  frames: (count: number, limit: number): string => `${formatCount(count)} of ${formatCount(limit)} frames`,
-  bytes: (bytes: number): string => `${formatCount(bytes)} bytes`,
+  frames: (count: number, limit: number): string => `${formatCount(count)} of ${counted(limit, 'frame')}`,
+  bytes: (bytes: number): string => counted(bytes, 'byte'),
   download: (ms: number): string => `${formatSeconds(ms)} to download`,
   exact: 'Exactly as written',
   worst: (units: number, unit: PositionUnit, degrees: number, servo: number, atMs: number): string =>

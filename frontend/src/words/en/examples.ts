@@ -1,7 +1,7 @@
 // Words about groups to begin with, and about recording one by hand.
 
 import type { ExampleId } from '#shared/actions/examples/examples.ts';
-import { formatCount, formatSeconds } from './numbers.ts';
+import { counted, formatCount, formatSeconds } from './numbers.ts';
 
 const names: Readonly<Record<ExampleId, string>> = {
   wave: 'Wave',
@@ -26,7 +26,7 @@ export const exampleWords = {
   intro: 'An example takes the place of the group on this page. Undo brings the group back. Nothing moves.',
   name: (id: ExampleId): string => names[id],
   about: (frameCount: number, durationMs: number): string =>
-    `${formatCount(frameCount)} frames, ${formatSeconds(durationMs)}`,
+    `${counted(frameCount, 'frame')}, ${formatSeconds(durationMs)}`,
   step: (name: string): string => `example ${name}`,
 };
 
@@ -45,7 +45,7 @@ export const recordWords = {
   error: 'Error up to',
   errorField: 'How far the keys may be off what was recorded',
   result: (ms: number, samples: number, keys: number): string =>
-    `${formatSeconds(ms)}; ${formatCount(samples)} positions become ${formatCount(keys)} ${keys === 1 ? 'key' : 'keys'}`,
+    `${formatSeconds(ms)}; ${counted(samples, 'position becomes', 'positions become')} ${counted(keys, 'key')}`,
   replace: 'Make it the group',
   append: 'Add to the end',
   name: (time: string): string => `Take ${time}`,

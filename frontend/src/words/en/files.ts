@@ -6,7 +6,7 @@ import type { Problem, ProblemCode, Remark, RemarkCode } from '#shared/actions/f
 import type { SaveFormat } from '#shared/actions/files/writeGroupFile.ts';
 import { UNIT_RANGE, type Meaning } from '#shared/actions/files/units.ts';
 import type { PositionUnit } from '../numbers.ts';
-import { formatList, formatSeconds, formatWhole, unitSymbol } from './numbers.ts';
+import { counted, formatList, formatSeconds, formatWhole, unitSymbol } from './numbers.ts';
 
 const PROBLEMS: Readonly<Record<ProblemCode, (found: string) => string>> = {
   empty: () => 'The file is empty.',
@@ -111,13 +111,12 @@ export const fileWords = {
   reading: 'Reading',
   refused: (file: string): string => `${file} was not opened.`,
   about: (frames: number, durationMs: number, servos: number): string =>
-    `${formatWhole(frames)} ${frames === 1 ? 'frame' : 'frames'}, ${formatSeconds(durationMs)}, ` +
-    `${formatWhole(servos)} ${servos === 1 ? 'servo' : 'servos'}`,
+    `${counted(frames, 'frame')}, ${formatSeconds(durationMs)}, ` + counted(servos, 'servo'),
   slot: (slot: number): string => `for slot ${formatWhole(slot)}`,
   from: (file: string): string => `From ${file}`,
   take: (name: string): string => `Open ${name}`,
   takeVerb: 'Open',
-  taken: (name: string, frames: number): string => `${name} is open, ${formatWhole(frames)} frames.`,
+  taken: (name: string, frames: number): string => `${name} is open, ${counted(frames, 'frame')}.`,
   step: (name: string): string => `open ${name}`,
   drop: (file: string): string => `Take ${file} off the list`,
 
@@ -126,7 +125,8 @@ export const fileWords = {
   meaning: (unit: PositionUnit, { positions, outside }: Meaning): string => {
     const range = `${span(UNIT_RANGE[unit])} ${unitSymbol(unit)}`;
     if (positions === null) return range;
-    const fit = outside === 0 ? 'all of them fit' : `${formatWhole(outside)} do not fit`;
+    const fit =
+      outside === 0 ? 'all of them fit' : `${formatWhole(outside)} ${outside === 1 ? 'does' : 'do'} not fit`;
     return `${range}. Here ${span(positions)}: ${fit}.`;
   },
   convert: 'Convert to steps: (µs − 500) ÷ 2, rounded',

@@ -3,7 +3,7 @@
 import type { Family } from '#shared/protocol/families.ts';
 import type { ServoOffset } from '#shared/protocol/reports.ts';
 import type { Evidence } from '#shared/session/identity.ts';
-import { formatCount, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
+import { counted, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
 
 export const identityWords = {
   title: { which: 'Which board is this?', changed: 'Another board answers here' },
@@ -65,7 +65,7 @@ function evidenceOf(evidence: Evidence): string {
     case 'echoed':
       return 'Our own question came back.';
     case 'noise':
-      return `${formatCount(evidence.byteCount)} bytes were no packets.`;
+      return `${counted(evidence.byteCount, 'byte was', 'bytes were')} no packets.`;
     case 'answered':
       return answerOf(evidence.report);
   }

@@ -1,6 +1,6 @@
 // Words about whose turn it is to drive a shared robot.
 
-import { formatCount, formatWhole } from './numbers.ts';
+import { counted, formatWhole } from './numbers.ts';
 
 /** The gateway's name for whoever sits at its own computer. */
 const named = (name: string): string => (name === 'This computer' ? 'Another window' : name);
@@ -8,8 +8,7 @@ const named = (name: string): string => (name === 'This computer' ? 'Another win
 export const leaseWords = {
   label: 'Who drives',
   drives: 'You drive',
-  others: (count: number): string =>
-    `${formatCount(count)} ${count === 1 ? 'other looks' : 'others look'} on`,
+  others: (count: number): string => `${counted(count, 'other looks', 'others look')} on`,
   driver: (name: string): string => `${named(name)} drives`,
   nobody: 'Nobody drives',
   nobodyMore: 'Move anything to begin',

@@ -1,10 +1,10 @@
 // Words about the library: where action groups are kept, found again and brought back.
 
 import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
-import { formatCount, formatLongAge, formatNames, formatSeconds, formatWhen } from './numbers.ts';
+import { counted, formatLongAge, formatNames, formatSeconds, formatWhen } from './numbers.ts';
 
-const frames = (count: number): string => `${formatCount(count)} ${count === 1 ? 'frame' : 'frames'}`;
-const groups = (count: number): string => `${formatCount(count)} ${count === 1 ? 'group' : 'groups'}`;
+const frames = (count: number): string => counted(count, 'frame');
+const groups = (count: number): string => counted(count, 'group');
 
 const PROBLEMS: Readonly<Record<LibraryErrorCode, string>> = {
   conflict: 'Somebody else has changed this group meanwhile. Try again.',

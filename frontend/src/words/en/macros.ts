@@ -2,7 +2,7 @@
 
 import type { Colour } from '#shared/actions/colours.ts';
 import type { MacroStep } from '#shared/actions/macros/macro.ts';
-import { formatMs, formatSeconds, formatWhole } from './numbers.ts';
+import { counted, formatMs, formatSeconds, formatWhole } from './numbers.ts';
 import { timesWords } from './packets.ts';
 
 const KIOSK_HOLD_S = 2;
@@ -62,7 +62,7 @@ export const macroWords = {
     if (step.kind === 'slot') return `Slot ${formatWhole(step.slot)}, ${timesWords(step.times)}`;
     return `Wait ${formatSeconds(step.waitMs)}`;
   },
-  stepCount: (count: number): string => `${formatWhole(count)} steps`,
+  stepCount: (count: number): string => counted(count, 'step'),
   atWork: (step: number, count: number): string =>
     `Step ${formatWhole(step)} of ${formatWhole(count)}. Press to end`,
 

@@ -26,3 +26,7 @@ export const {
   formatWhole,
   unitSymbol,
 } = numbers;
+
+/** `1 frame`, `2 frames`. */
+export const counted = (count: number, one: string, more = `${one}s`): string =>
+  `${formatCount(count)} ${count === 1 ? one : more}`;

@@ -4,7 +4,7 @@ import type { Command, CommandKind, ServoTarget } from '#shared/protocol/command
 import type { RawRefusal, RawVerdict } from '#shared/protocol/rawPacket.ts';
 import type { Report } from '#shared/protocol/reports.ts';
 import type { Happening } from '#shared/recording/recording.ts';
-import { formatCount, formatMs, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
+import { counted, formatMs, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
 import { rangeText } from './refusals.ts';
 
 /** Targets named in one line of the log; the bytes beside it have the rest. */
@@ -149,7 +149,7 @@ function refusalWords(reason: RawRefusal, board: string): string {
 }
 
 function bytesWords(count: number): string {
-  return count === 1 ? '1 byte' : `${formatCount(count)} bytes`;
+  return counted(count, 'byte');
 }
 
 export function timesWords(times: number): string {

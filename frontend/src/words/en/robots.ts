@@ -4,7 +4,7 @@ import type { Limb, ReadyRobotId, RobotNames, Role } from '#shared/actions/robot
 import type { NamedLimits, RobotFlaw, ServoFlaw } from '#shared/actions/robot/robot.ts';
 import type { RobotFileFlaw } from '#shared/actions/robot/robotText.ts';
 import type { Range } from '#shared/protocol/families.ts';
-import { formatWhole } from './numbers.ts';
+import { counted, formatWhole } from './numbers.ts';
 
 const READY: Readonly<Record<ReadyRobotId, string>> = {
   arm: 'Arm, 6 servos',
@@ -114,7 +114,7 @@ export const robotWords = {
   title: 'Robots',
   button: (name: string): string => `Robot: ${name}`,
   own: 'Yours',
-  count: (servos: number): string => `${formatWhole(servos)} ${servos === 1 ? 'servo' : 'servos'}`,
+  count: (servos: number): string => counted(servos, 'servo'),
   atHand: 'At hand',
   use: (name: string): string => `Use ${name}`,
   useVerb: 'Use',

@@ -1,6 +1,6 @@
 // Words of the servo panel: units, selecting, moving together, locking and hiding, the picture.
 
-import { formatCount, formatList, formatWhole } from './numbers.ts';
+import { counted, formatCount, formatList, formatWhole } from './numbers.ts';
 
 const servosText = (servos: readonly number[]): string =>
   `${servos.length === 1 ? 'Servo' : 'Servos'} ${formatList(servos)}`;
@@ -44,11 +44,11 @@ export const servoPanelWords = {
   solo: 'Lock all others',
   hide: 'Hide',
   showHidden: (count: number): string => `Show ${formatCount(count)} hidden`,
-  fold: (group: string, count: number): string => `${group}, ${formatCount(count)} servos`,
+  fold: (group: string, count: number): string => `${group}, ${counted(count, 'servo')}`,
   noGroup: 'Others',
   refused: (name: string, value: string, min: string, max: string): string =>
     `${name}: ${value} is out of range; it takes ${min} to ${max}.`,
   sending: (packetsPerSecond: number, waiting: number): string =>
-    `${formatWhole(packetsPerSecond)} packets/s, ${formatWhole(waiting)} waiting`,
+    `${counted(packetsPerSecond, 'packet')}/s, ${formatWhole(waiting)} waiting`,
   sendingHint: 'Packets sent in the last second; servos whose newest target has not left yet',
 };

@@ -2,10 +2,10 @@
 
 import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
 import type { PadButton, SlotTrigger } from '#shared/protocol/slotMeanings.ts';
-import { formatCount, formatNames, formatSeconds, formatWhole } from './numbers.ts';
+import { counted, formatCount, formatNames, formatSeconds, formatWhole } from './numbers.ts';
 
 const slotName = (slot: number): string => `Slot ${formatWhole(slot)}`;
-const frameCount = (count: number): string => `${formatCount(count)} ${count === 1 ? 'frame' : 'frames'}`;
+const frameCount = (count: number): string => counted(count, 'frame');
 
 const buttons: Readonly<Record<PadButton, string>> = {
   ...{ start: 'START', up: 'up', down: 'down', left: 'left', right: 'right' },
@@ -66,7 +66,7 @@ export const slotWords = {
     `Downloaded from here, and can be restored afterwards: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}.`,
   restoreAll: (count: number): string => `Restore all ${formatCount(count)}`,
   restoreHint: 'Downloads again what the last erase took',
-  job: (done: number, count: number): string => `${formatCount(done)} of ${formatCount(count)} groups`,
+  job: (done: number, count: number): string => `${formatCount(done)} of ${counted(count, 'group')}`,
   several: {
     open: 'Download several',
     title: 'Download several groups',
@@ -77,7 +77,7 @@ export const slotWords = {
     slotOf: (name: string): string => `Slot for ${name}`,
     sameSlot: (slot: number): string => `${slotName(slot)} is wanted twice.`,
     total: (count: number, frames: number, downloadMs: number): string =>
-      `${formatCount(count)} ${count === 1 ? 'group' : 'groups'}, ${frameCount(frames)} on the board, about ${formatSeconds(downloadMs)} to download`,
+      `${counted(count, 'group')}, ${frameCount(frames)} on the board, about ${formatSeconds(downloadMs)} to download`,
     none: 'Tick the groups that shall go to the board.',
     download: 'Download these',
     back: 'Back to one slot',

@@ -4,9 +4,9 @@ import type { Colour } from '#shared/actions/colours.ts';
 import type { PasteProblem } from '#shared/actions/group/clip.ts';
 import type { Easing } from '#shared/actions/group/group.ts';
 import { markText, secondsText } from '../instants.ts';
-import { formatCount, formatList, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
+import { counted, formatCount, formatList, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
 
-const keysText = (count: number): string => `${formatCount(count)} ${count === 1 ? 'key' : 'keys'}`;
+const keysText = (count: number): string => counted(count, 'key');
 
 const formatInstant = (atMs: number): string => `${secondsText(atMs)} s`;
 
@@ -99,7 +99,7 @@ export const timelineWords = {
   tallHint: 'Room to turn values by hand',
 
   rows: {
-    fold: (limb: string, count: number): string => `Rows of ${limb}, ${formatCount(count)} servos`,
+    fold: (limb: string, count: number): string => `Rows of ${limb}, ${counted(count, 'servo')}`,
     select: (row: string): string => `Select the keys of ${row}`,
     tools: (row: string): string => `Row of ${row}`,
     menu: 'Row',
