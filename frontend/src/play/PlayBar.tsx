@@ -1,7 +1,6 @@
 // Playing the group: from the page, from where the playhead is, or by the board itself, which gets it first where it has not just
 // this. What goes on is said in a line that is always there.
 
-import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { SPEED_PERCENT, type PlaybackPhase } from '../stores/playback.ts';
 import { useFates } from '../slots/useFates.ts';
 import { motionHindrance, startHindrance } from '../stores/readiness.ts';
@@ -71,15 +70,16 @@ function PlayButton() {
   );
 }
 
-/** From where, as the playhead goes. */
+/** From where, as the playhead goes, or how often. */
 function PlayWords() {
-  const { playback, playhead, document } = useStores();
+  const { playback } = useStores();
+  const loops = usePlayback((state) => state.loops);
   return (
     <LiveText
       text={() => {
-        const atMs = playhead.at();
-        const isWithin = atMs > 0 && atMs < totalDurationMs(document.store.getState().present.frames);
-        return isWithin && !playback.store.getState().loops ? words.play.playFrom(atMs) : words.play.play;
+        const { fromMs, times } = playback.next();
+        if (fromMs !== null) return words.play.playFrom(fromMs);
+        return words.play.play(loops ? 1 : times);
       }}
     />
   );

@@ -94,6 +94,27 @@ describe('playing from the page', () => {
     expect(phase()).toBeNull();
   });
 
+  test('plays as often as the group is run, from within it the rest once', async () => {
+    const { playback, playhead, view, draw, moves, phase } = await deskWith(WAVE);
+    view.setState({ times: 3 });
+    expect(playback.next()).toEqual({ fromMs: null, times: 3 });
+    playback.play();
+    await draw(1500 + 1000 + 2 * 1400 + 2 * 1500 + 200);
+    expect(phase()).toBeNull();
+    expect(moves().filter(({ targets }) => targets[0]?.position === 1600)).toHaveLength(3);
+    playhead.go(600);
+    expect(playback.next()).toEqual({ fromMs: 600, times: 1 });
+    playback.play();
+    await draw(6000);
+    expect(moves().filter(({ targets }) => targets[0]?.position === 1600)).toHaveLength(4);
+
+    view.setState({ untilStopped: true });
+    playback.play();
+    await draw(20_000);
+    expect(phase()).toBe('playing');
+    playback.pause();
+  });
+
   test('sends what compile says: an eased way is as near as the bound', async () => {
     const group = groupOf(frame(400, 1000), frame(1200, 2000, { easing: 'inOut' }));
     const { playback, draw, transport, compiled, clock, heard } = await deskWith(group);

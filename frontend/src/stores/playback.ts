@@ -13,6 +13,7 @@ import { words } from '../words/words.ts';
 import { obstacles, type CompiledGroup, type CompiledStore } from './compiled.ts';
 import type { Device } from './device.ts';
 import type { Document } from './document.ts';
+import { chosenPlace } from './groupPlace.ts';
 import { createFollower, type FollowedPose } from './follower.ts';
 import type { Notices } from './notices.ts';
 import { startHindrance } from './readiness.ts';
@@ -40,9 +41,17 @@ export interface Playhead {
   range(): { readonly fromMs: number; readonly toMs: number } | null;
 }
 
+/** `fromMs` null: from the beginning; `times` 0: until stopped. */
+export interface NextPlay {
+  readonly fromMs: number | null;
+  readonly times: number;
+}
+
 export interface Playback {
   readonly store: StoreApi<PlaybackState>;
   set(change: Partial<Pick<PlaybackState, 'speedPercent' | 'loops' | 'isLive'>>): void;
+  /** What playing would do now. */
+  next(): NextPlay;
   play(): void;
   /** Plays, or pauses what plays. */
   toggle(): void;
@@ -128,13 +137,10 @@ export function createPlayback(options: PlaybackOptions): Playback {
   }
 
   function passageNow({ frames, source }: CompiledGroup): Passage {
-    const { speedPercent, loops } = store.getState();
+    const { speedPercent } = store.getState();
     const range = playhead.range();
-    const at = playhead.at();
-    const begin = range?.fromMs ?? 0;
-    const isWithin = at > begin && at < (range?.toMs ?? Infinity);
     return passageOf(frames.map(heard), {
-      fromMs: isWithin && !loops ? at : begin,
+      fromMs: within() ?? range?.fromMs ?? 0,
       toMs: range?.toMs ?? null,
       longestMs: source.family.durationMs.max,
       speedPercent,
@@ -142,6 +148,21 @@ export function createPlayback(options: PlaybackOptions): Playback {
         .map(({ servo }) => servo)
         .filter((servo) => device.motion(servo).estimated === null),
     });
+  }
+
+  /** Where the playhead is within what is meant; null: it begins at the beginning, as a loop always does. */
+  function within(): number | null {
+    const range = playhead.range();
+    const at = playhead.at();
+    const endMs = range?.toMs ?? totalDurationMs(document.store.getState().present.frames);
+    const isWithin = at > (range?.fromMs ?? 0) && at < endMs && !store.getState().loops;
+    return isWithin ? at : null;
+  }
+
+  /** As often as the group is run on its board; from within it, the rest once. 0: until stopped. */
+  function passes(): number {
+    if (store.getState().loops) return 0;
+    return within() === null ? chosenPlace(view.getState()).times : 1;
   }
 
   /** Rows that are muted, or beside those that play alone, are not sent. */
@@ -158,7 +179,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
     const passage = passageNow(group);
     following = { passage, index: 0, beganMs: clock.now(), isLead: true };
     phase('leading');
-    device.play(passage.frames, store.getState().loops ? 0 : 1, (isDone) => {
+    device.play(passage.frames, passes(), (isDone) => {
       if (isDone) playhead.go(passage.atMs.at(-1) ?? 0);
       following = null;
       phase(null);
@@ -258,6 +279,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
 
   return {
     store,
+    next: () => ({ fromMs: within(), times: passes() }),
     set(change) {
       if (change.isLive === true) follower.begin();
       store.setState(change);

@@ -1,10 +1,11 @@
 // Words about playing the group, from the page and on the board.
 
 import { formatNames, formatPercent, formatSeconds, formatWhole } from './numbers.ts';
+import { timesWords } from './packets.ts';
 
 export const playWords = {
   tools: 'Play the group',
-  play: 'Play',
+  play: (times: number): string => (times === 1 ? 'Play' : `Play ${timesWords(times)}`),
   playFrom: (atMs: number): string => `Play from ${formatSeconds(atMs)}`,
   pause: 'Pause',
   end: 'End',

@@ -2,10 +2,11 @@
 
 import type { playWords as english } from '../en/play.ts';
 import { formatNames, formatPercent, formatSeconds, formatWhole } from './numbers.ts';
+import { timesWords } from './packets.ts';
 
 export const playWords: typeof english = {
   tools: '播放动作组',
-  play: '播放',
+  play: (times) => (times === 1 ? '播放' : `播放，${timesWords(times)}`),
   playFrom: (atMs) => `从${formatSeconds(atMs)}播放`,
   pause: '暂停',
   end: '结束',
