@@ -155,6 +155,10 @@ function changeableAtCursor(desk: Desk) {
 
 const scaleAtCursor = (desk: Desk): Scale => scaleAt(desk, changeableAtCursor(desk)?.servo ?? 0);
 
+/** A number below zero is a position of all of the selected keys, as they are shown. */
+export const mayBeNegative = (desk: Desk): boolean =>
+  changeable(desk).length > 0 && commonRange(desk).min < 0;
+
 /** What all of the selected servos can do, as it is shown. */
 function commonRange(desk: Desk): Range {
   const scales = changeable(desk).map(({ servo }) => scaleAt(desk, servo));

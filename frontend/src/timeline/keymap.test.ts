@@ -22,6 +22,26 @@ test('a typed number opens the field of the selected keys, with its first digit'
   expect(stores.timeline.getState()).toMatchObject({ asks: 'value', typed: '7' });
 });
 
+test('a minus begins a number where one can be below zero, and zooms elsewhere', async () => {
+  const { key, select, stores } = await createTimelineDesk();
+  const state = () => stores.timeline.getState();
+  const zoomedOut = (press: string): boolean => {
+    const { msPerPx } = state().time;
+    key(press);
+    return state().time.msPerPx > msPerPx;
+  };
+  expect(zoomedOut('-')).toBe(true);
+  select([2, 1]);
+  expect(zoomedOut('-')).toBe(true);
+  stores.view.setState({ positionsIn: 'degrees' });
+  expect(zoomedOut('-')).toBe(false);
+  expect(state()).toMatchObject({ asks: 'value', typed: '-' });
+  stores.timeline.setState({ asks: null, typed: '' });
+  expect(zoomedOut('_')).toBe(true);
+  select();
+  expect(zoomedOut('-')).toBe(true);
+});
+
 describe('arrows', () => {
   test('with nothing selected go from key to key and change nothing', async () => {
     const { key, stores, steps, selected } = await createTimelineDesk();

@@ -1,6 +1,7 @@
 // What each key does while the timeline has the focus. Escape is not among them: it is STOP everywhere. Copy, cut and paste come
 // as events of their own, because only those may touch the clipboard of the system.
 
+import { mayBeNegative } from './asks.ts';
 import type { Desk } from './desk.ts';
 import { lookAt, toggleAtCursor, walk, selectRow } from './looking.ts';
 import { nudge } from './moving.ts';
@@ -45,6 +46,9 @@ const typing =
     if (state.selected.size > 0) stores.timeline.setState({ asks: 'value', typed });
   };
 
+/** It begins a number where the selected keys can be below zero; elsewhere nothing but zooming can be meant. */
+const minus: KeyAction = (desk) => (mayBeNegative(desk) ? typing('-')(desk) : VERBS.zoomOut.run(desk));
+
 const ACTIONS: ReadonlyMap<string, KeyAction> = new Map<string, KeyAction>([
   ...ARROWS.flatMap((one): [string, KeyAction][] => [
     [one.key, arrow(one, 1)],
@@ -59,9 +63,12 @@ const ACTIONS: ReadonlyMap<string, KeyAction> = new Map<string, KeyAction>([
   ['End', (desk) => lookAt(desk, desk.times.lengthMs)],
   ['Backspace', VERBS.remove.run],
   ['=', VERBS.zoomIn.run],
+  // The same key with Shift, which no number begins with.
+  ['_', VERBS.zoomOut.run],
   ...Object.values(VERBS)
     .filter(({ keys }) => !OF_CLIPBOARD.includes(keys))
     .map((verb): [string, KeyAction] => [verb.keys, (desk) => mayRun(desk, verb) && verb.run(desk)]),
+  ['-', minus],
 ]);
 
 export const actionOf = (pressed: Pressed): KeyAction | undefined => ACTIONS.get(chordOf(pressed));
