@@ -57,3 +57,24 @@ test('all of the group stays in sight until one looks closer', async () => {
   );
   expect(stores.timeline.getState().time.msPerPx).toBeGreaterThan(time.msPerPx);
 });
+
+test('a playhead that moves out of sight is followed a page at a time, unless one has looked away', async () => {
+  const { stores } = await createTimelineDesk();
+  keepInStep(stores);
+  const { timeline } = stores;
+  const xOfPlayhead = (): number => {
+    const { time, playheadMs } = timeline.getState();
+    return (playheadMs - time.fromMs) / time.msPerPx;
+  };
+  timeline.setState({ time: { fromMs: 0, msPerPx: 1 }, playheadMs: 790, followsGroup: false });
+  timeline.setState({ playheadMs: 799 });
+  expect(xOfPlayhead()).toBe(799);
+  timeline.setState({ playheadMs: 816 });
+  expect(xOfPlayhead()).toBe(24);
+  timeline.setState({ playheadMs: 0 });
+  expect(xOfPlayhead()).toBe(24);
+
+  timeline.setState({ time: { fromMs: 1000, msPerPx: 1 } });
+  timeline.setState({ playheadMs: 16 });
+  expect(timeline.getState().time.fromMs).toBe(1000);
+});

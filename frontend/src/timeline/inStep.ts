@@ -1,11 +1,13 @@
 // Keeps the timeline in step with the rest of the page: what is gone from the group is no longer selected, a frame that was
-// selected elsewhere is selected here, and all of the group stays in sight until the person looks closer.
+// selected elsewhere is selected here, all of the group stays in sight until the person looks closer, and so does the
+// playhead.
 
 import { deskOf, type DeskStores } from './desk.ts';
-import { endOfFrame, timesOf } from './groupTimes.ts';
+import { endOfFrame, selectedKeys, timesOf } from './groupTimes.ts';
 import { fitAll, lookAt, selectFrame } from './looking.ts';
+import { paged, xOf } from './timeScale.ts';
+import type { TimelineState } from '../stores/timeline.ts';
 import { keyName, refsOf, type KeySet } from '../stores/keySet.ts';
-import { selectedKeys } from './groupTimes.ts';
 
 export function keepInStep(stores: DeskStores): () => void {
   const { document, view, timeline } = stores;
@@ -19,8 +21,9 @@ export function keepInStep(stores: DeskStores): () => void {
     view.subscribe(({ selectedFrame }, before) => {
       if (selectedFrame !== before.selectedFrame) takeUpFrame(stores);
     }),
-    timeline.subscribe(({ widthPx, followsGroup }, before) => {
+    timeline.subscribe(({ widthPx, followsGroup, playheadMs }, before) => {
       if (widthPx !== before.widthPx && followsGroup) fitAll(deskOf(stores));
+      if (playheadMs !== before.playheadMs) followPlayhead(stores, before);
     }),
   ];
   takeUpFrame(stores);
@@ -34,6 +37,15 @@ function forgetGone({ document, timeline }: DeskStores): void {
   const { selected } = timeline.getState();
   const left = selectedKeys(timesOf(document.store.getState().present), selected);
   if (left.length < selected.size) timeline.setState({ selected: new Set(left.map(keyName)) });
+}
+
+/** While it is played, a page at a time; whoever has looked away from it meanwhile is left alone. */
+function followPlayhead({ timeline }: DeskStores, before: TimelineState): void {
+  const { time, widthPx, playheadMs } = timeline.getState();
+  const x = xOf(before.time, before.playheadMs);
+  if (time !== before.time || x < 0 || x > widthPx) return;
+  const seen = paged(time, playheadMs, widthPx);
+  if (seen !== time) timeline.setState({ time: seen });
 }
 
 /** A frame is chosen somewhere else: all of its keys are selected, and its pose is looked at. Null: nothing is. */

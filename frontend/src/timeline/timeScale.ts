@@ -50,6 +50,12 @@ export function showing(view: TimeView, atMs: number, widthPx: number): TimeView
   return x > widthPx - MARGIN_PX ? panned(view, x - widthPx + MARGIN_PX) : view;
 }
 
+/** A page on, or back to where something begins anew: for what leaves the sight by itself. */
+export function paged(view: TimeView, atMs: number, widthPx: number): TimeView {
+  const x = xOf(view, atMs);
+  return x < 0 || x > widthPx ? panned(view, x - MARGIN_PX) : view;
+}
+
 /** Two fingers: what was under them stays under them. */
 export function pinched(
   view: TimeView,
