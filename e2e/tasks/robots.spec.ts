@@ -117,6 +117,12 @@ test('a figure that cannot be is kept in its field and says why; the others are 
   await page.keyboard.press('ControlOrMeta+z');
   await expect(place).toHaveAttribute('aria-label', before ?? '');
 
+  const drawn = robots.dialog.getByRole('combobox', { name: 'Drawn as' });
+  await drawn.selectOption('Plain, dials only');
+  await robots.button('Undo: Drawn as').click();
+  await expect(drawn.getByRole('option', { selected: true })).toHaveText('Arm');
+  await drawn.selectOption('Plain, dials only');
+
   await robots.button('Remove Base').click();
   await expect(robots.row('Servo 6, Base')).toBeHidden();
   await robots.button('Add servo').click();

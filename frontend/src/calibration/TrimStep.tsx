@@ -1,7 +1,7 @@
 // Gives home the figure that it has on every robot of this build, and the trim what it is off by.
 
 import { changeServo, homeAtCentre } from '#shared/actions/robot/robotEdits.ts';
-import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
+import { TRIM, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
@@ -31,5 +31,7 @@ export function TrimStep({ at: { robot, servo, accept, keep } }: { readonly at: 
 function sentence({ board }: Robot, { home }: RobotServo, change: Partial<RobotServo> | null): string {
   const { centre } = FAMILIES[board];
   if (home === centre) return words.calibration.trimNone;
-  return change === null ? words.calibration.trimFar : words.calibration.trim(home, centre, change.trim ?? 0);
+  return change === null
+    ? words.calibration.trimFar(home, centre, TRIM.max)
+    : words.calibration.trim(home, centre, change.trim ?? 0);
 }

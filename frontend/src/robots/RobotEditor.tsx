@@ -1,11 +1,12 @@
-// The description of the robot at hand: its name, what feeds it, its servos.
+// The description of the robot at hand: its name, what it looks like, what feeds it, its servos.
 
 import { fedBy } from '#shared/actions/battery/batterySupply.ts';
-import { BATTERY_KINDS, NAME_LENGTH, type BatteryKind } from '#shared/actions/robot/robot.ts';
+import { BATTERY_KINDS, BODIES, NAME_LENGTH } from '#shared/actions/robot/robot.ts';
 import { addServo } from '#shared/actions/robot/robotEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
+import { Select } from '../ui/Select.tsx';
 import { words } from '../words/words.ts';
 import { CellField } from './CellField.tsx';
 import { PlaceEditor } from './PlaceEditor.tsx';
@@ -41,31 +42,58 @@ export function RobotEditor() {
             onTake={rename}
           />
         </label>
-        <label>
-          <span>{words.robotEditor.battery}</span>
-          <select
-            className={styles.select}
-            value={robot.battery}
-            onChange={({ target: { value } }) =>
-              robots.edit(
-                () => words.robotEditor.battery,
-                (all) => fedBy(all, value as BatteryKind),
-              )
-            }
-          >
-            {BATTERY_KINDS.map((kind) => (
-              <option key={kind} value={kind}>
-                {words.robotEditor.batteries[kind]}
-              </option>
-            ))}
-          </select>
-        </label>
+        <Kind
+          label={words.robotEditor.body}
+          value={robot.body}
+          kinds={BODIES}
+          names={words.robotEditor.bodies}
+          onChange={(body) =>
+            robots.edit(
+              () => words.robotEditor.body,
+              (all) => ({ ...all, body }),
+            )
+          }
+        />
+        <Kind
+          label={words.robotEditor.battery}
+          value={robot.battery}
+          kinds={BATTERY_KINDS}
+          names={words.robotEditor.batteries}
+          onChange={(kind) =>
+            robots.edit(
+              () => words.robotEditor.battery,
+              (all) => fedBy(all, kind),
+            )
+          }
+        />
         <p className={styles.dim}>{words.robotEditor.board(words.boardName(FAMILIES[robot.board]))}</p>
       </div>
       <ServoTable />
       <AddServo />
       <PlaceEditor />
     </>
+  );
+}
+
+interface KindProps<Value extends string> {
+  readonly label: string;
+  readonly value: Value;
+  readonly kinds: readonly Value[];
+  readonly names: Readonly<Record<Value, string>>;
+  onChange(kind: Value): void;
+}
+
+function Kind<Value extends string>({ label, value, kinds, names, onChange }: KindProps<Value>) {
+  return (
+    <label>
+      <span>{label}</span>
+      <Select
+        label={label}
+        value={value}
+        options={kinds.map((kind) => ({ value: kind, label: names[kind] }))}
+        onChange={onChange}
+      />
+    </label>
   );
 }
 

@@ -1,13 +1,13 @@
 // Words of the calibration: what to do with a servo at each step, and what each button sets.
 
 import type { CalibrationStep } from '#shared/actions/robot/robotCalibration.ts';
-import { formatPosition, formatWhole, unitSymbol } from './numbers.ts';
+import { counted, formatPosition, formatWhole, unitSymbol } from './numbers.ts';
 import type { PositionUnit } from '../numbers.ts';
 
 export const calibrationWords = {
   servos: 'Servos to calibrate',
   servo: (name: string, done: number, all: number): string =>
-    `${name}, ${formatWhole(done)} of ${formatWhole(all)} steps done`,
+    `${name}, ${formatWhole(done)} of ${counted(all, 'step')} done`,
   steps: 'Steps of this servo',
   stepNames: {
     min: 'Lowest',
@@ -56,8 +56,8 @@ export const calibrationWords = {
   trim: (home: number, centre: number, trim: number): string =>
     `Home stands at ${formatWhole(home)}. With a trim of ${formatWhole(trim)} it is called ${formatWhole(centre)}, so that poses fit other robots of this build. Nothing moves.`,
   trimNone: 'Home is the middle of what the board can do. No trim is needed.',
-  trimFar:
-    'Home is too far from the middle for a trim. Poses work all the same; to mend it, seat the horn one tooth further.',
+  trimFar: (home: number, centre: number, reach: number): string =>
+    `Home stands at ${formatWhole(home)}; a trim goes ${formatWhole(reach)} to either side of ${formatWhole(centre)}, farther than half a tooth of the horn. To mend it, seat the horn one tooth further. Poses work all the same.`,
   trimSet: (centre: number): string => `Call it ${formatWhole(centre)}`,
   goOn: 'Go on',
   finished: 'Every servo is calibrated.',

@@ -6,6 +6,8 @@ import type { PositionUnit } from '../numbers.ts';
 export const robotEditorWords = {
   name: 'Name of the robot',
   board: (name: string): string => `For ${name}`,
+  body: 'Drawn as',
+  bodies: { arm: 'Arm', hand: 'Hand', humanoid: 'Humanoid', hexapod: 'Hexapod', plain: 'Plain, dials only' },
   battery: 'Fed by',
   batteries: { adapter: 'Mains adapter or USB', '2s': 'Battery, 2 cells', '3s': 'Battery, 3 cells' },
   servos: 'Servos of the robot',

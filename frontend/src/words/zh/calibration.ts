@@ -53,7 +53,8 @@ export const calibrationWords: typeof english = {
   trim: (home, centre, trim) =>
     `初始位在 ${formatWhole(home)}。微调设为 ${formatWhole(trim)} 后，它记作 ${formatWhole(centre)}，姿态就能用在同样结构的其他机器人上。机器人不会动。`,
   trimNone: '初始位就是控制板范围的中间，不需要微调。',
-  trimFar: '初始位离中间太远，无法微调。姿态照样能用；要改善，请把舵盘换一个齿装上。',
+  trimFar: (home, centre, reach) =>
+    `初始位在 ${formatWhole(home)}；微调最多到 ${formatWhole(centre)} 两侧各 ${formatWhole(reach)}，已超过舵盘半个齿。要改善，请把舵盘换一个齿装上。姿态照样能用。`,
   trimSet: (centre) => `记作 ${formatWhole(centre)}`,
   goOn: '下一步',
   finished: '所有舵机都已校准。',

@@ -6,6 +6,8 @@ import { formatWhole, unitSymbol } from './numbers.ts';
 export const robotEditorWords: typeof english = {
   name: '机器人的名字',
   board: (name) => `用于${name}`,
+  body: '画成',
+  bodies: { arm: '机械臂', hand: '机械手', humanoid: '人形', hexapod: '六足', plain: '通用，只画表盘' },
   battery: '供电',
   batteries: { adapter: '电源适配器或 USB', '2s': '电池，2节', '3s': '电池，3节' },
   servos: '机器人的舵机',

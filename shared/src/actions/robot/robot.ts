@@ -20,7 +20,7 @@ export const BATTERY_POLICIES = ['tell', 'refuse', 'rest'] as const;
 export type BatteryPolicy = (typeof BATTERY_POLICIES)[number];
 
 export const NAME_LENGTH = 64;
-/** As far as any board's own trim goes (L14). */
+/** As far as any board's own trim goes (L14); with the next tooth of a horn at 160 µs or 60 steps, more is never needed. */
 export const TRIM: Range = { min: -125, max: 125 };
 /** From a USB port to a pack of three full cells. */
 export const BATTERY_MV: Range = { min: 4000, max: 13_000 };
