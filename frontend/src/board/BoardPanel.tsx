@@ -1,7 +1,8 @@
 // What lives on the board: slots, downloading to one, running one, erasing all. Boards cannot be read, so a slot is known
 // only as far as this page filled it.
 
-import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { obstacles } from '../stores/compiled.ts';
+import { useCompiled, useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { SlotsControl } from '../slots/SlotsControl.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
@@ -23,6 +24,7 @@ export function BoardPanel() {
   return (
     <Panel
       title={words.board.title}
+      note={<AtAGlance />}
       tools={
         <>
           <SlotsControl />
@@ -50,13 +52,32 @@ export function BoardPanel() {
   );
 }
 
+/** What stands below in full, for a window in which only the head of this panel is in sight. */
+function AtAGlance() {
+  const slot = useView((state) => state.slot);
+  const fate = useFate(slot);
+  const { frames, report } = useCompiled((state) => state.latest);
+  const fits = obstacles(report, 'board').length === 0;
+  return (
+    <span className={styles.glance} aria-hidden="true">
+      <Chip truth={FATE_TRUTH[fate]}>{words.board.glance(slot, words.board.slotBadge[fate])}</Chip>
+      {frames.length > 0 && (
+        <Chip truth={fits ? 'confirmed' : 'danger'}>{fits ? words.compile.fits : words.compile.fitsNot}</Chip>
+      )}
+    </span>
+  );
+}
+
+const useFate = (slot: number): keyof typeof FATE_TRUTH =>
+  useSnapshot(({ brokenSlots, storedSlots }) =>
+    brokenSlots.includes(slot) ? 'broken' : storedSlots.includes(slot) ? 'stored' : 'unknown',
+  );
+
 function SlotControl() {
   const { view, notices } = useStores();
   const slot = useView((state) => state.slot);
   const { min, max } = useDevice((state) => state.family.slot);
-  const fate = useSnapshot(({ brokenSlots, storedSlots }) =>
-    brokenSlots.includes(slot) ? 'broken' : storedSlots.includes(slot) ? 'stored' : 'unknown',
-  );
+  const fate = useFate(slot);
   return (
     <div className={styles.row}>
       <div className={styles.field}>

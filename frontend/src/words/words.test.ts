@@ -19,6 +19,18 @@ function plainTexts(value: unknown, path: string): [string, string][] {
   return Object.entries(value).flatMap(([key, inner]) => plainTexts(inner, `${path}.${key}`));
 }
 
+/** What every function of the catalogue makes of ones alone; those that take something else are left out. */
+function saidOfOne(value: unknown): string[] {
+  if (typeof value === 'object' && value !== null) return Object.values(value).flatMap(saidOfOne);
+  if (typeof value !== 'function') return [];
+  try {
+    const said: unknown = (value as (...ones: number[]) => unknown)(1, 1, 1, 1, 1, 1);
+    return typeof said === 'string' ? [said] : [];
+  } catch {
+    return [];
+  }
+}
+
 describe('the words', () => {
   const texts = plainTexts(english, 'words');
 
@@ -57,6 +69,14 @@ describe('the words', () => {
       );
     });
     expect(unused).toEqual([]);
+  });
+
+  test('one of a thing is never called many', () => {
+    const oneOfMany =
+      /(^|[^\d.,])1 (bytes|frames|groups|keys|lines|others|packets|positions|runs|servos|slots|steps)\b/u;
+    const said = saidOfOne(english);
+    expect(said.length).toBeGreaterThan(100);
+    expect(said.filter((text) => oneOfMany.test(text))).toEqual([]);
   });
 
   test('no panel writes a sentence of its own', () => {

@@ -4,6 +4,7 @@
 import type { Family } from '#shared/protocol/families.ts';
 import type { LinkState } from '#shared/session/state.ts';
 import {
+  counted,
   formatAge,
   formatCount,
   formatList,
@@ -259,8 +260,7 @@ export const english = {
     redo: 'Redo',
     undoStep: (label: string): string => `Undo: ${label}`,
     redoStep: (label: string): string => `Redo: ${label}`,
-    total: (count: number, ms: number): string =>
-      `${formatCount(count)} ${count === 1 ? 'frame' : 'frames'}, ${formatSeconds(ms)}`,
+    total: (count: number, ms: number): string => `${counted(count, 'frame')}, ${formatSeconds(ms)}`,
     steps: {
       capture: 'capture a frame',
       update: (number: number): string => `update frame ${formatWhole(number)}`,
@@ -292,16 +292,17 @@ export const english = {
       stored: 'Holds what was downloaded here.',
       unknown: 'What it holds is unknown; boards cannot be read.',
     },
+    glance: (slot: number, badge: string): string => `Slot ${formatWhole(slot)}: ${badge}`,
     slotBadge: { broken: 'Broken', stored: 'Stored', unknown: 'Unknown' },
     download: 'Download',
     downloadHint: (count: number, slot: number): string =>
-      `${formatCount(count)} ${count === 1 ? 'frame' : 'frames'} to slot ${formatWhole(slot)}`,
+      `${counted(count, 'frame')} to slot ${formatWhole(slot)}`,
     nothingToDownload: 'Capture a frame first.',
     cancelDownload: 'Cancel',
     progress: 'Download progress',
     progressText: (stored: number, count: number): string =>
-      `${formatCount(stored)} of ${formatCount(count)} frames`,
-    bytes: (sent: number, total: number): string => `${formatCount(sent)} of ${formatCount(total)} bytes`,
+      `${formatCount(stored)} of ${counted(count, 'frame')}`,
+    bytes: (sent: number, total: number): string => `${formatCount(sent)} of ${counted(total, 'byte')}`,
     left: (ms: number): string => `${formatSeconds(ms)} left`,
     times: 'Times',
     untilStopped: 'Until stopped',
@@ -314,7 +315,7 @@ export const english = {
     erase: 'Erase everything',
     eraseTitle: 'Erase every slot of the board?',
     eraseText: (slots: number): string =>
-      `All ${formatCount(slots)} slots are emptied, with the groups the maker put there. The board cannot be read, so what was not downloaded from this page cannot be brought back. Your frames on this page stay.`,
+      `All ${counted(slots, 'slot')} are emptied, with the groups the maker put there. The board cannot be read, so what was not downloaded from this page cannot be brought back. Your frames on this page stay.`,
     eraseConfirm: 'Erase every slot',
     eraseKeep: 'Keep them',
     erased: 'Every slot is empty.',
@@ -369,8 +370,8 @@ export const english = {
     searchHint: 'Words or hex',
     counted: (passed: number, hidden: number): string =>
       hidden === 0
-        ? `${formatCount(passed)} ${passed === 1 ? 'line' : 'lines'}`
-        : `${formatCount(passed)} of ${formatCount(passed + hidden)} lines`,
+        ? counted(passed, 'line')
+        : `${formatCount(passed)} of ${counted(passed + hidden, 'line')}`,
     nothingFound: 'No line is like that',
     sent: 'Sent',
     received: 'Received',

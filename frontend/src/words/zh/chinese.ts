@@ -277,6 +277,7 @@ export const chinese: Words = {
       stored: '存有从这里下载的内容。',
       unknown: '里面有什么未知；控制板不能读取。',
     },
+    glance: (slot, badge) => `槽位${formatWhole(slot)}：${badge}`,
     slotBadge: { broken: '已损坏', stored: '已存', unknown: '未知' },
     download: '下载',
     downloadHint: (count, slot) => `${formatCount(count)}帧到槽位${formatWhole(slot)}`,
