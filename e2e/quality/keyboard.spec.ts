@@ -2,16 +2,18 @@
 
 import type { Locator, Page } from '@playwright/test';
 import { dashboardOf } from '../fixtures/dashboard.ts';
+import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import { expect, test } from '../fixtures/test.ts';
+import { timelineOf } from '../fixtures/timeline.ts';
 
 /** More than there are stops on the page. */
 const MOST_TABS = 80;
 
 /** Presses Tab until `wanted` has the focus. */
-async function tabTo(page: Page, wanted: Locator): Promise<void> {
+async function tabTo(page: Page, wanted: Locator, key: 'Tab' | 'Shift+Tab' = 'Tab'): Promise<void> {
   for (let presses = 0; presses < MOST_TABS; presses += 1) {
     if (await holdsFocus(wanted)) return;
-    await page.keyboard.press('Tab');
+    await page.keyboard.press(key);
   }
   throw new Error(`Tab does not lead to ${String(wanted)}`);
 }
@@ -67,4 +69,68 @@ test('a dialog shares the focus with STOP alone, and gives it back', async ({ pa
   }
   await dashboard.connectDialog.getByRole('button', { name: 'Close' }).press('Enter');
   await expect(dashboard.button('Connect')).toBeFocused();
+});
+
+/** Opens by key, leaves by key; what opened it has the focus again. */
+async function throughDialog(page: Page, opener: Locator, name: string, within: () => Promise<void>) {
+  const dialog = page.getByRole('dialog', { name });
+  await tabTo(page, opener);
+  await page.keyboard.press('Enter');
+  await expect(dialog).toBeVisible();
+  await expect.poll(() => holdsFocus(dialog)).toBe(true);
+  await within();
+  await tabTo(page, dialog.getByRole('button', { name: 'Close', exact: true }));
+  await page.keyboard.press('Enter');
+  await expect(dialog).toBeHidden();
+  await expect(opener).toBeFocused();
+}
+
+test('robots, library, files, keys over time, slots and poses need no mouse', async ({ page, servers }) => {
+  // Each press of Tab is one of a person, and there are many of them.
+  test.slow();
+  const dashboard = dashboardOf(page);
+  const { keyboard } = page;
+  const radio = (name: string): Locator => page.getByRole('radio', { name, exact: true });
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.link).toHaveText(/Ready/);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
+
+  const robots = robotDialogOf(dashboard);
+  await throughDialog(page, robots.opener, 'Robots', async () => {
+    await tabTo(page, robots.button('Calibrate'));
+    await keyboard.press('Enter');
+    await tabTo(page, robots.creep('higher'));
+    await keyboard.down(' ');
+    await expect(robots.now).toContainText(/15[1-9]\d|1[6-9]\d\d/);
+    await keyboard.up(' ');
+  });
+  await throughDialog(page, dashboard.button('Library'), 'Library', async () => {
+    await keyboard.press('Tab');
+  });
+  await throughDialog(page, dashboard.button('Files'), 'Files', async () => {
+    await expect(page.getByRole('dialog')).toContainText('There are no frames to save yet.');
+  });
+  await tabTo(page, dashboard.capture);
+  await keyboard.press('Enter');
+  await keyboard.press('Enter');
+  await expect(dashboard.frames).toHaveCount(2);
+  await throughDialog(page, dashboard.button('Slots'), 'Slots of the board', async () => {
+    const map = page.getByRole('listbox', { name: 'Map of the slots' });
+    await tabTo(page, map);
+    await keyboard.press('ArrowRight');
+    await expect(map.getByRole('option', { selected: true })).toHaveAccessibleName(/^Slot 1:/);
+  });
+  const timeline = timelineOf(page);
+  await tabTo(page, timeline.grid, 'Shift+Tab');
+  await keyboard.press('Control+ArrowDown');
+  await keyboard.type('1720');
+  await keyboard.press('Enter');
+  await expect(timeline.selected).toHaveAccessibleName(/1720 µs/);
+  await expect(timeline.grid).toBeFocused();
+  await tabTo(page, radio('Action group'), 'Shift+Tab');
+  await keyboard.press('ArrowRight');
+  await expect(radio('Poses')).toBeChecked();
+  await tabTo(page, dashboard.button('Capture pose'));
+  await keyboard.press('Enter');
+  await expect(page.getByRole('button', { name: /^Go to Pose/ })).toHaveCount(1);
 });

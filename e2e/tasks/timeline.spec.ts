@@ -2,6 +2,7 @@
 
 import { ofKind } from '../fixtures/bus.ts';
 import { dashboardOf } from '../fixtures/dashboard.ts';
+import { fingersOf } from '../fixtures/fingers.ts';
 import { expect, test } from '../fixtures/test.ts';
 import { keepGroup, timelineOf } from '../fixtures/timeline.ts';
 
@@ -212,12 +213,7 @@ test.describe('with fingers', () => {
     const name = 'Gripper, 1.00 s, 1200 µs, linear';
     await timeline.key(name).scrollIntoViewIfNeeded();
     const at = await timeline.middleOf(timeline.key(name));
-    const fingers = await page.context().newCDPSession(page);
-    const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...points: { x: number; y: number }[]) =>
-      fingers.send('Input.dispatchTouchEvent', {
-        type,
-        touchPoints: points.map((point, id) => ({ ...point, id })),
-      });
+    const { touch } = await fingersOf(page);
     await touch('touchStart', at, { x: at.x + 40, y: at.y });
     await touch('touchMove', { x: at.x - 40, y: at.y }, { x: at.x + 120, y: at.y });
     await touch('touchEnd');

@@ -1,0 +1,105 @@
+// The main job with fingers alone, on a phone: nothing moves that a scroll brushes, and STOP is under the thumb at all times.
+
+import type { Locator, Page } from '@playwright/test';
+import { dashboardOf } from '../fixtures/dashboard.ts';
+import { fingersOf, type Point } from '../fixtures/fingers.ts';
+import { robotDialogOf } from '../fixtures/robotDialog.ts';
+import { expect, test } from '../fixtures/test.ts';
+
+test.use({ hasTouch: true, isMobile: true, viewport: { width: 390, height: 844 } });
+
+async function middleOf(place: Locator): Promise<Point> {
+  const box = (await place.boundingBox())!;
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+}
+
+/** Whatever is open: a finger where STOP is drawn meets STOP. */
+async function expectStopInReach(page: Page, state: string): Promise<void> {
+  const meetsStop = await page.evaluate(() => {
+    const stop = document.querySelector('button[aria-keyshortcuts="Escape"]');
+    const { x, y, width, height } = stop?.getBoundingClientRect() ?? new DOMRect();
+    const isLarge = width >= 44 && height >= 44;
+    return isLarge && stop?.contains(document.elementFromPoint(x + width / 2, y + height / 2));
+  });
+  expect.soft(meetsStop, state).toBe(true);
+}
+
+test('a scroll over the sliders moves no servo, a drag of a thumb does', async ({ page, servers }) => {
+  const dashboard = dashboardOf(page);
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.link).toHaveText(/Ready/);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
+  const { swipe } = await fingersOf(page);
+  await dashboard.slider(4).scrollIntoViewIfNeeded();
+  const target = await dashboard.target(4).inputValue();
+  const thumb = await middleOf(dashboard.slider(4));
+  const before = await middleOf(dashboard.slider(4));
+  await swipe(thumb, { x: thumb.x + 20, y: thumb.y - 160 });
+  await expect(async () => {
+    expect((await middleOf(dashboard.slider(4))).y).toBeLessThan(before.y - 40);
+  }).toPass();
+  expect(await dashboard.target(4).inputValue()).toBe(target);
+
+  await dashboard.type(dashboard.target(4), 1500);
+  await expect(dashboard.estimate(4)).toHaveText('≈ 1500');
+  const at = await middleOf(dashboard.slider(4));
+  await swipe({ x: at.x - 90, y: at.y }, { x: at.x - 150, y: at.y });
+  expect(await dashboard.target(4).inputValue()).toBe('1500');
+  await swipe(at, { x: at.x + 80, y: at.y });
+  await expect(dashboard.target(4)).not.toHaveValue('1500');
+});
+
+test('the main job needs nothing but fingers', async ({ page, servers }) => {
+  test.slow();
+  const dashboard = dashboardOf(page);
+  const tab = (name: string) => page.getByRole('tab', { name });
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.link).toHaveText(/Ready/);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
+  await expectStopInReach(page, 'live');
+
+  await dashboard.type(dashboard.target(6), 1700);
+  await tab('Actions').tap();
+  await expectStopInReach(page, 'actions');
+  await dashboard.capture.tap();
+  await tab('Live').tap();
+  await dashboard.type(dashboard.target(6), 1300);
+  await tab('Actions').tap();
+  await dashboard.capture.tap();
+  await expect(dashboard.frames).toHaveCount(2);
+  for (const [open, title] of [
+    ['Files', 'Files'],
+    ['Library', 'Library'],
+    ['Begin with an example', ''],
+  ] as const) {
+    const opener = dashboard.button(open);
+    if (!(await opener.isVisible())) continue;
+    await opener.tap();
+    await expect(page.getByRole('dialog', title === '' ? {} : { name: title })).toBeVisible();
+    await expectStopInReach(page, open);
+    await page.getByRole('dialog').getByRole('button', { name: 'Close' }).tap();
+    await expect(page.getByRole('dialog')).toBeHidden();
+  }
+  const robots = robotDialogOf(dashboard);
+  await robots.opener.tap();
+  await expectStopInReach(page, 'robots');
+  await robots.button('Calibrate').tap();
+  await expectStopInReach(page, 'calibration');
+  await robots.button('Close').tap();
+
+  await tab('Board').tap();
+  await dashboard.type(dashboard.slot, 6);
+  await dashboard.button('Download').tap();
+  await expect(dashboard.notices).toContainText('Slot 6 is downloaded.');
+  await expectStopInReach(page, 'a message');
+  await dashboard.untilStopped.tap();
+  await dashboard.button('Run').tap();
+  await expect(dashboard.status).toContainText('Running slot 6, until stopped');
+  await dashboard.link.tap();
+  await expect(dashboard.connectDialog).toBeVisible();
+  await dashboard.stop.tap();
+  await expect(dashboard.status).toContainText('Stop sent');
+  await dashboard.connectDialog.getByRole('button', { name: 'Close' }).tap();
+  await dashboard.resume.tap();
+  await expect(dashboard.status).toHaveText('Idle');
+});
