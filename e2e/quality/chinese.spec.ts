@@ -34,6 +34,7 @@ const GIVEN = [
     'detail of the failure',
     'Ben, whose name is rather long for one row',
     'On the robot',
+    'The very long name of a thing that somebody liked to call it so.',
     'iPhone',
   ],
   ...[

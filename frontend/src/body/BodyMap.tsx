@@ -12,10 +12,10 @@ import { Place } from './Place.tsx';
 import { UnknownNote } from './UnknownNote.tsx';
 import styles from './BodyMap.module.css';
 
-export function BodyMap() {
+export function BodyMap({ isArrangingFirst = false }: { readonly isArrangingFirst?: boolean }) {
   const { body, servos } = useRobot();
   const hidden = useServoView((view) => view.hidden);
-  const [isArranging, setArranging] = useState(false);
+  const [isArranging, setArranging] = useState(isArrangingFirst);
   const stage = useRef<HTMLDivElement>(null);
   const shown = servos.filter(({ servo }) => !hidden.includes(servo));
   const order = shown.map(({ servo }) => servo);

@@ -3,7 +3,7 @@
 
 import { useState } from 'react';
 import { I18nProvider } from 'react-aria-components/I18nProvider';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { insertFrame, setMeta } from '#shared/actions/group/groupEdits.ts';
 import { gaugeOf, type Reading } from '#shared/actions/battery/batteryGauge.ts';
 import { fedBy } from '#shared/actions/battery/batterySupply.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
@@ -24,6 +24,7 @@ import { TopBar } from '../topBar/TopBar.tsx';
 import { ConnectSpecimens } from './ConnectSpecimens.tsx';
 import { FileSpecimens } from './FileSpecimens.tsx';
 import { LibrarySpecimens } from './LibrarySpecimens.tsx';
+import { MessageSpecimens } from './MessageSpecimens.tsx';
 import { PeopleSpecimens } from './PeopleSpecimens.tsx';
 import { PlaySpecimens } from './PlaySpecimens.tsx';
 import { PoseSpecimens } from './PoseSpecimens.tsx';
@@ -57,6 +58,7 @@ export function Gallery() {
         {wanted === null && (
           <StoresContext value={blank}>
             <ConnectSpecimens />
+            <MessageSpecimens />
             <RawSpecimens />
             <PadSpecimens />
             <PoseSpecimens />
@@ -134,6 +136,12 @@ function storesOf(specimen: Specimen): Stores {
       (group) => insertFrame(group, group.frames.length, sampleFrame(number, family), family.unit),
     );
   }
+  const { groupName: name } = specimen;
+  if (name !== undefined)
+    document.edit(
+      () => words.actions.steps.rename,
+      (group) => setMeta(group, { name }),
+    );
   view.setState({ selectedFrame: specimen.selectedFrame ?? null, ...specimen.robot?.view });
   editServoView({ view, robots }, (servos) => ({ ...servos, ...specimen.robot?.servos }));
   if (specimen.way !== null && specimen.nickname !== undefined) {

@@ -5,12 +5,17 @@ import { addMacro, changeMacro } from '#shared/actions/macros/macroEdits.ts';
 import { addPose, markApplied, markRest } from '#shared/actions/poses/poseEdits.ts';
 import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
+import { INITIAL_STATE } from '#shared/session/store.ts';
 import { ButtonsPage } from '../macros/ButtonsPage.tsx';
 import { Kiosk } from '../macros/Kiosk.tsx';
+import { BlendBar } from '../poses/BlendBar.tsx';
 import { PosesPanel } from '../poses/PosesPanel.tsx';
+import { useSelectedPose } from '../poses/useSelectedPose.ts';
 import { StoresContext, type Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
+import { frozenSession } from './frozen.ts';
 import styles from './Gallery.module.css';
+import { motionsOf } from './specimens.ts';
 import { specimenStores } from './specimenStores.ts';
 
 const POSES = { 'Greet the visitor': 0.2, 'Look down': 0.5, Sit: 0.8 };
@@ -50,11 +55,17 @@ const CASES: readonly {
 }[] = [
   { name: 'Poses, none', panel: <PosesPanel />, isEmpty: true },
   { name: 'Poses', panel: <PosesPanel /> },
+  { name: 'Poses, robot follows a blend', panel: <Blend /> },
   { name: 'Buttons, none', panel: <ButtonsPage />, isEmpty: true },
   { name: 'Buttons', panel: <ButtonsPage /> },
   { name: 'Buttons, being changed', panel: <ButtonsPage />, edits: true },
   { name: 'Kiosk', panel: <Kiosk onMoveHere={() => undefined} /> },
 ];
+
+function Blend() {
+  const pose = useSelectedPose();
+  return pose === undefined ? null : <BlendBar pose={pose} otherFirst={2} />;
+}
 
 export function PoseSpecimens() {
   return CASES.map(({ name, ...rest }) => <Shown key={name} name={name} {...rest} />);
@@ -63,7 +74,13 @@ export function PoseSpecimens() {
 function Shown({ name, panel, isEmpty = false, edits = false }: (typeof CASES)[number]) {
   const [stores] = useState(() => {
     const made = specimenStores(FAMILIES.doc);
+    const ready = { ...INITIAL_STATE, link: { status: 'ready' } as const };
+    made.device.attach(frozenSession(FAMILIES.doc, ready, motionsOf({ pose: 'still' })), {
+      ...{ kind: 'webSerial', label: 'USB', isSimulated: false },
+    });
+    made.device.refreshTargets();
     if (!isEmpty) fill(made, edits);
+    made.blend.store.setState({ isLive: true, targets: [] });
     return made;
   });
   return (

@@ -6,6 +6,9 @@ import { freshRobot } from '../stores/robots.ts';
 import type { ServoView } from '../stores/servoView.ts';
 import type { ViewState } from '../stores/view.ts';
 
+/** 64 characters, the most that any name may have. */
+export const LONG_NAME = 'The very long name of a thing that somebody liked to call it so.';
+
 export interface ServoSpecimen {
   /** Named in the language in use. */
   robot(): Robot;
@@ -24,13 +27,43 @@ function describedArm(): Robot {
   };
 }
 
+/** Each name as long as one may be. */
+function longNames(): Robot {
+  const robot = freshRobot('humanoid18', 'lsc-24');
+  return {
+    ...robot,
+    name: LONG_NAME,
+    servos: robot.servos.map((servo) => ({
+      ...servo,
+      name: LONG_NAME,
+      group: servo.servo > 8 ? LONG_NAME : servo.group,
+    })),
+  };
+}
+
+function oneServo(): Robot {
+  const robot = freshRobot('plain6', 'doc');
+  return { ...robot, servos: robot.servos.slice(0, 1) };
+}
+
 interface Named {
   readonly name: string;
+  readonly nickname?: string;
+  readonly groupName?: string;
   readonly board?: FamilyId;
   readonly robot: ServoSpecimen;
 }
 
 export const SERVO_SPECIMENS: readonly Named[] = [
+  { name: 'One servo', robot: { robot: oneServo } },
+  { name: 'Thirty-two servos', board: 'lsc-32', robot: { robot: () => freshRobot('plain32', 'lsc-32') } },
+  {
+    name: 'Long names',
+    board: 'lsc-24',
+    nickname: LONG_NAME,
+    groupName: LONG_NAME,
+    robot: { robot: longNames },
+  },
   { name: 'Limits, degrees', robot: { robot: describedArm, view: { positionsIn: 'degrees' } } },
   {
     name: 'Together, weighted',

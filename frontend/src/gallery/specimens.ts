@@ -18,6 +18,7 @@ export interface Specimen {
   /** Nobody has said which board it is. */
   readonly isUnknown?: boolean;
   readonly nickname?: string;
+  readonly groupName?: string;
   readonly way: Way | null;
   readonly state: SessionState;
   readonly pose: 'unknown' | 'still' | 'moving';

@@ -14,7 +14,13 @@ import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
 import styles from './PosesPanel.module.css';
 
-export function BlendBar({ pose }: { readonly pose: Pose }) {
+export interface BlendBarProps {
+  readonly pose: Pose;
+  /** The one it is blended with at first, by its id. */
+  readonly otherFirst?: number;
+}
+
+export function BlendBar({ pose, otherFirst }: BlendBarProps) {
   const { poses, view, blend } = useStores();
   const isLive = useBlend((state) => state.isLive);
   const list = usePoses(({ present }) => present.poses);
@@ -22,7 +28,7 @@ export function BlendBar({ pose }: { readonly pose: Pose }) {
   const family = useDevice((state) => state.family);
   const poseMs = useView((state) => state.poseMs);
   const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
-  const [otherId, setOtherId] = useState<number | null>(null);
+  const [otherId, setOtherId] = useState<number | null>(otherFirst ?? null);
   const [share, setShare] = useState(0.5);
   const others = list.filter(({ id, unit }) => id !== pose.id && unit === pose.unit);
   const other = others.find(({ id }) => id === otherId);
