@@ -5,8 +5,9 @@ for a disk.
 """
 
 import contextlib
-import os
 from pathlib import Path
+
+from servodeck.small_file import write_whole
 
 GRANTS_PER_START = 2**32
 
@@ -16,7 +17,7 @@ def first_epoch(folder: Path) -> int:
     file = folder / "epoch"
     start = read_start(file) + 1
     with contextlib.suppress(OSError):
-        write_start(file, start)
+        write_whole(file, str(start))
     return start * GRANTS_PER_START
 
 
@@ -25,14 +26,3 @@ def read_start(file: Path) -> int:
         return max(0, int(file.read_text("ascii")))
     except (OSError, ValueError):
         return 0
-
-
-def write_start(file: Path, start: int) -> None:
-    """Whole or not at all."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    fresh = file.with_suffix(".new")
-    with fresh.open("w", encoding="ascii") as opened:
-        opened.write(str(start))
-        opened.flush()
-        os.fsync(opened.fileno())
-    fresh.replace(file)
