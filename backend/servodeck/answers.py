@@ -6,6 +6,8 @@ Boards number nothing: an answer is told apart by its kind alone.
 import asyncio
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+from math import inf
 
 from servodeck.packets import Report
 from servodeck.wire import Left
@@ -13,31 +15,50 @@ from servodeck.wire import Left
 Answer = asyncio.Future[Report]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Expected:
+    kinds: tuple[type[Report], ...]
+    not_before_s: float
+    answer: Answer
+
+
 class Answers:
     def __init__(self) -> None:
-        self._waiting: list[tuple[tuple[type[Report], ...], Answer]] = []
+        self._expected: list[Expected] = []
 
-    def heard(self, report: Report) -> None:
-        for kinds, answer in self._waiting:
-            if isinstance(report, kinds) and not answer.done():
-                answer.set_result(report)
+    def heard(self, report: Report, at_s: float) -> None:
+        for expected in self._expected:
+            is_it = isinstance(report, expected.kinds) and at_s >= expected.not_before_s
+            if is_it and not expected.answer.done():
+                expected.answer.set_result(report)
 
-    async def to(self, left: Left, wait_s: float, *kinds: type[Report]) -> Report | None:
+    async def to(
+        self, left: Left, wait_s: float, *kinds: type[Report], not_before_s: float = -inf
+    ) -> Report | None:
         """The first report of those kinds from now until that long after the question `left`; None where none
-        came. Raises what kept the question from leaving.
+        came. Raises what kept the question from leaving. What comes before `not_before_s` is of a question
+        before.
         """
-        with self._expecting(kinds) as answer:
+        with self._expecting(kinds, not_before_s) as answer:
             await left
-            try:
-                return await asyncio.wait_for(answer, wait_s)
-            except TimeoutError:
-                return None
+            return await within(wait_s, answer)
+
+    async def unasked(self, wait_s: float, *kinds: type[Report]) -> Report | None:
+        """As `to`, where nobody asks."""
+        with self._expecting(kinds, -inf) as answer:
+            return await within(wait_s, answer)
 
     @contextmanager
-    def _expecting(self, kinds: tuple[type[Report], ...]) -> Iterator[Answer]:
-        waiting = (kinds, asyncio.get_running_loop().create_future())
-        self._waiting.append(waiting)
+    def _expecting(self, kinds: tuple[type[Report], ...], not_before_s: float) -> Iterator[Answer]:
+        expected = Expected(kinds, not_before_s, asyncio.get_running_loop().create_future())
+        self._expected.append(expected)
         try:
-            yield waiting[1]
+            yield expected.answer
         finally:
-            self._waiting.remove(waiting)
+            self._expected.remove(expected)
+
+
+async def within(wait_s: float, answer: Answer) -> Report | None:
+    # Not wait_for: Python 3.11's swallows a cancellation that meets the result.
+    done, _ = await asyncio.wait({answer}, timeout=wait_s)
+    return answer.result() if done else None

@@ -21,6 +21,7 @@ from servodeck.entrance import Entrance
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
 from servodeck.guard import Guard
 from servodeck.health_api import health_api
+from servodeck.jobs_api import jobs_api
 from servodeck.library import Library
 from servodeck.library_api import library_api
 from servodeck.motion_api import motion_api
@@ -59,6 +60,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     app.state.entrance = entrance
     app.include_router(api)
     app.include_router(health_api)
+    app.include_router(jobs_api)
     app.include_router(library_api)
     app.include_router(motion_api)
     app.include_router(people_api)

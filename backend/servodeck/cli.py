@@ -99,6 +99,7 @@ def serve(
     from servodeck.announcement import Announcement
     from servodeck.app import create_app
     from servodeck.background import BackgroundPorts
+    from servodeck.broken_slots import BrokenSlots
     from servodeck.control import Control
     from servodeck.data_folder import data_folder
     from servodeck.epoch import first_epoch
@@ -126,6 +127,7 @@ def serve(
         serial or None,
         simulated=simulated,
         epoch=first_epoch(folder),
+        broken_slots=BrokenSlots(folder),
     )
 
     def ready() -> None:

@@ -12,22 +12,28 @@ from collections.abc import Callable
 from servodeck import __version__, metrics
 from servodeck.answers import Answers
 from servodeck.battery import BatteryWatch
+from servodeck.broken_slots import BrokenSlots
 from servodeck.decoder import COMMAND_AT
 from servodeck.driving import Driving
 from servodeck.errors import (
     CancelledError,
+    ClosedError,
     GatewayError,
     LatchedError,
+    MovingError,
     NotDrivingError,
     OutOfRangeError,
     PortLostError,
 )
-from servodeck.gate import RUN, STOP, is_harmless, judge_latch, judge_packet
+from servodeck.gate import RUN, STOP, is_harmless, judge_group, judge_latch, judge_packet
 from servodeck.hub import Hub, Seat
 from servodeck.inbox import Inbox
+from servodeck.jobs import Group, Jobs
 from servodeck.link import Link, Ports
 from servodeck.messages import (
     HaltedMessage,
+    JobMessage,
+    JobState,
     LimitsMessage,
     Message,
     NoiseMessage,
@@ -39,7 +45,7 @@ from servodeck.messages import (
     encode,
 )
 from servodeck.motion import Motion
-from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_report
+from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command, parse_report
 from servodeck.ports import OpenPort
 from servodeck.relay import Relay
 from servodeck.robot import RobotLimits
@@ -60,9 +66,11 @@ class Control:
         *,
         simulated: bool = False,
         epoch: int = 0,
+        broken_slots: BrokenSlots | None = None,
     ) -> None:
         """`named_device` is the port named at the start: always offered, even where the system does not list
         it. `simulated`: what is behind it is no real board. `epoch`: leases are counted on from there.
+        Without `broken_slots` these are forgotten at the end.
         """
         self.board = board
         self.named_device = named_device
@@ -75,6 +83,7 @@ class Control:
         self.hub = Hub()
         self.link = Link(ports, self._make_wire, self, now)
         self.driving = Driving(self.hub, now, epoch, self)
+        self.jobs = Jobs(self, self.answers, now, broken_slots or BrokenSlots())
         self._relay = Relay(self.hub, now)
         self.motion = Motion(FAMILIES[board])
         self.unattended = Unattended(now, self._end_alone, self._tell_state)
@@ -113,6 +122,8 @@ class Control:
         self.limits.judge(packet, owner)
         wire = self.link.wire()
         judge_latch(packet, self.latch)
+        self.jobs.judge_run(parse_command(packet), self.link.place)
+        self._judge_idle(packet)
         judge = always if is_harmless(packet) else self._permitted(owner, nonce)
         command = packet[COMMAND_AT]
         if command == STOP:
@@ -125,6 +136,7 @@ class Control:
         stop.
         """
         self._set_latch(True)
+        self.jobs.end(LatchedError("Stopped before all of it was stored."))
         left = self._halt(hold, LatchedError("Stopped before it left."), owner)
         if left is not self._halting:
             self._halting = left
@@ -137,7 +149,7 @@ class Control:
             await self._halt(None, CancelledError("Its driver has begun something else."))
 
     def may_move(self) -> bool:
-        return self.motion.group_may_run or self.motion.is_moving(self.now())
+        return self.motion.group_may_run(self.now()) or self.motion.is_moving(self.now())
 
     def resume(self) -> None:
         """Refused while the port is lost: whoever resumes shall see the robot's answer."""
@@ -158,6 +170,7 @@ class Control:
         if board not in FAMILIES:
             raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
         if board != self.board:
+            self.jobs.judge_idle()
             self.board = board
             self._forget_limits()
             self.battery.forget()
@@ -190,6 +203,22 @@ class Control:
         self.limits.set(servos)
         self._tell(LimitsMessage(type="limits", servos=servos), but=seat)
 
+    def download(self, group: Group, by: str, claim: Callable[[], object]) -> JobState:
+        """Begins to store it; raises what keeps it from that before anything is sent. `claim` raises where
+        `by` may not.
+        """
+        packets = judge_group(group.slot, group.frames, self.board)
+        for packet in packets:
+            self.limits.judge(packet, None)
+        wire = self.link.wire()
+        judge_latch(packets[0], self.latch)
+        self.jobs.judge_idle()
+        if self.may_move() or not wire.is_clear_of(lambda packet: not is_harmless(packet)):
+            raise MovingError("The robot is moving, or a group may still run: wait, or stop it first.")
+        claim()
+        self.motion.unstored(group.slot)
+        return self.jobs.begin(group, packets, by, self.link.place, wire)
+
     async def use_port(self, device: str, board: str | None = None) -> None:
         await self._quiet()
         self._forget_limits()
@@ -206,6 +235,7 @@ class Control:
         harmless.
         """
         self.latch = True  # nobody starts it again behind the stops
+        self.jobs.end(CancelledError("The gateway is ending."))
         with contextlib.suppress(GatewayError, TimeoutError):
             left = self._halt(None, CancelledError("The gateway is ending."))
             await asyncio.wait_for(asyncio.shield(left), DRAIN_S)
@@ -221,10 +251,22 @@ class Control:
     def port_lost(self) -> None:
         metrics.port_losses.inc()
         self.latch = True  # the change of the port's state follows and tells both
+        self.jobs.end(PortLostError("The serial port went away before all of it was stored."))
         self._forget_motion()
 
     def port_changed(self) -> None:
         self._tell_state()
+
+    # What a download tells
+
+    def job_changed(self, state: JobState) -> None:
+        self._tell(JobMessage(job=state))
+
+    def broken_slots_changed(self) -> None:
+        self._tell_state()
+
+    def group_stored(self, group: Group) -> None:
+        self.motion.stored(group.slot, group.frames)
 
     # What the lease tells
 
@@ -261,6 +303,12 @@ class Control:
         with contextlib.suppress(GatewayError):
             self.link.wire().purge(lambda job: job.owner is owner, reason)
 
+    def _judge_idle(self, packet: bytes) -> None:
+        """A stop always goes, but the frame it meets on the board is not stored for sure (S10)."""
+        if packet[COMMAND_AT] == STOP:
+            self.jobs.end(CancelledError("A stop ended it before all of it was stored."))
+        self.jobs.judge_idle()
+
     def _end_quietly(self, reason: GatewayError) -> None:
         """Without the latch: somebody is there, or it was said beforehand."""
         with contextlib.suppress(GatewayError):
@@ -284,6 +332,8 @@ class Control:
             unattended=self.unattended.told(),
             limits=self.limits.told(),
             lease=self.driving.state_for(seat),
+            broken_slots=self._broken_slots(),
+            job=self.jobs.latest,
         )
 
     def _tell_state(self, but: Seat | None = None) -> None:
@@ -293,8 +343,12 @@ class Control:
             latch=self.latch,
             clients=len(self.hub),
             unattended=self.unattended.told(),
+            broken_slots=self._broken_slots(),
         )
         self.hub.tell_all(encode(state), but)
+
+    def _broken_slots(self) -> list[int]:
+        return self.jobs.broken(self.link.place)
 
     def _tell(self, message: Message, but: Seat | None = None) -> None:
         self.hub.tell_all(encode(message), but)
@@ -320,7 +374,8 @@ class Control:
 
     async def _quiet(self) -> None:
         """Before the port is given up: ends a group that only this gateway could still stop."""
-        if self.motion.group_may_run:
+        self.jobs.end(ClosedError("The port was closed before all of it was stored."))
+        if self.motion.group_may_run(self.now()):
             with contextlib.suppress(GatewayError):
                 await self._halt(None, CancelledError("The port is being closed."))
         self._forget_motion()
@@ -337,6 +392,7 @@ class Control:
     def _leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
         self.motion.left(packet, at_s)
         self.unattended.follow(self.motion.run)
+        self.jobs.left(parse_command(packet), at_s)
         is_told = packet[COMMAND_AT] == STOP or not is_harmless(packet)
         if is_told and owner is not self:  # its own stop at the opening ends nothing that anybody began
             self._relay.leaving(owner, packet, at_s)
@@ -355,7 +411,8 @@ class Control:
         self.motion.heard(report, self.now())
         self.unattended.follow(self.motion.run)
         self.battery.heard(report)
-        self.answers.heard(report)
+        self.jobs.heard(report, self.link.place)
+        self.answers.heard(report, self.now())
 
 
 def is_no_stop(job: Job) -> bool:

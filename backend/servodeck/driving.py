@@ -6,9 +6,10 @@ Knows seats and timers, no packet and no port; what must stop when a driver is l
 import asyncio
 from collections.abc import Callable
 
+from servodeck.callers import Caller
 from servodeck.errors import NotDrivingError
 from servodeck.hub import Hub, Seat
-from servodeck.lease import BEAT_S, Lease, LeaseEvents, Permit
+from servodeck.lease import BEAT_S, GONE_S, Lease, LeaseEvents, Permit
 from servodeck.messages import LeaseAction, LeaseState, LeaseToldMessage, TickMessage, encode
 
 
@@ -74,6 +75,15 @@ class Driving:
     def permit(self, seat: object, nonce: str | None) -> Permit:
         """Raises NotDrivingError or ExpiredError."""
         return self._lease.permit(seat, nonce, self._now())  # type: ignore[arg-type]
+
+    def judge_request(self, caller: Caller, nonce: str) -> None:
+        """For what a page asks beside its WebSocket: only the driver's has the nonce. A large request takes
+        its time. Raises NotDrivingError or ExpiredError.
+        """
+        driver = self._lease.driver
+        if driver is None or driver.caller.id != caller.id:
+            raise NotDrivingError(f"{driver.caller.name if driver else 'Nobody'} drives.")
+        self._lease.permit(driver, nonce, self._now(), GONE_S)
 
     def judge(self, permit: Permit) -> None:
         """Raises NotDrivingError or ExpiredError."""

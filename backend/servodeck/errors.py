@@ -18,6 +18,7 @@ ErrorCode = Literal[
     "notDriving",
     "expired",
     "busy",
+    "slotBroken",
     "cancelled",
     "outOfRange",
     "malformed",
@@ -113,9 +114,16 @@ class BusyError(GatewayError):
 
 
 class MovingError(GatewayError):
-    """The robot is not at rest, or may not be."""
+    """The robot is not at rest, or may not be, or its board is at work: that has to end first."""
 
     code: ClassVar[ErrorCode] = "busy"
+    status: ClassVar[int] = 409
+
+
+class SlotBrokenError(GatewayError):
+    """The slot holds half a group (S35)."""
+
+    code: ClassVar[ErrorCode] = "slotBroken"
     status: ClassVar[int] = 409
 
 

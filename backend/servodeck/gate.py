@@ -4,7 +4,7 @@ Denies by default: only the names of `access` pass, the page served under them, 
 Origin.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from servodeck.access import Access
 from servodeck.callers import Role
@@ -18,7 +18,8 @@ from servodeck.errors import (
     OutOfRangeError,
     WrongTypeError,
 )
-from servodeck.packets import FAMILIES, PacketError, check_command
+from servodeck.packets import FAMILIES, PacketError, check_command, encode
+from servodeck.values import Download, Frame
 
 MOVE, RUN, STOP, ERASE = 3, 6, 7, 8
 BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
@@ -113,6 +114,18 @@ def judge_packet(text: str, board: str) -> bytes:
     except PacketError as error:
         raise refusal_of(error) from error
     return packet
+
+
+def judge_group(slot: int, frames: Sequence[Frame], board: str) -> list[bytes]:
+    """The packets that store it. Raises what that board cannot take of it."""
+    count = len(frames)
+    if count == 0:
+        raise OutOfRangeError("An action group needs at least one frame.")
+    commands = [Download(slot, count, index, frame) for index, frame in enumerate(frames)]
+    try:
+        return [encode(command, FAMILIES[board]) for command in commands]
+    except PacketError as error:
+        raise refusal_of(error) from error
 
 
 def refusal_of(error: PacketError) -> GatewayError:

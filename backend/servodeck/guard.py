@@ -4,6 +4,8 @@ headers.
 Pure ASGI, because ordinary middleware does not see WebSockets. Knows no route.
 """
 
+import re
+
 from starlette.datastructures import MutableHeaders
 from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
@@ -17,6 +19,9 @@ BODY_BYTES = 16 * 1024
 LIBRARY_PATH = "/api/library/"
 # A document as text inside JSON, where every quote of it takes two characters.
 LIBRARY_BODY_BYTES = 3 * 1024 * 1024
+DOWNLOAD_PATH = re.compile(r"/api/slots/[^/]+/download")
+# 255 frames of 32 servos as JSON, with spaces.
+DOWNLOAD_BODY_BYTES = 256 * 1024
 STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
 
 CONTENT_POLICY = (
@@ -70,6 +75,8 @@ def with_headers(send: Send, socket: str) -> Send:
 
 def body_bytes(path: str) -> int:
     """Nothing that anybody may send there is larger than that."""
+    if DOWNLOAD_PATH.fullmatch(path):
+        return DOWNLOAD_BODY_BYTES
     return LIBRARY_BODY_BYTES if path.startswith(LIBRARY_PATH) else BODY_BYTES
 
 

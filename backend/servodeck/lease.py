@@ -126,17 +126,17 @@ class Lease(Generic[H]):
             if until_s > self._heard_s:
                 self._heard_s, self.silence = until_s, "none"
 
-    def permit(self, who: H, nonce: str | None, now: float) -> Permit:
+    def permit(self, who: H, nonce: str | None, now: float, within_s: float = COMMAND_S) -> Permit:
         """For one command. Raises NotDrivingError or ExpiredError."""
         if who is not self.driver:
             raise NotDrivingError(
                 "Somebody else drives." if self.driver else "Nobody drives: request it first."
             )
         issued_s = None if nonce is None else self._issued.get(nonce)
-        if nonce is None or issued_s is None or now - issued_s > COMMAND_S:
+        if nonce is None or issued_s is None or now - issued_s > within_s:
             raise ExpiredError("This was said too long ago to be done now.")
         self.beat(who, nonce)
-        return Permit(self.epoch, issued_s + COMMAND_S)
+        return Permit(self.epoch, issued_s + within_s)
 
     def judge(self, permit: Permit, now: float) -> None:
         """Asked when the command is about to leave. Raises NotDrivingError or ExpiredError."""

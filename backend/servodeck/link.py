@@ -70,9 +70,15 @@ class Link:
         self._events = events
         self._now = now
         self._wire: Wire | None = None
+        self._whereabouts: Whereabouts | None = None
         self._task: asyncio.Task[None] | None = None
         self._changing = asyncio.Lock()
         self.state = CLOSED
+
+    @property
+    def place(self) -> str:
+        """What the board on it is remembered by."""
+        return self._whereabouts.lasting if self._whereabouts else ""
 
     def wire(self) -> Wire:
         """The open wire. Raises what keeps it from being open."""
@@ -110,7 +116,7 @@ class Link:
 
     async def _keep_open(self, device: str, first: asyncio.Future[None]) -> None:
         back_off = BackOff()
-        whereabouts = Whereabouts(device)
+        whereabouts = self._whereabouts = Whereabouts(device)
         while True:
             try:
                 await self._serve(whereabouts, first, back_off)

@@ -78,6 +78,28 @@ class UnattendedRun(Message):
     ends_in_ms: int
 
 
+JobStatus = Literal["running", "done", "failed", "cancelled"]
+
+
+class JobState(Message):
+    """A download and how far it is. `by`: who began it. `code` and `detail` say why it failed or was
+    cancelled.
+    """
+
+    id: str
+    slot: int
+    name: str
+    by: str
+    status: JobStatus
+    frames_stored: int
+    frame_count: int
+    bytes_sent: int
+    bytes_total: int
+    remaining_ms: int
+    code: ErrorCode | None = None
+    detail: str | None = None
+
+
 class SendMessage(Message):
     """Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none."""
 
@@ -193,6 +215,8 @@ class WelcomeMessage(Message):
     unattended: UnattendedRun | None
     limits: list[ServoLimits]
     lease: LeaseState
+    broken_slots: list[int]
+    job: JobState | None
 
 
 class SentMessage(Message):
@@ -232,7 +256,7 @@ class HaltedMessage(Message):
 
 
 class StateMessage(Message):
-    """Something of this changed."""
+    """Something of this changed. `brokenSlots` hold half a group: nobody may run them."""
 
     type: Literal["state"] = "state"
     board: str
@@ -240,6 +264,14 @@ class StateMessage(Message):
     latch: bool
     clients: int
     unattended: UnattendedRun | None
+    broken_slots: list[int]
+
+
+class JobMessage(Message):
+    """A download began, came further or ended; the latest one, whoever began it."""
+
+    type: Literal["job"] = "job"
+    job: JobState
 
 
 class LeaseToldMessage(Message):
@@ -274,7 +306,8 @@ GatewayMessage = Annotated[
     | LimitsMessage
     | LeaseToldMessage
     | TickMessage
-    | LeftMessage,
+    | LeftMessage
+    | JobMessage,
     Field(discriminator="type"),
 ]
 

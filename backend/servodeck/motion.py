@@ -2,16 +2,27 @@
 what a script may ask for.
 
 Pure: time comes in. Knows moves only: once a group may have run, the page's estimate (shared/src/motion)
-knows more, and this one nothing until the next moves have ended.
+knows more, and this one nothing but its end until the next moves have ended.
 """
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from math import inf
 
 from servodeck.families import Family
 from servodeck.packets import Report, encode, parse_command
-from servodeck.values import Command, Move, Release, Run, RunFinished, RunStopped, ServoTarget, Stop
+from servodeck.values import (
+    Command,
+    Frame,
+    Move,
+    Release,
+    Run,
+    RunFinished,
+    RunStopped,
+    ServoTarget,
+    Stop,
+)
 
 SHORTEST_MOVE_MS = 20  # S25, S27
 LONGEST_MOVE_MS = 30_000  # S25, L5
@@ -19,6 +30,12 @@ LONGEST_MOVE_MS = 30_000  # S25, L5
 RUN_END_S = 0.5
 # Any new target re-times every servo of these (S26); the others' servos keep their own time.
 SHARED_TIME = frozenset({"doc", "openarm-old", "openarm-new"})
+# A group that is not heard to end is over that long after its computed end.
+END_GRACE_S = 1.5
+# The end of this one starts the next ones (S49), each with a word of its own.
+CHAIN_FROM_SLOT = 100
+# A LeArm looks every 110 ms whether a frame is over (L7).
+POLLED = frozenset({"learm-esp32", "learm-esp32-bus"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,20 +63,30 @@ class Motion:
     def __init__(self, family: Family) -> None:
         self._family = family
         self._tracks: dict[int, Track] = {}
+        self._passes_s: dict[int, float] = {}
         self.run: Run | None = None
         """The group that may run: nobody has stopped it, and the board has not said that it ended."""
         self._run_s = 0.0
+        self._run_end_s = inf
 
-    @property
-    def group_may_run(self) -> bool:
-        return self.run is not None
+    def stored(self, slot: int, frames: Sequence[Frame]) -> None:
+        """What that slot holds now, for sure."""
+        slack_s, pace = (0.35, 1.2) if self._family.id in POLLED else (0.0, 1.0)
+        self._passes_s[slot] = sum(frame.duration_ms / 1000 * pace + slack_s for frame in frames)
+
+    def unstored(self, slot: int) -> None:
+        self._passes_s.pop(slot, None)
+
+    def group_may_run(self, now: float) -> bool:
+        return self.run is not None and now < self._run_end_s
 
     def left(self, packet: bytes, at_s: float) -> None:
         """The last bit of that packet leaves then."""
         match parse_command(packet):
-            case Move(duration_ms, targets) if not self.group_may_run:
+            case Move(duration_ms, targets) if not self.group_may_run(at_s):
                 self._move(duration_ms, targets, at_s)
             case Run() as run:
+                self._run_end_s = self._end_s(run, at_s)
                 self.run, self._run_s = run, at_s
                 self._tracks.clear()
             case Stop():
@@ -69,7 +96,9 @@ class Motion:
                     self._tracks.pop(servo, None)
 
     def heard(self, report: Report, at_s: float) -> None:
-        if isinstance(report, RunFinished | RunStopped) and at_s - self._run_s >= RUN_END_S:
+        may_chain = isinstance(report, RunFinished) and self.run and self.run.slot >= CHAIN_FROM_SLOT
+        is_end = isinstance(report, RunFinished | RunStopped) and not may_chain
+        if is_end and at_s - self._run_s >= RUN_END_S:
             self.run = None
 
     def is_moving(self, now: float) -> bool:
@@ -98,6 +127,13 @@ class Motion:
             self._hold_ms([servo for servo in known if known[servo] is None], now), targets
         )
         return encode(command, self._family)
+
+    def _end_s(self, run: Run, at_s: float) -> float:
+        """Unknown behind another group, which goes on in its place (S46)."""
+        pass_s = self._passes_s.get(run.slot)
+        if pass_s is None or run.times == 0 or run.slot >= CHAIN_FROM_SLOT or self.group_may_run(at_s):
+            return inf
+        return at_s + pass_s * run.times + END_GRACE_S
 
     def _hold_ms(self, unknown: list[int], now: float) -> int:
         """Boards of shared time would make a servo in its first move snap to its target (docs/adr/0002)."""

@@ -17,7 +17,8 @@ from servodeck.errors import CancelledError, MovingError, NoAnswerError, OutOfRa
 from servodeck.families import Family
 from servodeck.gate import judge_latch
 from servodeck.hub import Seat
-from servodeck.messages import LeaseState
+from servodeck.jobs import Group
+from servodeck.messages import JobState, LeaseState
 from servodeck.packets import FAMILIES
 from servodeck.script_moves import packet_of, plan_move
 from servodeck.values import Erase, Erased, Run, RunAccepted, RunStarted
@@ -98,7 +99,7 @@ class Scripts:
         """Until its last packet has left; what is not wanted any more does not leave."""
         control, seat = self._control, self._seat_of(caller)
         family, now = self._family(), control.now()
-        if control.motion.group_may_run:
+        if control.motion.group_may_run(now):
             raise MovingError("A group may be running: stop it, then resume.")
         plan = plan_move(duration_ms, positions, family, control.motion, now, control.limits.name_of)
         for step in plan.steps:
@@ -127,6 +128,13 @@ class Scripts:
         if continue_ms is not None:
             self._control.let_go_on(seat, continue_ms)
         return outcome
+
+    def download(self, caller: Caller, group: Group, *, take: bool) -> JobState:
+        """Needs the lease to begin with, and nobody from then on."""
+        seat, driving = self._seat_of(caller), self._control.driving
+        job = self._control.download(group, seat.caller.name, lambda: driving.speak_for(seat, take=take))
+        driving.vouch(seat, 0.0)
+        return job
 
     async def erase(self, caller: Caller, *, take: bool) -> None:
         """Until the board says that it is done."""

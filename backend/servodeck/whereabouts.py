@@ -45,6 +45,12 @@ class Whereabouts:
         """It was open, and the bus tells it from others."""
         return self._ours is not None
 
+    @property
+    def lasting(self) -> str:
+        """The device's own number where the bus tells one, else the name it was chosen by."""
+        ours = self._ours
+        return f"{ours.vendor:04x}:{ours.product:04x} {ours.serial}" if ours and ours.serial else self._name
+
     def find(self, listed: Iterable[UsbDevice]) -> str:
         """The path to open. Raises a PortError where it is not there, or where only a person can tell."""
         ours = self._ours

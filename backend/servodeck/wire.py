@@ -144,6 +144,10 @@ class Wire:
             self._queue.remove(job)
             fail(job.left, reason)
 
+    def is_clear_of(self, unwanted: Callable[[bytes], bool]) -> bool:
+        """No such packet waits, and no stop sequence is under way."""
+        return not self._halt and not any(unwanted(job.packet) for job in (*self._urgent, *self._queue))
+
     async def run(self) -> None:
         """Sends and reads until the port is lost (raises PortLostError) or this task is cancelled."""
         lost: asyncio.Future[None] = asyncio.get_running_loop().create_future()

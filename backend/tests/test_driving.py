@@ -189,6 +189,20 @@ async def test_a_driver_who_leaves_a_robot_at_rest_stops_nothing() -> None:
 
 
 @in_virtual_time
+async def test_a_driver_who_leaves_after_the_group_has_ended_stops_nothing() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = Client(control)
+        await anna.send(RUN)
+        await asyncio.sleep(1)
+        port.say(STOP)  # from this board: finished by itself
+        await asyncio.sleep(0.01)
+        control.leave(anna)
+        await asyncio.sleep(1)
+        assert (port.packets(), control.latch) == ([STOP, RUN], False)
+
+
+@in_virtual_time
 async def test_what_a_leaving_client_had_waiting_is_never_sent() -> None:
     port = FakePort()
     async with gateway_on(port) as control:

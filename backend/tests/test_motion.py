@@ -3,9 +3,19 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.motion import Motion
+from servodeck.motion import END_GRACE_S, Motion
 from servodeck.packets import FAMILIES, encode, parse_command
-from servodeck.values import Command, Move, Release, RunAccepted, RunFinished, ServoTarget
+from servodeck.values import (
+    Command,
+    Frame,
+    Move,
+    Release,
+    Run,
+    RunAccepted,
+    RunFinished,
+    RunStopped,
+    ServoTarget,
+)
 from tests.samples import RUN, STOP
 
 DOC = FAMILIES["doc"]
@@ -54,11 +64,11 @@ def test_a_group_is_over_when_the_board_says_so_but_not_by_the_word_about_the_on
     motion = told()
     motion.left(RUN, 1.0)
     motion.heard(RunFinished(None), 1.4)
-    assert motion.group_may_run
+    assert motion.group_may_run(1000.0)
     motion.heard(RunAccepted(), 2.0)
-    assert motion.group_may_run
+    assert motion.group_may_run(1000.0)
     motion.heard(RunFinished(None), 3.0)
-    assert not motion.group_may_run
+    assert not motion.group_may_run(3.0)
 
 
 def test_what_was_moved_is_known_and_a_first_move_counts_down() -> None:
@@ -73,14 +83,42 @@ def test_what_was_moved_is_known_and_a_first_move_counts_down() -> None:
 def test_a_group_may_move_anything_until_it_is_stopped() -> None:
     motion = told((0.0, move(0, s1=1000)))
     motion.left(RUN, 1.0)
-    assert motion.group_may_run
+    assert motion.group_may_run(2.0)
     assert held(motion, 2.0) is None
     motion.left(encode(move(1000, s1=1500), DOC), 3.0)
     assert held(motion, 5.0) is None
     motion.left(STOP, 6.0)
-    assert not motion.group_may_run
+    assert not motion.group_may_run(6.0)
     motion.left(encode(move(1000, s1=1500), DOC), 7.0)
     assert held(motion, 8.0) == move(20, s1=1500)
+
+
+def running(*runs: tuple[float, Run], stored_ms: int = 500) -> Motion:
+    motion = Motion(DOC)
+    motion.stored(8, [Frame(stored_ms, ())] * 4)
+    for at_s, run in runs:
+        motion.left(encode(run, DOC), at_s)
+    return motion
+
+
+def test_the_end_of_a_group_that_starts_the_next_one_says_nothing() -> None:
+    motion = running((0.0, Run(100, 1)))
+    motion.heard(RunFinished(None), 5.0)
+    assert motion.group_may_run(6.0)
+    motion.heard(RunStopped(), 7.0)
+    assert not motion.group_may_run(8.0)
+
+
+def test_a_known_group_is_over_after_its_time_unless_it_has_no_end_or_another_one_ran() -> None:
+    once = running((1.0, Run(8, 2)))
+    assert once.group_may_run(1.0 + 2 * 2.0)
+    assert not once.group_may_run(1.0 + 2 * 2.0 + END_GRACE_S)
+    assert running((1.0, Run(8, 0))).group_may_run(1000.0)
+    assert running((1.0, Run(7, 0)), (2.0, Run(8, 1))).group_may_run(1000.0)
+    assert not running((1.0, Run(8, 1)), (9.0, Run(8, 1))).group_may_run(9.0 + 2.0 + END_GRACE_S)
+    once.unstored(8)
+    once.left(encode(Run(8, 1), DOC), 20.0)
+    assert once.group_may_run(1000.0)
 
 
 ways = st.lists(

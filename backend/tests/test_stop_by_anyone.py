@@ -8,11 +8,13 @@ import pytest
 from servodeck.callers import Caller
 from servodeck.clients import take
 from servodeck.errors import LatchedError
+from servodeck.jobs import Group
 from servodeck.messages import StopMessage
+from servodeck.values import Frame, ServoTarget
 from tests.amount import named, seeds
 from tests.client import Client, gateway_on
-from tests.fake_port import FakePort
 from tests.samples import DOWNLOAD, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
+from tests.test_download import AnsweringPort
 from tests.virtual_time import in_virtual_time, now
 
 GUEST = Caller("guest", "Bert", "viewer")
@@ -21,27 +23,30 @@ STATES = {
     "one move": [MOVE],
     "drag": [MOVE, MOVE_ELSEWHERE] * 4,
     "group": [RUN],
-    "download": [DOWNLOAD] * 8,
     "group behind moves": [MOVE, MOVE_ELSEWHERE, RUN],
 }
 MOTION = {3, 6, 8, 25}
+DOWNLOADING = "download"
+LONG = Group(10, "Wave", [Frame(1000, (ServoTarget(1, 1500),))] * 200)
 LONGEST_PACKET_S = wire_ms(DOWNLOAD) / 1000
 GAP_S = 0.010
 
 
-@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("state", [*STATES, DOWNLOADING])
 @in_virtual_time
 async def test_a_viewer_stops_it(state: str) -> None:
     for seed in seeds(50):
         with named("test_stop_by_anyone.py", seed, state):
-            await stop_at_random(STATES[state], random.Random(seed))
+            await stop_at_random(STATES.get(state, []), random.Random(seed), state == DOWNLOADING)
 
 
-async def stop_at_random(packets: list[bytes], chance: random.Random) -> None:
-    port = FakePort()
+async def stop_at_random(packets: list[bytes], chance: random.Random, is_download: bool) -> None:
+    port = AnsweringPort([[chance.uniform(1, 300)] for _ in LONG.frames])
     async with gateway_on(port) as control:
         anna, bert = Client(control), Client(control, GUEST)
         waiting = [anna.send(packet) for packet in packets]
+        if is_download:
+            control.download(LONG, "Anna", lambda: None)
         await asyncio.sleep(chance.uniform(0, 0.25))
         pressed_s, before = now(), len(port.written)
         take(StopMessage(type="stop", hold=None), bert, control)
@@ -55,6 +60,7 @@ async def stop_at_random(packets: list[bytes], chance: random.Random) -> None:
         # Only the pose that the stop itself holds.
         assert [packet for _, packet in behind if packet[3] in MOTION - {3}] == []
         assert all(left.done() for left in waiting)
+        assert [job.status for job in [control.jobs.latest] if job] == ["failed"] * is_download
         control.resume()
         await anna.send(MOVE)
         assert port.packets()[-1] == MOVE

@@ -157,6 +157,14 @@ def test_what_has_no_place_on_the_bus_goes_by_its_name(name: str) -> None:
     assert whereabouts.find([CH340, MOUSE]) == name
 
 
+def test_a_board_is_remembered_by_its_own_number_else_by_the_name_it_was_chosen_by() -> None:
+    for device, lasting in ((FTDI, f"0403:6001 {FTDI.serial}"), (CH340, USB0)):
+        whereabouts = Whereabouts(device.path)
+        assert whereabouts.lasting == device.path
+        whereabouts.opened(whereabouts.find([device]), [device])
+        assert whereabouts.lasting == lasting
+
+
 PATHS = [f"/dev/ttyUSB{number}" for number in range(4)]
 SOCKETS = ["1-1", "1-2", "1-3", "1-4"]
 # Four adapters, each with an identity that only the test knows.

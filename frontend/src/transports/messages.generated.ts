@@ -22,7 +22,8 @@ export type GatewayMessage =
   | LimitsMessage
   | LeaseToldMessage
   | TickMessage
-  | LeftMessage;
+  | LeftMessage
+  | JobMessage;
 
 /**
  * Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none.
@@ -126,6 +127,8 @@ export interface WelcomeMessage {
   unattended: UnattendedRun | null;
   limits: ServoLimits[];
   lease: LeaseState;
+  brokenSlots: number[];
+  job: JobState | null;
 }
 /**
  * How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
@@ -149,6 +152,7 @@ export interface PortState {
         | 'notDriving'
         | 'expired'
         | 'busy'
+        | 'slotBroken'
         | 'cancelled'
         | 'outOfRange'
         | 'malformed'
@@ -193,6 +197,56 @@ export interface LeaseState {
   mayTake: boolean;
 }
 /**
+ * A download and how far it is. `by`: who began it. `code` and `detail` say why it failed or was
+ * cancelled.
+ */
+export interface JobState {
+  id: string;
+  slot: number;
+  name: string;
+  by: string;
+  status: 'running' | 'done' | 'failed' | 'cancelled';
+  framesStored: number;
+  frameCount: number;
+  bytesSent: number;
+  bytesTotal: number;
+  remainingMs: number;
+  code:
+    | (
+        | 'closed'
+        | 'lost'
+        | 'portMissing'
+        | 'portBusy'
+        | 'portDenied'
+        | 'otherDevice'
+        | 'noAnswer'
+        | 'notSupported'
+        | 'latched'
+        | 'notDriving'
+        | 'expired'
+        | 'busy'
+        | 'slotBroken'
+        | 'cancelled'
+        | 'outOfRange'
+        | 'malformed'
+        | 'forbidden'
+        | 'notPaired'
+        | 'pairingFailed'
+        | 'pairingLocked'
+        | 'wrongType'
+        | 'notFound'
+        | 'methodNotAllowed'
+        | 'conflict'
+        | 'tooLarge'
+        | 'storageFull'
+        | 'storageBusy'
+        | 'storageFailed'
+        | 'internal'
+      )
+    | null;
+  detail: string | null;
+}
+/**
  * The packet's last bit has left the wire.
  */
 export interface SentMessage {
@@ -221,6 +275,7 @@ export interface RefusedMessage {
     | 'notDriving'
     | 'expired'
     | 'busy'
+    | 'slotBroken'
     | 'cancelled'
     | 'outOfRange'
     | 'malformed'
@@ -260,7 +315,7 @@ export interface HaltedMessage {
   type: 'halted';
 }
 /**
- * Something of this changed.
+ * Something of this changed. `brokenSlots` hold half a group: nobody may run them.
  */
 export interface StateMessage {
   type: 'state';
@@ -269,6 +324,7 @@ export interface StateMessage {
   latch: boolean;
   clients: number;
   unattended: UnattendedRun | null;
+  brokenSlots: number[];
 }
 /**
  * Something of the lease changed.
@@ -290,4 +346,11 @@ export interface TickMessage {
 export interface LeftMessage {
   type: 'left';
   packets: string[];
+}
+/**
+ * A download began, came further or ended; the latest one, whoever began it.
+ */
+export interface JobMessage {
+  type: 'job';
+  job: JobState;
 }

@@ -1,0 +1,88 @@
+"""The gateway's loop of a download against shared/vectors/downloads.json: when a board says what, and each
+packet that follows from it. The page's session (shared/src/session/downloads.test.ts) runs the same file.
+"""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from servodeck import download, jobs
+from servodeck.callers import Caller
+from servodeck.control import Control
+from servodeck.jobs import Group
+from servodeck.messages import JobState
+from servodeck.values import Frame, ServoTarget
+from servodeck.wire import wire_s
+from tests.client import Client, gateway_on
+from tests.fake_port import FakePort
+from tests.samples import STOP
+from tests.virtual_time import at, in_virtual_time, now
+
+VECTORS = json.loads((Path(__file__).parents[2] / "shared/vectors/downloads.json").read_text("utf-8"))
+STORED = bytes.fromhex("55550219")
+GUEST = Caller("guest", "Bert", "viewer")
+
+
+class AnsweringPort(FakePort):
+    """Says "stored" as it is told: a list for each packet, of times after the packet's last bit."""
+
+    def __init__(self, answers_ms: Sequence[Sequence[float]] = ()) -> None:
+        super().__init__()
+        self._answers_ms = iter(answers_ms)
+
+    def write(self, data: bytes) -> None:
+        super().write(data)
+        if data != STOP:
+            for after_ms in next(self._answers_ms, ()):
+                at(now() + wire_s(len(data)) + after_ms / 1000, lambda: self.say(STORED))
+
+
+async def ended(control: Control, job: JobState) -> JobState:
+    """When it has; somebody looks on."""
+    bert = Client(control, GUEST)
+    while (state := control.jobs.find(job.id)).status == "running":
+        await bert.next()
+    control.leave(bert)
+    return state
+
+
+def group_of(scenario: dict[str, Any]) -> Group:
+    frames = [
+        Frame(one["durationMs"], tuple(ServoTarget(*target) for target in one["targets"]))
+        for one in scenario["frames"]
+    ]
+    return Group(scenario["slot"], scenario["name"], frames)
+
+
+def test_the_waiting_times_are_those_of_the_page() -> None:
+    assert VECTORS["timings"] == {
+        "edgeFrameTimeoutMs": download.EDGE_FRAME_TIMEOUT_S * 1000,
+        "middleFrameTimeoutMs": download.MIDDLE_FRAME_TIMEOUT_S * 1000,
+        "restarts": download.RESTARTS,
+        "babbleLimit": download.BABBLE_LIMIT,
+        "eraseTimeoutMs": jobs.ERASE_TIMEOUT_S * 1000,
+    }
+
+
+@pytest.mark.parametrize("scenario", VECTORS["scenarios"], ids=[one["name"] for one in VECTORS["scenarios"]])
+@in_virtual_time
+async def test_a_download_in_which(scenario: dict[str, Any]) -> None:
+    port = AnsweringPort(scenario["answersMs"])
+    async with gateway_on(port) as control:
+        begun_s = now()
+        job = control.download(group_of(scenario), "Anna", lambda: None)
+        if "cancelAtMs" in scenario:
+            at(begun_s + scenario["cancelAtMs"] / 1000, lambda: control.jobs.cancel(job.id))
+        end = await ended(control, job)
+        took_ms = (now() - begun_s) * 1000
+        times_ms, indexes = zip(*scenario["sent"], strict=True)
+        sent = port.written[1:]
+        assert [packet.hex() for _, packet in sent] == [scenario["packets"][index] for index in indexes]
+        assert [(at_s - begun_s) * 1000 for at_s, _ in sent] == pytest.approx(times_ms, abs=0.01)
+        assert took_ms == pytest.approx(scenario["tookMs"], abs=0.01)
+        assert (end.code or end.status) == scenario["outcome"]
+        is_broken = scenario["outcome"] != "done"
+        assert control.jobs.broken(control.link.place) == [scenario["slot"]] * is_broken
