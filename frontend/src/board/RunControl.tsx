@@ -1,5 +1,6 @@
 // Runs the chosen slot a number of times, or, as a deliberate choice, until stopped; says how sure the page is that it runs.
 
+import { runAsChosen } from '../stores/goOn.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import type { Activity } from '#shared/session/state.ts';
@@ -8,6 +9,7 @@ import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
+import { GoOnControl } from './GoOnControl.tsx';
 import styles from './BoardPanel.module.css';
 
 export function RunControl() {
@@ -37,12 +39,13 @@ export function RunControl() {
           )}
         </div>
       </div>
+      <GoOnControl isEndless={untilStopped} />
       <div className={styles.row}>
         <Button
           wide
           icon="play"
           isDisabled={!mayRun || activity.kind === 'playing'}
-          onPress={() => device.run(slot, times)}
+          onPress={() => runAsChosen({ device, view }, slot, times)}
         >
           {words.board.run}
         </Button>

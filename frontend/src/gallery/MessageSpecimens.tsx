@@ -19,7 +19,7 @@ const SHARED: SessionState = {
   ...READY,
   lease: {
     ...{ driver: 'Anna', drives: true, asker: 'Bert', asks: false, answerInMs: 5000 },
-    ...{ mayDrive: true, mayTake: true, others: 3 },
+    ...{ mayDrive: true, mayTake: true, others: 3, unattended: null },
   },
 };
 

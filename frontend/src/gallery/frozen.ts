@@ -22,6 +22,7 @@ export function frozenSession(
     choose: nothing,
     setLimits: () => undefined,
     lease: () => undefined,
+    letGoOn: () => undefined,
     calibrate: () => undefined,
     move: () => {
       throw new LinkError('latched', 'the gallery moves nothing');

@@ -3,7 +3,7 @@
 import { LINK_ERROR_CODES, LinkError } from '#shared/session/linkError.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import type { BatteryKind } from '#shared/actions/robot/robot.ts';
-import type { Lease } from '#shared/session/lease.ts';
+import type { Lease, Unattended } from '#shared/session/lease.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { Way } from '../stores/device.ts';
 import { identityFrom, type Evidence } from '#shared/session/identity.ts';
@@ -50,10 +50,12 @@ const NO_BATTERY: SessionState = { ...READY, battery: { kind: 'unread' } };
 
 const LEASE: Lease = {
   ...{ driver: 'Anna', drives: true, asker: null, asks: false, answerInMs: null },
-  ...{ mayDrive: true, mayTake: false, others: 3 },
+  ...{ mayDrive: true, mayTake: false, others: 3, unattended: null },
 };
 
 const WATCHED: Lease = { ...LEASE, drives: false };
+
+const ALONE: Unattended = { slot: 5, times: 20, by: 'Anna', endsInMs: 245_000 };
 
 /** Whose turn it is, as each of the people there sees it. */
 const TURNS: Readonly<Record<string, Lease>> = {
@@ -63,6 +65,8 @@ const TURNS: Readonly<Record<string, Lease>> = {
   'Another drives, asked': { ...WATCHED, asker: 'Bert', asks: true, answerInMs: 5000 },
   'Another drives, yours to take': { ...WATCHED, driver: 'This computer', mayTake: true },
   'Nobody drives': { ...WATCHED, driver: null },
+  'You drive, it may go on': { ...LEASE, unattended: ALONE },
+  'It goes on alone': { ...WATCHED, driver: null, others: 0, unattended: ALONE },
   'Looking on only': { ...WATCHED, driver: null, mayDrive: false },
 };
 

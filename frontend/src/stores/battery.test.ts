@@ -220,7 +220,10 @@ describe('a robot that goes to rest', () => {
   ])('is a matter of the screen that drives: $driver', async ({ driver, drives, goes }) => {
     const { clock, device, told } = await createDesk(6500, 'rest');
     const line = createSimulatedTransport(clock, { onForMs: 60_000, batteryMv: 6500 });
-    const others = { asker: null, asks: false, answerInMs: null, others: 1, mayDrive: true, mayTake: false };
+    const others = {
+      ...{ asker: null, asks: false, answerInMs: null, others: 1 },
+      ...{ mayDrive: true, mayTake: false, unattended: null },
+    };
     const transport: Transport = {
       ...line,
       async open(events) {

@@ -70,6 +70,8 @@ export interface Device {
   resume(): void;
   /** About who drives a robot that is shared. */
   lease(action: LeaseAction): void;
+  /** The run under way may go on without this page, for so long at most; null: it may not. */
+  letGoOn(forMs: number | null): void;
   retryNow(): void;
   /** Holds for later sessions too. */
   setAutoReconnect(enabled: boolean): void;
@@ -331,6 +333,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     halt: () => attempt((current) => current.halt()),
     resume: () => attempt((current) => current.resume()),
     lease: (action) => session?.lease(action),
+    letGoOn: (forMs) => session?.letGoOn(forMs),
     retryNow: () => session?.retryNow(),
     setAutoReconnect(enabled) {
       autoReconnect = enabled;

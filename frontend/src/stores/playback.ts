@@ -12,6 +12,7 @@ import type { Activity } from '#shared/session/state.ts';
 import { words } from '../words/words.ts';
 import { obstacles, type CompiledGroup, type CompiledStore } from './compiled.ts';
 import type { Device } from './device.ts';
+import { runAsChosen } from './goOn.ts';
 import type { Document } from './document.ts';
 import { chosenPlace } from './groupPlace.ts';
 import { createFollower, type FollowedPose } from './follower.ts';
@@ -205,7 +206,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
     phase('running');
     const { times, untilStopped } = view.getState();
     const isEndless = untilStopped || store.getState().loops;
-    device.run(slot, isEndless ? 0 : times, (isTaken) => {
+    runAsChosen({ device, view }, slot, isEndless ? 0 : times, (isTaken) => {
       if (!isTaken) phase(null);
     });
   }

@@ -47,6 +47,10 @@ export interface ViewState {
   readonly slot: number;
   readonly times: number;
   readonly untilStopped: boolean;
+  /** The next run may go on without this page; chosen anew for each. */
+  readonly goesOn: boolean;
+  /** At most. */
+  readonly goOnMinutes: number;
   /** The latest change that only the eye could see, for screen readers. */
   readonly said: string;
 }
@@ -90,6 +94,8 @@ export const INITIAL_VIEW: ViewState = {
   slot: 0,
   times: 1,
   untilStopped: false,
+  goesOn: false,
+  goOnMinutes: 10,
   said: '',
 };
 

@@ -10,6 +10,7 @@ import { cx } from '../ui/cx.ts';
 import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/words.ts';
 import { LeaseChip } from './LeaseChip.tsx';
+import { UnattendedChip } from './UnattendedChip.tsx';
 import styles from './StatusLine.module.css';
 
 export interface StatusLineProps {
@@ -35,6 +36,7 @@ export function StatusLine({ onMoveHere }: StatusLineProps) {
         <Said truth={activityTruth(activity)} text={link.status === 'ready' ? activityWords(activity) : ''} />
       )}
       <LeaseChip />
+      <UnattendedChip />
     </div>
   );
 }

@@ -77,7 +77,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
   }
 
   function stateChanged(state: Omit<StateMessage, 'type'>): void {
-    turn.counted(state.clients);
+    turn.counted(state.clients, state.unattended);
     leaseChanged();
     boardChanged(state.board);
     portChanged(state.port);
@@ -207,6 +207,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
       });
     },
     lease: (action) => postIfOpen({ type: 'lease', action }),
+    letGoOn: (forMs) => postIfOpen({ type: 'continue', forMs }),
     halt(hold) {
       return new Promise((resolve, reject) => {
         post({ type: 'stop', hold: hold && compactHex(hold) });

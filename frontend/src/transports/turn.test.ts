@@ -90,7 +90,7 @@ test('whoever was quicker has it, and the nonce of a turn that is over is gone',
 
 test('how many are there is part of it, whichever was told first', () => {
   const { turn } = page(FREE);
-  turn.counted(3);
+  turn.counted(3, null);
   expect(turn.lease?.others).toBe(2);
   turn.told(OURS);
   expect(turn.lease?.others).toBe(2);

@@ -1,7 +1,7 @@
 // This page's turn to drive, as the gateway tells it: asks for a lease that nobody has, answers each tick, and keeps the
 // nonce that shows that what is said is of now. Knows no packet. It needs no timer, which a browser would slow down.
 
-import { isWatching, notDriving, type Lease } from '#shared/session/lease.ts';
+import { isWatching, notDriving, type Lease, type Unattended } from '#shared/session/lease.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { ClientMessage, LeaseState } from './messages.generated.ts';
 
@@ -10,8 +10,8 @@ export interface Turn {
   /** Of the latest tick. */
   readonly nonce: string | null;
   told(state: LeaseState): void;
-  /** How many are at the gateway, this page among them. */
-  counted(clients: number): void;
+  /** How many are at the gateway, this page among them, and what goes on without anybody. */
+  counted(clients: number, unattended: Unattended | null): void;
   ticked(nonce: string): void;
   /** Resolves when this page drives and its nonce is of now; rejects where somebody else drives. */
   begin(): Promise<void>;
@@ -34,7 +34,7 @@ const FRESH_MS = 300;
 
 export function createTurn(post: (message: ClientMessage) => void, now: () => number): Turn {
   let lease: Lease | null = null;
-  let others = 0;
+  let seen: Pick<Lease, 'others' | 'unattended'> = { others: 0, unattended: null };
   let nonce: string | null = null;
   let tickedMs = -Infinity;
   let waiters: readonly Waiter[] = [];
@@ -55,16 +55,16 @@ export function createTurn(post: (message: ClientMessage) => void, now: () => nu
       return nonce;
     },
     told(state) {
-      lease = { ...state, others };
+      lease = { ...state, ...seen };
       const wasOurs = nonce !== null;
       if (!state.drives) nonce = null;
       if (isWatching(lease)) fail(notDriving(lease));
       // Whoever waited for the next tick of it: there will be none.
       else if (wasOurs && !state.drives) fail(new LinkError('expired', 'this page’s turn to drive was over'));
     },
-    counted(clients) {
-      others = clients - 1;
-      lease &&= { ...lease, others };
+    counted(clients, unattended) {
+      seen = { others: clients - 1, unattended };
+      lease &&= { ...lease, ...seen };
     },
     ticked(next) {
       nonce = next;

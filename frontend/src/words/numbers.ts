@@ -24,6 +24,7 @@ const LONGER: readonly (readonly [Intl.RelativeTimeFormatUnit, number])[] = [
 
 export function numbersIn({ locale, units, gap }: Locale) {
   const whole = new Intl.NumberFormat(locale, { useGrouping: false });
+  const twoDigits = new Intl.NumberFormat(locale, { minimumIntegerDigits: 2 });
   const degrees = [0, 1].map(
     (count) =>
       new Intl.NumberFormat(locale, { useGrouping: false, signDisplay: 'negative', ...digits(count) }),
@@ -78,6 +79,11 @@ export function numbersIn({ locale, units, gap }: Locale) {
     /** Day and time, from milliseconds since 1970. */
     formatMoment: (epochMs: number): string => moment.format(epochMs),
     formatSeconds: (ms: number): string => seconds.format(ms / 1000),
+    /** `4:05`, rounded up: of what is left. */
+    formatMinutes: (ms: number): string => {
+      const left = Math.max(0, Math.ceil(ms / 1000));
+      return `${whole.format(Math.floor(left / 60))}:${twoDigits.format(left % 60)}`;
+    },
     formatMs: (ms: number): string => milliseconds.format(ms),
 
     /** `3 sec. ago`, by whole seconds and above a minute by minutes. */

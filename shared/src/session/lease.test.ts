@@ -12,7 +12,7 @@ import type { Transport, TransportEvents } from './transport.ts';
 
 const FREE: Lease = {
   ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null, others: 1 },
-  ...{ mayDrive: true, mayTake: false },
+  ...{ mayDrive: true, mayTake: false, unattended: null },
 };
 const OURS: Lease = { ...FREE, driver: 'Anna', drives: true };
 const THEIRS: Lease = { ...FREE, driver: 'Bert' };

@@ -2,6 +2,15 @@
 
 import { LinkError } from './linkError.ts';
 
+/** A run that may go on without whoever began it. */
+export interface Unattended {
+  readonly slot: number;
+  readonly times: number;
+  readonly by: string;
+  /** At the latest, from when this was told. */
+  readonly endsInMs: number;
+}
+
 export interface Lease {
   /** People's name for whoever drives, null where nobody does: whoever wants to move then gets it by that. */
   readonly driver: string | null;
@@ -17,6 +26,8 @@ export interface Lease {
   readonly mayTake: boolean;
   /** Others who look on or drive. */
   readonly others: number;
+  /** What runs without its driver; whoever drives next ends it. */
+  readonly unattended: Unattended | null;
 }
 
 /**

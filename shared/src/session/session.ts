@@ -55,6 +55,8 @@ export interface Session {
   setLimits(limits: readonly ServoLimits[]): void;
   /** On a shared link: about who drives; the outcome is in `state.lease`. */
   lease(action: LeaseAction): void;
+  /** On a shared link: the run under way may go on without this end, for so long at most; null: it may not. */
+  letGoOn(forMs: number | null): void;
   /** On a shared link: moves of this servo may pass those limits; null ends it, and so does the end of the link. */
   calibrate(servo: number | null): void;
   /** Newest wins per servo. Positions in the family's unit; `durationMs` 0 is as fast as the link allows. */
@@ -262,6 +264,7 @@ export function createSession(options: SessionOptions): Session {
     choose: (chosen) => identification.choose(chosen),
     setLimits: (limits) => transport.setLimits?.(limits),
     lease: (action) => transport.lease?.(action),
+    letGoOn: (forMs) => transport.letGoOn?.(forMs),
     calibrate: (servo) => transport.calibrate?.(servo),
     move: (targets, durationMs) => driver.live.move(targets, durationMs),
     run: (slot, times) => driver.groups.run(slot, times),

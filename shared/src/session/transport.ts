@@ -44,6 +44,8 @@ export interface Transport {
   setLimits?(limits: readonly ServoLimits[]): void;
   /** Only a shared link: about who drives; `leased` follows. */
   lease?(action: LeaseAction): void;
+  /** Only a shared link: the run under way may go on without this end, for so long at most; null: it may not. */
+  letGoOn?(forMs: number | null): void;
   /** Only a shared link: this end looks for that servo's limits and may pass the present ones; null: no longer. */
   calibrate?(servo: number | null): void;
   /** Rejects with a LinkError. May be called again after `lost` or `close`. */

@@ -1,9 +1,10 @@
 // Words about whose turn it is to drive a shared robot.
 
-import { counted, formatWhole } from './numbers.ts';
+import { counted, formatMinutes, formatWhole } from './numbers.ts';
 
 /** The gateway's name for whoever sits at its own computer. */
 const named = (name: string): string => (name === 'This computer' ? 'Another window' : name);
+const begunBy = (name: string): string => (name === 'This computer' ? 'another window' : name);
 
 export const leaseWords = {
   label: 'Who drives',
@@ -24,5 +25,11 @@ export const leaseWords = {
   allow: 'Allow',
   refuse: 'Refuse',
   release: 'Let go',
+  mayGoOn: (slot: number): string => `Slot ${formatWhole(slot)} may go on without you`,
+  goesOn: (slot: number, by: string): string => `Slot ${formatWhole(slot)} goes on without ${begunBy(by)}`,
+  goesOnFor: (ms: number): string => `${formatMinutes(ms)} at most; whoever drives next ends it`,
+  goesOnLabel: 'Goes on alone',
+  keep: 'Not without me',
+  keepHint: 'It is stopped again when this page closes or is not heard',
   releaseHint: 'Somebody else may drive then. What moves is stopped first.',
 };

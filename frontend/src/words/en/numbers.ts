@@ -13,6 +13,7 @@ export const {
   formatCount,
   formatDegrees,
   formatList,
+  formatMinutes,
   formatLongAge,
   formatMs,
   formatNames,

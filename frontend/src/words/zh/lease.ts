@@ -1,10 +1,14 @@
 // Whose turn it is to drive a shared robot, in Chinese.
 
 import type { Words } from '../en/english.ts';
-import { formatCount, formatWhole } from './numbers.ts';
+import { formatCount, formatMinutes, formatWhole } from './numbers.ts';
 
 /** The gateway's name for whoever sits at its own computer. */
-const named = (name: string): string => (name === 'This computer' ? '另一个窗口' : name);
+const NAMES: Readonly<Record<string, string>> = {
+  'This computer': '另一个窗口',
+  'A script on this computer': '这台电脑上的脚本',
+};
+const named = (name: string): string => NAMES[name] ?? name;
 
 export const leaseWords: Words['lease'] = {
   label: '谁在操控',
@@ -25,5 +29,11 @@ export const leaseWords: Words['lease'] = {
   allow: '同意',
   refuse: '拒绝',
   release: '交出',
+  mayGoOn: (slot) => `槽位${formatWhole(slot)}可在你离开后继续运行`,
+  goesOn: (slot, by) => `槽位${formatWhole(slot)}在${named(by)}离开后继续运行`,
+  goesOnFor: (ms) => `最长还有${formatMinutes(ms)}；下一位操控者会先结束它`,
+  goesOnLabel: '无人操控的运行',
+  keep: '离开就停止',
+  keepHint: '这个页面关闭或失去联系时，它会重新被停止',
   releaseHint: '之后别人可以操控。正在进行的动作会先停止。',
 };

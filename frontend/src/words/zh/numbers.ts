@@ -14,6 +14,7 @@ export const {
   formatCount,
   formatDegrees,
   formatList,
+  formatMinutes,
   formatLongAge,
   formatMs,
   formatNames,

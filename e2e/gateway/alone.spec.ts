@@ -1,0 +1,69 @@
+// What drives without a page: a run that goes on after its page has gone, and a script. Both are seen and can be stopped.
+
+import { lastTarget, ofKind } from '../fixtures/bus.ts';
+import { dashboardOf } from '../fixtures/dashboard.ts';
+import { captureGroup, downloadGroup } from '../fixtures/group.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+
+test('a run that may go on outlives its page; the next page sees it, and stops it', async ({
+  dashboard,
+  robot,
+  context,
+}) => {
+  await captureGroup(dashboard, [1000, 1600], 500);
+  await downloadGroup(dashboard, 6, 1600);
+  await dashboard.type(dashboard.times, 100);
+  await dashboard.goOn.check();
+  await dashboard.type(dashboard.field('Minutes at most'), 5);
+  await dashboard.button('Run').click();
+  await expect(dashboard.alone).toContainText('Slot 6 may go on without you');
+  await expect(dashboard.goOn).not.toBeChecked();
+  await dashboard.page.close();
+
+  const before = (await robot.bus()).length;
+  const next = dashboardOf(await context.newPage());
+  await robot.open(next.page);
+  await expect(next.link).toHaveText(/^Ready/);
+  await expect(next.alone).toContainText('Slot 6 goes on without another window');
+  // Longer than anybody's silence is waited for.
+  await expect(next.alone).toContainText(/4:5[0-5]/, { timeout: 15_000 });
+  expect(ofKind((await robot.bus()).slice(before), 'stop')).toHaveLength(0);
+
+  await next.stop.click();
+  await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
+  await expect(next.alone).toHaveCount(0);
+});
+
+test('what may go on can be bound to its page again, and then ends with it', async ({
+  dashboard,
+  robot,
+  context,
+}) => {
+  await captureGroup(dashboard, [1000, 1600], 500);
+  await downloadGroup(dashboard, 6, 1600);
+  await dashboard.type(dashboard.times, 100);
+  await dashboard.goOn.check();
+  await dashboard.button('Run').click();
+  await dashboard.alone.getByRole('button', { name: 'Not without me' }).click();
+  await expect(dashboard.alone).toHaveCount(0);
+  await context.newPage();
+  const before = (await robot.bus()).length;
+  await dashboard.page.close();
+  await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
+});
+
+test('a script drives under its name, and the page that is alone beside it sees that', async ({
+  dashboard,
+  robot,
+  request,
+}) => {
+  const { origin } = new URL(dashboard.page.url());
+  const answer = await request.post(`${origin}/api/move`, {
+    data: { timeMs: 3000, positions: { 1: 1800 } },
+  });
+  expect(answer.ok()).toBe(true);
+  await expect(dashboard.turn).toContainText('A script on this computer drives');
+  await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
+  await expect(dashboard.target(1)).toHaveValue('1800');
+  await expect(dashboard.turn).toHaveCount(0, { timeout: 10_000 });
+});

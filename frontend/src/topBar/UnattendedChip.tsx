@@ -1,0 +1,46 @@
+// The run that goes on, or may, without whoever began it: said to everybody, also where nobody else is there.
+
+import { useState } from 'react';
+import { useSnapshot, useStores } from '../stores/stores.ts';
+import type { Unattended } from '#shared/session/lease.ts';
+import { Button } from '../ui/Button.tsx';
+import { Mark } from '../ui/Chip.tsx';
+import { cx } from '../ui/cx.ts';
+import { useNow } from '../ui/useNow.ts';
+import { words } from '../words/words.ts';
+import styles from './LeaseChip.module.css';
+
+export function UnattendedChip() {
+  const { device } = useStores();
+  const run = useSnapshot((snapshot) => snapshot.lease?.unattended ?? null);
+  const isOurs = useSnapshot((snapshot) => snapshot.lease?.drives ?? false);
+  if (run === null) return null;
+  return (
+    <div className={cx(styles.lease, styles.alone)} role="group" aria-label={words.lease.goesOnLabel}>
+      <div className={styles.said}>
+        <Mark truth="commanded" />
+        <div>
+          <p className={styles.text} aria-live="polite">
+            {isOurs ? words.lease.mayGoOn(run.slot) : words.lease.goesOn(run.slot, run.by)}
+          </p>
+          <p className={styles.more}>
+            <Left key={run.endsInMs} run={run} />
+          </p>
+        </div>
+      </div>
+      {isOurs && (
+        <Button tone="quiet" hint={words.lease.keepHint} onPress={() => device.letGoOn(null)}>
+          {words.lease.keep}
+        </Button>
+      )}
+    </div>
+  );
+}
+
+/** Counts from when it was told. */
+function Left({ run: { endsInMs } }: { readonly run: Unattended }) {
+  const { device } = useStores();
+  const [toldMs] = useState(device.clock.now);
+  const nowMs = useNow(device.clock.now, 250);
+  return words.lease.goesOnFor(endsInMs - (nowMs - toldMs));
+}
