@@ -8,7 +8,7 @@ import type { StatusName } from './gesture.ts';
 import { hasAll, hitAt, type Spot } from './hit.ts';
 import { hoverAt } from './hover.ts';
 import { keySet } from '../stores/keySet.ts';
-import { lookOf } from './look.ts';
+import { lookOf, SCHEMES } from './look.ts';
 import { setTime } from './looking.ts';
 import { paint } from './paint.ts';
 import { followPointer } from './pointer.ts';
@@ -95,7 +95,7 @@ function paintOnChange(parts: LaneParts, stores: DeskStores, sizes: () => Sizes)
     if (request === 0) request = requestAnimationFrame(round);
   };
   const repaint = (): void => later(true);
-  const schemes = [matchMedia('(prefers-color-scheme: dark)'), matchMedia('(prefers-contrast: more)')];
+  const schemes = SCHEMES.map((scheme) => matchMedia(scheme));
   for (const scheme of schemes) scheme.addEventListener('change', repaint);
   const ends = [
     stores.timeline.subscribe(({ playheadMs: _, ...state }, before) =>

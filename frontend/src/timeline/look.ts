@@ -7,7 +7,11 @@ export type LookName = (typeof NAMES)[number];
 export type Look = Readonly<Record<LookName, string>> & { readonly font: string };
 
 /** What the page's colours depend on. */
-const SCHEMES = ['(prefers-color-scheme: dark)', '(prefers-contrast: more)', '(forced-colors: active)'];
+export const SCHEMES = [
+  '(prefers-color-scheme: dark)',
+  '(prefers-contrast: more)',
+  '(forced-colors: active)',
+];
 let latest: { readonly key: string; readonly look: Look } | undefined;
 
 /** Asked for at each repaint, and worked out only when it may be another: reading styles makes the browser compute them all. */
