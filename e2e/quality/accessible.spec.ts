@@ -33,10 +33,11 @@ async function expectSound({ page, isDark }: Look, state: string): Promise<void>
 }
 
 async function expectNoSidewaysScroll(page: Page, state: string): Promise<void> {
-  const overflow = await page.evaluate(() => {
-    const { scrollWidth, clientWidth } = document.documentElement;
-    return scrollWidth - clientWidth;
-  });
+  const overflow = await page.evaluate(() =>
+    [document.documentElement, ...document.querySelectorAll('[role="dialog"], [role="alertdialog"]')]
+      .map(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth)
+      .reduce((most, pixels) => Math.max(most, pixels)),
+  );
   expect.soft(overflow, `${state}: pixels beyond the right edge`).toBe(0);
 }
 

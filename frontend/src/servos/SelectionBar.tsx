@@ -13,18 +13,19 @@ import styles from './SelectionBar.module.css';
 /** A servo may turn up to twice as far as the others, to either side. */
 const MOST_PERCENT = 200;
 
-export function SelectionBar() {
+/** `hint` is what is said while nothing is selected. */
+export function SelectionBar({ hint }: { readonly hint: string }) {
   const selected = useServoView((view) => view.selected);
   const isWeighted = useServoView((view) => view.together === 'weighted');
   return (
     <div className={styles.bar} role="group" aria-label={words.servoPanel.selection}>
-      {selected.length === 0 ? <NothingSelected /> : <Selected selected={selected} />}
+      {selected.length === 0 ? <NothingSelected hint={hint} /> : <Selected selected={selected} />}
       {selected.length > 1 && isWeighted && <Weights selected={selected} />}
     </div>
   );
 }
 
-function NothingSelected() {
+function NothingSelected({ hint }: { readonly hint: string }) {
   const stores = useStores();
   const { servos } = useRobot();
   const hidden = useServoView((view) => view.hidden);
@@ -47,9 +48,7 @@ function NothingSelected() {
           {words.servoPanel.showHidden(hidden.length)}
         </Button>
       )}
-      {!isSomeHeld && hidden.length === 0 && (
-        <span className={styles.hint}>{words.servoPanel.selectHint}</span>
-      )}
+      {!isSomeHeld && hidden.length === 0 && <span className={styles.hint}>{hint}</span>}
     </div>
   );
 }

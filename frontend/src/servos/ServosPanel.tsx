@@ -9,6 +9,7 @@ import { useRobot, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Choice } from '../ui/Toggle.tsx';
+import { useLayout } from '../ui/useLayout.ts';
 import { words } from '../words/words.ts';
 import { Legend } from './Legend.tsx';
 import { MoveTimeControl } from './MoveTimeControl.tsx';
@@ -22,10 +23,12 @@ import styles from './ServosPanel.module.css';
 export function ServosPanel() {
   const hindrance = useSnapshot(motionHindrance);
   const layout = useView((state) => state.servoLayout);
+  const isPhone = useLayout() === 'phone';
+  const why = hindrance === null ? '' : words.servos.blocked[hindrance];
   return (
     <Panel
       title={words.servos.title}
-      note={hindrance === null ? '' : words.servos.blocked[hindrance]}
+      note={isPhone ? '' : why}
       className={styles.panel}
       tools={
         <>
@@ -36,7 +39,7 @@ export function ServosPanel() {
     >
       {layout === 'list' ? <Body /> : <BodyMap />}
       <Legend />
-      <SelectionBar />
+      <SelectionBar hint={isPhone && why !== '' ? why : words.servoPanel.selectHint} />
       {layout === 'list' ? <ServoList /> : <ServoAtHand />}
       <MoveTimeControl />
       <ServoTalk />
