@@ -19,6 +19,7 @@ from servodeck.disk import Disk
 from servodeck.docs import STYLE, docs_page
 from servodeck.entrance import Entrance
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
+from servodeck.events_api import events_api
 from servodeck.guard import Guard
 from servodeck.health_api import health_api
 from servodeck.jobs_api import jobs_api
@@ -59,6 +60,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     app.state.disk = Disk(library.folder, control.now)
     app.state.entrance = entrance
     app.include_router(api)
+    app.include_router(events_api)
     app.include_router(health_api)
     app.include_router(jobs_api)
     app.include_router(library_api)

@@ -240,6 +240,7 @@ class Control:
             left = self._halt(None, CancelledError("The gateway is ending."))
             await asyncio.wait_for(asyncio.shield(left), DRAIN_S)
         await self.link.close()
+        self.hub.close()
 
     # What the link tells
 

@@ -18,7 +18,7 @@ OUTBOX_MESSAGES = 256
 SEATS: dict[Role, int] = {"stopper": 200, "viewer": 200, "driver": 208, "owner": 216}
 # Nobody needs more windows; a single phone shall not take every seat.
 SEATS_EACH = 8
-TRY_AGAIN_LATER, AGAINST_THE_RULES = 1013, 1008
+TRY_AGAIN_LATER, AGAINST_THE_RULES, GOING_AWAY = 1013, 1008, 1012
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +89,11 @@ class Hub:
         for seat in self._seats:
             if seat.caller.id == caller_id:
                 seat.end(AGAINST_THE_RULES, reason)
+
+    def close(self) -> None:
+        """Nobody sits here any more."""
+        for seat in self._seats:
+            seat.end(GOING_AWAY, "The gateway is ending.")
 
     def join(self, seat: Seat) -> None:
         self._seats.add(seat)

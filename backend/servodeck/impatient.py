@@ -6,7 +6,9 @@ any more.
 """
 
 import asyncio
+from collections.abc import Callable
 
+from starlette.types import Scope
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
 # Browsers open a connection or two ahead of need.
@@ -15,6 +17,15 @@ HEAD_S = 1.0
 # A library of 3 MiB over a poor wireless link.
 BODY_S = 30.0
 HEAD_BYTES = 32 * 1024
+
+
+ABORT = "servodeck.abort"
+
+
+def abort_of(scope: Scope) -> Callable[[], None]:
+    """Cuts that request's connection, also where its other end does not read."""
+    abort: Callable[[], None] = scope["extensions"][ABORT]["abort"]
+    return abort
 
 
 class ImpatientProtocol(HttpToolsProtocol):
@@ -48,6 +59,7 @@ class ImpatientProtocol(HttpToolsProtocol):
         self._in_head = False
         self._end_in(BODY_S)
         super().on_headers_complete()
+        self.scope["extensions"] = {ABORT: {"abort": self.transport.abort}}
 
     def on_message_complete(self) -> None:
         self._end_in(None)

@@ -47,17 +47,23 @@ def all_routes() -> Iterator[tuple[str, str, str]]:
 async def knock(app: ASGIApp, scope: Scope) -> int:
     """The status of one request or upgrade; 101 where it was accepted."""
     first = "http.request" if scope["type"] == "http" else "websocket.connect"
-    messages: list[Message] = [{"type": first}, {"type": "websocket.disconnect", "code": 1000}]
+    messages: list[Message] = [{"type": first}]
     statuses: list[int] = []
+    answered = asyncio.Event()
 
     async def receive() -> Message:
-        return messages.pop(0) if messages else await asyncio.Future[Message]()
+        """Who has heard the status hangs up: a stream would go on for ever."""
+        if not messages:
+            await answered.wait()
+        return messages.pop() if messages else {"type": f"{scope['type']}.disconnect", "code": 1000}
 
     async def send(message: Message) -> None:
         if message["type"] == "websocket.accept":
             statuses.append(101)
         if message["type"].endswith("response.start"):
             statuses.append(message["status"])
+        if statuses:
+            answered.set()
 
     await app(scope, receive, send)
     return statuses[0]

@@ -28,6 +28,7 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("GET", "/metrics"): "viewer",
     ("GET", "/api/status"): "viewer",
     ("GET", "/api/battery"): "viewer",
+    ("GET", "/api/events"): "viewer",
     ("GET", "/api/library"): "viewer",
     ("GET", "/api/library/{document}"): "viewer",
     ("GET", "/api/library/{document}/versions"): "viewer",

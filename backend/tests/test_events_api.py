@@ -1,0 +1,151 @@
+"""What happens as a stream for scripts, and what becomes of those who do not read it."""
+
+import asyncio
+import json
+import time
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+from httpx2 import AsyncClient
+from starlette.types import Message
+
+from servodeck import access
+from servodeck.app import create_app
+from servodeck.control import Control
+from servodeck.events_api import SILENCE_S
+from servodeck.hub import OUTBOX_MESSAGES
+from servodeck.impatient import ABORT
+from tests.fake_port import FakePort, FakePorts
+from tests.knocking import scope_of
+from tests.running import DEVICE, NO_LIBRARY, PORT, entrance_to, server_on
+from tests.samples import BATTERY_REPORT
+from tests.test_gate import headers_of
+from tests.virtual_time import in_virtual_time, now
+
+
+@dataclass
+class Listener:
+    """One stream, as the server below the application sees it; `reads` False is a full socket."""
+
+    reads: asyncio.Event = field(default_factory=asyncio.Event)
+    gone: asyncio.Event = field(default_factory=asyncio.Event)
+    sent: list[Message] = field(default_factory=list)
+    aborted: bool = False
+
+    async def receive(self) -> Message:
+        await self.gone.wait()
+        return {"type": "http.disconnect"}
+
+    async def send(self, message: Message) -> None:
+        await self.reads.wait()
+        self.sent.append(message)
+
+    def abort(self) -> None:
+        self.aborted = True
+
+    def heard(self) -> list[dict[str, Any]]:
+        """Every message since the last look."""
+        lines = [message["body"].decode() for message in self.sent if message.get("body")]
+        self.sent.clear()
+        return [json.loads(line.removeprefix("data: ")) for line in lines if line.startswith("data: ")]
+
+
+@dataclass
+class Stage:
+    control: Control
+    port: FakePort
+    listener: Listener
+    life: asyncio.Future[None]
+    token_id: str
+
+
+@asynccontextmanager
+async def listening() -> AsyncIterator[Stage]:
+    """A viewer's script that listens to a gateway on a LAN."""
+    port, entrance = FakePort(), entrance_to(access.lan(PORT), now)
+    device, token = entrance.devices.admit("token", "Dance", "viewer")
+    control = Control(FakePorts(port), now, "doc")
+    await control.use_port(DEVICE)
+    listener = Listener()
+    listener.reads.set()
+    headers = [*headers_of(f"localhost:{PORT}", None), (b"authorization", f"Bearer {token}".encode())]
+    scope = scope_of("http", "GET", "/api/events", headers) | {
+        "extensions": {ABORT: {"abort": listener.abort}}
+    }
+    app = create_app(control, NO_LIBRARY, entrance)
+    life = asyncio.ensure_future(app(scope, listener.receive, listener.send))
+    await asyncio.sleep(0.1)
+    yield Stage(control, port, listener, life, device.id)
+    listener.gone.set()
+    listener.reads.set()
+    await life
+    assert len(control.hub) == 0
+    await control.link.close()
+
+
+@in_virtual_time
+async def test_a_stream_begins_with_how_everything_stands_and_goes_on_with_what_changes() -> None:
+    async with listening() as here:
+        assert (here.listener.sent[0]["status"], len(here.control.hub)) == (200, 1)
+        [welcome] = here.listener.heard()
+        assert (welcome["type"], welcome["port"]["status"], welcome["latch"]) == ("welcome", "open", False)
+        await here.control.stop(None)
+        here.port.say(BATTERY_REPORT)
+        await asyncio.sleep(0.1)
+        told = [message for message in here.listener.heard() if message["type"] != "left"]
+        assert [message["type"] for message in told] == ["state", "halted", "received"]
+        assert told[0]["latch"] is True
+        assert told[2]["packet"] == BATTERY_REPORT.hex()
+
+
+@in_virtual_time
+async def test_where_nothing_happens_a_line_shows_that_somebody_is_there() -> None:
+    async with listening() as here:
+        here.listener.sent.clear()
+        await asyncio.sleep(2.5 * SILENCE_S)
+        assert [message["body"] for message in here.listener.sent] == [b":\n\n"] * 2
+
+
+@in_virtual_time
+async def test_whoever_does_not_read_is_cut_and_the_others_lose_nothing() -> None:
+    async with listening() as here:
+        here.listener.reads.clear()
+        for _ in range(OUTBOX_MESSAGES + 2):
+            here.control.unattended.end()
+            here.control.port_changed()
+        await asyncio.sleep(1)
+        assert here.life.done()
+        assert here.listener.aborted
+        assert len(here.control.hub) == 0
+
+
+@in_virtual_time
+async def test_whoever_is_sent_away_and_who_is_there_at_the_end_hears_the_end() -> None:
+    for is_revoked in (True, False):
+        async with listening() as here:
+            if is_revoked:
+                here.control.hub.send_away(here.token_id, "Revoked.")
+            else:
+                here.control.hub.close()
+            await asyncio.sleep(0.1)
+            assert here.life.done()
+            assert here.listener.sent[-1] == {"type": "http.response.body", "body": b"", "more_body": False}
+            assert not here.listener.aborted
+
+
+async def test_over_a_real_socket_it_can_be_read_line_by_line_and_the_gateway_ends_in_time() -> None:
+    async with (
+        server_on(FakePorts(FakePort())) as running,
+        AsyncClient(base_url=f"http://{running.host}") as client,
+        client.stream("GET", "/api/events") as answer,
+    ):
+        assert answer.headers["content-type"].startswith("text/event-stream")
+        lines = answer.aiter_lines()
+        assert json.loads((await anext(lines)).removeprefix("data: "))["type"] == "welcome"
+        begun_s = time.monotonic()
+        running.server.leave()
+        rest = [line async for line in lines]
+        assert time.monotonic() - begun_s < 1
+        assert all(line.startswith("data: ") for line in rest if line)
