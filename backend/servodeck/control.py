@@ -25,7 +25,7 @@ from servodeck.errors import (
     OutOfRangeError,
     PortLostError,
 )
-from servodeck.gate import RUN, STOP, is_harmless, judge_group, judge_latch, judge_packet
+from servodeck.gate import RUN, STOP, is_harmless, judge_by_hand, judge_group, judge_latch, judge_packet
 from servodeck.hub import Hub, Seat
 from servodeck.inbox import Inbox
 from servodeck.jobs import Group, Jobs
@@ -122,6 +122,7 @@ class Control:
         self.limits.judge(packet, owner)
         wire = self.link.wire()
         judge_latch(packet, self.latch)
+        judge_by_hand(packet)
         self.jobs.judge_run(parse_command(packet), self.link.place)
         self._judge_idle(packet)
         judge = always if is_harmless(packet) else self._permitted(owner, nonce)

@@ -21,7 +21,7 @@ from servodeck.errors import (
 from servodeck.packets import FAMILIES, PacketError, check_command, encode
 from servodeck.values import Download, Frame
 
-MOVE, RUN, STOP, ERASE = 3, 6, 7, 8
+MOVE, RUN, STOP, ERASE, DOWNLOAD = 3, 6, 7, 8, 25
 BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
 HARMLESS = frozenset({STOP, BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS})
 
@@ -126,6 +126,12 @@ def judge_group(slot: int, frames: Sequence[Frame], board: str) -> list[bytes]:
         return [encode(command, FAMILIES[board]) for command in commands]
     except PacketError as error:
         raise refusal_of(error) from error
+
+
+def judge_by_hand(packet: bytes) -> None:
+    """A frame alone only breaks the slot it goes to (S33, S35). Raises NotSupportedError."""
+    if packet[COMMAND_AT] == DOWNLOAD:
+        raise NotSupportedError("Groups are stored as a whole: POST /api/slots/{slot}/download.")
 
 
 def refusal_of(error: PacketError) -> GatewayError:

@@ -97,6 +97,7 @@ class Jobs:
         self._known: dict[str, Job] = {}
         self._current: Job | None = None
         self._told_s = float("-inf")
+        self._teller: asyncio.TimerHandle | None = None
         # Until then the board may acknowledge a frame that nobody waits for any more.
         self._owed_until_s = float("-inf")
         self._erasing_until_s = float("-inf")
@@ -202,11 +203,14 @@ class Jobs:
 
     def _progressed(self, job: Job, progress: Progress) -> None:
         job.note(progress)
-        if self._now() - self._told_s >= TOLD_EVERY_S:
-            self._tell(job)
+        if self._teller is None:
+            delay_s = max(0.0, self._told_s + TOLD_EVERY_S - self._now())
+            self._teller = asyncio.get_running_loop().call_later(delay_s, self._tell, job)
 
     def _tell(self, job: Job) -> None:
-        self._told_s = self._now()
+        if self._teller:
+            self._teller.cancel()
+        self._teller, self._told_s = None, self._now()
         self._events.job_changed(job.state)
 
     def _found(self, job_id: str) -> Job:

@@ -17,6 +17,7 @@ from servodeck.errors import (
     MovingError,
     NotDrivingError,
     NotFoundError,
+    NotSupportedError,
     OutOfRangeError,
     SlotBrokenError,
 )
@@ -97,6 +98,18 @@ async def test_everybody_hears_how_far_it_is_and_whoever_joins_later_too() -> No
 
 
 @in_virtual_time
+async def test_what_was_stored_last_is_told_also_when_the_next_frame_takes_long() -> None:
+    frames = [Frame(500, (ServoTarget(1, 1500),))] * 20
+    async with gateway_on(AnsweringPort([[180], *[[4]] * 18, [400]])) as control:
+        anna = Client(control)
+        begin(control, Group(SLOT, "Wave", frames))
+        await asyncio.sleep(0.9)
+        told = [message["job"]["framesStored"] for message in await anna.heard() if message["type"] == "job"]
+        assert told[-1] == 19
+        assert len(told) < 10
+
+
+@in_virtual_time
 async def test_while_it_lasts_nothing_else_goes_to_the_board_whoever_asks() -> None:
     port = board_of()
     async with gateway_on(port) as control:
@@ -114,6 +127,13 @@ async def test_while_it_lasts_nothing_else_goes_to_the_board_whoever_asks() -> N
         await anna.send(BATTERY)
         await anna.send(RUN_WAVE)
         assert [packet[3] for packet in port.packets()] == [7, 25, 25, 25, 15, 6]
+
+
+@in_virtual_time
+async def test_a_single_frame_by_hand_is_refused() -> None:
+    async with gateway_on() as control:
+        with pytest.raises(NotSupportedError):
+            Client(control).send(DOWNLOAD)
 
 
 @pytest.mark.parametrize("what", [MOVE, RUN])

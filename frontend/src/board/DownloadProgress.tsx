@@ -1,5 +1,6 @@
 // How far a download has come, in frames, bytes and seconds over all that is being downloaded, and a way to call it off.
 
+import { isWatching } from '#shared/session/lease.ts';
 import { useSlots, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
@@ -9,6 +10,7 @@ export function DownloadProgress() {
   const { slots } = useStores();
   const activity = useSnapshot((snapshot) => snapshot.activity);
   const job = useSlots((state) => state.job);
+  const watches = useSnapshot(({ lease }) => isWatching(lease));
   if (activity.kind !== 'downloading') return null;
   const { framesStored, frameCount, bytesSent, bytesTotal, remainingMs } = activity;
   const all = job ?? { frameCount, framesDone: 0, count: 1, done: 0 };
@@ -34,7 +36,9 @@ export function DownloadProgress() {
           <span>{words.board.left(remainingMs)}</span>
         </p>
       </div>
-      <Button onPress={() => slots.cancel()}>{words.board.cancelDownload}</Button>
+      <Button isDisabled={watches} onPress={() => slots.cancel()}>
+        {words.board.cancelDownload}
+      </Button>
     </div>
   );
 }

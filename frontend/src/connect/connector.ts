@@ -116,7 +116,7 @@ export function createConnector(options: ConnectorOptions): Connector {
       family: isOwn ? FAMILIES[board] : known === undefined ? UNKNOWN_BOARD : FAMILIES[known],
       identifies: !isOwn,
       isWatched,
-      // The simulated robot in the page is a new one at each visit: nothing of it is worth remembering.
+      // The simulated robot in the page is a new one at each visit: nothing of it is worth remembering. A gateway remembers by itself.
       slotMemory: isOwn ? undefined : rememberSlots(storage, transport),
     });
     current = { transport, session };

@@ -4,7 +4,8 @@
 import type { Clock } from '#shared/clock.ts';
 import type { BoardId } from '#shared/protocol/families.ts';
 import { OWN_PAGE } from '../keepers/ownPage.ts';
-import { isLinkErrorCode, LinkError } from '#shared/session/linkError.ts';
+import { LinkError } from '#shared/session/linkError.ts';
+import { askGateway, isRecord, withBody } from '../transports/gatewayHttp.ts';
 
 export interface GatewayStatus {
   /** The port in use, null when none is. */
@@ -70,32 +71,14 @@ export function gatewayUrl(): string {
 }
 
 /** Without a body it is a question. */
-async function ask(path: string, body?: object): Promise<unknown> {
-  const request =
-    body === undefined
-      ? { headers: OWN_PAGE }
-      : { method: 'PUT', headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) };
-  const signal = AbortSignal.timeout(ANSWER_WITHIN_MS);
-  const response = await fetch(path, { ...request, signal }).catch((error: unknown) => {
-    throw new LinkError('gatewayUnreachable', 'the gateway does not answer', { cause: error });
-  });
-  const answer: unknown = await response.json().catch(() => null);
-  if (response.ok) return answer;
-  throw problem(answer);
-}
-
-function problem(body: unknown): LinkError {
-  if (!isRecord(body) || typeof body.code !== 'string') {
-    return new LinkError('gatewayUnreachable', 'no gateway is at this address');
-  }
-  const detail = typeof body.detail === 'string' ? body.detail : '';
-  return new LinkError(isLinkErrorCode(body.code) ? body.code : 'gatewayRefused', detail);
+function ask(path: string, body?: object): Promise<unknown> {
+  return askGateway(
+    path,
+    body === undefined ? { headers: OWN_PAGE } : withBody('PUT', body),
+    ANSWER_WITHIN_MS,
+  );
 }
 
 function isPort(value: unknown): value is GatewayPort {
   return isRecord(value) && typeof value.device === 'string' && typeof value.description === 'string';
-}
-
-function isRecord(value: unknown): value is Record<string, unknown> {
-  return typeof value === 'object' && value !== null && !Array.isArray(value);
 }

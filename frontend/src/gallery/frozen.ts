@@ -39,6 +39,7 @@ export function frozenSession(
     setSpeed: nothing,
     release: nothing,
     download: nothing,
+    cancelDownload: nothing,
     sendRaw: nothing,
     play: nothing,
     stopPlaying: () => undefined,

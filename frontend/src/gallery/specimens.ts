@@ -329,6 +329,13 @@ export const SPECIMENS: readonly Specimen[] = [
     pose: 'still',
     frames: 2,
   },
+  {
+    name: 'Another drives, downloading',
+    way: REMOTE,
+    state: { ...DOWNLOADING, lease: WATCHED, brokenSlots: [5] },
+    pose: 'still',
+    frames: 21,
+  },
   ...LINK_ERROR_CODES.map((code): Specimen => ({
     name: `Error ${code}`,
     way: USB,

@@ -9,6 +9,7 @@ import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import { parseCommand } from '#shared/protocol/parse.ts';
 import type { LeaseAction } from '#shared/session/lease.ts';
+import { LinkError } from '#shared/session/linkError.ts';
 import type { Session } from '#shared/session/session.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
@@ -118,7 +119,6 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   const book = createTargetBook(clock);
   let session: Session | null = null;
   let unsubscribe = (): void => undefined;
-  let downloading = new AbortController();
   let paused = false;
   let autoReconnect = true;
   let mayBegin: RunGuard = () => true;
@@ -278,14 +278,12 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
 
   /** False where it was called off. */
   async function downloadTo(current: Session, slot: number, frames: readonly Frame[]): Promise<boolean> {
-    downloading = new AbortController();
-    const { signal } = downloading;
     try {
-      await current.download(slot, frames, signal);
+      await current.download(slot, frames);
       notices.tell('info', words.board.downloaded(slot));
       return true;
     } catch (error) {
-      if (!signal.aborted) throw error;
+      if (!(error instanceof LinkError && error.code === 'cancelled')) throw error;
       notices.tell('warning', words.board.downloadCancelled(slot));
       return false;
     }
@@ -363,7 +361,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     sendRaw(packet) {
       if (keepsLimits(packet)) attempt((current) => current.sendRaw(packet));
     },
-    cancelDownload: () => downloading.abort(),
+    cancelDownload: () => attempt((current) => current.cancelDownload()),
     play(frames, times, settled) {
       const onIt = allowedFrames(frames);
       if (onIt === null) {

@@ -1,6 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { recordOf } from '#shared/actions/slots/slotBook.ts';
 import { createDesk } from './deskUnderTest.ts';
+import { words } from '../words/words.ts';
 import type { Way } from './device.ts';
 
 const USB: Way = { kind: 'webSerial', label: 'USB 1A86:7523', isSimulated: false };
@@ -118,6 +119,21 @@ describe('the slots of a board', () => {
     await inPage.draw(4000);
     expect(inPage.stored()).toEqual(['9 Bow']);
     expect((await openDesk(texts)).stored()).toEqual([]);
+  });
+
+  test('what was on its way when the page went is noted once it is there, or forgotten where it broke', async () => {
+    for (const breaks of [false, true]) {
+      const texts = new Map<string, string>();
+      const first = await openDesk(texts, { way: USB });
+      first.slots.download([BOW]);
+      await first.draw(40);
+      expect(first.state().book.begun).toMatchObject({ slot: 9, name: 'Bow' });
+      const slotMemory = { read: () => (breaks ? [9] : []), write: () => undefined };
+      const later = await openDesk(texts, { way: USB, slotMemory });
+      expect(later.stored()).toEqual(breaks ? [] : ['9 Bow']);
+      expect(later.told()).toEqual(breaks ? [] : [words.board.downloaded(9)]);
+      expect(later.state().book.begun).toBeNull();
+    }
   });
 
   test('another trim makes the copy another motion', async () => {

@@ -6,6 +6,7 @@ import {
   EMPTY_SLOT_BOOK,
   slotBookFromText,
   slotBookToText,
+  withBegun,
   withErased,
   withErasing,
   withStored,
@@ -62,6 +63,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
   const store = createStore<SlotsState>(() => ({ book: EMPTY_SLOT_BOOK, job: null }));
   let key: string | null = null;
   let isCancelled = false;
+  let underWay: SlotDownload | null = null;
 
   function keep(book: SlotBook): void {
     store.setState({ book });
@@ -95,13 +97,30 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     }
     // From here on nobody knows what is left, whatever the board will say.
     if (isErasing(state) && !isErasing(before)) keep(withErasing(store.getState().book));
+    if (underWay !== null) noteBegun(underWay, state);
+    else noteEnd(state);
   });
 
-  function note({ slot, name, documentId, frames }: SlotDownload): void {
+  function recordOf({ slot, name, documentId, frames }: SlotDownload): SlotRecord {
     const fingerprint = boardFingerprint(robots.current().robot, frames);
-    keep(
-      withStored(store.getState().book, { slot, name, documentId, frames, fingerprint, storedAtMs: today() }),
-    );
+    return { slot, name, documentId, frames, fingerprint, storedAtMs: today() };
+  }
+
+  /** From its first byte on the slot is broken, until all of it has arrived. */
+  function noteBegun(group: SlotDownload, { snapshot: { activity, brokenSlots } }: DeviceState): void {
+    const { book } = store.getState();
+    const isAtIt = activity.kind === 'downloading' && brokenSlots.includes(group.slot);
+    if (book.begun === null && isAtIt) keep(withBegun(book, recordOf(group)));
+  }
+
+  /** It may have gone on without this page. */
+  function noteEnd({ snapshot: { link, activity, brokenSlots } }: DeviceState): void {
+    const { book } = store.getState();
+    if (book.begun === null || link.status !== 'ready' || activity.kind === 'downloading') return;
+    const { slot } = book.begun;
+    if (brokenSlots.includes(slot)) return keep(withBegun(book, null));
+    keep(withStored(book, book.begun));
+    notices.tell('info', words.board.downloaded(slot));
   }
 
   function download(groups: readonly SlotDownload[], settled: Settled = () => undefined): void {
@@ -116,8 +135,11 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     const { job } = store.getState();
     if (group === undefined || job === null) return end(true, settled);
     const { slot, frames } = group;
+    underWay = group;
     device.download(slot, frames, (isDone) => {
-      if (isDone) note(group);
+      underWay = null;
+      if (isDone) keep(withStored(store.getState().book, recordOf(group)));
+      else noteEnd(device.store.getState());
       // A group that is called off in its last frame is whole nevertheless.
       if (!isDone || isCancelled) return end(false, settled);
       const framesDone = job.framesDone + frames.length;

@@ -5,8 +5,10 @@ import { FAMILIES, type BoardId } from '#shared/protocol/families.ts';
 import { isHarmless } from '#shared/protocol/commands.ts';
 import { fromHex, toHex } from '#shared/protocol/hex.ts';
 import { parseCommand } from '#shared/protocol/parse.ts';
-import { isLinkErrorCode, LinkError } from '#shared/session/linkError.ts';
+import { LinkError } from '#shared/session/linkError.ts';
 import type { ServoLimits, Transport, TransportEvents } from '#shared/session/transport.ts';
+import { refusal } from './gatewayHttp.ts';
+import { createGatewaySlots } from './gatewaySlots.ts';
 import type { ClientMessage, GatewayMessage, PortState, StateMessage } from './messages.generated.ts';
 import { createTurn } from './turn.ts';
 
@@ -22,6 +24,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
   let board: BoardId = 'unknown';
   let nextId = 1;
   const turn = createTurn(post, () => performance.now());
+  const slots = createGatewaySlots(beginTurn, () => events?.slotsChanged?.());
   const sending = new Map<number, Settle>();
   const halting = new Set<Settle>();
   const resuming = new Set<Settle>();
@@ -40,6 +43,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
       case 'welcome':
         turn.told(message.lease);
         limitsChanged(message.limits);
+        slots.told(message.job);
         stateChanged(message);
         break;
       case 'state':
@@ -54,6 +58,9 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
         break;
       case 'left':
         for (const packet of message.packets) events?.followed?.(fromHex(packet));
+        break;
+      case 'job':
+        slots.told(message.job);
         break;
       case 'tick':
         turn.ticked(message.nonce);
@@ -76,7 +83,13 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
     }
   }
 
+  async function beginTurn(): Promise<string> {
+    await turn.begin();
+    return turn.nonce ?? '';
+  }
+
   function stateChanged(state: Omit<StateMessage, 'type'>): void {
+    slots.toldBroken(state.brokenSlots);
     turn.counted(state.clients, state.unattended);
     leaseChanged();
     boardChanged(state.board);
@@ -134,6 +147,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
     const told = events;
     events = null;
     turn.fail(error);
+    slots.gone(error);
     for (const waiter of sending.values()) waiter.reject(error);
     sending.clear();
     for (const waiters of [halting, resuming, naming]) settleAll(waiters, (waiter) => waiter.reject(error));
@@ -172,6 +186,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
 
   return {
     kind: 'gateway',
+    slots,
     get isSimulated() {
       return port?.simulated ?? false;
     },
@@ -257,10 +272,6 @@ function settleAll(waiters: Set<Settle>, settle: (waiter: Settle) => void): void
 function portError(port: PortState | null): LinkError {
   if (port === null) return new LinkError('gatewayUnreachable', 'the gateway does not answer');
   return refusal(port.code ?? 'closed', port.detail ?? 'the port of the gateway is closed');
-}
-
-function refusal(code: string, detail: string): LinkError {
-  return new LinkError(isLinkErrorCode(code) ? code : 'gatewayRefused', detail);
 }
 
 /** The gateway's spelling of bytes: lower case, no spaces. */

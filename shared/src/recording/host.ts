@@ -10,8 +10,6 @@ export function createHost(
   session: Session,
   failed: (what: Intent['kind'], error: unknown) => void,
 ): (intent: Intent) => void {
-  let downloading = { aborted: false };
-
   const perform: { readonly [K in Intent['kind']]: Perform<K> } = {
     async move({ targets, durationMs }) {
       session.move(targets, durationMs);
@@ -25,14 +23,8 @@ export function createHost(
     erase: () => session.erase(),
     readBattery: () => session.readBattery(),
     raw: ({ bytes }) => session.sendRaw(bytes),
-    download({ slot, frames }) {
-      downloading = { aborted: false };
-      return session.download(slot, frames, downloading);
-    },
-    async cancelDownload() {
-      downloading.aborted = true;
-      await Promise.resolve();
-    },
+    download: ({ slot, frames }) => session.download(slot, frames),
+    cancelDownload: () => session.cancelDownload(),
   };
 
   return (intent) => {

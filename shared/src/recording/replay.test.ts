@@ -101,10 +101,9 @@ describe('replayed to the session', () => {
 
   test('a download that was called off is called off again', async () => {
     const { rig, entries } = await createRecordingRig();
-    const signal = { aborted: false };
-    rig.session.download(5, frames(20), signal).catch(nothing);
+    rig.session.download(5, frames(20)).catch(nothing);
     await rig.clock.advance(400);
-    signal.aborted = true;
+    void rig.session.cancelDownload();
     await rig.clock.advance(3_000);
     rig.session.move([{ servo: 1, position: 1_200 }], 500);
     await rig.clock.advance(3_000);

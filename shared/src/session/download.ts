@@ -9,19 +9,7 @@ import { encodeOrRefuse, isNoAnswer, type Exchange } from './exchange.ts';
 import { createFrameStore } from './frameStore.ts';
 import { LinkError } from './linkError.ts';
 import { DOWNLOAD_RESTARTS } from './timings.ts';
-
-/** An AbortSignal is one; this module may not know that type. */
-export interface CancelSignal {
-  readonly aborted: boolean;
-}
-
-export interface DownloadProgress {
-  readonly framesStored: number;
-  readonly frameCount: number;
-  readonly bytesSent: number;
-  readonly bytesTotal: number;
-  readonly remainingMs: number;
-}
+import type { DownloadProgress } from './transport.ts';
 
 export interface DownloadJob {
   readonly slot: number;
@@ -29,9 +17,10 @@ export interface DownloadJob {
   readonly family: Family;
   readonly clock: Clock;
   readonly exchange: Exchange;
-  readonly signal: CancelSignal | undefined;
   /** How long from now answers to earlier packets may still come; 0 when every one was heard. */
   readonly owedForMs: number;
+  /** Asked between two frames. */
+  isCancelled(): boolean;
   /** The first byte is about to leave: from here on the slot's old group is gone (S33, S35). */
   begun(): void;
   progress(progress: DownloadProgress): void;
@@ -49,11 +38,11 @@ export async function download(job: DownloadJob): Promise<void> {
   const sizes = commands.map((command) => encodeOrRefuse(command, job.family).length);
   const storeFrame = createFrameStore(job.clock, job.exchange);
 
-  refuseIfCancelled(job.signal);
+  refuseIfCancelled(job);
   job.progress(progressAfter(0, sizes, 0));
   // An answer that an earlier download did not wait for would be taken for ours.
   if (job.owedForMs > 0) await job.exchange.silence('frameStored', job.owedForMs);
-  refuseIfCancelled(job.signal);
+  refuseIfCancelled(job);
   job.begun();
   for (let restarts = 0; ; restarts += 1) {
     try {
@@ -65,7 +54,11 @@ export async function download(job: DownloadJob): Promise<void> {
   }
 }
 
-function frameCommands({ slot, frames }: DownloadJob): readonly FrameCommand[] {
+/** Throws `outOfRange` where there is no frame. */
+export function frameCommands({
+  slot,
+  frames,
+}: Pick<DownloadJob, 'slot' | 'frames'>): readonly FrameCommand[] {
   const frameCount = frames.length;
   if (frameCount === 0) throw new LinkError('outOfRange', 'an action group needs at least one frame');
   return frames.map((frame, frameIndex) => ({ kind: 'download', slot, frameCount, frameIndex, frame }));
@@ -80,14 +73,14 @@ async function storeAll(
   const startedMs = job.clock.now();
   job.progress(progressAfter(0, sizes, 0));
   for (const [index, command] of commands.entries()) {
-    refuseIfCancelled(job.signal);
+    refuseIfCancelled(job);
     await storeFrame(command);
     job.progress(progressAfter(index + 1, sizes, job.clock.now() - startedMs));
   }
 }
 
-function refuseIfCancelled(signal: CancelSignal | undefined): void {
-  if (signal?.aborted) throw new LinkError('cancelled', 'the download was cancelled');
+function refuseIfCancelled(job: DownloadJob): void {
+  if (job.isCancelled()) throw new LinkError('cancelled', 'the download was cancelled');
 }
 
 /** The time left is at least the wire's; what the first frames really took includes the flash. */

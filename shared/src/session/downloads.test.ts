@@ -61,12 +61,11 @@ async function play({ family, slot, frames, answersMs, cancelAtMs }: Scenario) {
   };
   const session = createSession({ transport, clock, family: familyOf(family) });
   await session.open();
-  const signal = { aborted: false };
-  if (cancelAtMs !== undefined) clock.after(cancelAtMs, () => (signal.aborted = true));
+  if (cancelAtMs !== undefined) clock.after(cancelAtMs, () => void session.cancelDownload());
   const group = frames.map(({ durationMs, targets }): Frame => {
     return { durationMs, targets: targets.map(([servo, position]) => ({ servo, position })) };
   });
-  const ended = session.download(slot, group, signal).then(
+  const ended = session.download(slot, group).then(
     () => ({ outcome: 'done', tookMs: clock.now() }),
     (error: unknown) => ({ outcome: error instanceof LinkError ? error.code : '', tookMs: clock.now() }),
   );

@@ -17,11 +17,13 @@ import type { Replies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { setSpeed } from './speed.ts';
+import type { SharedSlots } from './transport.ts';
 import { createTurns } from './turns.ts';
 
 export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
   readonly replies: Replies;
   readonly slotMemory: SlotMemory | undefined;
+  readonly shared: SharedSlots | undefined;
 }
 
 export interface Driver {
@@ -42,7 +44,7 @@ export interface Driver {
 }
 
 export function createDriver(family: Family, options: DriverOptions): Driver {
-  const { clock, store, lanes, replies, slotMemory } = options;
+  const { clock, store, lanes, replies, slotMemory, shared } = options;
   const robot = createRobotEstimate(family, clock);
   const core: Core = {
     ...{ family, clock, store, robot, lanes },
@@ -52,7 +54,7 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
   const moves = createMoveBuffer(family);
   const turns = createTurns({ clock, isUnknown: robot.isUnknown, due: lanes.wake, waiting });
   const live = createLive(core, moves, turns);
-  const groups = createGroups(core, slotMemory);
+  const groups = createGroups(core, slotMemory, shared);
   const readBattery = createBatteryReader(core);
   const readings = createReadings(core);
   const releaseServos = (servos: readonly number[]): Promise<void> => release(core, servos);
@@ -81,10 +83,10 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
     drop(error) {
       live.drop();
       waiting([]);
-      groups.drop();
+      const activity = groups.drop();
       lanes.purge(error);
       replies.fail(error);
-      store.update({ activity: { kind: 'idle' } });
+      store.update({ activity });
     },
   };
 }

@@ -4,12 +4,13 @@
 import type { Command, Frame } from '../protocol/commands.ts';
 import type { Report } from '../protocol/reports.ts';
 import { requireReady, requireReleased, requireRest, setActivity, type Core } from './core.ts';
-import { download, type CancelSignal } from './download.ts';
+import { download, frameCommands } from './download.ts';
 import { encodeOrRefuse } from './exchange.ts';
 import { repeatStop, STOP_PACKET } from './halt.ts';
 import { LinkError } from './linkError.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import type { Activity } from './state.ts';
+import type { SharedSlots } from './transport.ts';
 import { EDGE_FRAME_TIMEOUT_MS, ERASE_TIMEOUT_MS, RUN_END_GRACE_MS, RUN_TIMEOUT_MS } from './timings.ts';
 
 export interface Groups {
@@ -18,21 +19,32 @@ export interface Groups {
   /** Its repeats are still to leave. */
   isStopping(): boolean;
   erase(): Promise<void>;
-  download(slot: number, frames: readonly Frame[], signal: CancelSignal | undefined): Promise<void>;
+  download(slot: number, frames: readonly Frame[]): Promise<void>;
+  cancelDownload(): Promise<void>;
   heard(report: Report): void;
-  /** The link is ready: what is remembered of this board's slots. */
+  /** The link is about to be ready, or what it shares has changed: what is known of this board's slots. */
   linked(): void;
   /** The link is gone: what this board holds, or whether it is the same one at its return, nobody knows. */
   unlinked(): void;
-  drop(): void;
+  /** What goes on nevertheless. */
+  drop(): Activity;
 }
 
 type Truth = Extract<Activity, { kind: 'running' }>['truth'];
 
-export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Groups {
+const IDLE: Activity = { kind: 'idle' };
+
+/** `shared`: a link that stores groups by itself, and remembers which slots are broken. */
+export function createGroups(
+  core: Core,
+  ownMemory: SlotMemory | undefined,
+  shared: SharedSlots | undefined,
+): Groups {
+  const slotMemory = shared === undefined ? ownMemory : undefined;
   const { family, clock, store, robot, lanes, exchange } = core;
   const broken = new Set<number>();
   let stopping = 0;
+  let isCancelled = false;
   let cancelEndTimer = (): void => undefined;
   /** Until then the board may acknowledge a frame that nobody waits for any more. */
   let owedUntilMs = 0;
@@ -45,10 +57,22 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
 
   /** Which board it is becomes known only now: another one may have taken the name's place. */
   function linked(): void {
-    if (slotMemory === undefined) return;
-    broken.clear();
-    for (const slot of slotMemory.read()) broken.add(slot);
-    publishSlots();
+    const remembered = shared?.broken ?? slotMemory?.read();
+    const work = sharedWork();
+    const isSame = remembered?.length === broken.size && remembered.every((slot) => broken.has(slot));
+    if (remembered !== undefined && !isSame) {
+      broken.clear();
+      for (const slot of remembered) broken.add(slot);
+      publishSlots();
+    }
+    const { kind } = store.state.activity;
+    if (shared !== undefined && (kind === 'idle' || kind === 'downloading')) setActivity(core, work);
+  }
+
+  function sharedWork(): Activity {
+    const under = shared?.download ?? null;
+    if (under !== null) robot.unstored(under.slot);
+    return under === null ? IDLE : { kind: 'downloading', ...under };
   }
 
   function began(slot: number, times: number, truth: Truth): void {
@@ -63,7 +87,7 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
   function ended(slot: number | null): void {
     cancelEndTimer();
     robot.groupEnded(slot);
-    if (store.state.activity.kind === 'running') setActivity(core, { kind: 'idle' });
+    if (store.state.activity.kind === 'running') setActivity(core, IDLE);
   }
 
   async function stop(): Promise<void> {
@@ -122,20 +146,25 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
       broken.clear();
     } finally {
       publishSlots();
-      setActivity(core, { kind: 'idle' });
+      setActivity(core, IDLE);
     }
   }
 
-  async function storeGroup(
-    slot: number,
-    frames: readonly Frame[],
-    signal: CancelSignal | undefined,
-  ): Promise<void> {
+  async function storeGroup(slot: number, frames: readonly Frame[]): Promise<void> {
     requireRest(core);
+    if (shared !== undefined) {
+      for (const command of frameCommands({ slot, frames })) encodeOrRefuse(command, family);
+      await shared.store(slot, frames);
+      robot.stored(slot, frames);
+      publishSlots();
+      return;
+    }
+    isCancelled = false;
     const owedForMs = Math.max(0, owedUntilMs - clock.now());
     try {
       await download({
-        ...{ slot, frames, family, clock, exchange, signal, owedForMs },
+        ...{ slot, frames, family, clock, exchange, owedForMs },
+        isCancelled: () => isCancelled,
         begun() {
           robot.unstored(slot);
           broken.add(slot);
@@ -151,7 +180,7 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
       throw error;
     } finally {
       publishSlots();
-      if (store.state.activity.kind === 'downloading') setActivity(core, { kind: 'idle' });
+      if (store.state.activity.kind === 'downloading') setActivity(core, IDLE);
     }
   }
 
@@ -161,6 +190,10 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
     isStopping: () => stopping > 0,
     erase,
     download: storeGroup,
+    async cancelDownload() {
+      isCancelled = true;
+      await shared?.cancel();
+    },
     heard(report) {
       robot.heard(report);
       if (report.kind === 'runStarted') began(report.slot, report.times, 'acknowledged');
@@ -172,6 +205,9 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
       robot.unstored();
       publishSlots();
     },
-    drop: () => cancelEndTimer(),
+    drop() {
+      cancelEndTimer();
+      return sharedWork();
+    },
   };
 }

@@ -14,7 +14,7 @@ export type LineState =
 
 export interface LinkOptions extends Pick<
   TransportEvents,
-  'received' | 'latched' | 'identified' | 'limited' | 'leased' | 'followed'
+  'received' | 'latched' | 'identified' | 'limited' | 'leased' | 'slotsChanged' | 'followed'
 > {
   readonly transport: Transport;
   readonly clock: Clock;
@@ -82,6 +82,7 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
         identified: ifMine(events.identified),
         limited: ifMine(events.limited),
         leased: ifMine(events.leased),
+        slotsChanged: ifMine(events.slotsChanged),
         followed: ifMine(events.followed),
         lost: ifMine(fail),
       });

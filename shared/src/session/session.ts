@@ -7,7 +7,6 @@ import { UNKNOWN_BOARD, type Family } from '../protocol/families.ts';
 import { parseCommand } from '../protocol/parse.ts';
 import type { Report } from '../protocol/reports.ts';
 import { createDriver, type Driver } from './driver.ts';
-import type { CancelSignal } from './download.ts';
 import { encodeOrRefuse } from './exchange.ts';
 import { createHalt } from './halt.ts';
 import { createIdentification } from './identification.ts';
@@ -33,7 +32,7 @@ export interface SessionOptions {
   readonly identifies?: boolean | undefined;
   /** Whether somebody looks: then an idle board is asked now and again whether it is still there. Absent: never. */
   readonly isWatched?: (() => boolean) | undefined;
-  /** Without it broken slots are forgotten with the session. */
+  /** Without it broken slots are forgotten with the session; a shared link has its own. */
   readonly slotMemory?: SlotMemory | undefined;
 }
 
@@ -86,7 +85,9 @@ export interface Session {
   /** Takes the torque off: what these servos carry drops. Only after a person was warned. */
   release(servos: readonly number[]): Promise<void>;
   /** Stores `frames` in `slot`; progress is in `state.activity`. */
-  download(slot: number, frames: readonly Frame[], signal?: CancelSignal): Promise<void>;
+  download(slot: number, frames: readonly Frame[]): Promise<void>;
+  /** Behind its frame in progress; on a shared link, whoever began it. */
+  cancelDownload(): Promise<void>;
   /** Plays from the page. Resolves at the end or after `stopPlaying`. */
   play(frames: readonly Frame[], options?: { readonly times?: number }): Promise<void>;
   stopPlaying(): void;
@@ -108,6 +109,9 @@ export function createSession(options: SessionOptions): Session {
     identified: (board) => identification.told(board),
     limited: (limitsHeld) => store.update({ limitsHeld }),
     leased,
+    slotsChanged() {
+      if (store.state.link.status === 'ready') driver.groups.linked();
+    },
     followed: sentByOthers,
     latched(latched) {
       if (!latched) halt.released();
@@ -151,7 +155,7 @@ export function createSession(options: SessionOptions): Session {
   });
 
   function driverFor(next: Family): Driver {
-    return createDriver(next, { clock, store, lanes, replies, slotMemory });
+    return createDriver(next, { clock, store, lanes, replies, slotMemory, shared: transport.slots });
   }
 
   /** The board is taken for something else: whatever was believed of it was about another one. */
@@ -227,9 +231,10 @@ export function createSession(options: SessionOptions): Session {
 
   function entered(next: LinkState): void {
     const before = store.state.link.status;
+    // Whoever hears that it is ready finds what is known of its slots.
+    if (next.status === 'ready' && next.status !== before) driver.groups.linked();
     store.update({ link: next });
     if (next.status === before) return;
-    if (next.status === 'ready') driver.groups.linked();
     if (before === 'stale' && link.isOpen) halt.stopAfterReturn();
     if (before === 'ready') unlinked(next);
   }
@@ -279,7 +284,8 @@ export function createSession(options: SessionOptions): Session {
     readOffsets: () => driver.readings.readOffsets(),
     setSpeed: (slot, percent) => driver.setSpeed(slot, percent),
     release: (servos) => driver.release(servos),
-    download: (slot, frames, signal) => driver.groups.download(slot, frames, signal),
+    download: (slot, frames) => driver.groups.download(slot, frames),
+    cancelDownload: () => driver.groups.cancelDownload(),
     play: (frames, playing) => driver.live.play(frames, playing?.times ?? 1),
     stopPlaying: () => driver.live.stopPlaying(),
     motion: (servo) => driver.core.robot.motion(servo),

@@ -1,6 +1,7 @@
 // The one interface between a session and a way to a board: this computer's serial port, the gateway, or the simulator in
 // the page. A transport carries whole packets out and raw bytes in; it knows no command, keeps no queue and retries nothing.
 
+import type { Frame } from '../protocol/commands.ts';
 import type { BoardId } from '../protocol/families.ts';
 import type { Lease, LeaseAction } from './lease.ts';
 import type { LinkError } from './linkError.ts';
@@ -20,6 +21,28 @@ export interface TransportEvents {
   followed?(packet: Uint8Array): void;
   /** Only a shared link: who drives. Told once it is open, and on each change. */
   leased?(lease: Lease): void;
+  /** Only a shared link: something of its `slots` is another now. */
+  slotsChanged?(): void;
+}
+
+export interface DownloadProgress {
+  readonly framesStored: number;
+  readonly frameCount: number;
+  readonly bytesSent: number;
+  readonly bytesTotal: number;
+  readonly remainingMs: number;
+}
+
+/** How a shared link stores groups: by itself, so that it goes on when this end is gone. Known once the link is open. */
+export interface SharedSlots {
+  /** Slots that hold half a group. */
+  readonly broken: readonly number[];
+  /** The download under way, whoever began it. */
+  readonly download: (DownloadProgress & { readonly slot: number }) | null;
+  /** Resolves when the board has all of it; rejects with what ended it. */
+  store(slot: number, frames: readonly Frame[]): Promise<void>;
+  /** Calls off the one under way. */
+  cancel(): Promise<void>;
 }
 
 /** How far a servo may be turned, in the board's unit, and what people call it. */
@@ -42,6 +65,8 @@ export interface Transport {
   setBoard?(board: BoardId): Promise<void>;
   /** Only a shared link: what it shall hold everybody to who moves this robot, in place of what was said before. */
   setLimits?(limits: readonly ServoLimits[]): void;
+  /** Only a shared link. */
+  readonly slots?: SharedSlots;
   /** Only a shared link: about who drives; `leased` follows. */
   lease?(action: LeaseAction): void;
   /** Only a shared link: the run under way may go on without this end, for so long at most; null: it may not. */

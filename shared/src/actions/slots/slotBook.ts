@@ -27,6 +27,8 @@ const bookSchema = z.strictObject({
   erased: z.array(recordSchema),
   /** Every other slot was empty then. */
   isEmptied: z.boolean(),
+  /** Books of earlier versions name none. */
+  begun: z.optional(recordSchema),
 });
 
 const FORMAT = 'servodeck-slots';
@@ -52,9 +54,11 @@ export interface SlotBook {
   /** What the last erase took and nobody has brought back. */
   readonly erased: readonly SlotRecord[];
   readonly isEmptied: boolean;
+  /** What is on its way to the board: it may arrive when nobody is here any more. */
+  readonly begun: SlotRecord | null;
 }
 
-export const EMPTY_SLOT_BOOK: SlotBook = { stored: [], erased: [], isEmptied: false };
+export const EMPTY_SLOT_BOOK: SlotBook = { stored: [], erased: [], isEmptied: false, begun: null };
 
 export const recordOf = ({ stored }: SlotBook, slot: number): SlotRecord | undefined =>
   stored.find((record) => record.slot === slot);
@@ -64,18 +68,22 @@ const without = (records: readonly SlotRecord[], slot: number): readonly SlotRec
 
 const bySlot = (one: SlotRecord, other: SlotRecord): number => one.slot - other.slot;
 
+/** Its first byte has left; null: it did not arrive. */
+export const withBegun = (book: SlotBook, begun: SlotRecord | null): SlotBook => ({ ...book, begun });
+
 export function withStored(book: SlotBook, record: SlotRecord): SlotBook {
   return {
     ...book,
     stored: [...without(book.stored, record.slot), record].sort(bySlot),
     erased: without(book.erased, record.slot),
+    begun: null,
   };
 }
 
 /** An erase has begun: nobody knows what is left. */
-export function withErasing({ stored, erased }: SlotBook): SlotBook {
+export function withErasing({ stored, erased, begun }: SlotBook): SlotBook {
   const gone = stored.reduce((sum, record) => [...without(sum, record.slot), record], erased);
-  return { stored: [], erased: [...gone].sort(bySlot), isEmptied: false };
+  return { stored: [], erased: [...gone].sort(bySlot), isEmptied: false, begun };
 }
 
 export const withErased = (book: SlotBook): SlotBook => ({ ...book, isEmptied: true });
@@ -101,25 +109,28 @@ function isOf(record: SlotRecord, group: Pick<SlotRecord, 'name' | 'documentId'>
   return record.documentId === null ? record.name === group.name : record.documentId === group.documentId;
 }
 
-export function slotBookToText({ stored, erased, isEmptied }: SlotBook): string {
-  const packed = (records: readonly SlotRecord[]) =>
-    records.map(({ documentId, ...record }) => ({
-      ...record,
-      ...(documentId !== null && { documentId }),
-      frames: record.frames.map(({ durationMs, targets }) => [
-        durationMs,
-        ...targets.flatMap(({ servo, position }) => [servo, position]),
-      ]),
-    }));
-  const content = { stored: packed(stored), erased: packed(erased), isEmptied };
+export function slotBookToText({ stored, erased, isEmptied, begun }: SlotBook): string {
+  const packed = ({ documentId, ...record }: SlotRecord) => ({
+    ...record,
+    ...(documentId !== null && { documentId }),
+    frames: record.frames.map(({ durationMs, targets }) => [
+      durationMs,
+      ...targets.flatMap(({ servo, position }) => [servo, position]),
+    ]),
+  });
+  const content = {
+    ...{ stored: stored.map(packed), erased: erased.map(packed), isEmptied },
+    ...(begun !== null && { begun: packed(begun) }),
+  };
   return JSON.stringify({ format: FORMAT, version: 1, content });
 }
 
 export function slotBookFromText(text: string): Read<SlotBook> {
   const read = readVersioned(text, 'slot', fileSchema, () => null);
   if ('problem' in read) return read;
-  const { stored, erased, isEmptied } = read.value;
-  return { value: { stored: stored.map(unpacked), erased: erased.map(unpacked), isEmptied } };
+  const { stored, erased, isEmptied, begun } = read.value;
+  const lists = { stored: stored.map(unpacked), erased: erased.map(unpacked) };
+  return { value: { ...lists, isEmptied, begun: begun === undefined ? null : unpacked(begun) } };
 }
 
 function unpacked(record: z.infer<typeof recordSchema>): SlotRecord {

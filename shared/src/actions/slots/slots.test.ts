@@ -7,6 +7,7 @@ import {
   fateOf,
   slotBookFromText,
   slotBookToText,
+  withBegun,
   withErased,
   withErasing,
   withStored,
@@ -111,7 +112,9 @@ describe('the book of slots', () => {
       fc.property(someFrames, (frames) => {
         const book = withErased(withErasing(withStored(EMPTY_SLOT_BOOK, record(3, 'Wave', frames))));
         const both = withStored(book, record(9, 'Bow', frames));
-        expect(slotBookFromText(slotBookToText(both))).toEqual({ value: both });
+        const begun = withBegun(both, record(10, 'Nod', frames));
+        for (const each of [both, begun])
+          expect(slotBookFromText(slotBookToText(each))).toEqual({ value: each });
       }),
     );
   });

@@ -1,0 +1,93 @@
+// Downloads over the gateway are its own work: they outlive the page that began them, and what breaks is broken for everybody.
+
+import type { BrowserContext } from '@playwright/test';
+import { ofKind } from '../fixtures/bus.ts';
+import { dashboardOf, type Dashboard } from '../fixtures/dashboard.ts';
+import { captureGroup } from '../fixtures/group.ts';
+import { SLOW_FLASH, type Robot } from '../fixtures/robot.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+
+/** The first word of the board is lost: all again, behind seven seconds in which much can be done. */
+const LOST_WORD = { faults: ['slowErase=300', 'lostAck=1'] };
+
+async function begins(dashboard: Dashboard, slot: number): Promise<void> {
+  await captureGroup(dashboard, [1010, 1020, 1030]);
+  await dashboard.type(dashboard.slot, slot);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1030');
+  await dashboard.button('Download').click();
+  await expect(dashboard.progress).toHaveAttribute('aria-valuetext', '0 of 3 frames');
+}
+
+async function joins(robot: Robot, context: BrowserContext): Promise<Dashboard> {
+  const other = dashboardOf(await context.newPage());
+  await robot.open(other.page);
+  await expect(other.link).toHaveText(/^Ready/);
+  return other;
+}
+
+const framesHeard = async (robot: Robot): Promise<readonly number[]> =>
+  ofKind(await robot.bus(), 'download').map(({ frameIndex }) => frameIndex);
+
+test.describe('on a board with slow flash', () => {
+  test.use({ boardSettings: SLOW_FLASH });
+
+  test('a download goes on when its tab is closed; opened again, the page finds it done and runs it', async ({
+    dashboard,
+    robot,
+    context,
+  }) => {
+    await begins(dashboard, 21);
+    await dashboard.page.close();
+    await poll(() => framesHeard(robot)).toEqual([0, 1, 2]);
+
+    const again = await joins(robot, context);
+    await expect(again.notices).toContainText('Slot 21 is downloaded.');
+    await again.type(again.slot, 21);
+    await again.button('Run').click();
+    await expect(again.status).toHaveText('Running slot 21, once: received by the board');
+    await poll(async () => ofKind(await robot.bus(), 'run')).toEqual([{ kind: 'run', slot: 21, times: 1 }]);
+    await expect(again.status).toHaveText('Idle');
+  });
+});
+
+test.describe('on a board that seems to be silent', () => {
+  test.use({ boardSettings: LOST_WORD });
+
+  test('a page that is loaded again shows the download that is under way, and may call it off', async ({
+    dashboard,
+    robot,
+  }) => {
+    await begins(dashboard, 22);
+    await dashboard.page.reload();
+    await expect(dashboard.status).toHaveText('Downloading to slot 22');
+    await expect(dashboard.progress).toBeVisible();
+    await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');
+    await dashboard.board.getByRole('button', { name: 'Cancel' }).click();
+    await expect(dashboard.status).toHaveText('Idle');
+    await dashboard.type(dashboard.slot, 22);
+    await expect(dashboard.board).toContainText('Broken: its download did not finish.');
+    expect(new Set(await framesHeard(robot))).toEqual(new Set([0]));
+  });
+
+  test('whoever looks on sees it, STOP of anybody ends it, and nobody runs what is left', async ({
+    dashboard,
+    robot,
+    browser,
+  }) => {
+    const elsewhere = await browser.newContext();
+    const other = await joins(robot, elsewhere);
+    await begins(dashboard, 23);
+    await expect(other.status).toHaveText('Downloading to slot 23');
+    await other.stop.click();
+    await expect(dashboard.status).toContainText('Stopped');
+    await poll(async () => ofKind(await robot.bus(), 'stop').length).toBeGreaterThanOrEqual(4);
+    expect(new Set(await framesHeard(robot))).toEqual(new Set([0]));
+    await dashboard.resume.click();
+    for (const each of [dashboard, other]) {
+      await each.type(each.slot, 23);
+      await expect(each.board).toContainText('Broken: its download did not finish.');
+      await expect(each.button('Run')).toBeDisabled();
+    }
+    await elsewhere.close();
+  });
+});

@@ -1,0 +1,127 @@
+import { afterEach, expect, test, vi } from 'vitest';
+import { LinkError } from '#shared/session/linkError.ts';
+import { createGatewaySlots } from './gatewaySlots.ts';
+import type { JobState } from './messages.generated.ts';
+
+const FRAMES = [{ durationMs: 200, targets: [{ servo: 1, position: 1500 }] }];
+const RUNNING: JobState = {
+  ...{ id: 'a1', slot: 5, name: '', by: 'Anna', status: 'running' },
+  ...{
+    framesStored: 0,
+    frameCount: 1,
+    bytesSent: 0,
+    bytesTotal: 13,
+    remainingMs: 14,
+    code: null,
+    detail: null,
+  },
+};
+const DONE: JobState = { ...RUNNING, status: 'done', framesStored: 1 };
+
+afterEach(() => void vi.unstubAllGlobals());
+
+function createPage() {
+  const requests: { url: string; method: string | undefined; body: unknown }[] = [];
+  let answer: (response: Response) => void = () => undefined;
+  vi.stubGlobal('fetch', (url: string, { method, body }: RequestInit) => {
+    requests.push({ url, method, body: typeof body === 'string' ? JSON.parse(body) : null });
+    return new Promise<Response>((resolve) => (answer = resolve));
+  });
+  let changes = 0;
+  const slots = createGatewaySlots(
+    () => Promise.resolve('7-1'),
+    () => (changes += 1),
+  );
+  return {
+    ...{ slots, requests },
+    changes: () => changes,
+    answer: (status: number, body: object) => answer(Response.json(body, { status })),
+    async turns() {
+      for (let turn = 0; turn < 10; turn += 1) await Promise.resolve();
+    },
+  };
+}
+
+test('a download begins with the nonce of this page’s turn and ends as the gateway tells', async () => {
+  const { slots, requests, turns, answer, changes } = createPage();
+  const done = slots.store(5, FRAMES);
+  await turns();
+  expect(requests).toEqual([
+    {
+      url: 'api/slots/5/download',
+      method: 'POST',
+      body: { frames: [{ durationMs: 200, positions: { '1': 1500 } }], nonce: '7-1' },
+    },
+  ]);
+  answer(202, RUNNING);
+  slots.told(RUNNING);
+  expect(slots.download).toMatchObject({ slot: 5, frameCount: 1 });
+  slots.told(DONE);
+  await done;
+  expect([slots.download, changes()]).toEqual([null, 2]);
+});
+
+test('its end may be told before its beginning is answered', async () => {
+  const { slots, turns, answer } = createPage();
+  const failed = slots.store(5, FRAMES).catch((error: unknown) => error);
+  await turns();
+  slots.told({ ...RUNNING, status: 'failed', code: 'latched', detail: 'Stopped.' });
+  answer(202, RUNNING);
+  expect(await failed).toMatchObject({ code: 'latched', message: 'Stopped.' });
+});
+
+test('an earlier one, or another’s, says nothing of it', async () => {
+  const { slots, turns, answer } = createPage();
+  const ends: string[] = [];
+  slots.told({ ...DONE, id: 'before' });
+  void slots.store(5, FRAMES).then(() => ends.push('done'));
+  await turns();
+  answer(202, RUNNING);
+  await turns();
+  expect(ends).toEqual([]);
+  await vi.waitFor(() => {
+    slots.told(DONE);
+    expect(ends).toEqual(['done']);
+  });
+});
+
+test('what the gateway refuses for is the error', async () => {
+  const { slots, turns, answer } = createPage();
+  const failed = slots.store(5, FRAMES).catch((error: unknown) => error);
+  await turns();
+  answer(409, { code: 'notDriving', detail: 'Bert drives.' });
+  expect(await failed).toMatchObject({ code: 'notDriving' });
+});
+
+test('with the gateway gone nobody waits for it, and nothing is shown', async () => {
+  const { slots, turns, answer } = createPage();
+  const failed = slots.store(5, FRAMES).catch((error: unknown) => error);
+  await turns();
+  answer(202, RUNNING);
+  slots.told(RUNNING);
+  await vi.waitFor(async () => {
+    slots.gone(new LinkError('gatewayUnreachable', 'gone'));
+    expect(await Promise.race([failed, turns().then(() => 'waits')])).toMatchObject({
+      code: 'gatewayUnreachable',
+    });
+  });
+  expect(slots.download).toBeNull();
+});
+
+test('only one under way is called off, whoever began it', async () => {
+  const { slots, requests, answer } = createPage();
+  slots.told(DONE);
+  await slots.cancel();
+  expect(requests).toEqual([]);
+  slots.told({ ...RUNNING, id: 'b2' });
+  const cancelled = slots.cancel();
+  answer(200, RUNNING);
+  await cancelled;
+  expect(requests).toEqual([{ url: 'api/jobs/b2', method: 'DELETE', body: null }]);
+});
+
+test('the same broken slots again are no news', () => {
+  const { slots, changes } = createPage();
+  for (const told of [[], [5], [5], [5, 8]]) slots.toldBroken(told);
+  expect([slots.broken, changes()]).toEqual([[5, 8], 2]);
+});

@@ -1,0 +1,87 @@
+// The gateway's downloads as this page sees them: begins one, hears how far the latest is, calls it off. The gateway stores by
+// itself and goes on when the page has gone. Knows jobs and their route; no socket.
+
+import type { Frame } from '#shared/protocol/commands.ts';
+import { LinkError } from '#shared/session/linkError.ts';
+import type { SharedSlots } from '#shared/session/transport.ts';
+import { askGateway, isRecord, refusal, withBody } from './gatewayHttp.ts';
+import type { JobState } from './messages.generated.ts';
+
+/** The largest group is 100 KB, which a slow network takes a while for. */
+const BEGUN_WITHIN_MS = 8_000;
+
+export interface GatewaySlots extends SharedSlots {
+  told(job: JobState | null): void;
+  toldBroken(slots: readonly number[]): void;
+  /** The gateway is gone: whoever waits for a download waits in vain, though it may go on. */
+  gone(error: LinkError): void;
+}
+
+interface Waiter {
+  readonly id: string;
+  readonly resolve: () => void;
+  readonly reject: (error: LinkError) => void;
+}
+
+/** `begin` gives the nonce of this page's turn to drive; `changed` hears that something of it is another now. */
+export function createGatewaySlots(begin: () => Promise<string>, changed: () => void): GatewaySlots {
+  let job: JobState | null = null;
+  let broken: readonly number[] = [];
+  let waiter: Waiter | null = null;
+
+  function settle(): void {
+    if (waiter === null || job?.id !== waiter.id || job.status === 'running') return;
+    const { resolve, reject } = waiter;
+    waiter = null;
+    if (job.status === 'done') resolve();
+    else reject(refusal(job.code ?? 'internal', job.detail ?? ''));
+  }
+
+  return {
+    get broken() {
+      return broken;
+    },
+    get download() {
+      return job?.status === 'running' ? job : null;
+    },
+    async store(slot, frames) {
+      const nonce = await begin();
+      const body = { frames: frames.map(toBody), nonce };
+      const begun = await askGateway(`api/slots/${slot}/download`, withBody('POST', body), BEGUN_WITHIN_MS);
+      if (!isRecord(begun) || typeof begun.id !== 'string')
+        throw new LinkError('internal', 'the gateway’s answer is no job');
+      const { id } = begun;
+      await new Promise<void>((resolve, reject) => {
+        waiter = { id, resolve, reject };
+        // Its end may have been told before its beginning was answered.
+        settle();
+      });
+    },
+    async cancel() {
+      if (job?.status !== 'running') return;
+      await askGateway(`api/jobs/${job.id}`, { method: 'DELETE' }, BEGUN_WITHIN_MS);
+    },
+    told(next) {
+      job = next;
+      settle();
+      changed();
+    },
+    toldBroken(slots) {
+      const isSame = slots.join() === broken.join();
+      broken = slots;
+      if (!isSame) changed();
+    },
+    gone(error) {
+      job = null;
+      waiter?.reject(error);
+      waiter = null;
+    },
+  };
+}
+
+function toBody({ durationMs, targets }: Frame): object {
+  return {
+    durationMs,
+    positions: Object.fromEntries(targets.map(({ servo, position }) => [servo, position])),
+  };
+}

@@ -1,0 +1,129 @@
+// What a session makes of a link that stores groups by itself: it asks for it, shows what it is told, and sends no frame.
+
+import { expect, test } from 'vitest';
+import { family as familyOf } from '../protocol/families.ts';
+import { createSimulatedTransport } from '../simulator/transport.ts';
+import { createVirtualClock } from '../simulator/virtualClock.ts';
+import { LinkError } from './linkError.ts';
+import { createSession } from './session.ts';
+import type { SharedSlots, Transport, TransportEvents } from './transport.ts';
+
+const WAVE = [{ durationMs: 200, targets: [{ servo: 1, position: 1_600 }] }];
+const UNDER_WAY = {
+  ...{ slot: 5, framesStored: 1, frameCount: 3 },
+  ...{ bytesSent: 13, bytesTotal: 39, remainingMs: 700 },
+};
+
+async function sharedSession(known: Pick<SharedSlots, 'broken' | 'download'>) {
+  const clock = createVirtualClock();
+  const line = createSimulatedTransport(clock, { onForMs: 60_000 });
+  const sent: number[] = [];
+  const asked: string[] = [];
+  let told = known;
+  let heard: TransportEvents | null = null;
+  let settle: { resolve: () => void; reject: (error: LinkError) => void };
+  const transport: Transport = {
+    ...line,
+    slots: {
+      get broken() {
+        return told.broken;
+      },
+      get download() {
+        return told.download;
+      },
+      store(slot, frames) {
+        asked.push(`store ${slot} ${frames.length}`);
+        return new Promise((resolve, reject) => (settle = { resolve, reject }));
+      },
+      cancel() {
+        asked.push('cancel');
+        return Promise.resolve();
+      },
+    },
+    open(events) {
+      heard = events;
+      return line.open(events);
+    },
+    send(packet) {
+      sent.push(packet[3] ?? 0);
+      return line.send(packet);
+    },
+  };
+  const session = createSession({
+    ...{ transport, clock, family: familyOf('doc') },
+    slotMemory: { read: () => [77], write: () => expect.fail('a shared link remembers by itself') },
+  });
+  await session.open();
+  return {
+    ...{ clock, session, sent, asked },
+    tell(next: typeof known) {
+      told = next;
+      heard?.slotsChanged?.();
+    },
+    lease: (driver: string, drives: boolean) =>
+      heard?.leased?.({
+        ...{ driver, drives, asker: null, asks: false, answerInMs: null },
+        ...{ mayDrive: true, mayTake: true, others: 1, unattended: null },
+      }),
+    stored: () => settle.resolve(),
+    failed: (error: LinkError) => settle.reject(error),
+  };
+}
+
+test('a download is asked for, followed and noted, and no frame of it is sent from here', async () => {
+  const { session, sent, asked, tell, stored, clock } = await sharedSession({ broken: [], download: null });
+  const done = session.download(5, WAVE);
+  expect(asked).toEqual(['store 5 1']);
+  tell({ broken: [5], download: UNDER_WAY });
+  expect(session.state).toMatchObject({
+    activity: { kind: 'downloading', ...UNDER_WAY },
+    brokenSlots: [5],
+  });
+  tell({ broken: [], download: null });
+  stored();
+  await done;
+  await clock.advance(1_000);
+  expect(session.state).toMatchObject({ activity: { kind: 'idle' }, brokenSlots: [], storedSlots: [5] });
+  expect(sent).toEqual([]);
+});
+
+test('one that somebody else began is shown, refuses motion, and can be called off', async () => {
+  const { session, asked } = await sharedSession({ broken: [5], download: UNDER_WAY });
+  expect(session.state).toMatchObject({ activity: { kind: 'downloading', slot: 5 }, brokenSlots: [5] });
+  expect(() => session.move([{ servo: 1, position: 1_500 }], 100)).toThrow(
+    expect.objectContaining({ code: 'busy' }),
+  );
+  await expect(session.download(6, WAVE)).rejects.toMatchObject({ code: 'busy' });
+  await session.cancelDownload();
+  expect(asked).toEqual(['cancel']);
+});
+
+test('it outlives this end’s turn to drive, and what it left in the slot before is not known any more', async () => {
+  const { session, lease, tell, stored } = await sharedSession({ broken: [], download: null });
+  lease('Anna', true);
+  const done = session.download(5, WAVE);
+  stored();
+  await done;
+  expect(session.state.storedSlots).toEqual([5]);
+  tell({ broken: [5], download: UNDER_WAY });
+  lease('Bert', false);
+  expect(session.state).toMatchObject({ activity: { kind: 'downloading', slot: 5 }, storedSlots: [] });
+  tell({ broken: [5], download: null });
+  expect(session.state.activity).toEqual({ kind: 'idle' });
+});
+
+test('what ends it is its error, and a broken slot is not run', async () => {
+  const { session, failed, tell } = await sharedSession({ broken: [], download: null });
+  const done = session.download(5, WAVE).catch((error: unknown) => error);
+  tell({ broken: [5], download: null });
+  failed(new LinkError('latched', 'stopped'));
+  expect(await done).toMatchObject({ code: 'latched' });
+  await expect(session.run(5, 1)).rejects.toMatchObject({ code: 'slotBroken' });
+});
+
+test('what the board cannot take is refused before anything is asked for', async () => {
+  const { session, asked } = await sharedSession({ broken: [], download: null });
+  for (const frames of [[], [{ durationMs: 200, targets: [{ servo: 1, position: 9_000 }] }]])
+    await expect(session.download(5, frames)).rejects.toMatchObject({ code: 'outOfRange' });
+  expect(asked).toEqual([]);
+});
