@@ -6,6 +6,10 @@ import { fingersOf } from '../fixtures/fingers.ts';
 import { expect, test } from '../fixtures/test.ts';
 import { keepGroup, timelineOf } from '../fixtures/timeline.ts';
 
+/** Of the lanes, where the ruler and the heads of the frames are. */
+const RULER_Y = 11;
+const HEADS_Y = 33;
+
 test.beforeEach(async ({ page }) => {
   await keepGroup(page);
 });
@@ -116,6 +120,35 @@ test('keys are copied to the clipboard of the system and come back at the playhe
   await expect(timeline.key('Gripper, 0.00 s, 1400 µs, linear')).toHaveAttribute('aria-selected', 'true');
   await page.keyboard.press('Control+x');
   await expect(timeline.key('Gripper, 0.00 s, 1400 µs, linear')).toBeHidden();
+});
+
+test('a second press in the same place asks for a marker’s text, and for a frame’s note', async ({
+  page,
+  dashboard,
+}) => {
+  await expect(dashboard.frames).toHaveCount(3);
+  const timeline = timelineOf(page);
+  await timeline.click('All servos, frame 2, 1.00 s, 2 keys');
+  await page.keyboard.press('m');
+  await page.keyboard.type('Bow');
+  await page.keyboard.press('Enter');
+  const first = await timeline.middleOf(timeline.key('All servos, frame 1, 0.50 s, 2 keys'));
+  const second = await timeline.middleOf(timeline.key('All servos, frame 2, 1.00 s, 2 keys'));
+  const beginX = 2 * first.x - second.x;
+  const top = (await timeline.grid.boundingBox())!.y;
+  await page.mouse.dblclick(beginX, top + RULER_Y);
+  const text = page.getByRole('textbox', { name: 'Text of the marker' });
+  await expect(text).toHaveValue('Bow');
+  await text.fill('Deep bow');
+  await text.press('Enter');
+  await page.mouse.dblclick(beginX, top + RULER_Y);
+  await expect(text).toHaveValue('Deep bow');
+  await text.press('Enter');
+  await page.mouse.dblclick(second.x - 30, top + HEADS_Y);
+  const note = page.getByRole('textbox', { name: 'Note on the frame' });
+  await note.fill('Slowly');
+  await note.press('Enter');
+  await expect(page.getByRole('button', { name: /^Frame 2, .*Slowly$/ })).toBeVisible();
 });
 
 test('a locked row keeps its keys', async ({ page, dashboard }) => {

@@ -1,4 +1,6 @@
 import { describe, expect, test } from 'vitest';
+import { emptyGroup } from '#shared/actions/group/group.ts';
+import { startHistory } from '#shared/actions/history.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { editServoView } from '../stores/stores.ts';
 import { chordOf } from './keymap.ts';
@@ -148,6 +150,31 @@ describe('keys', () => {
     key('d', { ctrlKey: true });
     expect(keys(3).map(([atMs]) => atMs)).toEqual([500, 1500, 2000, 3000, 3500, 4500]);
     expect(steps()).toBe(2);
+  });
+
+  test('keys go from one group to another, and each group undoes its own', async () => {
+    const { key, keys, select, stores, desk, group } = await createTimelineDesk();
+    select([1, 3], [3, 3]);
+    VERBS.copy.run(desk());
+    const first = stores.document.store.getState();
+    stores.document.take(startHistory(emptyGroup('Other', 'us')));
+    stores.timeline.setState({ playheadMs: 300, ripples: true });
+    VERBS.paste.run(desk());
+    expect(keys(3)).toEqual([
+      [300, 2000],
+      [1300, 1000],
+    ]);
+    key('d', { ctrlKey: true });
+    expect(keys(3)).toHaveLength(4);
+    stores.document.undo();
+    expect(keys(3)).toHaveLength(2);
+    stores.document.undo();
+    expect(group().frames).toEqual([]);
+    stores.document.take(first);
+    expect(keys(3)).toEqual([
+      [500, 2000],
+      [1500, 1000],
+    ]);
   });
 
   test('reverse turns the selected stretch round', async () => {

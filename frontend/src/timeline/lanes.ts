@@ -55,7 +55,7 @@ export function bringToLife(parts: LaneParts, stores: DeskStores, host: LaneHost
       selectForMenu(stores, sizes(), spot);
       host.openMenu(spot);
     },
-    doubleClick: (spot) => setKeyAt(stores, sizes(), spot),
+    doubleClick: (spot) => actAt(stores, sizes(), spot),
     hover(spot) {
       const over = spot === null ? null : hoverAt(stores, sizes(), spot);
       parts.canvas.style.cursor = over?.cursor ?? '';
@@ -167,9 +167,12 @@ function selectForMenu(stores: DeskStores, sizes: Sizes, spot: Spot): void {
     stores.timeline.setState({ cursor: { row: hit.row.row.id, frameId: null } });
 }
 
-function setKeyAt(stores: DeskStores, sizes: Sizes, spot: Spot): void {
+/** A key where there is none; the text of a marker, the note of a frame. */
+function actAt(stores: DeskStores, sizes: Sizes, spot: Spot): void {
   const desk = deskOf(stores);
   const hit = hitAt(sceneOf(desk, sizes), spot);
+  if (hit.kind === 'marker') stores.timeline.setState({ marker: hit.id, asks: 'marker' });
+  if (hit.kind === 'head') stores.timeline.setState({ asks: 'note' });
   const { tickMs } = desk.family.motion;
   if (hit.kind === 'empty' && hit.row !== null && hit.atMs >= 0)
     setKeysAt(desk, hit.row.row.servos, Math.round(hit.atMs / tickMs) * tickMs);
