@@ -28,7 +28,9 @@ export function BatteryPanel() {
     <Panel title={words.battery.title} tools={<Tools />}>
       <div className={styles.reading}>
         <div className={styles.figures}>
-          <p className={styles.volts}>{voltsText(batteryMv, supply)}</p>
+          <p className={styles.volts} title={words.battery.measured}>
+            {voltsText(batteryMv, supply)}
+          </p>
           <p className={styles.kind}>
             <Share />
             {words.battery.kind[kind]}

@@ -4,6 +4,7 @@ import { readingKind } from '#shared/actions/battery/batteryGauge.ts';
 import { percentOf, type Supply } from '#shared/actions/battery/batterySupply.ts';
 import { useBattery, useSnapshot } from '../stores/stores.ts';
 import { Mark, type Truth } from '../ui/Chip.tsx';
+import { words } from '../words/words.ts';
 import { lastMv, LEVEL_TRUTH, voltsText } from './readings.ts';
 import styles from './BatteryReadout.module.css';
 
@@ -14,7 +15,12 @@ export function BatteryReadout() {
   const isPlain = batteryMv !== null && readingKind(batteryMv, supply) === 'plain';
   const truth: Truth = isCurrent && isPlain && gauge.level !== null ? LEVEL_TRUTH[gauge.level] : 'unknown';
   return (
-    <div className={styles.readout}>
+    <div
+      className={styles.readout}
+      role="group"
+      aria-label={words.battery.title}
+      title={words.battery.measured}
+    >
       {batteryMv !== null && truth !== 'confirmed' && <Mark truth={truth} />}
       {supply.cells === 0 ? <Plug /> : <Cell restMv={isPlain ? gauge.restMv : null} supply={supply} />}
       <span className={styles.volts}>{voltsText(batteryMv, supply)}</span>

@@ -16,5 +16,13 @@ export function Estimate({ servo, scale }: { readonly servo: number; readonly sc
     const { estimated } = motionInFrame(device, servo);
     return estimated === null ? '' : words.servoPanel.estimated(scale.digits(estimated));
   };
-  return <LiveText isSilent text={text} eachMs={WRITE_EACH_MS} className={styles.estimate} />;
+  return (
+    <LiveText
+      isSilent
+      text={text}
+      eachMs={WRITE_EACH_MS}
+      className={styles.estimate}
+      title={words.truth.estimated}
+    />
+  );
 }

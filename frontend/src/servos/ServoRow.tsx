@@ -100,6 +100,7 @@ function TargetField({ servo: own, scale, guess, blocked, onMove }: TargetFieldP
     <NumberField
       label={words.servos.target(own.servo)}
       size="large"
+      title={words.truth.commanded}
       value={target === null ? null : scale.shown(target)}
       {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals }}
       placeholder={guess === null ? words.servos.unknown : words.firstMoves.guessed(scale.digits(guess))}

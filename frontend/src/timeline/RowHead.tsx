@@ -53,7 +53,12 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
       {row.kind === 'servo' && (
         <>
           <Marks servo={row.servos[0] ?? -1} />
-          <span className={styles.value} data-value={row.servos[0]} aria-hidden="true" />
+          <span
+            className={styles.value}
+            data-value={row.servos[0]}
+            title={words.timeline.rows.value}
+            aria-hidden="true"
+          />
         </>
       )}
       {row.kind !== 'all' && (

@@ -16,6 +16,8 @@ export interface NumberFieldProps {
   readonly decimals?: 0 | 1;
   readonly unit?: string;
   readonly placeholder?: string;
+  /** What kind of number it is, for whoever points at it. */
+  readonly title?: string;
   /** Where steps begin while the value is not known. */
   readonly start?: number;
   readonly size?: 'plain' | 'large' | 'small';
@@ -54,7 +56,11 @@ export function NumberField(props: NumberFieldProps) {
   }
 
   return (
-    <div className={cx(styles.field, styles[size])} data-disabled={isDisabled || isReadOnly}>
+    <div
+      className={cx(styles.field, styles[size])}
+      data-disabled={isDisabled || isReadOnly}
+      title={props.title}
+    >
       <input
         type="text"
         inputMode={props.decimals === 1 ? 'decimal' : 'numeric'}

@@ -15,6 +15,7 @@ import {
 export const batteryWords = {
   title: 'Battery',
   gauge: 'Battery voltage',
+  measured: 'Battery voltage, as the board measured it last',
   noVolts: '– V',
   above: (volts: string): string => `> ${volts}`,
   unread: 'Not read yet',

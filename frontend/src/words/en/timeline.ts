@@ -103,6 +103,7 @@ export const timelineWords = {
     select: (row: string): string => `Select the keys of ${row}`,
     tools: (row: string): string => `Row of ${row}`,
     menu: 'Row',
+    value: 'Of the group at the playhead; the robot may be elsewhere',
     lock: 'Lock',
     unlock: 'Unlock',
     mute: 'Mute',

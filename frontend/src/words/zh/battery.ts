@@ -14,6 +14,7 @@ import {
 export const batteryWords: typeof english = {
   title: '电池',
   gauge: '电池电压',
+  measured: '电池电压，控制板最近一次测得',
   noVolts: '– V',
   above: (volts) => `> ${volts}`,
   unread: '尚未读取',

@@ -90,6 +90,7 @@ export const timelineWords: typeof english = {
     select: (row) => `选中${row}的关键帧`,
     tools: (row) => `${row}这一行`,
     menu: '行',
+    value: '动作组在播放头处的位置；机器人可能在别处',
     lock: '锁定',
     unlock: '解锁',
     mute: '静默',
