@@ -15,6 +15,7 @@ import { EraseControl } from './EraseControl.tsx';
 import { PlaceControl } from './PlaceControl.tsx';
 import { RunControl } from './RunControl.tsx';
 import { SpeedControl } from './SpeedControl.tsx';
+import field from '../ui/Field.module.css';
 import styles from './BoardPanel.module.css';
 
 export function BoardPanel() {
@@ -80,7 +81,7 @@ function SlotControl() {
   const fate = useFate(slot);
   return (
     <div className={styles.row}>
-      <div className={styles.field}>
+      <div className={field.named}>
         <span className={styles.label} aria-hidden="true">
           {words.board.slot}
         </span>

@@ -5,6 +5,7 @@ import { useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
+import field from '../ui/Field.module.css';
 import styles from './BoardPanel.module.css';
 
 const LONGEST_MINUTES = 60;
@@ -38,7 +39,7 @@ function MinutesField({ isDisabled }: { readonly isDisabled: boolean }) {
   const { view, notices } = useStores();
   const minutes = useView((state) => state.goOnMinutes);
   return (
-    <div className={styles.field}>
+    <div className={field.named}>
       <span className={styles.label} aria-hidden="true">
         {words.board.goOnAtMost}
       </span>

@@ -10,6 +10,7 @@ import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
 import { GoOnControl } from './GoOnControl.tsx';
+import field from '../ui/Field.module.css';
 import styles from './BoardPanel.module.css';
 
 export function RunControl() {
@@ -90,7 +91,7 @@ function TimesField({ untilStopped }: Pick<RunSettings, 'untilStopped'>) {
   const times = useView((state) => state.times);
   const max = useDevice((state) => state.family.runTimes.max);
   return (
-    <div className={styles.field}>
+    <div className={field.named}>
       <span className={styles.label} aria-hidden="true">
         {words.board.times}
       </span>

@@ -8,6 +8,7 @@ import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
+import field from '../ui/Field.module.css';
 import styles from './BoardPanel.module.css';
 
 const AS_STORED = 100;
@@ -21,7 +22,7 @@ export function SpeedControl() {
   const [isEverySlot, setEverySlot] = useState(false);
   return (
     <div className={styles.row}>
-      <div className={styles.field}>
+      <div className={field.named}>
         <span className={styles.label} aria-hidden="true">
           {words.board.speed}
         </span>

@@ -8,6 +8,7 @@ import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { words } from '../words/words.ts';
 import { Problems } from './Problems.tsx';
+import field from '../ui/Field.module.css';
 import styles from './CompileRow.module.css';
 
 export function CompileRow() {
@@ -50,7 +51,7 @@ function ErrorField() {
   const unit = useDevice((state) => state.family.unit);
   const value = useCompiled((state) => state.maxErrorUnits[unit]);
   return (
-    <div className={styles.field} role="group" aria-label={words.compile.label}>
+    <div className={field.named} role="group" aria-label={words.compile.label}>
       <span className={styles.dim} aria-hidden="true">
         {words.compile.error}
       </span>

@@ -7,6 +7,7 @@ import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import { BoardDetails } from './BoardDetails.tsx';
 import { EvidenceList } from './EvidenceList.tsx';
+import field from '../ui/Field.module.css';
 import styles from './ThisBoard.module.css';
 
 export function ThisBoard() {
@@ -22,7 +23,7 @@ export function ThisBoard() {
         <span>{words.identity.nickname}</span>
         <input
           key={known.nickname}
-          className={styles.name}
+          className={field.field}
           defaultValue={known.nickname}
           maxLength={NICKNAME_LENGTH}
           placeholder={words.identity.nicknameHint}

@@ -7,6 +7,8 @@ import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { words } from '../words/words.ts';
+import { cx } from '../ui/cx.ts';
+import field from '../ui/Field.module.css';
 import styles from './Library.module.css';
 import { Versions } from './Versions.tsx';
 
@@ -70,7 +72,7 @@ function TagsField({ label, tags, onChange }: TagsFieldProps) {
       <span>{words.library.tagsLabel}</span>
       <input
         key={text}
-        className={styles.field}
+        className={cx(field.field, styles.field)}
         aria-label={label}
         placeholder={words.library.tagsHint}
         autoComplete="off"

@@ -4,6 +4,8 @@ import { Select } from '../ui/Select.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
 import { SORTS, type Wish } from './arrange.ts';
+import { cx } from '../ui/cx.ts';
+import field from '../ui/Field.module.css';
 import styles from './Library.module.css';
 
 export interface LibraryFinderProps {
@@ -19,7 +21,7 @@ export function LibraryFinder({ wish, tags, onWish }: LibraryFinderProps) {
     <div className={styles.finder} role="search">
       <input
         type="search"
-        className={styles.field}
+        className={cx(field.field, styles.field)}
         aria-label={words.library.search}
         placeholder={words.library.searchHint}
         autoComplete="off"

@@ -5,6 +5,8 @@ import type { Version } from '#shared/actions/library/keeper.ts';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { cx } from '../ui/cx.ts';
+import field from '../ui/Field.module.css';
 import styles from './Library.module.css';
 
 const MAX_NAME_LENGTH = 64;
@@ -38,7 +40,7 @@ export function Versions({ id, onDone }: { readonly id: string; onDone(): void }
     <section className={styles.versions} aria-label={words.library.versions}>
       <form className={styles.keep} onSubmit={(event) => void keep(event)}>
         <input
-          className={styles.field}
+          className={cx(field.field, styles.field)}
           aria-label={words.library.versionName}
           placeholder={words.library.versionHint}
           maxLength={MAX_NAME_LENGTH}

@@ -6,6 +6,8 @@ import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';
 import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/words.ts';
+import { cx } from '../ui/cx.ts';
+import field from '../ui/Field.module.css';
 import styles from './People.module.css';
 
 interface InviteCardProps {
@@ -29,7 +31,7 @@ export function InviteCard({ invitation, wishes, now }: InviteCardProps) {
           onChange={(wanted) => setRole(wanted)}
         />
         <input
-          className={styles.input}
+          className={cx(field.field, styles.input)}
           aria-label={words.people.invite.name}
           placeholder={words.people.invite.nameHint}
           value={name}

@@ -4,6 +4,8 @@ import { useState } from 'react';
 import type { PeopleWishes, Shown } from '../stores/people.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { cx } from '../ui/cx.ts';
+import field from '../ui/Field.module.css';
 import styles from './People.module.css';
 
 interface ScriptsCardProps {
@@ -19,7 +21,7 @@ export function ScriptsCard({ shown, wishes }: ScriptsCardProps) {
       <h3>{words.people.more.title}</h3>
       <div className={styles.fields}>
         <input
-          className={styles.input}
+          className={cx(field.field, styles.input)}
           aria-label={words.people.more.name}
           placeholder={words.people.more.name}
           value={name}

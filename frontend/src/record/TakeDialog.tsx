@@ -11,6 +11,7 @@ import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { words } from '../words/words.ts';
+import field from '../ui/Field.module.css';
 import styles from './TakeDialog.module.css';
 
 export interface TakeDialogProps {
@@ -48,7 +49,7 @@ function Take({ samples, onClose }: TakeDialogProps) {
   };
   return (
     <div className={styles.take}>
-      <div className={styles.field}>
+      <div className={field.named}>
         <span aria-hidden="true">{words.record.error}</span>
         <NumberField
           label={words.record.errorField}
