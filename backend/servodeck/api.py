@@ -35,6 +35,13 @@ class BatteryAge(Message):
     age_ms: int
 
 
+class Running(Message):
+    """The group that may run: it was begun, and nobody has stopped it or heard that it ended."""
+
+    slot: int
+    times: int
+
+
 class Status(Message):
     version: str
     board: str
@@ -43,6 +50,7 @@ class Status(Message):
     clients: int
     battery: BatteryAge | None
     driver: str | None
+    running: Running | None
     unattended: UnattendedRun | None
 
 
@@ -107,8 +115,14 @@ async def status(control: Controlled) -> Status:
         clients=len(control.hub),
         battery=age_of(control),
         driver=name_of(control.driving.driver),
+        running=running_in(control),
         unattended=control.unattended.told(),
     )
+
+
+def running_in(control: Control) -> Running | None:
+    run = control.motion.run
+    return None if run is None else Running(slot=run.slot, times=run.times)
 
 
 def age_of(control: Control) -> BatteryAge | None:

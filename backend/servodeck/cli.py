@@ -22,7 +22,8 @@ from servodeck.describe import describe
 from servodeck.families import UNKNOWN
 from servodeck.logs import Form, Level
 from servodeck.packets import FAMILIES, PacketError
-from servodeck.ports import list_devices
+from servodeck.ports import PortInfo, list_devices
+from servodeck.remote_cli import COMMANDS, Token, TokenFile, asked, remote_at
 
 if TYPE_CHECKING:
     from servodeck.access import Access
@@ -39,6 +40,10 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
+
+
+for command in COMMANDS:
+    app.command()(command)
 
 
 def fail(message: str, code: int = FAILURE) -> NoReturn:
@@ -166,9 +171,20 @@ def show_config(context: typer.Context) -> None:
 
 
 @app.command()
-def ports(as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False) -> None:
+def ports(
+    as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
+    url: Annotated[
+        str, typer.Option(envvar=f"{PREFIX}_URL", help="Those of the computer of that gateway.")
+    ] = "",
+    token: Token = "",
+    token_file: TokenFile = None,
+) -> None:
     """List the serial ports of this computer, the likely ones first."""
-    found = list_devices()
+    if url:
+        remote = remote_at(url, token, token_file)
+        found = [PortInfo(**port) for port in asked(remote, "GET", "/api/ports")]
+    else:
+        found = list_devices()
     if as_json:
         print(json.dumps([asdict(port) for port in found]))
     elif not found:

@@ -68,6 +68,9 @@ class LeaseWish(Message):
     action: ScriptAction
 
 
+ONCE, POLITELY = RunWish(), EraseWish()
+
+
 async def scripts_of(connection: HTTPConnection) -> Scripts:
     scripts = connection.app.state.scripts
     assert isinstance(scripts, Scripts)
@@ -99,7 +102,7 @@ async def move(wish: MoveWish, request: Request, caller: Driving, scripts: Scrip
 
 @motion_api.post("/slots/{slot}/run")
 async def run(
-    slot: Annotated[int, Path(ge=0, le=255)], wish: RunWish, caller: Driving, scripts: Scripted
+    slot: Annotated[int, Path(ge=0, le=255)], caller: Driving, scripts: Scripted, wish: RunWish = ONCE
 ) -> RunBegun:
     """Runs the group in that slot; what moves ends first. It is stopped 2 s after the last `beat`, unless it
     may continue.
@@ -109,7 +112,7 @@ async def run(
 
 
 @motion_api.post("/erase")
-async def erase(wish: EraseWish, caller: Annotated[Caller, OWNER], scripts: Scripted) -> Erased:
+async def erase(caller: Annotated[Caller, OWNER], scripts: Scripted, wish: EraseWish = POLITELY) -> Erased:
     """Erases every slot of the board, for good."""
     await scripts.erase(caller, take=wish.take)
     return Erased(erased=True)

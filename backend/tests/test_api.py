@@ -27,6 +27,7 @@ async def test_status_tells_how_everything_stands() -> None:
             "clients": 0,
             "battery": None,
             "driver": None,
+            "running": None,
             "unattended": None,
         }
 

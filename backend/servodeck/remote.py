@@ -1,0 +1,80 @@
+"""A gateway somewhere, asked over HTTP. With the standard library alone, because the command line has to be
+quick: other HTTP clients take longer to load than a STOP to arrive.
+
+Knows requests and answers; no command's meaning and no terminal.
+"""
+
+import json
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from http.client import HTTPConnection, HTTPException, HTTPResponse, HTTPSConnection
+from typing import Any
+from urllib.parse import urlsplit
+
+ANSWER_S = 10.0
+OK, FAILED = 200, 400
+CONNECTIONS = {"http": HTTPConnection, "https": HTTPSConnection}
+
+
+class RefusedError(Exception):
+    """The gateway says no, and why."""
+
+    def __init__(self, code: str, detail: str) -> None:
+        super().__init__(detail)
+        self.code = code
+        self.detail = detail
+
+
+class UnreachableError(Exception):
+    """Nobody answers there, or nobody like us."""
+
+
+class Remote:
+    def __init__(self, url: str, token: str = "") -> None:
+        """Raises ValueError for what is no address."""
+        parts = urlsplit(url)
+        if parts.scheme not in CONNECTIONS or not parts.hostname:
+            raise ValueError(url)
+        self.url = url.rstrip("/")
+        self._parts = parts
+        self._headers = {"Authorization": f"Bearer {token}"} if token else {}
+
+    def ask(self, method: str, path: str, body: object = None, wait_s: float = ANSWER_S) -> Any:
+        """What the answer says. Raises RefusedError or UnreachableError."""
+        with self._answer_to(method, path, body, wait_s) as answer:
+            return read(answer)
+
+    def events(self) -> Iterator[str]:
+        """Each as JSON, for as long as the gateway tells. Raises as `ask` does."""
+        with self._answer_to("GET", "/api/events", None, None) as answer:
+            if answer.status != OK:
+                read(answer)
+            for line in answer:
+                if line.startswith(b"data: "):
+                    yield line.removeprefix(b"data: ").decode().rstrip("\n")
+
+    @contextmanager
+    def _answer_to(
+        self, method: str, path: str, body: object, wait_s: float | None
+    ) -> Iterator[HTTPResponse]:
+        text = None if body is None else json.dumps(body)
+        headers = self._headers | ({} if text is None else {"Content-Type": "application/json"})
+        connection = CONNECTIONS[self._parts.scheme](self._parts.netloc.rpartition("@")[2], timeout=wait_s)
+        with closing(connection):
+            try:
+                connection.request(method, self._parts.path.rstrip("/") + path, text, headers)
+                yield connection.getresponse()
+            except (OSError, HTTPException) as error:
+                raise UnreachableError(str(error)) from error
+
+
+def read(answer: HTTPResponse) -> Any:
+    text = answer.read()
+    try:
+        said = json.loads(text or b"null")
+        refusal = None if answer.status < FAILED else RefusedError(said["code"], said["detail"])
+    except (ValueError, TypeError, KeyError) as error:
+        raise UnreachableError("What answers there is no Servodeck gateway.") from error
+    if refusal:
+        raise refusal
+    return said

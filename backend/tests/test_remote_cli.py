@@ -1,0 +1,144 @@
+"""The commands that ask a running gateway, as a person and as a shell script use them."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx2
+import pytest
+
+from servodeck.remote_cli import INTERRUPTED, REFUSED, UNREACHABLE, USAGE
+from tests.samples import BATTERY, RUN, STOP
+from tests.test_cli import Served, run
+
+SILENT = ("--log-level", "error")
+MOVE_OF_TWO = bytes.fromhex("55550803 01dc05 01d007") + bytes.fromhex("55550803 01dc05 028403")
+
+
+@pytest.fixture
+def served(tmp_path: Path) -> Iterator[Served]:
+    made = Served("--board", "doc", "--data", str(tmp_path), *SILENT)
+    yield made
+    made.end()
+
+
+def test_status_is_told_for_people_and_for_programs(served: Served) -> None:
+    told = run("status", "--url", served.url)
+    assert told.exit_code == 0
+    assert f"port     open {served.pty.device}" in told.stdout
+    assert "driver   nobody" in told.stdout
+    assert json.loads(run("status", "--url", served.url, "--json").stdout)["board"] == "doc"
+
+
+def test_a_stop_leaves_and_refuses_motion_until_resume(served: Served) -> None:
+    assert run("stop", "--url", served.url).exit_code == 0
+    assert served.read_until_stops(3) == STOP * 3
+    refused = run("move", "1=1500", "--url", served.url)
+    assert refused.exit_code == REFUSED
+    assert "(latched)" in refused.stderr
+    assert "servodeck resume" in refused.stderr
+    assert run("resume", "--url", served.url).exit_code == 0
+    assert run("move", "1=2000", "2=900", "--url", served.url).stdout == "On its way, over in 1.5 s.\n"
+    assert os.read(served.pty.board, 100) == MOVE_OF_TWO
+
+
+def test_what_is_out_of_range_is_told_in_the_gateways_words(served: Served) -> None:
+    refused = run("move", "1=2600", "--url", served.url)
+    assert (refused.exit_code, refused.stdout) == (REFUSED, "")
+    assert refused.stderr.startswith("position of servo 1 is 2600, allowed 500..2500")
+
+
+def test_a_silent_board_is_told_with_what_to_do(served: Served) -> None:
+    silent = run("battery", "--url", served.url)
+    assert silent.exit_code == REFUSED
+    assert "switched on" in silent.stderr
+    assert os.read(served.pty.board, 100) == BATTERY
+
+
+def test_a_run_is_watched_over_until_ctrl_c_ends_it(served: Served) -> None:
+    with begin(served, "run", "8") as watching:
+        assert watching.stdout
+        assert watching.stdout.readline() == "Slot 8: silent.\n"
+        with pytest.raises(subprocess.TimeoutExpired):
+            watching.wait(2.5)  # longer than the gateway waits for somebody who does not beat
+        watching.send_signal(signal.SIGINT)
+        assert watching.wait(5) == INTERRUPTED
+        assert served.read_until_stops(3) == RUN + STOP * 3
+        assert "waits for resume" not in run("status", "--url", served.url).stdout
+
+
+def test_a_run_that_somebody_stops_ends_its_watch(served: Served) -> None:
+    with begin(served, "run", "8") as watching:
+        assert watching.stdout
+        watching.stdout.readline()
+        assert run("stop", "--url", served.url).exit_code == 0
+        assert watching.wait(5) == 0
+
+
+def test_a_run_may_go_on_without_the_command(served: Served) -> None:
+    assert run("run", "8", "--continue", "60", "--url", served.url).exit_code == 0
+    told = run("status", "--url", served.url).stdout
+    assert "alone    without A script on this computer, 60 s at most" in told
+    assert "running  slot 8, 1 times" in told
+
+
+def test_events_are_told_line_by_line(served: Served) -> None:
+    with begin(served, "events") as listening:
+        assert listening.stdout
+        assert json.loads(listening.stdout.readline())["type"] == "welcome"
+        run("stop", "--url", served.url)
+        assert json.loads(listening.stdout.readline())["latch"] is True
+        listening.send_signal(signal.SIGINT)
+        assert listening.wait(5) == INTERRUPTED
+
+
+def test_ports_of_the_gateways_computer_are_told(served: Served) -> None:
+    assert served.pty.device in run("ports", "--url", served.url).stdout
+
+
+def test_strangers_are_told_where_a_token_comes_from_and_with_one_they_come_in(tmp_path: Path) -> None:
+    served = Served("--lan", "--data", str(tmp_path), *SILENT)
+    refused = run("status", "--url", served.url)
+    assert (refused.exit_code, "--token-file" in refused.stderr) == (REFUSED, True)
+    token = tmp_path / "token"
+    token.write_text(token_of(served) + "\n")
+    assert run("stop", "--url", served.url, "--token-file", str(token)).exit_code == 0
+    missing = run("stop", "--url", served.url, "--token-file", str(tmp_path / "missing"))
+    assert missing.exit_code == USAGE
+    served.end()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "why"),
+    [
+        (["status", "--url", "http://127.0.0.1:9"], UNREACHABLE, "servodeck serve"),
+        (["events", "--url", "http://127.0.0.1:9"], UNREACHABLE, "servodeck serve"),
+        (["status", "--url", "robot"], USAGE, "http://"),
+        (["move", "1:1500"], USAGE, "SERVO=POSITION"),
+        (["move"], USAGE, "Missing argument"),
+    ],
+)
+def test_what_cannot_be_is_told_with_a_code_of_its_own(arguments: list[str], code: int, why: str) -> None:
+    told = run(*arguments)
+    assert (told.exit_code, why in told.stderr) == (code, True)
+
+
+def begin(served: Served, *arguments: str) -> subprocess.Popen[str]:
+    command = [sys.executable, "-m", "servodeck", *arguments, "--url", served.url]
+    variables = {**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}
+    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=variables)
+
+
+def token_of(served: Served) -> str:
+    """By the way that the terminal shows: its code, then an owner's page."""
+    assert served.process.stdout
+    line = next(line for line in served.process.stdout if "type " in line)
+    code = "".join(line.partition("type ")[2].split()[:2])
+    with httpx2.Client(base_url=served.url, headers={"origin": served.url}) as owner:
+        owner.post("/api/pair", json={"code": code, "name": "Anna"}).raise_for_status()
+        made = owner.post("/api/tokens", json={"name": "Shell", "role": "driver"})
+        return str(made.raise_for_status().json()["token"])
