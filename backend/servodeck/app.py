@@ -26,6 +26,7 @@ from servodeck.jobs_api import jobs_api
 from servodeck.library import Library
 from servodeck.library_api import library_api
 from servodeck.motion_api import motion_api
+from servodeck.openapi import described
 from servodeck.page import STATIC, page
 from servodeck.people_api import people_api
 from servodeck.pulse import Pulse
@@ -39,6 +40,12 @@ CODE_OF_STATUS: dict[int, ErrorCode] = {
     405: "methodNotAllowed",
     413: "tooLarge",
     500: "internal",
+}
+
+
+DETAILS = {
+    404: "There is nothing at this address; /docs lists what there is.",
+    405: "This address takes another method; /docs lists what there is.",
 }
 
 
@@ -86,11 +93,11 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
 def add_docs(app: FastAPI) -> None:
     @app.get("/docs", include_in_schema=False, dependencies=[ANYBODY])
     async def docs() -> HTMLResponse:
-        return HTMLResponse(docs_page(app.openapi()))
+        return HTMLResponse(docs_page(described(app)))
 
     @app.get("/openapi.json", include_in_schema=False, dependencies=[ANYBODY])
-    async def described() -> JSONResponse:
-        return JSONResponse(app.openapi())
+    async def schema() -> JSONResponse:
+        return JSONResponse(described(app))
 
     @app.get("/docs.css", include_in_schema=False, dependencies=[ANYBODY])
     async def style() -> Response:
@@ -114,7 +121,9 @@ def add_errors(app: FastAPI) -> None:
     @app.exception_handler(HTTPException)
     async def http_error(_request: Request, error: HTTPException) -> JSONResponse:
         code = CODE_OF_STATUS.get(error.status_code, "malformed")
-        return problem(error.status_code, code, error.detail)
+        answer = problem(error.status_code, code, DETAILS.get(error.status_code, error.detail))
+        answer.headers.update(error.headers or {})
+        return answer
 
     @app.exception_handler(Exception)
     async def defect(_request: Request, _error: Exception) -> JSONResponse:

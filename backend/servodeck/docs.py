@@ -4,10 +4,11 @@ policy.
 Knows OpenAPI, no route of ours: everything shown comes from the schema.
 """
 
+import json
 from html import escape
 from typing import Any
 
-METHODS = ("get", "put", "post", "delete")
+METHODS = ("get", "put", "post", "patch", "delete")
 
 STYLE = """
 :root { color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif; }
@@ -17,7 +18,7 @@ h2 { font-size: 1rem; font-family: ui-monospace, monospace; }
 h2 span { display: inline-block; min-width: 5rem; font-weight: 700; text-transform: uppercase; }
 table { border-collapse: collapse; }
 th, td { text-align: left; vertical-align: top; padding: 0.2rem 1.5rem 0.2rem 0; font-weight: normal; }
-code { font-family: ui-monospace, monospace; }
+code { font-family: ui-monospace, monospace; overflow-wrap: anywhere; }
 """
 
 
@@ -41,22 +42,27 @@ def docs_page(schema: dict[str, Any]) -> str:
 
 
 def operation(method: str, path: str, description: dict[str, Any], schema: dict[str, Any]) -> str:
-    body = description.get("requestBody", {}).get("content", {}).get("application/json", {}).get("schema")
-    answers = {code: schema_of(answer) for code, answer in description["responses"].items()}
-    rows = [("body", body)] if body else []
-    rows += list(answers.items())
-    table = "".join(
-        f"<tr><th>{escape(label)}</th><td>{shape(part, schema)}</td></tr>" for label, part in rows
+    said = {"body": description["requestBody"]} if "requestBody" in description else {}
+    rows = "".join(
+        f"<tr><th>{escape(label)}</th><td>{content(part, schema)}</td></tr>"
+        for label, part in {**said, **description["responses"]}.items()
     )
     return (
         f"<section><h2><span>{method}</span>{escape(path)}</h2>"
-        f"<p>{escape(description.get('description', ''))}</p><table>{table}</table></section>"
+        f"<p>{escape(description.get('description', ''))}</p><table>{rows}</table></section>"
     )
 
 
-def schema_of(answer: dict[str, Any]) -> dict[str, Any]:
-    found = answer.get("content", {}).get("application/json", {}).get("schema", {})
-    return dict(found)
+def content(part: dict[str, Any], schema: dict[str, Any]) -> str:
+    """Its shape, and an example below it; of errors their codes."""
+    lines = []
+    for found in part.get("content", {}).values():
+        lines.append(shape(found.get("schema", {}), schema))
+        if "example" in found:
+            lines.append(f"<code>{escape(json.dumps(found['example'], ensure_ascii=False))}</code>")
+        if "examples" in found:
+            lines.append(", ".join(f"{each['summary']} {code}" for code, each in found["examples"].items()))
+    return "<br>".join(lines) or "nothing"
 
 
 def shape(part: dict[str, Any], schema: dict[str, Any]) -> str:

@@ -77,7 +77,10 @@ class Running:
 
 @asynccontextmanager
 async def server_on(
-    ports: Ports, device: str | None = DEVICE, make_access: Callable[[int], Access] = access.local
+    ports: Ports,
+    device: str | None = DEVICE,
+    make_access: Callable[[int], Access] = access.local,
+    library: Library = NO_LIBRARY,
 ) -> AsyncIterator[Running]:
     """A real server on a free port."""
     listener = socket.create_server(("127.0.0.1", 0))
@@ -85,7 +88,7 @@ async def server_on(
     control = Control(ports, time.monotonic, "doc", device)
     ready = asyncio.Event()
     entrance = entrance_to(make_access(port))
-    server = Server(create_app(control, NO_LIBRARY, entrance), control, device, ready.set)
+    server = Server(create_app(control, library, entrance), control, device, ready.set)
     life = asyncio.create_task(server.serve([listener]))
     await ready.wait()
     try:

@@ -1,0 +1,209 @@
+"""One example for each route of the HTTP interface: what is asked, what is answered, and its own
+errors.
+
+Data only. A test holds each to the models, and finds the route that has none.
+"""
+
+from typing import Any, NamedTuple
+
+from servodeck.errors import ErrorCode
+
+
+class Example(NamedTuple):
+    """`asks` and `answers` are None where there is no body. `errors`: those that not every route has."""
+
+    answers: Any
+    asks: Any = None
+    errors: tuple[ErrorCode, ...] = ()
+
+
+PORT = {
+    "device": "/dev/serial/by-id/usb-1a86_USB_Serial-if00-port0",
+    "status": "open",
+    "simulated": False,
+    "code": None,
+    "detail": None,
+    "retryInMs": None,
+}
+CLOSED = PORT | {"device": None, "status": "closed"}
+STATUS = {
+    "version": "0.1.0",
+    "board": "lsc-16",
+    "port": PORT,
+    "latch": False,
+    "clients": 2,
+    "battery": {"batteryMv": 7500, "ageMs": 4200},
+    "driver": "Anna's tablet",
+    "running": {"slot": 3, "times": 2},
+    "unattended": {"slot": 3, "times": 2, "by": "Anna's tablet", "endsInMs": 245000},
+}
+LEASE = {
+    "driver": "Dance",
+    "drives": True,
+    "asker": None,
+    "asks": False,
+    "answerInMs": None,
+    "mayDrive": True,
+    "mayTake": False,
+}
+JOB = {
+    "id": "8f14e45fceea",
+    "slot": 5,
+    "name": "Wave",
+    "by": "Dance",
+    "status": "running",
+    "framesStored": 9,
+    "frameCount": 21,
+    "bytesSent": 264,
+    "bytesTotal": 616,
+    "remainingMs": 4200,
+    "code": None,
+    "detail": None,
+}
+TEXT = '{"format": "servodeck-group", "version": 1}'
+FACTS = {
+    "name": "Wave",
+    "robot": "Arm, 6 servos",
+    "tags": ["greeting"],
+    "updatedAtMs": 1795284000000,
+    "frames": 21,
+    "durationMs": 8400,
+    "unit": "us",
+    "pose": [{"servo": 1, "position": 1500}],
+}
+DOCUMENT = "6f1c2a9e-77aa-4b0e-9c5e-2f6a1d3b8c40"
+LISTED = {"id": DOCUMENT, "revision": 4, "isRemoved": False, "facts": FACTS}
+YOU = {"id": "5d41402abc4b2a76", "name": "Anna's tablet", "role": "owner"}
+PERSON = {
+    "id": "5d41402abc4b2a76",
+    "kind": "device",
+    "name": "Anna's tablet",
+    "role": "owner",
+    "pairedAtMs": 1795284000000,
+    "lastSeenMs": 1795287600000,
+    "here": True,
+}
+QR = "data:image/svg+xml;base64,PHN2Zy8+"
+ON_THE_WIRE: tuple[ErrorCode, ...] = ("closed", "lost", "latched", "notDriving", "outOfRange", "busy")
+
+EXAMPLES: dict[tuple[str, str], Example] = {
+    ("GET", "/api/status"): Example(STATUS),
+    ("GET", "/api/health"): Example({"status": "ready", "version": "0.1.0", "troubles": []}),
+    ("GET", "/api/events"): Example(
+        'data: {"type": "state", "board": "doc", "latch": true}\n\n', errors=("busy",)
+    ),
+    ("GET", "/api/battery"): Example({"batteryMv": 7500}, errors=("closed", "lost", "noAnswer")),
+    ("POST", "/api/stop"): Example({"latch": True, "halted": True}, errors=("closed", "lost")),
+    ("POST", "/api/resume"): Example(STATUS, errors=("lost",)),
+    ("POST", "/api/move"): Example(
+        {"packets": 1, "overInMs": 1500, "firstMoves": [1]},
+        {"timeMs": 1500, "positions": {"1": 1500, "2": 900}, "take": False},
+        (*ON_THE_WIRE, "cancelled"),
+    ),
+    ("POST", "/api/slots/{slot}/run"): Example(
+        {"outcome": "acknowledged"},
+        {"times": 2, "continueForMs": 60000, "take": False},
+        (*ON_THE_WIRE, "slotBroken"),
+    ),
+    ("POST", "/api/slots/{slot}/download"): Example(
+        JOB,
+        {
+            "name": "Wave",
+            "frames": [
+                {"durationMs": 400, "positions": {"1": 1200}},
+                {"durationMs": 400, "positions": {"1": 1800}},
+            ],
+            "nonce": None,
+            "take": False,
+        },
+        ON_THE_WIRE,
+    ),
+    ("GET", "/api/jobs/{job}"): Example(JOB, errors=("notFound",)),
+    ("DELETE", "/api/jobs/{job}"): Example(
+        JOB | {"status": "cancelled", "code": "cancelled", "detail": "Called off.", "remainingMs": 0},
+        errors=("notFound",),
+    ),
+    ("POST", "/api/erase"): Example({"erased": True}, {"take": False}, (*ON_THE_WIRE, "noAnswer")),
+    ("POST", "/api/lease"): Example(LEASE, {"action": "beat"}, ("busy", "notDriving")),
+    ("GET", "/api/ports"): Example(
+        [{"device": "/dev/ttyUSB0", "description": "USB Serial", "likely": True}],
+    ),
+    ("PUT", "/api/port"): Example(
+        PORT,
+        {"device": "/dev/ttyUSB0", "board": "lsc-16"},
+        ("outOfRange", "portMissing", "portBusy", "portDenied", "otherDevice"),
+    ),
+    ("DELETE", "/api/port"): Example(CLOSED),
+    ("GET", "/api/library"): Example({"documents": [LISTED], "setAside": None}),
+    ("POST", "/api/library/remove"): Example(None, {"ids": [DOCUMENT]}, ("notFound",)),
+    ("POST", "/api/library/restore"): Example(None, {"ids": [DOCUMENT]}, ("notFound",)),
+    ("GET", "/api/library/{document}"): Example({"text": TEXT, "revision": 4}, errors=("notFound",)),
+    ("PUT", "/api/library/{document}"): Example(
+        {"revision": 5},
+        {"text": TEXT, "facts": FACTS, "expected": 4, "isRemoved": False},
+        ("conflict", "tooLarge", "storageFull", "storageBusy"),
+    ),
+    ("GET", "/api/library/{document}/versions"): Example(
+        [{"id": "v1", "name": "Before the show", "atMs": 1795284000000}],
+    ),
+    ("GET", "/api/library/{document}/versions/{version}"): Example({"text": TEXT}, errors=("notFound",)),
+    ("PUT", "/api/library/{document}/versions/{version}"): Example(
+        None, {"name": "Before the show", "atMs": 1795284000000, "text": TEXT}, ("notFound", "storageFull")
+    ),
+    ("DELETE", "/api/library/{document}/versions/{version}"): Example(None, errors=("notFound",)),
+    ("GET", "/api/me"): Example({"mode": "lan", "overheard": True, "you": YOU}),
+    ("POST", "/api/pair"): Example(
+        YOU,
+        {"secret": None, "code": "12345678", "stop": None, "name": "Anna's tablet"},
+        ("pairingFailed", "pairingLocked"),
+    ),
+    ("GET", "/api/people"): Example({"people": [PERSON], "openInvites": []}),
+    ("PATCH", "/api/people/{person}"): Example(
+        PERSON, {"name": "Anna's tablet", "role": "owner"}, ("notFound",)
+    ),
+    ("DELETE", "/api/people/{person}"): Example(None, errors=("notFound",)),
+    ("POST", "/api/invites"): Example(
+        {
+            "id": "9a0364b9e99bb480",
+            "link": "http://servodeck.local:8300/#pair=SECRET",
+            "code": "12345678",
+            "picture": QR,
+            "expiresInMs": 120000,
+        },
+        {"role": "driver", "name": "Bert's phone"},
+    ),
+    ("DELETE", "/api/invites/{invitation}"): Example(None),
+    ("POST", "/api/tokens"): Example(
+        {"id": "1679091c5a880faf", "token": "1679091c5a880faf.SECRET"}, {"name": "Dance", "role": "driver"}
+    ),
+    ("POST", "/api/stop-links"): Example(
+        {"id": "8f14e45fceea167a", "link": "http://servodeck.local:8300/#stop=SECRET", "picture": QR},
+        {"name": "On the robot"},
+    ),
+}
+
+PROBLEMS: dict[ErrorCode, str] = {
+    "busy": "A group may be running: stop it, then resume.",
+    "cancelled": "Stopped, or taken over, before all of it had left.",
+    "closed": "No serial port is open.",
+    "conflict": "Somebody else has changed this document meanwhile.",
+    "forbidden": "Dance is a viewer here; this takes the role driver.",
+    "latched": "Stopped. Motion waits for Resume.",
+    "lost": "The serial port is gone.",
+    "malformed": "body.timeMs: Input should be a valid integer",
+    "noAnswer": "The board did not tell its battery voltage. Not every board can.",
+    "notDriving": 'Anna drives. An owner may take it: "take": true.',
+    "notFound": "The library does not hold that.",
+    "notPaired": "This device is not paired with the gateway.",
+    "otherDevice": "Another device answers under that name now.",
+    "outOfRange": "Elbow (servo 2): position is 1900, allowed 900..1800",
+    "pairingFailed": "That code is wrong or too old.",
+    "pairingLocked": "Too many wrong codes: ask for a new one.",
+    "portBusy": "Another program uses the port.",
+    "portDenied": "This user may not open the port.",
+    "portMissing": "There is no such port.",
+    "slotBroken": "Slot 5 holds half a group: download it again.",
+    "storageBusy": "The library is busy.",
+    "storageFull": "The disk is full.",
+    "tooLarge": "The request is larger than 3145728 bytes.",
+}
