@@ -1,4 +1,5 @@
-// A robot's build as a small drawing: a dot per servo at its place, a line along each limb. Knows no positions.
+// A robot's build as a small drawing: a dot per servo at its place, a line along each limb; an arm as one knows it from the side.
+// Knows no positions.
 
 import type { BodyKind, Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import styles from './RobotPicture.module.css';
@@ -10,8 +11,14 @@ export function RobotPicture({ robot }: { readonly robot: Robot }) {
       {limbsOf(robot).map((limb) => (
         <path key={limb} className={styles.limb} d={limb} />
       ))}
-      {robot.servos.map(({ servo, place: { x, y } }) => (
-        <circle key={servo} className={styles.joint} cx={x} cy={y} r={robot.servos.length > 16 ? 3.5 : 4.5} />
+      {jointsOf(robot).map(({ x, y }) => (
+        <circle
+          key={`${x} ${y}`}
+          className={styles.joint}
+          cx={x}
+          cy={y}
+          r={robot.servos.length > 16 ? 3.5 : 4.5}
+        />
       ))}
     </svg>
   );
@@ -26,15 +33,29 @@ const TRUNKS: Readonly<Record<BodyKind, string>> = {
   plain: '',
 };
 
+/** An arm's servos have their places beside it, where they can be pressed while it moves; here it stands by itself. */
+const ARM = [
+  { x: 50, y: 92 },
+  { x: 50, y: 72 },
+  { x: 30, y: 42 },
+  { x: 62, y: 22 },
+  { x: 84, y: 34 },
+];
+const CLAW = 'M84 34L96 30M84 34L90 46';
+
+const jointsOf = ({ body, servos }: Robot): readonly { readonly x: number; readonly y: number }[] =>
+  body === 'arm' ? ARM : servos.map(({ place }) => place);
+
 /** A chain along each group; a hand's fingers meet at its last servo; a plain robot has none. */
 function limbsOf({ body, servos }: Robot): readonly string[] {
   if (body === 'plain') return [];
+  if (body === 'arm') return [chain(ARM), CLAW];
   const last = servos.at(-1);
   if (body === 'hand' && last !== undefined)
-    return servos.slice(0, -1).map((finger) => chain([finger, last]));
+    return servos.slice(0, -1).map((finger) => chain([finger.place, last.place]));
   const groups = [...new Set(servos.map(({ group }) => group))];
-  return groups.map((name) => chain(servos.filter(({ group }) => group === name)));
+  return groups.map((name) => chain(servos.filter(({ group }) => group === name).map(({ place }) => place)));
 }
 
-const chain = (servos: readonly RobotServo[]): string =>
-  `M${servos.map(({ place: { x, y } }) => `${x} ${y}`).join('L')}`;
+const chain = (places: readonly RobotServo['place'][]): string =>
+  `M${places.map(({ x, y }) => `${x} ${y}`).join('L')}`;
