@@ -2,7 +2,7 @@
 // sideways.
 
 import { AxeBuilder } from '@axe-core/playwright';
-import type { Page } from '@playwright/test';
+import type { Locator, Page } from '@playwright/test';
 import { at } from '../../scripts/steps.mjs';
 import { dashboardOf } from '../fixtures/dashboard.ts';
 import { libraryOf } from '../fixtures/library.ts';
@@ -70,6 +70,8 @@ async function expectSoundEverywhere(look: Look, state: string): Promise<void> {
   }
 }
 
+const heightOf = (place: Locator): Promise<number> => place.evaluate(({ clientHeight }) => clientHeight);
+
 async function expectRobotsSound(look: Look): Promise<void> {
   const robots = robotDialogOf(dashboardOf(look.page));
   await robots.opener.click();
@@ -115,6 +117,7 @@ for (const colorScheme of ['light', 'dark'] as const) {
         const look = { page, isDark: colorScheme === 'dark' };
         await page.goto((await servers.files()).url);
         await expect(dashboard.link).toContainText('Ready');
+        const readyPx = await heightOf(dashboard.bar);
         await expectSoundEverywhere(look, 'ready');
 
         await expectRobotsSound(look);
@@ -130,6 +133,8 @@ for (const colorScheme of ['light', 'dark'] as const) {
         await dashboard.button('Disconnect').click();
         await expect(dashboard.link).toContainText('Not connected');
         await expectSound(look, 'disconnected');
+        // Nothing below it jumps.
+        expect(await heightOf(dashboard.bar)).toBe(readyPx);
       });
 
       test('the library is accessible and fits', async ({ page, servers }) => {

@@ -123,7 +123,9 @@ export const english = {
       reconnected: 'The link came back; look at the robot first',
     },
     unheld: (servos: readonly number[]): string =>
-      `Servo ${formatList(servos)} ends its slow first move: nobody knows where to hold it`,
+      servos.length === 1
+        ? `Servo ${formatList(servos)} ends its slow first move: nobody knows where to hold it`
+        : `Servos ${formatList(servos)} end their slow first moves: nobody knows where to hold them`,
     outcome: {
       sending: 'Stopping',
       sent: 'Stop sent; this board does not confirm',

@@ -161,7 +161,9 @@ export const timelineWords = {
   swingsTooFar: (servo: number): string =>
     `Not scaled: servo ${formatWhole(servo)} would go beyond its limits.`,
   heldAtLimit: (servos: readonly number[]): string =>
-    `Servo ${formatList(servos)} would go beyond its limit and stands at it.`,
+    servos.length === 1
+      ? `Servo ${formatList(servos)} would go beyond its limit and stands at it.`
+      : `Servos ${formatList(servos)} would go beyond their limits and stand at them.`,
 
   /** What keys and pointer do right now. */
   status: {
