@@ -15,6 +15,7 @@ test('a port that is not there at the start says what to do, and is found when i
   await page.goto(gateway.url);
   const dashboard = dashboardOf(page);
   await expect(dashboard.status).toContainText('The port is not there. Plug the robot in and switch it on');
+  await expect(page.getByText('It has not been asked yet')).toBeVisible();
   await ptyBoard.plugIn();
   await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 8_000 });
   if (await dashboard.resume.isVisible()) await dashboard.resume.click();

@@ -30,13 +30,14 @@ function Answered() {
   const fitting = (fit: Fit): readonly Family[] =>
     families.filter((family) => fitOf(family, evidence) === fit);
   const likely = fitting('fits');
+  const heading = evidence.length === 0 ? words.identity.all : words.identity.likely;
   return (
     <>
       <p className={styles.lead}>{words.identity.summary(evidence)}</p>
       <EvidenceList evidence={evidence} />
       {likely.length > 0 && (
-        <section className={styles.choice} aria-label={words.identity.likely}>
-          <h3>{words.identity.likely}</h3>
+        <section className={styles.choice} aria-label={heading}>
+          <h3>{heading}</h3>
           <Boards families={likely} />
         </section>
       )}
@@ -46,12 +47,14 @@ function Answered() {
         </Button>
         <p className={styles.dim}>{words.identity.againHint}</p>
       </div>
-      <details className={styles.others}>
-        <summary>{words.identity.others}</summary>
-        <p className={styles.dim}>{words.identity.silentHint}</p>
-        <Boards families={fitting('silent')} />
-        <p className={styles.dim}>{words.identity.ruledOut(fitting('contradicts').map(words.boardName))}</p>
-      </details>
+      {likely.length < families.length && (
+        <details className={styles.others}>
+          <summary>{words.identity.others}</summary>
+          <p className={styles.dim}>{words.identity.silentHint}</p>
+          <Boards families={fitting('silent')} />
+          <p className={styles.dim}>{words.identity.ruledOut(fitting('contradicts').map(words.boardName))}</p>
+        </details>
+      )}
     </>
   );
 }

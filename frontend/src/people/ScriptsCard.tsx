@@ -52,7 +52,7 @@ function Once({ shown, onClose }: { readonly shown: Shown; onClose(): void }) {
         <p className={styles.dim}>{isToken ? more.tokenText : more.stopText}</p>
         <code className={styles.link}>{shown.kind === 'token' ? shown.token : shown.link}</code>
         <Button tone="quiet" icon="close" onPress={onClose}>
-          {words.people.invite.end}
+          {more.hide}
         </Button>
       </div>
     </div>

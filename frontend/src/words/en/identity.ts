@@ -12,6 +12,7 @@ export const identityWords = {
   evidenceOf,
   summary,
   likely: 'Boards that answer like this',
+  all: 'Choose it yourself',
   about: (family: Family): string =>
     `${DESCRIBED[family.id]} ${formatWhole(family.position.min)}–${formatWhole(family.position.max)} ${unitSymbol(family.unit)}`,
   again: 'Ask again',
@@ -86,6 +87,7 @@ function answerOf(report: Extract<Evidence, { kind: 'answered' }>['report']): st
 
 /** The whole in a sentence that says what to do. */
 function summary(evidence: readonly Evidence[]): string {
+  if (evidence.length === 0) return 'It has not been asked yet: its port has to be open for that.';
   const has = (kind: Evidence['kind']): boolean => evidence.some((one) => one.kind === kind);
   if (has('echoed'))
     return 'This port sends back everything it is given. Check the wiring between adapter and board: RX to TX, TX to RX.';

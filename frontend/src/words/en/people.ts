@@ -47,7 +47,7 @@ export const peopleWords = {
     nameHint: 'Left empty: the device says',
     create: 'Show a QR code',
     again: 'New code',
-    end: 'Close',
+    end: 'End the invitation',
     qr: 'QR code of the invitation',
     link: 'Link',
     code: 'Code',
@@ -86,5 +86,6 @@ export const peopleWords = {
     stopTitle: 'Stop-only QR code',
     stopText: 'Print it and stick it on the robot: whoever scans it can stop the robot and do nothing else.',
     qr: 'QR code that stops the robot',
+    hide: 'Hide it',
   },
 };

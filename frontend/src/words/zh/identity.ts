@@ -12,6 +12,7 @@ export const identityWords: typeof english = {
   evidenceOf,
   summary,
   likely: '会这样应答的控制板',
+  all: '自己选择',
   about: (family) =>
     `${DESCRIBED[family.id]}${formatWhole(family.position.min)}–${formatWhole(family.position.max)}${unitSymbol(family.unit)}`,
   again: '再问一次',
@@ -83,6 +84,7 @@ function answerOf(report: Extract<Evidence, { kind: 'answered' }>['report']): st
 }
 
 function summary(evidence: readonly Evidence[]): string {
+  if (evidence.length === 0) return '还没有问过它：要先打开串口。';
   const has = (kind: Evidence['kind']): boolean => evidence.some((one) => one.kind === kind);
   if (has('echoed'))
     return '这个串口把发出的内容原样送了回来。请检查转接器与控制板的接线：RX 接 TX，TX 接 RX。';

@@ -47,7 +47,7 @@ export const peopleWords: typeof english = {
     nameHint: '留空：由设备自己说',
     create: '显示二维码',
     again: '新的配对码',
-    end: '关闭',
+    end: '结束邀请',
     qr: '邀请的二维码',
     link: '链接',
     code: '配对码',
@@ -85,5 +85,6 @@ export const peopleWords: typeof english = {
     stopTitle: '只停止的二维码',
     stopText: '打印出来贴在机器人上：扫描的人能停止机器人，不能做别的。',
     qr: '停止机器人的二维码',
+    hide: '收起',
   },
 };
