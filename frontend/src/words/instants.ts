@@ -1,11 +1,15 @@
 // Instants of a group in digits, the same in every language: beside a key to the millisecond, on the ruler as its step asks.
 
-const fixed = (value: number, decimals: number): string =>
-  new Intl.NumberFormat('en', {
-    useGrouping: false,
-    minimumFractionDigits: decimals,
-    maximumFractionDigits: decimals,
-  }).format(value);
+const formats = [0, 1, 2, 3].map(
+  (decimals) =>
+    new Intl.NumberFormat('en', {
+      useGrouping: false,
+      minimumFractionDigits: decimals,
+      maximumFractionDigits: decimals,
+    }),
+);
+
+const fixed = (value: number, decimals: number): string => formats[decimals]?.format(value) ?? '';
 
 /** `1.50`, or with three decimals where hundredths would hide something. */
 export const secondsText = (atMs: number): string => fixed(atMs / 1000, atMs % 10 === 0 ? 2 : 3);
