@@ -75,7 +75,7 @@ function Selected({ selected }: SelectedProps) {
           label={words.servoPanel.together}
           value={together}
           options={TOGETHER.map((value) => ({ value, label: words.servoPanel.ways[value] }))}
-          onChange={(way) => edit((view) => ({ ...view, together: way, gang: null }))}
+          onChange={(way) => edit((view) => ({ ...view, together: way }))}
         />
       ) : (
         <span className={styles.hint}>{words.servoPanel.selected(selected)}</span>
@@ -127,7 +127,6 @@ function Weights({ selected }: SelectedProps) {
     editServoView(stores, (view) => ({
       ...view,
       weights: { ...view.weights, [servo]: percent },
-      gang: null,
     }));
   return (
     <ul className={styles.weights}>

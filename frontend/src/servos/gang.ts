@@ -3,7 +3,13 @@
 
 import { degreesOf, positionOf, type RobotServo } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import type { Gang, Stand, Together } from '../stores/servoView.ts';
+import type { Stand, Together } from '../stores/servoView.ts';
+
+/** Where the selected servos stood when they began to move together, and what they were told last. */
+export interface Gang {
+  readonly from: Stand;
+  readonly told: Stand;
+}
 
 export interface Member {
   readonly servo: RobotServo;

@@ -2,9 +2,9 @@
 
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { editServoView, guessesNow, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
+import { guessesNow, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
 import { isHeld, type ServoView } from '../stores/servoView.ts';
-import { moveGang, weightOf, type Member } from './gang.ts';
+import { moveGang, weightOf, type Gang, type Member } from './gang.ts';
 
 export interface Hand {
   move(servo: number, position: number): void;
@@ -23,6 +23,9 @@ export function useHand(): Hand {
   };
 }
 
+/** How far the servos have come together while they are handled in one way: not in a store, because a drag changes it in each frame. */
+const gangs = new WeakMap<ServoView, Gang>();
+
 /** The members of the gang that may move, `moved` among them; null where it moves alone. */
 function membersOf({ robots }: Stores, view: ServoView, moved: number): readonly Member[] | null {
   if (view.selected.length < 2 || !view.selected.includes(moved)) return null;
@@ -39,8 +42,8 @@ function together(stores: Stores, servo: number, position: number): readonly Ser
   const members = membersOf(stores, view, servo);
   if (members === null) return [{ servo, position }];
   const now = { ...guessesNow(stores), ...stores.device.targetsNow() };
-  const { targets, gang } = moveGang(members, servo, position, now, view.gang);
-  editServoView(stores, (before) => ({ ...before, gang }));
+  const { targets, gang } = moveGang(members, servo, position, now, gangs.get(view) ?? null);
+  gangs.set(view, gang);
   return targets;
 }
 

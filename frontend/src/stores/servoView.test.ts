@@ -28,11 +28,6 @@ test('with Ctrl the others stay, with Shift all up to it come along', () => {
   expect(click(withSelected(), 3, false, true)).toEqual([3]);
 });
 
-test('another selection moves together from where it stands then', () => {
-  const gang = { from: { 1: 1500 }, told: { 1: 1600 } };
-  expect(selectByClick({ ...withSelected(1), gang }, 2, { adds: true, spans: false }, ORDER).gang).toBeNull();
-});
-
 test('a servo is held while locked, or while another one is alone', () => {
   const locked = { ...INITIAL_SERVO_VIEW, locked: [2] };
   expect([1, 2].map((servo) => isHeld(locked, servo))).toEqual([false, true]);

@@ -8,12 +8,6 @@ export type Together = (typeof TOGETHER)[number];
 /** Positions by servo. */
 export type Stand = Readonly<Record<number, number>>;
 
-/** Where the selected servos stood when they began to move together, and what they were told last. */
-export interface Gang {
-  readonly from: Stand;
-  readonly told: Stand;
-}
-
 export interface ServoView {
   /** Numbers say nothing about another robot. */
   readonly robotId: number;
@@ -30,7 +24,6 @@ export interface ServoView {
   readonly together: Together;
   /** In percent, 100 where left out. */
   readonly weights: Stand;
-  readonly gang: Gang | null;
 }
 
 const FRESH: ServoView = {
@@ -43,7 +36,6 @@ const FRESH: ServoView = {
   folded: [],
   together: 'straight',
   weights: {},
-  gang: null,
 };
 
 export const INITIAL_SERVO_VIEW = FRESH;
@@ -64,7 +56,7 @@ export function isSilent({ muted, solo }: Pick<ServoView, 'muted' | 'solo'>, ser
 }
 
 export function select(view: ServoView, selected: readonly number[]): ServoView {
-  return { ...view, selected, gang: null };
+  return { ...view, selected };
 }
 
 /** `adds` keeps the others, `spans` takes all from the last one on. Clicked again, a servo is let go. `order` is the screen's. */

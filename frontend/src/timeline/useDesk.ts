@@ -20,7 +20,7 @@ export function useDesk(): SeenDesk {
   useRobot();
   useDevice((state) => state.family);
   useView((state) => state.positionsIn);
-  useServoView(useShallow(({ gang: _, ...shown }) => shown));
+  useServoView((view) => view);
   useTimeline(useShallow(({ playheadMs: _, ...shown }) => shown));
   return deskOf(useStores());
 }
