@@ -1,5 +1,7 @@
 // The servo panel beyond one slider: servos that move together, degrees, the wheel, locking and hiding.
 
+import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
+import { robotToText } from '#shared/actions/robot/robotText.ts';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
@@ -82,4 +84,43 @@ test('a locked servo stays, a hidden one is out of sight and can be brought back
   await expect(dashboard.slider(6)).toBeHidden();
   await dashboard.button('Show 1 hidden').click();
   await expect(dashboard.slider(6)).toBeVisible();
+});
+
+test.describe('with thirty-two servos', () => {
+  const ROBOT = readyRobot('plain32', 'doc', {
+    robot: 'Thirty-two',
+    role: (role, servo) => `${role} ${servo}`,
+    limb: (limb) => limb,
+  });
+
+  test.beforeEach(({ page }) =>
+    page.addInitScript(
+      (robots) => localStorage.setItem('servodeck.robots', robots),
+      JSON.stringify({ files: [{ id: 1, file: robotToText(ROBOT) }], currentId: 1, nextId: 2 }),
+    ),
+  );
+
+  test('the dials leave what is below them free', async ({ dashboard, page }) => {
+    const legend = page.getByRole('list', { name: 'What the marks mean' });
+    await expect(dashboard.slider(1)).toBeVisible();
+    const over = await legend.evaluate((list) => {
+      const { left, top, width, height } = list.getBoundingClientRect();
+      const places = Array.from({ length: 40 }, (_, index) => left + (width * index) / 40);
+      const there = places.flatMap((x) => document.elementsFromPoint(x, top + height / 2));
+      return there.filter((one) => one.role === 'img' && !list.contains(one)).map((one) => one.ariaLabel);
+    });
+    expect(over).toEqual([]);
+  });
+
+  test('those scrolled out of sight are drawn as soon as they rest', async ({ dashboard, robot }) => {
+    await dashboard.servoName(32).click();
+    await dashboard.servoName(1).click({ modifiers: ['ControlOrMeta'] });
+    await dashboard.slider(1).press('Shift+ArrowRight');
+    await poll(() => lastTarget(robot.bus, 32)).toBe(1510);
+    await expect(dashboard.slider(32)).not.toBeInViewport();
+    await expect(dashboard.slider(32)).toHaveValue('1510');
+    await expect(dashboard.slider(32)).toHaveAttribute('aria-valuetext', '1510 µs');
+    await expect(dashboard.target(32)).toHaveValue('1510');
+    await expect(dashboard.estimate(32)).toHaveText('≈ 1510');
+  });
 });

@@ -1,88 +1,85 @@
-// A servo's horn on a scale: the needle is the estimate, the hollow triangle on the rim the target, a dotted hand the group's pose. Unknown is a hatched
-// face with a question mark. The live one is drawn once a frame from the session's motion, past React.
+// A servo's horn on a scale: the needle is the estimate, the hollow triangle on the rim the target. Unknown is a hatched face with a
+// question mark. The live one is drawn once a frame from the session's motion, past React.
 
-import { useRef } from 'react';
+import { useRef, useState } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
+import { setAttribute } from '../ui/setAttribute.ts';
 import { words } from '../words/words.ts';
-import { dialDegrees, type Pose } from './pose.ts';
+import { HUB, NEEDLE, TARGET, turnedBy, type Corners } from './hands.ts';
+import { dialDegrees, halfDegree } from './pose.ts';
 import { useMotion } from './useMotion.ts';
 import styles from './Dial.module.css';
 
 export function Dial({ servo, family }: { readonly servo: number; readonly family: Family }) {
   const { device } = useStores();
   const dial = useRef<SVGSVGElement>(null);
-  const drawn = useRef('');
   useMotion(servo, (motion) => {
-    const look = `${turn(motion.target, family)} ${turn(motion.estimated, family)}`;
-    if (dial.current === null || look === drawn.current) return;
-    drawn.current = look;
-    drawDial(dial.current, motion, family);
+    if (dial.current !== null) drawDial(dial.current, motion, family);
   });
+  const { target, estimated } = device.motion(servo);
+  const [commanded, needle] = [pathOf(TARGET, target, family), pathOf(NEEDLE, estimated, family)];
   return (
-    <DialFace
+    <svg
       ref={dial}
-      servo={servo}
-      label={words.body.gaugeFigure(servo)}
-      motion={device.motion(servo)}
-      family={family}
-    />
-  );
-}
-
-interface DialFaceProps {
-  readonly servo: number;
-  readonly label: string;
-  readonly motion: ServoMotion;
-  readonly family: Family;
-  readonly ref?: React.Ref<SVGSVGElement>;
-}
-
-function DialFace({ servo, label, motion, family, ref }: DialFaceProps) {
-  const { target, estimated } = motion;
-  return (
-    <svg ref={ref} className={styles.dial} viewBox="-24 -24 48 48" role="img" aria-label={label}>
+      className={styles.dial}
+      viewBox="-24 -24 48 48"
+      role="img"
+      aria-label={words.body.gaugeFigure(servo)}
+    >
       <path className={styles.rim} d={RIM} />
       <g visibility={visible(estimated === null)}>
-        <path className={styles.hatch} d="M-9 5L5 -9M-6 9L9 -6M-11 0L0 -11M0 11L11 0" />
-        <text className={styles.question} y={5}>
-          {words.servos.unknown}
-        </text>
+        <Unknown />
       </g>
-      <g visibility={visible(target !== null)} transform={turn(target, family)}>
-        <path className={styles.target} d="M-4 -22.5h8L0 -15.5z" />
-      </g>
-      <g visibility={visible(estimated !== null)} transform={turn(estimated, family)}>
-        <path className={styles.needle} d="M-2.5 4L-1 -14h2L2.5 4z" />
-        <circle className={styles.hub} r={4} />
-      </g>
-      <path className={styles.preview} data-preview={servo} visibility="hidden" d="M0 -6V-19" />
+      <path className={styles.target} d={commanded} />
+      <path className={styles.needle} d={needle} />
+      <circle className={styles.hub} visibility={visible(estimated !== null)} r={HUB} />
     </svg>
   );
 }
 
-/** Where the group at hand would have the servos, on all dials within; null: nothing is shown of it. */
-export function drawPreviews(dials: Element, pose: Pose | null, family: Family): void {
-  for (const hand of dials.querySelectorAll<SVGPathElement>('[data-preview]')) {
-    const position = pose?.(Number(hand.dataset.preview)) ?? null;
-    set(hand, 'visibility', visible(position !== null));
-    set(hand, 'transform', turn(position, family));
-  }
+/** The dial without hands, for those that are drawn together. */
+export function DialFace({ servo }: { readonly servo: number }) {
+  const isKnown = useIsKnown(servo);
+  return (
+    <svg
+      className={styles.dial}
+      viewBox="-24 -24 48 48"
+      role="img"
+      aria-label={words.body.gaugeFigure(servo)}
+    >
+      <path className={styles.rim} d={RIM} />
+      {!isKnown && <Unknown />}
+    </svg>
+  );
+}
+
+function useIsKnown(servo: number): boolean {
+  const { device } = useStores();
+  const isKnownNow = (): boolean => device.motion(servo).estimated !== null;
+  const [isKnown, setKnown] = useState(isKnownNow);
+  useMotion(servo, () => setKnown(isKnownNow()));
+  return isKnown;
+}
+
+function Unknown() {
+  return (
+    <>
+      <path className={styles.hatch} d="M-9 5L5 -9M-6 9L9 -6M-11 0L0 -11M0 11L11 0" />
+      <text className={styles.question} y={5}>
+        {words.servos.unknown}
+      </text>
+    </>
+  );
 }
 
 function drawDial(dial: SVGSVGElement, { target, estimated }: ServoMotion, family: Family): void {
-  const [, unknown, commanded, needle] = dial.children;
-  set(unknown, 'visibility', visible(estimated === null));
-  set(commanded, 'visibility', visible(target !== null));
-  set(commanded, 'transform', turn(target, family));
-  set(needle, 'visibility', visible(estimated !== null));
-  set(needle, 'transform', turn(estimated, family));
-}
-
-/** Writing what is there already would have it painted anew. */
-function set(part: Element | undefined, name: string, value: string): void {
-  if (part !== undefined && part.getAttribute(name) !== value) part.setAttribute(name, value);
+  const [, unknown, commanded, needle, hub] = dial.children;
+  setAttribute(unknown, 'visibility', visible(estimated === null));
+  setAttribute(commanded, 'd', pathOf(TARGET, target, family));
+  setAttribute(needle, 'd', pathOf(NEEDLE, estimated, family));
+  setAttribute(hub, 'visibility', visible(estimated !== null));
 }
 
 /** 240 degrees of a circle of radius 19, open below. */
@@ -90,8 +87,9 @@ const RIM = 'M-16.45 9.5A19 19 0 1 1 16.45 9.5';
 
 const visible = (shown: boolean): 'visible' | 'hidden' => (shown ? 'visible' : 'hidden');
 
-const turn = (position: number | null, family: Family): string =>
-  position === null ? '' : `rotate(${halfDegree(dialDegrees(position, family))})`;
-
-/** A sixth of a pixel at the needle's tip: finer turns are painted for nobody. */
-const halfDegree = (degrees: number): string => (Math.round(degrees * 2) / 2).toFixed(1);
+/** The hand turned: as a path of its own, because a transform would have the browser sort its layers anew in each frame. */
+function pathOf(hand: Corners, position: number | null, family: Family): string {
+  if (position === null) return '';
+  const corners = turnedBy(hand, halfDegree(dialDegrees(position, family)));
+  return `M${corners.map(([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`).join('L')}Z`;
+}

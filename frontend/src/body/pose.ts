@@ -81,6 +81,9 @@ export function dialDegrees(position: number, scale: Scale): number {
   return (fraction(position, scale.position) - 0.5) * DIAL_DEGREES;
 }
 
+/** A sixth of a pixel at the needle's tip: finer turns are painted for nobody. */
+export const halfDegree = (degrees: number): number => Math.round(degrees * 2) / 2;
+
 /** 0 at the low end of the range, 1 at the high end. */
 export function fraction(position: number, { min, max }: Range): number {
   return (position - min) / (max - min);

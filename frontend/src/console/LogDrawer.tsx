@@ -1,9 +1,10 @@
 // The log at the foot of the page: folded it is one line with the latest packet, unfolded the whole log.
 
-import { useStore } from 'zustand';
+import { useState } from 'react';
 import { useStores, useView } from '../stores/stores.ts';
 import { Button as AriaButton } from 'react-aria-components/Button';
 import { Icon } from '../ui/Icon.tsx';
+import { useFollow } from '../ui/useFollow.ts';
 import { words } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import { LogPanel } from './LogPanel.tsx';
@@ -34,11 +35,17 @@ export function LogDrawer() {
   );
 }
 
+/** A drag sends fifty packets a second. */
+const READ_EACH_MS = 100;
+
 function Latest() {
-  const { device } = useStores();
-  const { oldestId, nextId } = useStore(device.traffic.store);
-  if (nextId === oldestId) return <span className={styles.latest}>{words.log.empty}</span>;
-  const latest = device.traffic.at(nextId - 1);
+  const { traffic } = useStores().device;
+  const [nextId, show] = useState(traffic.store.getState().nextId);
+  useFollow({ read: () => traffic.store.getState().nextId, draw: show, eachMs: READ_EACH_MS });
+  // It may have been cleared since.
+  const { oldestId } = traffic.store.getState();
+  if (nextId <= oldestId) return <span className={styles.latest}>{words.log.empty}</span>;
+  const latest = traffic.at(nextId - 1);
   return (
     <>
       <span className={styles.latest}>

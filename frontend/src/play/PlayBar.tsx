@@ -70,12 +70,16 @@ function PlayButton() {
   );
 }
 
+/** No number is read faster. */
+const READ_EACH_MS = 100;
+
 /** From where, as the playhead goes, or how often. */
 function PlayWords() {
   const { playback } = useStores();
   const loops = usePlayback((state) => state.loops);
   return (
     <LiveText
+      eachMs={READ_EACH_MS}
       text={() => {
         const { fromMs, times } = playback.next();
         if (fromMs !== null) return words.play.playFrom(fromMs);

@@ -9,10 +9,11 @@ import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Family, Range } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
+import { setAttribute } from '../ui/setAttribute.ts';
 import { words } from '../words/words.ts';
 import { stepped, type Scale } from './scale.ts';
 import { useRawDrag } from './useRawDrag.ts';
-import { targetOf, useTarget } from './useTarget.ts';
+import { targetOf, useReadableTarget, useTarget } from './useTarget.ts';
 import styles from './PositionSlider.module.css';
 
 export interface PositionSliderProps {
@@ -49,10 +50,11 @@ export function PositionSlider({
 
   useRawDrag(input, (position) => blocked || onDrag(position));
   // Past React: dozens of them may change in each frame.
-  useTarget(servo.servo, (target) => {
-    if (input.current === null) return;
-    if (!held.current) input.current.value = String(shown());
-    input.current.ariaValueText = valueText(scale, target, guess);
+  useTarget(servo.servo, () => {
+    if (input.current !== null && !held.current) input.current.value = String(shown());
+  });
+  useReadableTarget(servo.servo, (target) => {
+    if (input.current !== null) input.current.ariaValueText = valueText(scale, target, guess);
   });
 
   /** Blocked, it keeps the focus and its place, and takes nothing. */
@@ -127,18 +129,17 @@ function Track({ servo, range, scale }: { servo: RobotServo; range: Range; scale
 }
 
 function EstimateMark({ servo, range }: { readonly servo: number; readonly range: Range }) {
-  const mark = useRef<HTMLDivElement>(null);
-  const drawn = useRef('');
+  const mark = useRef<SVGRectElement>(null);
   useMotion(servo, ({ estimated }) => {
-    const place = estimated === null ? '' : `${thousandths(fraction(estimated, range))} 0`;
-    if (mark.current === null || place === drawn.current) return;
-    drawn.current = place;
-    mark.current.hidden = place === '';
-    mark.current.style.translate = place;
+    if (mark.current === null) return;
+    setAttribute(mark.current, 'visibility', estimated === null ? 'hidden' : 'visible');
+    if (estimated !== null) setAttribute(mark.current, 'x', thousandths(fraction(estimated, range)));
   });
   return (
     <div className={styles.whole} aria-hidden="true">
-      <div ref={mark} className={styles.estimate} hidden />
+      <svg className={styles.estimate}>
+        <rect ref={mark} visibility="hidden" width={3} height={9} rx={1} />
+      </svg>
     </div>
   );
 }

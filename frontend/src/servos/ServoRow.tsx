@@ -6,6 +6,7 @@ import { motionHindrance, tellsPositions } from '../stores/readiness.ts';
 import { isHeld } from '../stores/servoView.ts';
 import { useDevice, useGuess, useServoView, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
+import { Sight, useSight } from '../ui/sight.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { useWords, words } from '../words/words.ts';
 import { Estimate } from './Estimate.tsx';
@@ -27,11 +28,15 @@ export interface ServoRowProps {
 export const ServoRow = memo(function ServoRow({ servo: own, order }: ServoRowProps) {
   const { servo } = own;
   useWords();
+  const row = useRef<HTMLLIElement>(null);
+  const isInSight = useSight(row);
   const isSelected = useServoView(({ selected }) => selected.includes(servo));
   return (
-    <li className={cx(styles.row, isSelected && styles.selected)}>
-      <ServoName servo={own} order={order} />
-      <ServoControls servo={own} />
+    <li ref={row} className={cx(styles.row, isSelected && styles.selected)}>
+      <Sight value={isInSight}>
+        <ServoName servo={own} order={order} />
+        <ServoControls servo={own} />
+      </Sight>
     </li>
   );
 });
@@ -103,7 +108,13 @@ function TargetField({ servo: own, scale, guess, blocked, onMove }: TargetFieldP
       title={words.truth.commanded}
       value={target === null ? null : scale.shown(target)}
       {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals }}
-      placeholder={guess === null ? words.servos.unknown : words.firstMoves.guessed(scale.digits(guess))}
+      placeholder={
+        target !== null
+          ? ''
+          : guess === null
+            ? words.servos.unknown
+            : words.firstMoves.guessed(scale.digits(guess))
+      }
       start={scale.shown(guess ?? own.home)}
       isReadOnly={blocked}
       onChange={take}

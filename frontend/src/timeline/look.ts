@@ -2,7 +2,10 @@
 
 import { COLOURS, type Colour } from '#shared/actions/colours.ts';
 
-const NAMES = ['ink', 'ink-dim', 'line', 'edge', 'panel', 'raised', 'well', 'commanded', ...COLOURS] as const;
+const NAMES = [
+  ...(['ink', 'ink-dim', 'line', 'edge', 'panel', 'raised', 'well', 'commanded', 'estimated'] as const),
+  ...COLOURS,
+] as const;
 export type LookName = (typeof NAMES)[number];
 export type Look = Readonly<Record<LookName, string>> & { readonly font: string };
 
@@ -12,12 +15,14 @@ export const SCHEMES = [
   '(prefers-contrast: more)',
   '(forced-colors: active)',
 ];
+let schemes: readonly MediaQueryList[] | undefined;
 let latest: { readonly key: string; readonly look: Look } | undefined;
 
 /** Asked for at each repaint, and worked out only when it may be another: reading styles makes the browser compute them all. */
 export function lookOf(element: Element): Look {
+  schemes ??= SCHEMES.map((scheme) => matchMedia(scheme));
   const { theme = '' } = document.documentElement.dataset;
-  const key = [theme, ...SCHEMES.map((scheme) => matchMedia(scheme).matches)].join();
+  const key = [theme, ...schemes.map(({ matches }) => matches)].join();
   if (latest?.key !== key) latest = { key, look: readLook(element) };
   return latest.look;
 }

@@ -2,7 +2,7 @@
 // where it has become another one.
 
 import { useLayoutEffect, useRef } from 'react';
-import { turnOf, useEachFrame } from './useEachFrame.ts';
+import { useFollow } from './useFollow.ts';
 
 export interface LiveTextProps {
   /** Asked for what is to stand there now. */
@@ -16,18 +16,17 @@ export interface LiveTextProps {
 
 export function LiveText({ text, eachMs = 0, className, title, isSilent = false }: LiveTextProps) {
   const place = useRef<HTMLSpanElement>(null);
-  const written = useRef({ text: '', atMs: -Infinity });
-
-  function write(atMs: number): void {
-    const now = text();
-    if (place.current !== null && now !== written.current.text) place.current.textContent = now;
-    written.current = { text: now, atMs };
-  }
-
-  useLayoutEffect(() => write(performance.now() - turnOf(eachMs)));
-  useEachFrame(() => {
-    const atMs = performance.now();
-    if (atMs - written.current.atMs >= eachMs) write(atMs);
-  });
+  const write = (now: string): void => {
+    if (place.current !== null) setText(place.current, now);
+  };
+  useLayoutEffect(() => write(text()));
+  useFollow({ read: text, draw: write, eachMs });
   return <span ref={place} className={className} title={title} aria-hidden={isSilent ? true : undefined} />;
+}
+
+/** The same piece of text, where there is one: another one would be laid out anew from the ground. */
+function setText(place: HTMLElement, text: string): void {
+  const piece = place.firstChild;
+  if (!(piece instanceof Text)) place.textContent = text;
+  else if (piece.data !== text) piece.data = text;
 }

@@ -3,15 +3,18 @@
 
 import { useEffect, useEffectEvent } from 'react';
 
-const drawers = new Set<() => void>();
+/** `nowMs` is the same for all of a frame. */
+type Draw = (nowMs: number) => void;
+
+const drawers = new Set<Draw>();
 let request = 0;
 
-function drawAll(): void {
+function drawAll(nowMs: number): void {
   request = requestAnimationFrame(drawAll);
-  for (const draw of drawers) draw();
+  for (const draw of drawers) draw(nowMs);
 }
 
-function add(draw: () => void): () => void {
+function add(draw: Draw): () => void {
   if (drawers.size === 0) request = requestAnimationFrame(drawAll);
   drawers.add(draw);
   return () => {
@@ -20,13 +23,7 @@ function add(draw: () => void): () => void {
   };
 }
 
-export function useEachFrame(draw: () => void): void {
+export function useEachFrame(draw: Draw): void {
   const drawNow = useEffectEvent(draw);
-  useEffect(() => add(() => drawNow()), []);
+  useEffect(() => add((nowMs) => drawNow(nowMs)), []);
 }
-
-let turns = 0;
-const FRAME_MS = 1000 / 60;
-
-/** Where in its interval something begins that is drawn now and then: many of them take turns, a few in each frame. */
-export const turnOf = (eachMs: number): number => (eachMs === 0 ? 0 : (turns++ * FRAME_MS) % eachMs);

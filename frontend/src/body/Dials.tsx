@@ -1,0 +1,97 @@
+// The picture of a robot whose body nobody described: a dial for each servo. All hands are one drawing over the faces: dozens of
+// them turn in each frame.
+
+import { useRef } from 'react';
+import type { Family } from '#shared/protocol/families.ts';
+import { select } from '../stores/servoView.ts';
+import { editServoView, useDevice, useRobot, useServoView, useStores } from '../stores/stores.ts';
+import { cx } from '../ui/cx.ts';
+import { Drawing, type Size } from './Drawing.tsx';
+import { words } from '../words/words.ts';
+import { DialFace } from './Dial.tsx';
+import { paintHands, type Spot } from './hands.ts';
+import { motionInFrame } from './motionInFrame.ts';
+import { dialDegrees, halfDegree, type Pose } from './pose.ts';
+import { usePreview } from './usePreview.ts';
+import styles from './Dials.module.css';
+
+/** So many find room at a size that is read across the room. */
+const FEW = 12;
+
+export function Dials() {
+  const stores = useStores();
+  const family = useDevice((state) => state.family);
+  const selected = useServoView((view) => view.selected);
+  const { servos } = useRobot();
+  const list = useRef<HTMLOListElement>(null);
+  return (
+    <div className={styles.room}>
+      <div className={styles.board}>
+        <ol ref={list} className={cx(styles.dials, servos.length > FEW && styles.many)}>
+          {servos.map(({ servo }) => (
+            <li
+              key={servo}
+              className={cx(styles.dial, selected.includes(servo) && styles.selected)}
+              onPointerDown={() => editServoView(stores, (view) => select(view, [servo]))}
+            >
+              <DialFace servo={servo} />
+              {words.numbers.formatWhole(servo)}
+            </li>
+          ))}
+        </ol>
+        <AllHands list={list} servos={servos.map(({ servo }) => servo)} family={family} />
+      </div>
+    </div>
+  );
+}
+
+interface AllHandsProps {
+  readonly list: React.RefObject<HTMLElement | null>;
+  readonly servos: readonly number[];
+  readonly family: Family;
+}
+
+function AllHands({ list, servos, family }: AllHandsProps) {
+  const { device } = useStores();
+  const pose = useRef<Pose | null>(null);
+  const spots = useRef<{ readonly size: Size | null; readonly all: readonly Spot[] }>({
+    size: null,
+    all: [],
+  });
+  usePreview((now) => (pose.current = now));
+  const turn = (position: number | null): number | null =>
+    position === null ? null : halfDegree(dialDegrees(position, family));
+
+  /** Where the faces are: they move with the size of the board alone. */
+  function spotsIn(size: Size): readonly Spot[] {
+    if (spots.current.size !== size || spots.current.all.length !== servos.length)
+      spots.current = { size, all: list.current === null ? [] : facesIn(list.current) };
+    return spots.current.all;
+  }
+
+  return (
+    <Drawing
+      className={styles.hands}
+      shown={() =>
+        servos.flatMap((servo) => {
+          const { target, estimated } = motionInFrame(device, servo);
+          return [turn(target), turn(estimated), turn(pose.current?.(servo) ?? null)];
+        })
+      }
+      paint={({ ctx, look, size }, shown) => {
+        for (const [index, spot] of spotsIn(size).entries()) {
+          const [target = null, needle = null, preview = null] = shown.slice(3 * index, 3 * index + 3);
+          paintHands(ctx, look, spot, { target, needle, preview });
+        }
+      }}
+    />
+  );
+}
+
+function facesIn(list: HTMLElement): readonly Spot[] {
+  const from = list.getBoundingClientRect();
+  return [...list.querySelectorAll('svg')].map((face) => {
+    const { left, top, width, height } = face.getBoundingClientRect();
+    return { x: left - from.left + width / 2, y: top - from.top + height / 2, diameter: width };
+  });
+}
