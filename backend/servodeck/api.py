@@ -109,24 +109,24 @@ async def status(control: Controlled) -> Status:
     """How everything stands now."""
     return Status(
         version=__version__,
-        board=control.board,
-        port=control.port,
+        board=control.board.taken_for,
+        port=control.board.port,
         latch=control.latch,
         clients=len(control.hub),
         battery=age_of(control),
         driver=name_of(control.driving.driver),
         running=running_in(control),
-        unattended=control.unattended.told(),
+        unattended=control.board.unattended.told(),
     )
 
 
 def running_in(control: Control) -> Running | None:
-    run = control.motion.run
+    run = control.board.motion.run
     return None if run is None else Running(slot=run.slot, times=run.times)
 
 
 def age_of(control: Control) -> BatteryAge | None:
-    reading = control.battery.newest
+    reading = control.board.battery.newest
     if reading is None:
         return None
     return BatteryAge(battery_mv=reading.battery_mv, age_ms=round((control.now() - reading.at_s) * 1000))
@@ -135,7 +135,7 @@ def age_of(control: Control) -> BatteryAge | None:
 @api.get("/ports", dependencies=[OWNER])
 def ports(control: Controlled) -> list[Device]:
     """The serial ports of this computer and the one in use, the likely ones first."""
-    found = list_devices(control.named_device, control.link.state.device)
+    found = list_devices(control.named_device, control.board.link.state.device)
     return [Device(device=port.device, description=port.description, likely=port.likely) for port in found]
 
 
@@ -147,14 +147,14 @@ async def use_port(choice: PortChoice, control: Controlled) -> PortState:
     if choice.board is not None and choice.board not in FAMILIES:
         raise OutOfRangeError(f"board is {choice.board}, allowed: {', '.join(FAMILIES)}")
     await control.use_port(choice.device, choice.board)
-    return control.port
+    return control.board.port
 
 
 @api.delete("/port", dependencies=[OWNER])
 async def close_port(control: Controlled) -> PortState:
     """Closes the port and leaves it closed."""
     await control.close_port()
-    return control.port
+    return control.board.port
 
 
 @api.post("/stop", dependencies=[STOPPER])
@@ -176,4 +176,4 @@ async def resume(control: Controlled) -> Status:
 @api.get("/battery", dependencies=[VIEWER])
 async def battery(control: Controlled) -> Battery:
     """Asks the board now; 504 where it does not answer."""
-    return Battery(battery_mv=await control.battery.read())
+    return Battery(battery_mv=await control.board.battery.read())

@@ -173,7 +173,7 @@ def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
 
 def take_send(message: SendMessage, seat: Seat, control: Control) -> None:
     with refusing(seat, message.id):
-        seat.caller.require(role_for(judge_packet(message.packet, control.board)))
+        seat.caller.require(role_for(judge_packet(message.packet, control.board.taken_for)))
         left = control.send(seat, message.packet, message.nonce)
         left.add_done_callback(lambda left: answer(seat, message.id, left))
 
@@ -188,7 +188,7 @@ def take_lease(message: LeaseMessage, seat: Seat, control: Control) -> None:
 def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:
     hold = None
     with refusing(seat, None):  # a bad pose is told, and the stop goes out all the same
-        hold = judge_hold(message.hold, control.board)
+        hold = judge_hold(message.hold, control.board.taken_for)
     with refusing(seat, None):
         control.stop(hold, seat)
 

@@ -56,7 +56,7 @@ health_api = APIRouter(dependencies=[Depends(called_by_own_page)])
 async def health(control: Controlled, pulse: Beating, disk: Stored) -> Health:
     """Always 200 while the gateway runs: `status` tells whether it is well, `troubles` what ails it."""
     troubles = [
-        *port_troubles(control.port),
+        *port_troubles(control.board.port),
         *loop_troubles(pulse.worst_s),
         *(Trouble(part="disk", detail=detail) for detail in [await disk.problem()] if detail),
     ]
@@ -86,9 +86,9 @@ async def numbers(control: Controlled, pulse: Beating) -> Response:
 def note_present(control: Control, pulse: Pulse) -> None:
     """Sets what has a present value instead of a count."""
     for status in PORT_STATES:
-        metrics.port_state.labels(status).set(status == control.port.status)
+        metrics.port_state.labels(status).set(status == control.board.port.status)
     metrics.latched.set(control.latch)
     metrics.clients.set(len(control.hub))
-    reading = control.battery.newest
+    reading = control.board.battery.newest
     metrics.battery.set(reading.battery_mv if reading else float("nan"))
     metrics.loop_delay.set(pulse.worst_s)

@@ -64,10 +64,10 @@ async def download(
 @jobs_api.get("/jobs/{job}", dependencies=[VIEWER])
 async def job_state(job: str, control: Controlled) -> JobState:
     """How far it is, or how it ended. The last few are remembered until the gateway ends."""
-    return control.jobs.find(job)
+    return control.board.jobs.find(job)
 
 
 @jobs_api.delete("/jobs/{job}", dependencies=[DRIVER])
 async def cancel(job: str, control: Controlled) -> JobState:
     """Calls it off behind its frame in progress; one that has ended stays what it is."""
-    return control.jobs.cancel(job)
+    return control.board.jobs.cancel(job)

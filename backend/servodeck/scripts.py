@@ -19,7 +19,6 @@ from servodeck.gate import judge_latch
 from servodeck.hub import Seat
 from servodeck.jobs import Group
 from servodeck.messages import JobState, LeaseState
-from servodeck.packets import FAMILIES
 from servodeck.script_moves import packet_of, plan_move
 from servodeck.values import Erase, Erased, Run, RunAccepted, RunStarted
 from servodeck.wire import Left
@@ -51,7 +50,7 @@ class Turn:
 
     def __init__(self, control: Control, seat: Seat, packet: bytes, *, take: bool) -> None:
         """Raises what keeps its first packet from leaving."""
-        control.link.wire()
+        control.board.link.wire()
         judge_latch(packet, control.latch)
         self._control = control
         self._seat = seat
@@ -60,7 +59,7 @@ class Turn:
 
     async def end_what_moves(self) -> None:
         self._judge()
-        await self._control.end_motion()
+        await self._control.board.end_motion()
         self._mark = (self._mark[0], self._present()[1])
 
     def send(self, packet: bytes, lasts_s: float = 0.0) -> Left:
@@ -74,7 +73,7 @@ class Turn:
         return left
 
     def _present(self) -> tuple[int, int]:
-        return self._control.driving.epoch, self._control.halts
+        return self._control.driving.epoch, self._control.board.halts
 
     def _judge(self) -> None:
         if self._mark != self._present():
@@ -99,9 +98,9 @@ class Scripts:
         """Until its last packet has left; what is not wanted any more does not leave."""
         control, seat = self._control, self._seat_of(caller)
         family, now = self._family(), control.now()
-        if control.motion.group_may_run(now):
+        if control.board.motion.group_may_run(now):
             raise MovingError("A group may be running: stop it, then resume.")
-        plan = plan_move(duration_ms, positions, family, control.motion, now, control.limits.name_of)
+        plan = plan_move(duration_ms, positions, family, control.board.motion, now, control.limits.name_of)
         for step in plan.steps:
             control.limits.judge(step.packet, seat)
         turn = Turn(control, seat, plan.steps[0].packet, take=take)
@@ -139,12 +138,12 @@ class Scripts:
     async def erase(self, caller: Caller, *, take: bool) -> None:
         """Until the board says that it is done."""
         packet = packet_of(Erase(), self._family())
-        if self._control.may_move():
+        if self._control.board.may_move():
             raise MovingError("The robot moves: wait for its end, or stop it first.")
         with self._asking_the_board():
             turn = Turn(self._control, self._seat_of(caller), packet, take=take)
             left = turn.send(packet, ERASE_WAIT_S)
-            if await self._control.answers.to(left, ERASE_WAIT_S, Erased) is None:
+            if await self._control.board.answers.to(left, ERASE_WAIT_S, Erased) is None:
                 raise NoAnswerError("The board did not say whether its groups are erased.")
 
     def act(self, caller: Caller, action: ScriptAction) -> LeaseState:
@@ -165,11 +164,11 @@ class Scripts:
         if "run" not in family.answers:
             await left
             return "sent"
-        taken = await self._control.answers.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
+        taken = await self._control.board.answers.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
         return "silent" if taken is None else "acknowledged"
 
     def _family(self) -> Family:
-        return FAMILIES[self._control.board]
+        return self._control.board.family
 
     def _seat_of(self, caller: Caller) -> ScriptSeat:
         name = "A script on this computer" if caller is THIS_COMPUTER else caller.name

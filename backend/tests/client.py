@@ -75,7 +75,7 @@ async def gateway_on(*ports: FakePort) -> AsyncIterator[Control]:
     try:
         yield control
     finally:
-        await control.link.close()
+        await control.board.link.close()
         for port in ports:
             port.close()
 

@@ -50,7 +50,7 @@ async def http_to(
     app = create_app(control, library or NO_LIBRARY, entrance or entrance_to(), static)
     async with client_of(app) as client:
         yield client, control
-    await control.link.close()
+    await control.board.link.close()
 
 
 def client_of(app: ASGIApp) -> AsyncClient:

@@ -70,7 +70,7 @@ async def test_a_port_is_chosen_and_closed() -> None:
     async with http_to(ports, now) as (client, control):
         chosen = await client.put("/api/port", json={"device": "/dev/other", "board": "lsc-16"})
         assert chosen.json() == {**OPEN, "device": "/dev/other"}
-        assert control.board == "lsc-16"
+        assert control.board.taken_for == "lsc-16"
         assert (await client.delete("/api/port")).json() == CLOSED
         assert (await client.delete("/api/port")).json() == CLOSED
         refused = await client.get("/api/battery")

@@ -84,7 +84,7 @@ async def test_every_error_has_one_shape(
         assert answer.status_code == status
         assert answer.json()["code"] == code
         assert set(answer.json()) == {"code", "detail"}
-        await control.link.close()
+        await control.board.link.close()
 
 
 @pytest.fixture

@@ -152,7 +152,7 @@ async def test_a_port_that_never_opened_does_not_latch() -> None:
     with pytest.raises(PortMissingError):
         await control.use_port("/dev/board")
     assert control.latch is False
-    await control.link.close()
+    await control.board.link.close()
 
 
 @in_virtual_time
@@ -193,11 +193,11 @@ async def test_the_battery_is_asked_once_for_all_who_want_to_know() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         at(now() + 0.1, lambda: port.say(BATTERY_REPORT))
-        first, second = await asyncio.gather(control.battery.read(), control.battery.read())
+        first, second = await asyncio.gather(control.board.battery.read(), control.board.battery.read())
         assert first == second == 7500
         assert port.packets()[1:] == [BATTERY]
-        assert control.battery.newest
-        assert control.battery.newest.battery_mv == 7500
+        assert control.board.battery.newest
+        assert control.board.battery.newest.battery_mv == 7500
 
 
 @in_virtual_time
@@ -205,10 +205,10 @@ async def test_a_board_that_does_not_tell_its_battery_gets_half_a_second() -> No
     async with gateway_on() as control:
         begun_s = now()
         with pytest.raises(NoAnswerError):
-            await control.battery.read()
+            await control.board.battery.read()
         assert (now() - begun_s) * 1000 == pytest.approx(wire_ms(BATTERY) + 500, abs=1)
         with pytest.raises(NoAnswerError):
-            await control.battery.read()
+            await control.board.battery.read()
 
 
 @in_virtual_time
@@ -237,7 +237,7 @@ async def test_shutting_down_stops_the_robot_within_half_a_second() -> None:
         await ending
         assert now() - begun_s <= 0.5
         assert port.packets()[1:] == [MOVE, STOP, STOP, STOP]
-        assert control.link.state.status == "closed"
+        assert control.board.link.state.status == "closed"
         await control.shut_down()
 
 
@@ -263,5 +263,5 @@ async def test_a_port_declared_as_simulated_is_told_so_and_only_that_one() -> No
     [welcome] = await Client(control).heard()
     assert welcome["port"]["simulated"] is True
     await control.use_port("/dev/other")
-    assert control.port.simulated is False
-    await control.link.close()
+    assert control.board.port.simulated is False
+    await control.board.link.close()

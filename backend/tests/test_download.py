@@ -43,7 +43,7 @@ class AnsweringPort(FakePort):
 async def ended(control: Control, job: JobState) -> JobState:
     """When it has; somebody looks on."""
     bert = Client(control, GUEST)
-    while (state := control.jobs.find(job.id)).status == "running":
+    while (state := control.board.jobs.find(job.id)).status == "running":
         await bert.next()
     control.leave(bert)
     return state
@@ -75,7 +75,7 @@ async def test_a_download_in_which(scenario: dict[str, Any]) -> None:
         begun_s = now()
         job = control.download(group_of(scenario), "Anna", lambda: None)
         if "cancelAtMs" in scenario:
-            at(begun_s + scenario["cancelAtMs"] / 1000, lambda: control.jobs.cancel(job.id))
+            at(begun_s + scenario["cancelAtMs"] / 1000, lambda: control.board.jobs.cancel(job.id))
         end = await ended(control, job)
         took_ms = (now() - begun_s) * 1000
         times_ms, indexes = zip(*scenario["sent"], strict=True)
@@ -85,4 +85,4 @@ async def test_a_download_in_which(scenario: dict[str, Any]) -> None:
         assert took_ms == pytest.approx(scenario["tookMs"], abs=0.01)
         assert (end.code or end.status) == scenario["outcome"]
         is_broken = scenario["outcome"] != "done"
-        assert control.jobs.broken(control.link.place) == [scenario["slot"]] * is_broken
+        assert control.board.jobs.broken(control.board.link.place) == [scenario["slot"]] * is_broken

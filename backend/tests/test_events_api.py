@@ -82,7 +82,7 @@ async def listening() -> AsyncIterator[Stage]:
     listener.reads.set()
     await life
     assert len(control.hub) == 0
-    await control.link.close()
+    await control.board.link.close()
 
 
 @in_virtual_time
@@ -113,8 +113,8 @@ async def test_whoever_does_not_read_is_cut_and_the_others_lose_nothing() -> Non
     async with listening() as here:
         here.listener.reads.clear()
         for _ in range(OUTBOX_MESSAGES + 2):
-            here.control.unattended.end()
-            here.control.port_changed()
+            here.control.board.unattended.end()
+            here.control.board_changed()
         await asyncio.sleep(1)
         assert here.life.done()
         assert here.listener.aborted

@@ -67,7 +67,7 @@ async def test_a_lost_port_degrades_it_without_naming_the_device(tmp_path: Path)
 
 
 async def until_lost(control: Control) -> None:
-    while control.port.status != "lost":  # noqa: ASYNC110 (the state has no event)
+    while control.board.port.status != "lost":  # noqa: ASYNC110 (the state has no event)
         await asyncio.sleep(0)
 
 

@@ -48,7 +48,7 @@ def begin(control: Control, group: Group = WAVE) -> JobState:
 
 
 def broken(control: Control) -> list[int]:
-    return control.jobs.broken(control.link.place)
+    return control.board.jobs.broken(control.board.link.place)
 
 
 @in_virtual_time
@@ -226,7 +226,7 @@ async def test_who_may_not_begins_none() -> None:
         with pytest.raises(NotDrivingError):
             control.download(WAVE, "Bert", refuse)
         await asyncio.sleep(1)
-        assert (control.jobs.latest, port.packets()) == (None, [STOP])
+        assert (control.board.jobs.latest, port.packets()) == (None, [STOP])
 
 
 @in_virtual_time
@@ -261,7 +261,7 @@ async def test_what_ends_it_is_said_and_leaves_the_slot_broken(end: str) -> None
     async with gateway_on(port, other) as control:
         anna = Client(control)
         job = begin(control)
-        place = control.link.place
+        place = control.board.link.place
         await asyncio.sleep(0.3)
         match end:
             case "stop":
@@ -281,7 +281,7 @@ async def test_what_ends_it_is_said_and_leaves_the_slot_broken(end: str) -> None
         found = await ended(control, job)
         assert (found.status, found.code) == ENDS[end]
         assert end == "silence" or now() - told_s <= 0.01
-        assert control.jobs.broken(place) == [SLOT]
+        assert control.board.jobs.broken(place) == [SLOT]
         last = [message["job"] for message in await anna.heard() if message["type"] == "job"][-1]
         assert (last["status"], last["code"]) == ENDS[end]
         await asyncio.sleep(0.3)
@@ -297,9 +297,9 @@ async def test_a_broken_slot_is_run_by_nobody_until_a_download_or_an_erase_has_e
         anna = Client(control)
         job = begin(control)
         await asyncio.sleep(0.3)
-        control.jobs.cancel(job.id)
+        control.board.jobs.cancel(job.id)
         assert (await ended(control, job)).status in ("cancelled", "failed")
-        control.jobs.end(LatchedError("Nothing is under way: this ends nothing."))
+        control.board.jobs.end(LatchedError("Nothing is under way: this ends nothing."))
         with pytest.raises(SlotBrokenError):
             anna.send(RUN_WAVE)
         await asyncio.sleep(3)
@@ -405,7 +405,7 @@ async def test_a_script_begins_one_looks_at_it_and_calls_it_off() -> None:
         assert (found["status"], found["code"]) == ("cancelled", "cancelled")
         assert (await client.get("/api/jobs/other")).status_code == 404
         with pytest.raises(NotFoundError):
-            control.jobs.cancel("other")
+            control.board.jobs.cancel("other")
 
 
 @in_virtual_time

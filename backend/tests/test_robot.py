@@ -137,7 +137,7 @@ async def test_who_does_not_drive_changes_no_rules_for_whoever_does() -> None:
         await bert.heard()
         say(control, bert, type="limits", servos=[])
         say(control, bert, type="board", board="lsc-6")
-        assert (control.board, control.limits.told()) == ("doc", [ELBOW])
+        assert (control.board.taken_for, control.limits.told()) == ("doc", [ELBOW])
         told = await bert.heard()
         assert {"type": "limits", "servos": [ELBOW.model_dump()]} in told
         assert [message["code"] for message in told if message["type"] == "refused"] == ["notDriving"]
@@ -145,4 +145,4 @@ async def test_who_does_not_drive_changes_no_rules_for_whoever_does() -> None:
         assert [message["type"] for message in await bert.heard()] == ["state"]
         say(control, owner, type="limits", servos=[])
         say(control, anna, type="board", board="lsc-6")
-        assert (control.board, control.limits.told()) == ("lsc-6", [])
+        assert (control.board.taken_for, control.limits.told()) == ("lsc-6", [])

@@ -60,7 +60,7 @@ async def stop_at_random(packets: list[bytes], chance: random.Random, is_downloa
         # Only the pose that the stop itself holds.
         assert [packet for _, packet in behind if packet[3] in MOTION - {3}] == []
         assert all(left.done() for left in waiting)
-        assert [job.status for job in [control.jobs.latest] if job] == ["failed"] * is_download
+        assert [job.status for job in [control.board.jobs.latest] if job] == ["failed"] * is_download
         control.resume()
         await anna.send(MOVE)
         assert port.packets()[-1] == MOVE
