@@ -73,6 +73,10 @@ FACTS = {
 }
 DOCUMENT = "6f1c2a9e-77aa-4b0e-9c5e-2f6a1d3b8c40"
 LISTED = {"id": DOCUMENT, "revision": 4, "isRemoved": False, "facts": FACTS}
+POSES = {
+    "robot": "Arm, 6 servos",
+    "poses": [{"id": 1, "name": "Greeting", "unit": "us", "targets": [{"servo": 1, "position": 1800}]}],
+}
 YOU = {"id": "5d41402abc4b2a76", "name": "Anna's tablet", "role": "owner"}
 PERSON = {
     "id": "5d41402abc4b2a76",
@@ -125,6 +129,13 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ),
     ("POST", "/api/erase"): Example({"erased": True}, {"take": False}, (*ON_THE_WIRE, "noAnswer")),
     ("POST", "/api/lease"): Example(LEASE, {"action": "beat"}, ("busy", "notDriving")),
+    ("GET", "/api/poses"): Example(POSES),
+    ("PUT", "/api/poses"): Example(None, POSES, ("storageFailed", "tooLarge")),
+    ("POST", "/api/poses/{pose}/apply"): Example(
+        {"packets": 1, "overInMs": 1500, "firstMoves": []},
+        {"timeMs": 1500, "take": False},
+        (*ON_THE_WIRE, "cancelled", "notFound"),
+    ),
     ("GET", "/api/ports"): Example(
         [{"device": "/dev/ttyUSB0", "description": "USB Serial", "likely": True}],
     ),
@@ -204,6 +215,7 @@ PROBLEMS: dict[ErrorCode, str] = {
     "portMissing": "There is no such port.",
     "slotBroken": "Slot 5 holds half a group: download it again.",
     "storageBusy": "The library is busy.",
+    "storageFailed": "The poses are not kept: Read-only file system.",
     "storageFull": "The disk is full.",
     "tooLarge": "The request is larger than 3145728 bytes.",
 }

@@ -29,6 +29,8 @@ from servodeck.motion_api import motion_api
 from servodeck.openapi import described
 from servodeck.page import STATIC, page
 from servodeck.people_api import people_api
+from servodeck.pose_shelf import PoseShelf
+from servodeck.poses_api import poses_api
 from servodeck.pulse import Pulse
 from servodeck.roles import ANYBODY, require_roles
 from servodeck.scripts import Scripts
@@ -63,6 +65,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     app.state.control = control
     app.state.scripts = Scripts(control)
     app.state.library = library
+    app.state.poses = PoseShelf(library.folder)
     app.state.pulse = Pulse(sign_of_life())
     app.state.disk = Disk(library.folder, control.now)
     app.state.entrance = entrance
@@ -73,6 +76,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     app.include_router(library_api)
     app.include_router(motion_api)
     app.include_router(people_api)
+    app.include_router(poses_api)
     app.include_router(socket)
     add_docs(app)
     add_errors(app)

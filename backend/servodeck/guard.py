@@ -16,12 +16,14 @@ from servodeck.errors import GatewayError
 from servodeck.gate import judge_body_type, judge_handshake
 
 BODY_BYTES = 16 * 1024
-LIBRARY_PATH = "/api/library/"
-# A document as text inside JSON, where every quote of it takes two characters.
-LIBRARY_BODY_BYTES = 3 * 1024 * 1024
-DOWNLOAD_PATH = re.compile(r"/api/slots/[^/]+/download")
-# 255 frames of 32 servos as JSON, with spaces.
-DOWNLOAD_BODY_BYTES = 256 * 1024
+LARGER_BODIES = (
+    # A document as text inside JSON, where every quote of it takes two characters.
+    (re.compile(r"/api/library/.*"), 3 * 1024 * 1024),
+    # 255 frames of 32 servos as JSON, with spaces.
+    (re.compile(r"/api/slots/[^/]+/download"), 256 * 1024),
+    # 1000 poses of 20 servos.
+    (re.compile(r"/api/poses"), 1024 * 1024),
+)
 STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
 
 CONTENT_POLICY = (
@@ -75,9 +77,7 @@ def with_headers(send: Send, socket: str) -> Send:
 
 def body_bytes(path: str) -> int:
     """Nothing that anybody may send there is larger than that."""
-    if DOWNLOAD_PATH.fullmatch(path):
-        return DOWNLOAD_BODY_BYTES
-    return LIBRARY_BODY_BYTES if path.startswith(LIBRARY_PATH) else BODY_BYTES
+    return next((size for shape, size in LARGER_BODIES if shape.fullmatch(path)), BODY_BYTES)
 
 
 def limit_body(receive: Receive, limit: int) -> Receive:

@@ -2,6 +2,7 @@
 decides nothing.
 """
 
+from collections.abc import Mapping
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Path, Request
@@ -91,12 +92,23 @@ async def move(wish: MoveWish, request: Request, caller: Driving, scripts: Scrip
     """Moves servos together. Answers when the last packet has left the wire; `overInMs` later they are there.
     Servos that nobody knows the place of take 1500 ms at least and start one after another.
     """
+    positions = {int(servo): position for servo, position in wish.positions.items()}
+    return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
 
+
+async def begin_move(
+    request: Request,
+    caller: Caller,
+    scripts: Scripts,
+    time_ms: int,
+    positions: Mapping[int, int],
+    *,
+    take: bool,
+) -> MoveBegun:
     async def is_wanted() -> bool:
         return not await request.is_disconnected()
 
-    positions = {int(servo): position for servo, position in wish.positions.items()}
-    moved = await scripts.move(caller, wish.time_ms, positions, take=wish.take, is_wanted=is_wanted)
+    moved = await scripts.move(caller, time_ms, positions, take=take, is_wanted=is_wanted)
     return MoveBegun(packets=moved.packets, over_in_ms=moved.over_in_ms, first_moves=list(moved.first_moves))
 
 

@@ -6,22 +6,33 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import AsyncIterator
 from pathlib import Path
 
 import pytest
 
+from servodeck.background import BackgroundPorts
+from servodeck.library import Library
 from servodeck.packets import FAMILIES, encode
 from servodeck.values import Move, Run, ServoTarget
-from tests.running import Running
-from tests.test_with_simulator import ROOT, Board, board, gateway, pytestmark
+from tests.running import Running, server_on
+from tests.test_with_simulator import ROOT, Board, board, pytestmark
 
 pytestmark = [*pytestmark, pytest.mark.skipif(shutil.which("curl") is None, reason="curl is not installed")]
-fixtures = (board, gateway)
+fixtures = (board,)
 
 PIECE = re.compile(r"^```(sh|python)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PROGRAMS = {"sh": ["sh", "-eu"], "python": [sys.executable, "-W", "error", "-"]}
 PLACE = "http://127.0.0.1:8300"
 DOC = FAMILIES["doc"]
+
+
+@pytest.fixture
+async def gateway(board: Board, tmp_path: Path) -> AsyncIterator[Running]:
+    library = Library(tmp_path / "data")
+    async with server_on(BackgroundPorts(), str(board.link), library=library) as running:
+        yield running
+    library.close()
 
 
 def pieces() -> list[tuple[str, str]]:
@@ -58,6 +69,6 @@ async def test_each_piece_of_the_tutorial_runs(board: Board, gateway: Running, t
         assert done.returncode == 0, f"{text}\n{done.stdout}\n{done.stderr}"
     await asyncio.sleep(0.05)
     got = bytes(byte for _, byte in board.taken())
-    for position, time_ms in ((1500, 1500), (1200, 400), (1800, 400)):
+    for position, time_ms in ((1500, 1500), (1200, 400), (1800, 400), (1700, 1500)):
         assert encode(Move(time_ms, (ServoTarget(1, position),)), DOC) in got
     assert got.count(encode(Run(3, 2), DOC)) == 2

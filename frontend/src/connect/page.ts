@@ -39,6 +39,7 @@ import { browserClock } from '../transports/browserClock.ts';
 import { hasGateway } from './gatewayApi.ts';
 import { isAnother, type Arrival } from './arrival.ts';
 import { peopleApi, readMe } from './peopleApi.ts';
+import { handOverPoses } from './posesApi.ts';
 import { watchLeaving } from './leaving.ts';
 import { createConnector, type Connector } from './connector.ts';
 
@@ -64,7 +65,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   const mappings = createMappings(storage, notices, robots);
   const readPads = () => (isSecureContext ? navigator.getGamepads() : []);
   const pad = createPad({ device, robots, mappings, notices, clock: pageClock, readPads });
-  const poses = createPoses({ storage, notices, robots, device });
+  const poses = createPoses({ storage, notices, robots, device, handOver: handOverPoses });
   const macroRun = createMacroRun({ device, poses, robots, notices, clock: pageClock });
   const written = createDocument(storage, notices, pageClock);
   const library = createLibrary({

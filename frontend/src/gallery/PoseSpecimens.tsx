@@ -15,7 +15,7 @@ import { StoresContext, type Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { frozenSession } from './frozen.ts';
 import styles from './Gallery.module.css';
-import { motionsOf } from './specimens.ts';
+import { LEASE, motionsOf } from './specimens.ts';
 import { specimenStores } from './specimenStores.ts';
 
 const POSES = { 'Greet the visitor': 0.2, 'Look down': 0.5, Sit: 0.8 };
@@ -52,9 +52,12 @@ const CASES: readonly {
   readonly panel: ReactNode;
   readonly isEmpty?: boolean;
   readonly edits?: boolean;
+  /** A gateway is there to hand poses to. */
+  readonly isShared?: boolean;
 }[] = [
   { name: 'Poses, none', panel: <PosesPanel />, isEmpty: true },
   { name: 'Poses', panel: <PosesPanel /> },
+  { name: 'Poses, at a gateway', panel: <PosesPanel />, isShared: true },
   { name: 'Poses, robot follows a blend', panel: <Blend /> },
   { name: 'Buttons, none', panel: <ButtonsPage />, isEmpty: true },
   { name: 'Buttons', panel: <ButtonsPage /> },
@@ -71,10 +74,13 @@ export function PoseSpecimens() {
   return CASES.map(({ name, ...rest }) => <Shown key={name} name={name} {...rest} />);
 }
 
-function Shown({ name, panel, isEmpty = false, edits = false }: (typeof CASES)[number]) {
+type Case = (typeof CASES)[number];
+
+function Shown({ name, panel, isEmpty = false, edits = false, isShared = false }: Case) {
   const [stores] = useState(() => {
     const made = specimenStores(FAMILIES.doc);
-    const ready = { ...INITIAL_STATE, link: { status: 'ready' } as const };
+    const lease = isShared ? LEASE : null;
+    const ready = { ...INITIAL_STATE, link: { status: 'ready' } as const, lease };
     made.device.attach(frozenSession(FAMILIES.doc, ready, motionsOf({ pose: 'still' })), {
       ...{ kind: 'webSerial', label: 'USB', isSimulated: false },
     });

@@ -48,7 +48,7 @@ const READY: SessionState = {
 /** No reading ever comes where the board has no command for it. */
 const NO_BATTERY: SessionState = { ...READY, battery: { kind: 'unread' } };
 
-const LEASE: Lease = {
+export const LEASE: Lease = {
   ...{ driver: 'Anna', drives: true, asker: null, asks: false, answerInMs: null },
   ...{ mayDrive: true, mayTake: false, others: 3, unattended: null },
 };

@@ -1,0 +1,77 @@
+"""The poses that a page has handed over, as a script finds them and goes there."""
+
+import time
+from pathlib import Path
+from typing import Any
+
+from servodeck.library import Library
+from servodeck.pose_shelf import FILE
+from tests.fake_port import FakePort, FakePorts
+from tests.running import http_to
+from tests.test_motion_api import move, refusal
+
+
+def pose(number: int, name: str, unit: str = "us", **positions: int) -> dict[str, Any]:
+    targets = [{"servo": int(servo[1:]), "position": at} for servo, at in positions.items()]
+    return {"id": number, "name": name, "unit": unit, "targets": targets}
+
+
+BOOK = {
+    "robot": "Arm",
+    "poses": [
+        pose(1, "Greeting", s1=1800, s2=900),
+        pose(2, "Rest", s1=1500),
+        pose(3, "Rest", s1=1400),
+        pose(4, "2", s1=1300),
+        pose(5, "Steps", "steps", s1=500),
+        pose(6, "Far", s1=2600),
+    ],
+}
+
+
+async def test_what_is_handed_over_is_there_after_a_restart_and_damage_is_nothing(tmp_path: Path) -> None:
+    async with http_to(FakePorts(FakePort()), time.monotonic, library=Library(tmp_path)) as (client, _):
+        assert (await client.get("/api/poses")).json() == {"robot": "", "poses": []}
+        assert (await client.put("/api/poses", json=BOOK)).status_code == 204
+    async with http_to(FakePorts(FakePort()), time.monotonic, library=Library(tmp_path)) as (client, _):
+        assert (await client.get("/api/poses")).json() == BOOK
+        (tmp_path / FILE).write_text("{")
+        assert (await client.get("/api/poses")).json()["poses"] == []
+
+
+async def test_a_script_goes_to_a_pose_by_number_or_name(tmp_path: Path) -> None:
+    port = FakePort()
+    async with http_to(FakePorts(port), time.monotonic, library=Library(tmp_path)) as (client, _):
+        await client.put("/api/poses", json=BOOK)
+        begun = await client.post("/api/poses/Greeting/apply")
+        assert begun.json() == {"packets": 2, "overInMs": 1500, "firstMoves": [1, 2]}
+        assert (await client.post("/api/poses/1/apply", json={"timeMs": 1600})).status_code == 200
+        assert (await client.post("/api/poses/2/apply")).status_code == 200
+        assert port.packets()[1:] == [
+            move(1500, s1=1800),
+            move(1500, s2=900),
+            move(1600, s1=1800, s2=900),
+            move(1500, s1=1500),
+        ]
+
+
+async def test_what_cannot_be_gone_to_is_told_and_moves_nothing(tmp_path: Path) -> None:
+    port = FakePort()
+    async with http_to(FakePorts(port), time.monotonic, library=Library(tmp_path)) as (client, _):
+        await client.put("/api/poses", json=BOOK)
+        for name, expected in {
+            "Nowhere": (404, "notFound"),
+            "Rest": (422, "outOfRange"),
+            "Steps": (422, "outOfRange"),
+            "Far": (422, "outOfRange"),
+        }.items():
+            assert refusal(await client.post(f"/api/poses/{name}/apply")) == expected
+        told = (await client.post("/api/poses/Rest/apply")).json()["detail"]
+        assert "2, 3" in told
+        assert (await client.get("/api/status")).json()["driver"] is None
+        assert len(port.packets()) == 1
+
+
+async def test_a_disk_that_takes_nothing_refuses_what_is_handed_over() -> None:
+    async with http_to(FakePorts(FakePort()), time.monotonic) as (client, _):
+        assert refusal(await client.put("/api/poses", json=BOOK)) == (503, "storageFailed")
