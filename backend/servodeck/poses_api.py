@@ -16,7 +16,6 @@ from servodeck.families import Family
 from servodeck.limits import UNITS
 from servodeck.messages import Message
 from servodeck.motion_api import Driving, MoveBegun, Scripted, Take, begin_move
-from servodeck.packets import FAMILIES
 from servodeck.pose_shelf import NamedPose, Poses, PoseShelf
 from servodeck.roles import DRIVER, VIEWER
 
@@ -66,7 +65,7 @@ async def apply(
 ) -> MoveBegun:
     """Goes to the pose of that number or name; as `move` otherwise."""
     found = await asyncio.to_thread(shelf.find, pose)
-    judge_unit(found, FAMILIES[control.board])
+    judge_unit(found, control.board.family)
     positions = {target.servo: target.position for target in found.targets}
     return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
 
