@@ -191,3 +191,27 @@ test('nothing has to be scrolled sideways from 390 to 1920 px', async ({ page, s
     await expectNoSidewaysScroll(page, `${width} px`);
   }
 });
+
+for (const viewport of SIZES) {
+  test(`${viewport.width} px: the dials of 32 servos leave what is below them alone`, async ({
+    page,
+    servers,
+  }) => {
+    await page.setViewportSize(viewport);
+    await page.goto(`${(await servers.files()).url}/gallery.html?state=Thirty-two%20servos`);
+    const dials = page
+      .getByRole('list')
+      .filter({ has: page.getByRole('img', { name: 'Dial of servo 32' }) })
+      .first();
+    const legend = page.getByRole('list', { name: 'What the marks mean' });
+    const legendY = await legend.evaluate((list) => list.getBoundingClientRect().top);
+    const seenTo = await dials.evaluate((list) => {
+      let bottom = list.getBoundingClientRect().bottom;
+      for (let around = list.parentElement; around !== null; around = around.parentElement)
+        if (getComputedStyle(around).overflowY !== 'visible')
+          bottom = Math.min(bottom, around.getBoundingClientRect().bottom);
+      return bottom;
+    });
+    expect(seenTo).toBeLessThan(legendY);
+  });
+}

@@ -2,6 +2,9 @@
 
 export type PositionUnit = 'us' | 'steps';
 
+/** More servos than that are counted instead. */
+export const MOST_NAMED = 8;
+
 const digits = (count: number): Intl.NumberFormatOptions => ({
   minimumFractionDigits: count,
   maximumFractionDigits: count,

@@ -1,10 +1,11 @@
 // Words of first moves: who starts next, and the pose a board was last seen in.
 
-import { formatList } from './numbers.ts';
+import { counted, formatList } from './numbers.ts';
+import { MOST_NAMED } from '../numbers.ts';
 
 export const firstMoveWords = {
   waiting: (servos: readonly number[]): string =>
-    `Starting slowly, one after another. Still to start: ${formatList(servos)}.`,
+    `Starting slowly, one after another. Still to start: ${servos.length > MOST_NAMED ? counted(servos.length, 'servo') : formatList(servos)}.`,
   guess: 'Last known',
   /** In the place of a figure. */
   guessed: (position: string): string => `${position}?`,

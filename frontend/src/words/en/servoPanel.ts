@@ -1,9 +1,13 @@
 // Words of the servo panel: units, selecting, moving together, locking and hiding, the picture.
 
 import { counted, formatCount, formatList, formatWhole } from './numbers.ts';
+import { MOST_NAMED } from '../numbers.ts';
 
+/** Named while they fit into a line. */
 const servosText = (servos: readonly number[]): string =>
-  `${servos.length === 1 ? 'Servo' : 'Servos'} ${formatList(servos)}`;
+  servos.length > MOST_NAMED
+    ? counted(servos.length, 'servo')
+    : `${servos.length === 1 ? 'Servo' : 'Servos'} ${formatList(servos)}`;
 
 export const servoPanelWords = {
   figure: (robot: string): string =>

@@ -1,10 +1,12 @@
 // Words of first moves: who starts next, and the pose a board was last seen in, in Chinese.
 
 import type { firstMoveWords as english } from '../en/firstMoves.ts';
-import { formatList } from './numbers.ts';
+import { formatCount, formatList } from './numbers.ts';
+import { MOST_NAMED } from '../numbers.ts';
 
 export const firstMoveWords: typeof english = {
-  waiting: (servos) => `正在逐个缓慢启动，还未启动：${formatList(servos)}号舵机。`,
+  waiting: (servos) =>
+    `正在逐个缓慢启动，还未启动：${servos.length > MOST_NAMED ? `${formatCount(servos.length)}个` : `${formatList(servos)}号`}舵机。`,
   guess: '上次位置',
   guessed: (position) => `${position}?`,
   guessedValue: (position) => `未知；上次位置 ${position}。第一次移动很慢。`,

@@ -2,8 +2,10 @@
 
 import type { servoPanelWords as english } from '../en/servoPanel.ts';
 import { formatCount, formatList, formatWhole } from './numbers.ts';
+import { MOST_NAMED } from '../numbers.ts';
 
-const servosText = (servos: readonly number[]): string => `${formatList(servos)}号舵机`;
+const servosText = (servos: readonly number[]): string =>
+  servos.length > MOST_NAMED ? `${formatCount(servos.length)}个舵机` : `${formatList(servos)}号舵机`;
 
 export const servoPanelWords: typeof english = {
   figure: (robot) => `${robot}；实线是估算，轮廓是目标，虚线是未知，点线是预览`,
