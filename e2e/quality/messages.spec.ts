@@ -41,3 +41,17 @@ for (const size of SIZES) {
     await expect(dashboard.notices.getByRole('listitem')).toHaveText(/Gripper/);
   });
 }
+
+test('whoever dismisses a message by key is back where they came from', async ({ page, servers }) => {
+  const dashboard = dashboardOf(page);
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.link).toHaveText(/Simulated/);
+  await dashboard.type(dashboard.target(1), 9999);
+  await page.keyboard.press('Shift+Tab');
+  await expect(dashboard.slider(1)).toBeFocused();
+  const dismiss = dashboard.notices.getByRole('button', { name: 'Dismiss' });
+  await dismiss.focus();
+  await page.keyboard.press('Enter');
+  await expect(dismiss).toBeHidden();
+  await expect(dashboard.slider(1)).toBeFocused();
+});

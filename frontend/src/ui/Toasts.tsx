@@ -1,6 +1,7 @@
 // Short messages, read out as they come: the newest is shown, those before it wait behind it. Covers nothing: whoever places it
-// gives it room of its own. Above dialogs and within reach beside them.
+// gives it room of its own. Above dialogs and within reach beside them. Whoever dismisses one is back where they came from.
 
+import { useRef } from 'react';
 import { Button, IconButton } from './Button.tsx';
 import { Mark, type Truth } from './Chip.tsx';
 import styles from './Toasts.module.css';
@@ -24,16 +25,29 @@ export interface ToastsProps {
 
 export function Toasts({ label, dismissLabel, moreLabel, toasts, onDismiss }: ToastsProps) {
   const waiting = toasts.length - 1;
+  const cameFrom = useRef<HTMLElement | null>(null);
+  const dismiss = (id: number): void => {
+    onDismiss(id);
+    cameFrom.current?.focus();
+  };
   return (
-    <section className={styles.place} aria-label={label} data-react-aria-top-layer="true">
+    <section
+      className={styles.place}
+      aria-label={label}
+      data-react-aria-top-layer="true"
+      onFocus={({ currentTarget, relatedTarget }) => {
+        if (currentTarget.contains(relatedTarget)) return;
+        cameFrom.current = relatedTarget instanceof HTMLElement ? relatedTarget : null;
+      }}
+    >
       <ol aria-live="polite">
         {toasts.map((toast, index) => (
           <li key={toast.id} className={styles.toast} hidden={index < waiting}>
             <Mark truth={toast.truth} />
             <p className={styles.text}>{toast.text}</p>
             {waiting > 0 && <span className={styles.more}>{moreLabel(waiting)}</span>}
-            {toast.action !== undefined && <ActButton {...toast.action} onDone={() => onDismiss(toast.id)} />}
-            <IconButton icon="close" label={dismissLabel} onPress={() => onDismiss(toast.id)} />
+            {toast.action !== undefined && <ActButton {...toast.action} onDone={() => dismiss(toast.id)} />}
+            <IconButton icon="close" label={dismissLabel} onPress={() => dismiss(toast.id)} />
           </li>
         ))}
       </ol>
