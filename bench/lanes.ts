@@ -182,6 +182,7 @@ async function scrub(page: Page): Promise<void> {
   await page
     .getByRole('grid')
     .locator('canvas')
+    .first()
     .evaluate((canvas) => {
       const { left, top, width } = canvas.getBoundingClientRect();
       const send = (type: string, x: number): void =>

@@ -1,6 +1,7 @@
 // What stands at the left of a row: its name, its position at the playhead, and what is done to it.
 
 import { memo } from 'react';
+import { positionAt } from '#shared/actions/group/tracks.ts';
 import { isHeld, isSilent, toggled } from '../stores/servoView.ts';
 import {
   editServoView,
@@ -11,12 +12,15 @@ import {
   useStores,
   useTimeline,
   useView,
+  type Stores,
 } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { cx } from '../ui/cx.ts';
+import { LiveText } from '../ui/LiveText.tsx';
 import { useWords, words } from '../words/words.ts';
 import { rowName } from './cellName.ts';
 import { deskOf, rangeOf } from './desk.ts';
+import { timesOf } from './groupTimes.ts';
 import { selectRow } from './looking.ts';
 import { scaleAt } from './positions.ts';
 import type { Row } from './rows.ts';
@@ -53,11 +57,12 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
       {row.kind === 'servo' && (
         <>
           <Marks servo={row.servos[0] ?? -1} />
-          <span
+          <LiveText
+            isSilent
             className={styles.value}
-            data-value={row.servos[0]}
             title={words.timeline.rows.value}
-            aria-hidden="true"
+            eachMs={READ_EACH_MS}
+            text={() => valueText(stores, row.servos[0] ?? -1)}
           />
         </>
       )}
@@ -76,6 +81,21 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
     </div>
   );
 });
+
+/** No number is read faster. */
+const READ_EACH_MS = 100;
+
+/** Where the group has the servo at the playhead. */
+function valueText({ timeline, document, device, robots, view }: Stores, servo: number): string {
+  const { present: group } = document.store.getState();
+  const track = timesOf(group).tracks.get(servo);
+  const position = track === undefined ? null : positionAt(track, timeline.getState().playheadMs);
+  if (position === null) return '';
+  const { robot } = robots.current();
+  const { family } = device.store.getState();
+  const { positionsIn } = view.getState();
+  return scaleAt({ group, robot, family, positionsIn }, servo).digits(position);
+}
 
 /** What the upper and the lower edge of a tall row stand for. */
 function Axis({ servo }: { readonly servo: number }) {

@@ -24,6 +24,7 @@ import { actionOf } from './keymap.ts';
 import { bringToLife, sizesNow } from './lanes.ts';
 import { Minimap } from './Minimap.tsx';
 import { cellId, Rows } from './Rows.tsx';
+import { PlayheadLine } from './PlayheadLine.tsx';
 import { heightOf, placedRows } from './rows.ts';
 import { topOfRows } from './sizes.ts';
 import { StatusText } from './StatusText.tsx';
@@ -42,7 +43,6 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
   const grid = useRef<HTMLDivElement>(null);
   const lanes = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
-  const playhead = useRef<HTMLDivElement>(null);
   const box = useRef<HTMLDivElement>(null);
   const menuSpot = useRef<HTMLSpanElement>(null);
   const rows = useRows();
@@ -83,8 +83,8 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
 
   useEffect(() => {
     const parts = {
-      ...{ scroller: scroller.current, stage: grid.current, lanes: lanes.current },
-      ...{ canvas: canvas.current, playhead: playhead.current, box: box.current },
+      ...{ scroller: scroller.current, lanes: lanes.current },
+      ...{ canvas: canvas.current, box: box.current },
     };
     if (!areThere(parts)) return undefined;
     return bringToLife(parts, stores, {
@@ -156,7 +156,7 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
             >
               <div ref={lanes} className={styles.lanes} role="presentation">
                 <canvas ref={canvas} className={styles.canvas} aria-hidden="true" />
-                <div ref={playhead} className={styles.playhead} aria-hidden="true" />
+                <PlayheadLine />
                 <div ref={box} className={styles.box} aria-hidden="true" hidden />
                 <span ref={menuSpot} className={styles.menuSpot} aria-hidden="true" />
               </div>

@@ -1,7 +1,6 @@
-// Brings the lanes to life outside of React's rounds: paints them when something changed, follows pointer and wheel, moves the
-// playhead. Knows elements and stores, no edit.
+// Brings the lanes to life outside of React's rounds: paints them when something changed, follows pointer and wheel. Knows
+// elements and stores, no edit.
 
-import { positionAt } from '#shared/actions/group/tracks.ts';
 import { setKeysAt } from './changes.ts';
 import { deskOf, select, type Desk, type DeskStores } from './desk.ts';
 import type { StatusName } from './gesture.ts';
@@ -12,19 +11,15 @@ import { lookOf, SCHEMES } from './look.ts';
 import { setTime } from './looking.ts';
 import { paint } from './paint.ts';
 import { followPointer } from './pointer.ts';
-import { scaleAt } from './positions.ts';
 import { sceneOf } from './scene.ts';
 import { sizesOf, type Sizes } from './sizes.ts';
-import { panned, pinched, xOf, zoomedAt } from './timeScale.ts';
+import { panned, pinched, zoomedAt } from './timeScale.ts';
 import { followWheel } from './wheel.ts';
 
 export interface LaneParts {
   readonly scroller: HTMLElement;
-  /** Where rows show the positions at the playhead, by `data-value`. */
-  readonly stage: HTMLElement;
   readonly lanes: HTMLElement;
   readonly canvas: HTMLCanvasElement;
-  readonly playhead: HTMLElement;
   readonly box: HTMLElement;
 }
 
@@ -82,25 +77,20 @@ const SHOWN = ['robotId', 'hidden', 'folded', 'locked', 'solo', 'muted'] as cons
 
 function paintOnChange(parts: LaneParts, stores: DeskStores, sizes: () => Sizes): () => void {
   let request = 0;
-  let isOld = true;
-  const round = (): void => {
-    request = 0;
-    const desk = deskOf(stores);
-    if (isOld) paintLanes(parts, desk, sizes());
-    isOld = false;
-    showPlayhead(parts, desk);
+  const repaint = (): void => {
+    if (request !== 0) return;
+    request = requestAnimationFrame(() => {
+      request = 0;
+      paintLanes(parts, deskOf(stores), sizes());
+    });
   };
-  const later = (repaints: boolean): void => {
-    isOld ||= repaints;
-    if (request === 0) request = requestAnimationFrame(round);
-  };
-  const repaint = (): void => later(true);
   const schemes = SCHEMES.map((scheme) => matchMedia(scheme));
   for (const scheme of schemes) scheme.addEventListener('change', repaint);
   const ends = [
-    stores.timeline.subscribe(({ playheadMs: _, ...state }, before) =>
-      later(Object.entries(state).some(([name, value]) => value !== before[name as keyof typeof before])),
-    ),
+    stores.timeline.subscribe(({ playheadMs: _, ...state }, before) => {
+      if (Object.entries(state).some(([name, value]) => value !== before[name as keyof typeof before]))
+        repaint();
+    }),
     stores.document.store.subscribe(repaint),
     stores.robots.store.subscribe(repaint),
     stores.view.subscribe((state, before) => {
@@ -128,20 +118,6 @@ function paintLanes({ canvas }: LaneParts, desk: Desk, sizes: Sizes): void {
   if (canvas.height !== height) canvas.height = height;
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   paint({ ctx, look: lookOf(canvas), scene: sceneOf(desk, sizes) });
-}
-
-function showPlayhead({ stage, playhead }: LaneParts, desk: Desk): void {
-  const { state, times } = desk;
-  const x = xOf(state.time, state.playheadMs);
-  playhead.style.transform = `translateX(${x.toFixed(1)}px)`;
-  playhead.hidden = x < 0 || x > state.widthPx;
-  for (const value of stage.querySelectorAll<HTMLElement>('[data-value]')) {
-    const servo = Number(value.dataset.value);
-    const track = times.tracks.get(servo);
-    const position = track === undefined ? null : positionAt(track, state.playheadMs);
-    const text = position === null ? '' : scaleAt(desk, servo).digits(position);
-    if (value.textContent !== text) value.textContent = text;
-  }
 }
 
 function showBox(element: HTMLElement, box: { readonly from: Spot; readonly to: Spot } | null): void {
