@@ -38,8 +38,10 @@ class Served:
         before: Sequence[str] = (),
         program: Sequence[str] = ("-m", "servodeck"),
         variables: Mapping[str, str] | None = None,
+        pty: Pty | None = None,
     ) -> None:
-        self.pty = Pty()
+        """On a pty of its own; whoever brings one reads it."""
+        self.pty = pty or Pty()
         command = [*before, sys.executable, *program, "serve", "--listen", "127.0.0.1:0"]
         self.process = subprocess.Popen(
             [*command, "--serial", self.pty.device, *more],
@@ -57,7 +59,8 @@ class Served:
         ready = READY.fullmatch(self.process.stdout.readline())
         assert ready
         self.url = ready[1]
-        self.read_until_stops(1)
+        if pty is None:
+            self.read_until_stops(1)
 
     def read_until_stops(self, count: int) -> bytes:
         """What the board got, until it holds that many stops."""
