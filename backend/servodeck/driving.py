@@ -9,6 +9,7 @@ from collections.abc import Callable
 from servodeck.callers import Caller
 from servodeck.errors import NotDrivingError
 from servodeck.hub import Hub, Seat
+from servodeck.intake import SHORTEST_WAIT_S
 from servodeck.lease import BEAT_S, GONE_S, Lease, LeaseEvents, Permit
 from servodeck.messages import LeaseAction, LeaseState, LeaseToldMessage, TickMessage, encode
 
@@ -127,7 +128,7 @@ class Driving:
         due_s = self._lease.due_s()
         if due_s is not None:
             delay_s = min(due_s, self._tick_s) - self._now()
-            self._timer = asyncio.get_running_loop().call_later(max(0.0, delay_s), self._wake)
+            self._timer = asyncio.get_running_loop().call_later(max(SHORTEST_WAIT_S, delay_s), self._wake)
 
     def _wake(self) -> None:
         self._lease.advance(self._now())

@@ -1,4 +1,6 @@
-"""The lease by itself: each rule once, then two drivers who do anything at any time (F19)."""
+"""The lease by itself: each rule once, then two drivers, pages or programs, who do anything at any time
+(F19).
+"""
 
 from dataclasses import dataclass, field
 
@@ -282,6 +284,13 @@ class TwoDrivers(RuleBasedStateMachine):
             self.lease.beat(who, nonce)
             if who == self.lease.driver and epoch == self.lease.epoch:
                 self.echoed_s = max(self.echoed_s, told_s)
+
+    @rule(who=DRIVERS, seconds=st.sampled_from([0.0, 0.5, 3.0, 30.0]))
+    def vouches(self, who: str, seconds: float) -> None:
+        """As a program: what it asked lasts so long."""
+        self.lease.vouch(who, self.now + seconds)
+        if who == self.lease.driver:
+            self.echoed_s = max(self.echoed_s, self.now + seconds)
 
     @rule(who=DRIVERS, back=st.integers(1, 6))
     def commands(self, who: str, back: int) -> None:
