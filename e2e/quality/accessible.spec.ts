@@ -193,6 +193,39 @@ test('nothing has to be scrolled sideways from 390 to 1920 px', async ({ page, s
 });
 
 for (const viewport of SIZES) {
+  test(`${viewport.width} px: names as long as they may be, without a space, fit`, async ({
+    page,
+    servers,
+  }) => {
+    await page.setViewportSize(viewport);
+    const dashboard = dashboardOf(page);
+    const name = 'W'.repeat(64);
+    await page.goto((await servers.files()).url);
+    await expect(dashboard.link).toContainText('Ready');
+    const robots = robotDialogOf(dashboard);
+    await robots.opener.click();
+    await robots.button('Edit').click();
+    for (const field of [
+      robots.cell('Name', 'Gripper'),
+      robots.dialog.getByRole('textbox', { name: 'Name of the robot' }),
+    ]) {
+      await field.fill(name);
+      await field.press('Enter');
+    }
+    await robots.button('All robots').click();
+    await expectNoSidewaysScroll(page, 'robots');
+    await robots.button('Calibrate').click();
+    await expect(robots.dialog.getByRole('heading', { name })).toBeVisible();
+    await expectNoSidewaysScroll(page, 'calibration');
+    await robots.button('Close').click();
+    if (viewport.width < 700) await page.getByRole('tab', { name: 'Actions' }).click();
+    await libraryOf(page).call(name);
+    await dashboard.capture.click();
+    await dashboard.button('Files').click();
+    await expect(dashboard.button(`Save ${name}.json`)).toBeVisible();
+    await expectNoSidewaysScroll(page, 'files');
+  });
+
   test(`${viewport.width} px: the dials of 32 servos leave what is below them alone`, async ({
     page,
     servers,
