@@ -11,6 +11,7 @@ from http.client import HTTPConnection, HTTPException, HTTPResponse, HTTPSConnec
 from typing import Any
 from urllib.parse import urlsplit
 
+HERE = "http://127.0.0.1:8300"
 ANSWER_S = 10.0
 OK, FAILED = 200, 400
 CONNECTIONS = {"http": HTTPConnection, "https": HTTPSConnection}

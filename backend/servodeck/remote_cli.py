@@ -12,9 +12,8 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from servodeck.remote import RefusedError, Remote, UnreachableError
+from servodeck.remote import HERE, RefusedError, Remote, UnreachableError
 
-HERE = "http://127.0.0.1:8300"
 USAGE, REFUSED, UNREACHABLE, INTERRUPTED = 2, 1, 3, 130
 BEAT_S = 1.0
 # Servos of unknown place start a quarter of a second apart.

@@ -46,6 +46,30 @@ def test_a_stop_leaves_and_refuses_motion_until_resume(served: Served) -> None:
     assert os.read(served.pty.board, 100) == MOVE_OF_TWO
 
 
+def test_a_bare_stop_does_not_wait_for_the_rest_of_the_command_line(served: Served) -> None:
+    program = (
+        "import sys; sys.argv = ['servodeck', 'stop']; from servodeck.__main__ import main; main(); "
+        "print('typer' in sys.modules)"
+    )
+    said = subprocess.check_output(
+        [sys.executable, "-c", program], text=True, env=variables(SERVODECK_URL=served.url)
+    )
+    assert said == "Stopped. servodeck resume allows motion again.\nFalse\n"
+    assert served.read_until_stops(3) == STOP * 3
+
+
+def test_a_bare_stop_that_fails_is_explained() -> None:
+    command = [sys.executable, "-m", "servodeck", "stop"]
+    done = subprocess.run(
+        command,
+        capture_output=True,
+        text=True,
+        env=variables(SERVODECK_URL="http://127.0.0.1:9"),
+        check=False,
+    )
+    assert (done.returncode, "servodeck serve" in done.stderr) == (UNREACHABLE, True)
+
+
 def test_what_is_out_of_range_is_told_in_the_gateways_words(served: Served) -> None:
     refused = run("move", "1=2600", "--url", served.url)
     assert (refused.exit_code, refused.stdout) == (REFUSED, "")
@@ -129,8 +153,11 @@ def test_what_cannot_be_is_told_with_a_code_of_its_own(arguments: list[str], cod
 
 def begin(served: Served, *arguments: str) -> subprocess.Popen[str]:
     command = [sys.executable, "-m", "servodeck", *arguments, "--url", served.url]
-    variables = {**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}
-    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=variables)
+    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=variables())
+
+
+def variables(**more: str) -> dict[str, str]:
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path), **more}
 
 
 def token_of(served: Served) -> str:
