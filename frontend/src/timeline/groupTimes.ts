@@ -1,7 +1,14 @@
 // What the timeline reads from a group's frames, worked out once for each state of them: tracks, ends, places by id.
 
 import type { GroupFrame } from '#shared/actions/group/group.ts';
-import { frameEnds, tracksOf, type Key, type KeyRef, type Tracks } from '#shared/actions/group/tracks.ts';
+import {
+  frameEnds,
+  repositioned,
+  tracksOf,
+  type Key,
+  type KeyRef,
+  type Tracks,
+} from '#shared/actions/group/tracks.ts';
 import { refsOf, type KeySet } from '../stores/keySet.ts';
 
 export interface GroupTimes {
@@ -23,7 +30,7 @@ export function timesOf({ frames }: { readonly frames: readonly GroupFrame[] }):
   const ends = frameEnds(frames);
   const times = {
     frames,
-    tracks: tracksOf({ frames }, latest?.tracks),
+    tracks: (latest && repositioned(frames, latest)) ?? tracksOf({ frames }, latest?.tracks),
     ends,
     lengthMs: ends.at(-1) ?? 0,
     places: placesOf(frames, latest),

@@ -6,7 +6,8 @@ import { insertFrame, setTargets } from './groupEdits.ts';
 import { setDuration } from './timeEdits.ts';
 import { setEasing } from './frameEdits.ts';
 import { someGroup } from './groupsUnderTest.ts';
-import { frameEnds, keysAt, poseAtMs, positionAt, tracksOf } from './tracks.ts';
+import { setPositions } from './keyEdits.ts';
+import { frameEnds, keysAt, poseAtMs, positionAt, repositioned, tracksOf } from './tracks.ts';
 
 type Row = readonly [durationMs: number, targets: Readonly<Record<number, number>>, easing?: Easing];
 
@@ -173,5 +174,42 @@ describe('the tracks of a group', () => {
       { servo: 3, atMs: 100 },
     ];
     expect(keysAt(tracks, wanted)).toEqual([{ frameId: 2, servo: 2 }]);
+  });
+});
+
+describe('after a few keys got other positions', () => {
+  const changes = fc.array(fc.record({ key: fc.nat(), position: fc.integer({ min: 500, max: 2500 }) }), {
+    maxLength: 4,
+  });
+
+  test('the tracks are those of the frames, and the keys of the other servos are the very same', () => {
+    fc.assert(
+      fc.property(someGroup({ least: 1 }), changes, (before, wanted) => {
+        const tracks = tracksOf(before);
+        const keys = [...tracks.values()].flatMap((track) => track.keys);
+        const named = wanted.flatMap(({ key, position }) => {
+          const found = keys[key % Math.max(1, keys.length)];
+          return found === undefined ? [] : [{ ...found, position }];
+        });
+        const after = setPositions(before, named);
+        const changed = repositioned(after.frames, { frames: before.frames, tracks });
+        expect(changed).toEqual(tracksOf(after));
+        for (const [servo, track] of tracks)
+          if (named.every((key) => key.servo !== servo)) expect(changed?.get(servo)).toBe(track);
+      }),
+    );
+  });
+
+  test('another duration, another easing, another servo are not only that', () => {
+    const before = groupOf([1000, { 1: 1500, 2: 1500 }], [500, { 1: 1600 }]);
+    const id = before.frames[1]?.id ?? 0;
+    const from = { frames: before.frames, tracks: tracksOf(before) };
+    for (const after of [
+      setDuration(before, id, 700, { ripple: true }),
+      setEasing(before, [id], 'out'),
+      setTargets(before, id, [{ servo: 2, position: 1600 }]),
+      insertFrame(before, 2, { durationMs: 100, targets: [{ servo: 1, position: 1600 }] }),
+    ])
+      expect(repositioned(after.frames, from)).toBeNull();
   });
 });

@@ -48,6 +48,47 @@ export function tracksOf({ frames }: Pick<ActionGroup, 'frames'>, before = NO_TR
   return new Map(servos.map(([servo, own]) => [servo, trackOf(servo, own, before.get(servo))]));
 }
 
+/**
+ * The tracks of frames of which a few have other positions than `before`, and nothing else is another; null where something is.
+ * What an arrow key does to a key need not have thousands of others read.
+ */
+export function repositioned(
+  frames: readonly GroupFrame[],
+  before: { readonly frames: readonly GroupFrame[]; readonly tracks: Tracks },
+): Tracks | null {
+  if (frames.length !== before.frames.length) return null;
+  const moved: (KeyRef & { readonly position: number })[] = [];
+  for (const [index, frame] of frames.entries()) {
+    const was = before.frames[index];
+    if (was === frame) continue;
+    if (was === undefined || !isPlacedAlike(frame, was) || moved.length > FEW_KEYS) return null;
+    for (const [place, target] of frame.targets.entries())
+      if (target.position !== was.targets[place]?.position) moved.push({ ...target, frameId: frame.id });
+  }
+  const tracks = new Map(before.tracks);
+  for (const key of moved) reposition(tracks, key, key.position);
+  return tracks;
+}
+
+/** Each of them has its servo's keys copied. */
+const FEW_KEYS = 32;
+
+function isPlacedAlike(one: GroupFrame, other: GroupFrame): boolean {
+  return (
+    one.id === other.id &&
+    one.durationMs === other.durationMs &&
+    one.easing === other.easing &&
+    one.targets.length === other.targets.length &&
+    one.targets.every(({ servo }, index) => servo === other.targets[index]?.servo)
+  );
+}
+
+function reposition(tracks: Map<number, Track>, { frameId, servo }: KeyRef, position: number): void {
+  const keys = tracks.get(servo)?.keys ?? [];
+  const moved = keys.map((key) => (key.frameId === frameId ? { ...key, position } : key));
+  tracks.set(servo, { servo, keys: moved });
+}
+
 function addKeys(
   keys: Map<number, Key[]>,
   { id: frameId, easing, targets }: GroupFrame,
