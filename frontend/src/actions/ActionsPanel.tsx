@@ -10,6 +10,7 @@ import { FilesArea, FilesButton } from '../files/FilesArea.tsx';
 import { LibraryButton } from '../library/LibraryButton.tsx';
 import { useDevice, useDocument, useStores } from '../stores/stores.ts';
 import { EmptyState } from '../ui/EmptyState.tsx';
+import { useIsPainted } from '../ui/useIsPainted.ts';
 import { useLayout } from '../ui/useLayout.ts';
 import { NameField } from '../ui/NameField.tsx';
 import { Panel } from '../ui/Panel.tsx';
@@ -32,6 +33,7 @@ export function ActionsPanel() {
       () => words.actions.steps.rename,
       (before) => rename(before, wanted),
     );
+  const isPainted = useIsPainted();
   const otherUnit = useDevice((state) => state.family.unit !== unit) && !isEmpty;
   const timeline = <Timeline key="timeline" onPlay={() => playback.toggle()} />;
   const frames = (
@@ -41,6 +43,7 @@ export function ActionsPanel() {
       <CaptureBar />
     </Fragment>
   );
+  const inOrder = layout === 'phone' ? [frames, timeline] : [timeline, frames];
   return (
     <FilesArea>
       <Panel
@@ -66,7 +69,7 @@ export function ActionsPanel() {
             <BodyPicture />
           </div>
         )}
-        {layout === 'phone' ? [frames, timeline] : [timeline, frames]}
+        {isPainted ? inOrder : inOrder.slice(0, 1)}
       </Panel>
     </FilesArea>
   );
