@@ -8,16 +8,19 @@ import json
 from html import escape
 from typing import Any
 
+# More than anybody wants to read in the middle of a line.
+MANY = 8
 METHODS = ("get", "put", "post", "patch", "delete")
 
 STYLE = """
 :root { color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif; }
 body { max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
 section { border-top: 1px solid color-mix(in srgb, currentColor 20%, transparent); padding: 0.5rem 0 1rem; }
-h2 { font-size: 1rem; font-family: ui-monospace, monospace; }
+h2 { font-size: 1rem; font-family: ui-monospace, monospace; overflow-wrap: anywhere; }
 h2 span { display: inline-block; min-width: 5rem; font-weight: 700; text-transform: uppercase; }
 table { border-collapse: collapse; }
 th, td { text-align: left; vertical-align: top; padding: 0.2rem 1.5rem 0.2rem 0; font-weight: normal; }
+details { color: color-mix(in srgb, currentColor 75%, transparent); font-size: 0.875rem; }
 code { font-family: ui-monospace, monospace; overflow-wrap: anywhere; }
 """
 
@@ -54,15 +57,14 @@ def operation(method: str, path: str, description: dict[str, Any], schema: dict[
 
 
 def content(part: dict[str, Any], schema: dict[str, Any]) -> str:
-    """Its shape, and an example below it; of errors their codes."""
-    lines = []
+    """An example and its shape; of errors, which all have one shape, their codes."""
     for found in part.get("content", {}).values():
-        lines.append(shape(found.get("schema", {}), schema))
-        if "example" in found:
-            lines.append(f"<code>{escape(json.dumps(found['example'], ensure_ascii=False))}</code>")
         if "examples" in found:
-            lines.append(", ".join(f"{each['summary']} {code}" for code, each in found["examples"].items()))
-    return "<br>".join(lines) or "nothing"
+            return ", ".join(f"{each['summary']} {code}" for code, each in found["examples"].items())
+        example = escape(json.dumps(found["example"], ensure_ascii=False))
+        fields = shape(found.get("schema", {}), schema)
+        return f"<code>{example}</code><details><summary>all fields</summary>{fields}</details>"
+    return "nothing"
 
 
 def shape(part: dict[str, Any], schema: dict[str, Any]) -> str:
@@ -71,6 +73,8 @@ def shape(part: dict[str, Any], schema: dict[str, Any]) -> str:
         part = schema["components"]["schemas"][part["$ref"].rsplit("/", 1)[1]]
     if "anyOf" in part:
         return " or ".join(shape(each, schema) for each in part["anyOf"])
+    if len(part.get("enum", ())) > MANY:
+        return "a code"
     if "enum" in part:
         return " or ".join(f"<code>{escape(str(each))}</code>" for each in part["enum"])
     if "const" in part:
