@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import socket
 import time
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -149,3 +150,18 @@ async def test_over_a_real_socket_it_can_be_read_line_by_line_and_the_gateway_en
         rest = [line async for line in lines]
         assert time.monotonic() - begun_s < 1
         assert all(line.startswith("data: ") for line in rest if line)
+
+
+async def test_over_a_real_socket_a_listener_who_does_not_read_is_cut() -> None:
+    async with server_on(FakePorts(FakePort())) as running:
+        with socket.create_connection(running.address) as deaf:
+            deaf.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            deaf.sendall(f"GET /api/events HTTP/1.1\r\nHost: {running.host}\r\n\r\n".encode())
+            async with asyncio.timeout(10):
+                while len(running.control.hub) == 0:  # noqa: ASYNC110 (nothing announces it)
+                    await asyncio.sleep(0)
+                while len(running.control.hub) > 0:
+                    running.control.hub.tell_all("x" * 4096)
+                    await asyncio.sleep(0)
+                while running.server.server_state.connections:  # noqa: ASYNC110 (nothing announces it)
+                    await asyncio.sleep(0)
