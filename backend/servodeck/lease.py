@@ -59,6 +59,7 @@ class Lease(Generic[H]):
         self._answer_until_s = 0.0
         self._heard_s = 0.0
         self._patience_s = GONE_S
+        self._programs: set[H] = set()
         self._count = 0
         self._issued: dict[str, float] = {}
 
@@ -95,6 +96,7 @@ class Lease(Generic[H]):
 
     def leave(self, who: H, now: float) -> None:
         """It is not there any more."""
+        self._programs.discard(who)
         if who is self.driver:
             self._events.driver_lost()
             self._pass_on(now)
@@ -121,6 +123,7 @@ class Lease(Generic[H]):
         """What a program asked lasts until then, which is as good as hearing it then: it has no heartbeat.
         Nor is it waited for as long as a person.
         """
+        self._programs.add(who)
         if who is self.driver:
             self._patience_s = SILENT_S
             if until_s > self._heard_s:
@@ -188,7 +191,8 @@ class Lease(Generic[H]):
         before = self.driver
         self.epoch += 1
         self.driver, self.asker = who, None
-        self.silence, self._heard_s, self._patience_s = "none", now, GONE_S
+        self.silence, self._heard_s = "none", now
+        self._patience_s = SILENT_S if who in self._programs else GONE_S
         self._issued.clear()
         if before is not None:
             self._events.driver_changed()

@@ -165,9 +165,14 @@ def test_a_program_is_waited_for_as_long_as_what_it_asked_lasts_and_two_seconds(
         assert lease.due_s() is not None
         lease.advance(at_s)
         assert told.take() == expected
-    lease.request("anna", 20.0)
-    lease.advance(20.0 + SILENT_S)
-    assert lease.driver == "anna"
+    lease.request("carl", 20.0)
+    lease.request("script", 20.0)
+    lease.release("carl", 21.0)
+    lease.advance(21.0 + SILENT_S)
+    assert lease.driver is None
+    lease.request("carl", 30.0)
+    lease.advance(30.0 + SILENT_S)
+    assert lease.driver == "carl"
 
 
 def test_an_old_nonce_is_no_sign_of_life() -> None:

@@ -69,9 +69,9 @@ async def test_whatever_scripts_ask_it_ends_by_itself_and_the_lease_is_free() ->
                 for _ in range(chance.randint(1, 8)):
                     await ask(here, chance)
                     await asyncio.sleep(chance.choice(PAUSES_S))
-                # The longest that a run may go on; the five seconds of who asks to drive, and the ten of who
+                # The longest that a run may go on; the five seconds of who asks to drive, and the two of who
                 # then says nothing.
-                await asyncio.sleep(5 + 5 + 10 + 0.5)
+                await asyncio.sleep(5 + 5 + 2 + 0.5)
                 assert here.control.driving.driver is None
                 assert not here.control.board.may_move()
                 assert here.control.board.unattended.told() is None
