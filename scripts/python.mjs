@@ -26,6 +26,19 @@ async function install() {
   if ((await run(python, ['-c', probe])).code !== 0) await makeEnvironment();
   await installLocked();
   writeFileSync(path.join(sitePackages(), 'servodeck-source.pth'), `${at('backend')}\n`);
+  writeCommand();
+}
+
+/** `servodeck`, as an installed wheel has it; this one runs the source here. */
+function writeCommand() {
+  const folder = path.dirname(python);
+  if (onWindows) writeFileSync(path.join(folder, 'servodeck.cmd'), '@"%~dp0python.exe" -m servodeck %*\r\n');
+  else
+    writeFileSync(
+      path.join(folder, 'servodeck'),
+      '#!/bin/sh\nexec "$(dirname "$0")/python" -m servodeck "$@"\n',
+      { mode: 0o755 },
+    );
 }
 
 async function makeEnvironment() {

@@ -175,6 +175,13 @@ def test_an_unknown_board_is_told() -> None:
     assert "doc" in result.stderr
 
 
+@pytest.mark.skipif(os.name != "posix", reason="a shell script")
+def test_the_command_stands_beside_its_python_as_the_readme_says() -> None:
+    command = Path(sys.executable).with_name("servodeck")
+    said = subprocess.check_output([command, "decode", "55550207"], text=True)
+    assert said.startswith("stop the running group")
+
+
 def test_ports_are_listed_for_people_and_for_programs() -> None:
     assert run("ports").exit_code == 0
     for port in json.loads(run("ports", "--json").stdout):
