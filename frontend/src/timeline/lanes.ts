@@ -2,16 +2,16 @@
 // elements and stores, no edit.
 
 import { setKeysAt } from './changes.ts';
-import { deskOf, select, type Desk, type DeskStores } from './desk.ts';
+import { deskOf, select, type DeskStores } from './desk.ts';
 import type { StatusName } from './gesture.ts';
 import { hasAll, hitAt, type Spot } from './hit.ts';
 import { hoverAt } from './hover.ts';
 import { keySet } from '../stores/keySet.ts';
-import { lookOf, SCHEMES } from './look.ts';
+import { lookOf, SCHEMES, type Look } from './look.ts';
 import { setTime } from './looking.ts';
 import { paint } from './paint.ts';
 import { followPointer } from './pointer.ts';
-import { sceneOf } from './scene.ts';
+import { sceneOf, type Scene } from './scene.ts';
 import { sizesOf, type Sizes } from './sizes.ts';
 import { panned, pinched, zoomedAt } from './timeScale.ts';
 import { followWheel } from './wheel.ts';
@@ -77,11 +77,12 @@ const SHOWN = ['robotId', 'hidden', 'folded', 'locked', 'solo', 'muted'] as cons
 
 function paintOnChange(parts: LaneParts, stores: DeskStores, sizes: () => Sizes): () => void {
   let request = 0;
+  let painted: Painted | null = null;
   const repaint = (): void => {
     if (request !== 0) return;
     request = requestAnimationFrame(() => {
       request = 0;
-      paintLanes(parts, deskOf(stores), sizes());
+      painted = paintLanes(parts, sceneOf(deskOf(stores), sizes()), painted);
     });
   };
   const schemes = SCHEMES.map((scheme) => matchMedia(scheme));
@@ -108,16 +109,24 @@ function paintOnChange(parts: LaneParts, stores: DeskStores, sizes: () => Sizes)
   };
 }
 
-function paintLanes({ canvas }: LaneParts, desk: Desk, sizes: Sizes): void {
-  const { widthPx, heightPx } = desk.state;
+interface Painted {
+  readonly scene: Scene;
+  readonly look: Look;
+}
+
+/** `before`: what was painted there last, null for nothing. */
+function paintLanes({ canvas }: LaneParts, scene: Scene, before: Painted | null): Painted | null {
+  const { widthPx, heightPx } = scene;
   const ctx = canvas.getContext('2d');
-  if (ctx === null || widthPx === 0) return;
+  if (ctx === null || widthPx === 0) return null;
   const ratio = devicePixelRatio;
   const [width, height] = [Math.round(widthPx * ratio), Math.round(heightPx * ratio)];
-  if (canvas.width !== width) canvas.width = width;
-  if (canvas.height !== height) canvas.height = height;
+  const isFit = canvas.width === width && canvas.height === height;
+  if (!isFit) Object.assign(canvas, { width, height });
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-  paint({ ctx, look: lookOf(canvas), scene: sceneOf(desk, sizes) });
+  const look = lookOf(canvas);
+  paint({ ctx, look, scene }, isFit && before?.look === look ? before.scene : null);
+  return { scene, look };
 }
 
 function showBox(element: HTMLElement, box: { readonly from: Spot; readonly to: Spot } | null): void {

@@ -6,11 +6,12 @@ import { keyName } from '../stores/keySet.ts';
 import { handleX, HANDLES, stretchOf } from './hit.ts';
 import type { Brush } from './brush.ts';
 import type { Look } from './look.ts';
-import { paintHeads } from './paintHeads.ts';
+import { paintHeads, paintMarkers } from './paintHeads.ts';
+import { changedStretch, isWithin, wholeOf, type Stretch } from './repaint.ts';
 import type { PlacedRow } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';
 import { keyY, type Scene } from './scene.ts';
-import { seenSpan, xOf } from './timeScale.ts';
+import { msAt, seenSpan, xOf } from './timeScale.ts';
 import { topOfRows } from './sizes.ts';
 import { keysOfFrame } from './groupTimes.ts';
 
@@ -21,23 +22,33 @@ const KEY_PX = 5;
 const CURVE_STEP_PX = 5;
 const MOST_CURVE_STEPS = 32;
 
-export function paint(brush: Brush): void {
-  const { ctx, look, scene } = brush;
-  const { widthPx, heightPx, rows, all, sizes } = scene;
-  ctx.fillStyle = look.well;
-  ctx.fillRect(0, 0, widthPx, heightPx);
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(0, topOfRows(sizes), widthPx, heightPx);
-  ctx.clip();
-  for (const row of rows) paintGround(brush, row);
-  paintBoundaries(brush, topOfRows(sizes), heightPx);
-  for (const row of rows) paintRow(brush, row);
-  ctx.restore();
+/** `before`: what is painted there already. */
+export function paint(brush: Brush, before: Scene | null): void {
+  const changed = before === null ? null : changedStretch(before, brush.scene);
+  if (changed !== null) return paintRows(brush, changed, paintMarkers);
+  const { all } = brush.scene;
+  paintRows(brush, wholeOf(brush.scene));
   paintGround(brush, all);
-  paintRow(brush, all);
+  paintRow(brush, all, wholeOf(brush.scene));
   paintHandles(brush);
   paintHeads(brush);
+}
+
+/** `paintOver`: what lies over the rows there. */
+function paintRows(brush: Brush, stretch: Stretch, paintOver?: (brush: Brush) => void): void {
+  const { ctx, look, scene } = brush;
+  const top = Math.max(topOfRows(scene.sizes), stretch.top);
+  const rows = scene.rows.filter((row) => isWithin(row, stretch));
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(stretch.left, top, stretch.right - stretch.left, Math.max(0, stretch.bottom - top));
+  ctx.clip();
+  fill(ctx, look.well, 1, 0, top, scene.widthPx, stretch.bottom - top);
+  for (const row of rows) paintGround(brush, row);
+  paintBoundaries(brush, top, stretch.bottom);
+  for (const row of rows) paintRow(brush, row, stretch);
+  paintOver?.(brush);
+  ctx.restore();
 }
 
 function paintGround({ ctx, look, scene }: Brush, { row, top, height }: PlacedRow): void {
@@ -103,12 +114,11 @@ function paintBoundaries({ ctx, look, scene }: Brush, top: number, bottom: numbe
   stroke(ctx, look.line, 1);
 }
 
-function paintRow(brush: Brush, placed: PlacedRow): void {
+function paintRow(brush: Brush, placed: PlacedRow, { left, right }: Stretch): void {
   const { ctx, look, scene } = brush;
-  const { state, times, widthPx, muted } = scene;
+  const { state, times, muted } = scene;
   const keys = keysInRow(placed.row, times);
-  const { fromMs, toMs } = seenSpan(state.time, widthPx);
-  const [from, to] = within(keys, fromMs, toMs);
+  const [from, to] = within(keys, msAt(state.time, left), msAt(state.time, right));
   ctx.globalAlpha = muted.has(placed.row.id) ? 0.4 : 1;
   if (placed.row.kind === 'servo' && keys.length > 0) {
     paintWay(brush, placed, keys, from, to);

@@ -99,7 +99,7 @@ function paintNote(ctx: CanvasRenderingContext2D, right: number, top: number): v
   ctx.fill();
 }
 
-function paintMarkers({ ctx, look, scene }: Brush): void {
+export function paintMarkers({ ctx, look, scene }: Brush): void {
   const { markers, state, sizes, heightPx } = scene;
   ctx.textAlign = 'left';
   for (const { id, atMs, text } of markers) {

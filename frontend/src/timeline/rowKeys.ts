@@ -1,6 +1,6 @@
 // The keys of a row in the order of time, and those within a stretch of it. Pure; knows no screen.
 
-import type { Key } from '#shared/actions/group/tracks.ts';
+import { isPlacedAlike, type Key } from '#shared/actions/group/tracks.ts';
 import type { GroupTimes } from './groupTimes.ts';
 import type { Row } from './rows.ts';
 
@@ -42,14 +42,7 @@ function sameShape(before: GroupTimes['frames'], after: GroupTimes['frames']): b
     before.length === after.length &&
     before.every((one, index) => {
       const other = after[index];
-      if (one === other) return true;
-      return (
-        one.id === other?.id &&
-        one.durationMs === other.durationMs &&
-        one.easing === other.easing &&
-        one.targets.length === other.targets.length &&
-        one.targets.every(({ servo }, place) => servo === other.targets[place]?.servo)
-      );
+      return one === other || (other !== undefined && isPlacedAlike(one, other));
     })
   );
 }

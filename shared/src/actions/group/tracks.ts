@@ -73,7 +73,8 @@ export function repositioned(
 /** Each of them has its servo's keys copied. */
 const FEW_KEYS = 32;
 
-function isPlacedAlike(one: GroupFrame, other: GroupFrame): boolean {
+/** The same but for positions, and what is said of it. */
+export function isPlacedAlike(one: GroupFrame, other: GroupFrame): boolean {
   return (
     one.id === other.id &&
     one.durationMs === other.durationMs &&
