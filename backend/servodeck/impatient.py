@@ -16,8 +16,9 @@ FIRST_BYTE_S = 10.0
 HEAD_S = 1.0
 # A library of 3 MiB over a poor wireless link.
 BODY_S = 30.0
+# Whoever has its answer and talks on may read it first.
+ANSWERED_S = 0.5
 HEAD_BYTES = 32 * 1024
-
 
 ABORT = "servodeck.abort"
 
@@ -32,6 +33,7 @@ class ImpatientProtocol(HttpToolsProtocol):
     _timer: asyncio.TimerHandle | None = None
     _head_bytes = 0
     _in_head = False
+    _in_body = False
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
@@ -56,14 +58,20 @@ class ImpatientProtocol(HttpToolsProtocol):
         self._end_in(HEAD_S)
 
     def on_headers_complete(self) -> None:
-        self._in_head = False
+        self._in_head, self._in_body = False, True
         self._end_in(BODY_S)
         super().on_headers_complete()
         self.scope["extensions"] = {ABORT: {"abort": self.transport.abort}}
 
     def on_message_complete(self) -> None:
+        self._in_body = False
         self._end_in(None)
         super().on_message_complete()
+
+    def on_response_complete(self) -> None:
+        if self._in_body:  # for good: uvicorn would keep it open without an end
+            self.loop.call_later(ANSWERED_S, self.transport.abort)
+        super().on_response_complete()
 
     def _count(self, size: int) -> None:
         self._head_bytes += size

@@ -88,6 +88,14 @@ async def status_of(gateway: Running) -> bytes:
     return line
 
 
+async def test_who_has_its_answer_and_talks_on_is_not_listened_to() -> None:
+    async with server_on(FakePorts(FakePort())) as gateway:
+        reader, writer = await asyncio.open_connection(*gateway.address)
+        writer.write(HEAD % gateway.host.encode() + b"Content-Length: 100000\r\n\r\n")
+        assert await ends_after_s(reader) <= impatient.ANSWERED_S + MARGIN_S
+        writer.close()
+
+
 async def test_a_page_that_says_nothing_more_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     for limit in ("FIRST_BYTE_S", "HEAD_S", "BODY_S"):
         monkeypatch.setattr(impatient, limit, 0.2)
