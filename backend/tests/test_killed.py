@@ -32,6 +32,7 @@ MARGIN_S = 3.0
 PATIENCE_S = 15.0
 OLDEST_MOTION_S = 0.5
 QUIET_S = 0.3
+DOWNLOAD_HEAD = bytes.fromhex("55550b1908")
 
 
 class Bus:
@@ -274,3 +275,26 @@ def live_and_end(end: str, pty: Pty, bus: Bus, folder: Path, chance: random.Rand
             saver.end()
             driver.close()
     return saver.acknowledged
+
+
+def test_half_a_group_that_a_kill_left_behind_is_run_by_nobody(
+    bus_on: tuple[Pty, Bus], tmp_path: Path
+) -> None:
+    pty, bus = bus_on
+    frames = [{"durationMs": 500, "positions": {"1": 1500}}] * 3
+    begun_s = time.monotonic()
+    with serving(pty, tmp_path) as served:
+        bus.until_stopped(begun_s, served)
+        begun = httpx2.post(f"{served.url}/api/slots/8/download", json={"frames": frames})
+        assert begun.status_code == 202
+        while DOWNLOAD_HEAD not in bus.since(begun_s):
+            assert time.monotonic() - begun_s < PATIENCE_S
+            time.sleep(0.001)
+        served.process.kill()
+    again_s = time.monotonic()
+    with serving(pty, tmp_path) as served:
+        bus.until_stopped(again_s, served)
+        refused = httpx2.post(f"{served.url}/api/slots/8/run", json={})
+        assert (refused.status_code, refused.json()["code"]) == (409, "slotBroken")
+        bus.rest()
+        assert bus.since(again_s) == STOP
