@@ -58,7 +58,7 @@ function figuresOf(ours: Measured, plain: Measured): Figure[] {
       'mountMs',
       'ms',
       (one) => one.mountMs,
-      `panel with timeline and strip, ${SIZE}; aim ${MOUNT_LIMIT_MS}`,
+      `panel with the timeline, to its first frame, ${SIZE}; aim ${MOUNT_LIMIT_MS}`,
     ),
     figure('editMs', 'ms', (one) => one.editMs, `script of one nudge, ${SIZE}; aim ${EDIT_LIMIT_MS}`),
     figure(
