@@ -72,3 +72,4 @@ async def test_each_piece_of_the_tutorial_runs(board: Board, gateway: Running, t
     for position, time_ms in ((1500, 1500), (1200, 400), (1800, 400), (1700, 1500)):
         assert encode(Move(time_ms, (ServoTarget(1, position),)), DOC) in got
     assert got.count(encode(Run(3, 2), DOC)) == 2
+    assert got.count(bytes.fromhex("55550b190502")) == 2
