@@ -76,6 +76,7 @@ async def script(role: Role = "driver") -> AsyncIterator[Scripted]:
     async with client_of(app) as client:
         client.headers["authorization"] = f"Bearer {token}"
         yield Scripted(client, control, port, app, {"authorization": f"Bearer {owner}"}, device.id)
+    await control.board.link.close()
 
 
 def refusal(answer: Response) -> tuple[int, str]:
