@@ -4,6 +4,7 @@ Translates between HTTP and `control`; decides nothing.
 """
 
 import asyncio
+from dataclasses import asdict
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Request, WebSocket
@@ -55,11 +56,14 @@ class Status(Message):
 
 
 class Device(Message):
-    """A serial port of this computer. `likely`: its USB chip is one that these boards and cables bear."""
+    """A serial port of this computer. `likely`: its USB chip is one that these boards and cables bear.
+    `lasting`: a name that leads to it after every start and replug, where the system keeps one.
+    """
 
     device: str
     description: str
     likely: bool
+    lasting: str | None
 
 
 class PortChoice(Message):
@@ -136,7 +140,7 @@ def age_of(control: Control) -> BatteryAge | None:
 def ports(control: Controlled) -> list[Device]:
     """The serial ports of this computer and the one in use, the likely ones first."""
     found = list_devices(control.named_device, control.board.link.state.device)
-    return [Device(device=port.device, description=port.description, likely=port.likely) for port in found]
+    return [Device(**asdict(port)) for port in found]
 
 
 @api.put("/port", dependencies=[OWNER])

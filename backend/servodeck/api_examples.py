@@ -137,7 +137,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         (*ON_THE_WIRE, "cancelled", "notFound"),
     ),
     ("GET", "/api/ports"): Example(
-        [{"device": "/dev/ttyUSB0", "description": "USB Serial", "likely": True}],
+        [{"device": "/dev/ttyUSB0", "description": "USB Serial", "likely": True, "lasting": PORT["device"]}],
     ),
     ("PUT", "/api/port"): Example(
         PORT,

@@ -29,6 +29,7 @@ from servodeck.messages import (
     HaltedMessage,
     JobMessage,
     JobState,
+    LatchedBy,
     LimitsMessage,
     Message,
     NoiseMessage,
@@ -64,7 +65,7 @@ class Control:
         """
         self.named_device = named_device
         self.now = now
-        self.latch = False
+        self.latched_by: LatchedBy | None = None
         self.limits = RobotLimits()
         self.hub = Hub()
         self.driving = Driving(self.hub, now, epoch, self)
@@ -72,6 +73,11 @@ class Control:
         self.board = Board(ports, now, board, simulated_device, broken_slots or BrokenSlots(), self)
         self._relay = Relay(self.hub, now)
         self._halting: Left | None = None
+
+    @property
+    def latch(self) -> bool:
+        """Motion is refused until somebody resumes."""
+        return self.latched_by is not None
 
     # What clients ask
 
@@ -107,11 +113,11 @@ class Control:
             wire.purge(is_run, CancelledError("A stop has overtaken this run."))
         return wire.send(packet, owner, urgent=command == STOP, judge=judge)
 
-    def stop(self, hold: bytes | None, owner: Owner = None) -> Left:
+    def stop(self, hold: bytes | None, owner: Owner = None, by: LatchedBy = "person") -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
         stop.
         """
-        self._set_latch(True)
+        self._latch(by)
         self.board.jobs.end(LatchedError("Stopped before all of it was stored."))
         left = self.board.halt(hold, LatchedError("Stopped before it left."), owner)
         if left is not self._halting:
@@ -124,7 +130,7 @@ class Control:
         port = self.board.link.state
         if port.status == "lost":
             raise PortLostError(port.detail or "The serial port is gone.")
-        self._set_latch(False)
+        self._latch(None)
 
     def name_board(self, seat: Seat, board: str) -> None:
         """Raises NotDrivingError where somebody else drives whatever else it was."""
@@ -197,14 +203,14 @@ class Control:
 
     async def shut_down(self) -> None:
         """Stops the robot whatever it does and lets go of the port. Twice is harmless."""
-        self.latch = True  # nobody starts it again behind the stops
+        self.latched_by = "person"  # nobody starts it again behind the stops
         await self.board.shut_down()
         self.hub.close()
 
     # What the board tells
 
     def port_lost(self) -> None:
-        self.latch = True  # the change of the port's state follows and tells both
+        self.latched_by = "loss"  # the change of the port's state follows and tells both
 
     def board_changed(self) -> None:
         self._tell_state()
@@ -271,7 +277,7 @@ class Control:
     def _stop_for_nobody(self) -> None:
         """STOP because nobody watches over what moves: whoever goes on has to look first."""
         with contextlib.suppress(GatewayError):
-            self.stop(None)
+            self.stop(None, by="silence")
 
     def _welcome(self, seat: Seat) -> Message:
         return WelcomeMessage(
@@ -279,6 +285,7 @@ class Control:
             board=self.board.taken_for,
             port=self.board.port,
             latch=self.latch,
+            latched_by=self.latched_by,
             clients=len(self.hub),
             unattended=self.board.unattended.told(),
             limits=self.limits.told(),
@@ -292,6 +299,7 @@ class Control:
             board=self.board.taken_for,
             port=self.board.port,
             latch=self.latch,
+            latched_by=self.latched_by,
             clients=len(self.hub),
             unattended=self.board.unattended.told(),
             broken_slots=self.board.broken_slots,
@@ -306,10 +314,11 @@ class Control:
             self._tell(LimitsMessage(type="limits", servos=[]))
         self.limits.clear()
 
-    def _set_latch(self, latch: bool) -> None:
-        if latch != self.latch:
-            self.latch = latch
-            log.info("stopped" if latch else "resumed")
+    def _latch(self, by: LatchedBy | None) -> None:
+        """Who latched first is told."""
+        if (by is None) == self.latch:
+            self.latched_by = by
+            log.info("stopped" if by else "resumed")
             self._tell_state()
 
     def _halted(self, left: Left) -> None:

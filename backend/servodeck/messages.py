@@ -203,6 +203,10 @@ AnyClientMessage = (
 ClientMessage = Annotated[AnyClientMessage, Field(discriminator="type")]
 
 
+LatchedBy = Literal["person", "silence", "loss"]
+"""Somebody pressed STOP; a driver was not heard while the robot moved; the port went away."""
+
+
 class WelcomeMessage(Message):
     """The first message on each connection."""
 
@@ -211,6 +215,7 @@ class WelcomeMessage(Message):
     board: str
     port: PortState
     latch: bool
+    latched_by: LatchedBy | None
     clients: int
     unattended: UnattendedRun | None
     limits: list[ServoLimits]
@@ -262,6 +267,7 @@ class StateMessage(Message):
     board: str
     port: PortState
     latch: bool
+    latched_by: LatchedBy | None
     clients: int
     unattended: UnattendedRun | None
     broken_slots: list[int]

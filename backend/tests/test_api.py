@@ -104,4 +104,9 @@ async def test_the_ports_list_holds_the_one_named_at_the_start() -> None:
     async with http_to(ports, time.monotonic, device=None) as (client, control):
         control.named_device = DEVICE
         listed = (await client.get("/api/ports")).json()
-        assert listed[0] == {"device": DEVICE, "description": "Named at the start", "likely": True}
+        assert listed[0] == {
+            "device": DEVICE,
+            "description": "Named at the start",
+            "likely": True,
+            "lasting": None,
+        }

@@ -133,7 +133,11 @@ async def test_a_lost_port_latches_fails_what_waits_and_refuses_resume_until_it_
         with pytest.raises(PortLostError):
             await left
         [state] = await anna.heard()
-        assert (state["latch"], state["port"]["status"], state["port"]["code"]) == (True, "lost", "lost")
+        assert (state["latchedBy"], state["port"]["status"], state["port"]["code"]) == (
+            "loss",
+            "lost",
+            "lost",
+        )
         with pytest.raises(PortLostError):
             control.resume()
         with pytest.raises(PortLostError):

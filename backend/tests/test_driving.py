@@ -120,8 +120,8 @@ async def test_a_driver_who_falls_silent_in_a_move_is_stopped_and_held_in_time()
         assert sent[0][0] - left_s <= 0.75 + 0.001
         went = (sent[0][0] - left_s) / MOVE_S
         assert [packet for _, packet in sent][:2] == [STOP, hold_at(round(2000 - 500 * went))]
-        assert control.latch is True
-        assert [message["type"] for message in await bert.heard()] == ["state"]
+        [state] = await bert.heard()
+        assert (state["latch"], state["latchedBy"]) == (True, "silence")
         await asyncio.sleep(0.3)
         assert [packet for _, packet in port.written[3:]].count(STOP) == 3
 

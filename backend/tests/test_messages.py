@@ -68,7 +68,9 @@ def test_anything_else_is_refused(text: str) -> None:
 
 def test_names_on_the_wire_are_camel_case() -> None:
     port = PortState(device="/dev/board", status="lost", code="lost", detail="Gone.", retry_in_ms=250)
-    told = StateMessage(board="doc", port=port, latch=True, clients=2, unattended=None, broken_slots=[])
+    told = StateMessage(
+        board="doc", port=port, latch=True, latched_by="person", clients=2, unattended=None, broken_slots=[]
+    )
     state = json.loads(encode(told))
     assert state["port"]["retryInMs"] == 250
     assert json.loads(encode(SentMessage(id=3))) == {"type": "sent", "id": 3}

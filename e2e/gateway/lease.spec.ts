@@ -87,7 +87,7 @@ test('when the driver’s window closes in a move the robot is stopped, and the 
   const before = (await robot.bus()).length;
   await driver.page.close();
   await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
-  await expect(dashboard.status).toContainText('Stopped');
+  await expect(dashboard.status).toContainText('Its driver was gone while it moved');
   await dashboard.resume.click();
   await dashboard.type(dashboard.target(2), 1700);
   await poll(() => lastTarget(robot.bus, 2)).toBe(1700);

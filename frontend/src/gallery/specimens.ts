@@ -224,6 +224,13 @@ export const SPECIMENS: readonly Specimen[] = [
     frames: 3,
   },
   {
+    name: 'Stopped for want of a driver',
+    way: REMOTE,
+    state: { ...READY, latch: { reason: 'unwatched', stop: 'sent', unheld: [] } },
+    pose: 'still',
+    frames: 3,
+  },
+  {
     name: 'Back after a loss',
     way: USB,
     state: { ...READY, latch: { reason: 'reconnected', stop: 'sent', unheld: [] } },

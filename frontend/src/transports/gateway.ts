@@ -6,11 +6,18 @@ import { isHarmless } from '#shared/protocol/commands.ts';
 import { fromHex, toHex } from '#shared/protocol/hex.ts';
 import { parseCommand } from '#shared/protocol/parse.ts';
 import { LinkError } from '#shared/session/linkError.ts';
+import type { SharedLatchReason } from '#shared/session/state.ts';
 import type { ServoLimits, Transport, TransportEvents } from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
 import type { ClientMessage, GatewayMessage, PortState, StateMessage } from './messages.generated.ts';
 import { createTurn } from './turn.ts';
+
+const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, SharedLatchReason>> = {
+  person: 'elsewhere',
+  silence: 'unwatched',
+  loss: 'reconnected',
+};
 
 type Settle = { resolve: () => void; reject: (error: LinkError) => void };
 
@@ -19,7 +26,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
   let socket: WebSocket | null = null;
   let port: PortState | null = null;
   let events: TransportEvents | null = null;
-  let latched = false;
+  let latched: SharedLatchReason | null = null;
   let limits: readonly ServoLimits[] = [];
   let board: BoardId = 'unknown';
   let nextId = 1;
@@ -94,7 +101,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
     leaseChanged();
     boardChanged(state.board);
     portChanged(state.port);
-    latchChanged(state.latch);
+    latchChanged(state.latchedBy && LATCHED_BY[state.latchedBy]);
   }
 
   function leaseChanged(): void {
@@ -136,10 +143,10 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
     settleAll(naming, (waiter) => waiter.resolve());
   }
 
-  function latchChanged(next: boolean): void {
+  function latchChanged(next: SharedLatchReason | null): void {
     if (next !== latched) events?.latched?.(next);
     latched = next;
-    if (!next) settleAll(resuming, (waiter) => waiter.resolve());
+    if (next === null) settleAll(resuming, (waiter) => waiter.resolve());
   }
 
   /** Tells the session once; what was under way has an unknown outcome. */
@@ -158,7 +165,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
     if (socket !== null) return;
     const opening = new WebSocket(url);
     socket = opening;
-    latched = false;
+    latched = null;
     opening.onmessage = ({ data }) => heard(JSON.parse(String(data)) as GatewayMessage);
     opening.onclose = () => {
       if (socket !== opening) return;
@@ -211,7 +218,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
       events = next;
       next.limited?.(limits);
       if (turn.lease !== null) next.leased?.(turn.lease);
-      if (latched) next.latched?.(true);
+      if (latched !== null) next.latched?.(latched);
     },
     async send(packet) {
       if (!isQuestion(packet)) await turn.begin();
@@ -232,7 +239,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
     resume() {
       return new Promise((resolve, reject) => {
         post({ type: 'resume' });
-        if (latched) resuming.add({ resolve, reject });
+        if (latched !== null) resuming.add({ resolve, reject });
         else resolve();
       });
     },

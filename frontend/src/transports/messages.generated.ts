@@ -123,6 +123,7 @@ export interface WelcomeMessage {
   board: string;
   port: PortState;
   latch: boolean;
+  latchedBy: ('person' | 'silence' | 'loss') | null;
   clients: number;
   unattended: UnattendedRun | null;
   limits: ServoLimits[];
@@ -322,6 +323,7 @@ export interface StateMessage {
   board: string;
   port: PortState;
   latch: boolean;
+  latchedBy: ('person' | 'silence' | 'loss') | null;
   clients: number;
   unattended: UnattendedRun | null;
   brokenSlots: number[];

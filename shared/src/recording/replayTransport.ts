@@ -38,7 +38,7 @@ export function createReplayTransport(clock: Clock): ReplayTransport {
       return Promise.resolve();
     },
     say: (bytes, whole) => events?.received(bytes, whole),
-    latch: () => events?.latched?.(true),
+    latch: () => events?.latched?.('elsewhere'),
     lose() {
       const told = events;
       events = null;

@@ -7,7 +7,7 @@ import { UNKNOWN_BOARD } from '../protocol/families.ts';
 import { requireReady } from './core.ts';
 import type { Lanes } from './lanes.ts';
 import { LinkError } from './linkError.ts';
-import type { Latch } from './state.ts';
+import type { Latch, SharedLatchReason } from './state.ts';
 import type { SessionStore } from './store.ts';
 import { STOP_REPEATS_MS } from './timings.ts';
 import type { Transport } from './transport.ts';
@@ -16,7 +16,7 @@ export interface Halt {
   halt(): Promise<void>;
   resume(): Promise<void>;
   /** Another screen stopped a shared link; what that sent is told apart. */
-  latchedElsewhere(): void;
+  latchedElsewhere(reason: SharedLatchReason): void;
   /** The link went: whoever brings it back must look before anything moves again. */
   latchedByLoss(): void;
   /** Another screen released a shared link. */
@@ -107,8 +107,8 @@ export function createHalt(options: HaltOptions): Halt {
   }
 
   return {
-    latchedElsewhere() {
-      latch({ reason: 'elsewhere', stop: 'sent', unheld: [] });
+    latchedElsewhere(reason) {
+      latch({ reason, stop: 'sent', unheld: [] });
     },
     latchedByLoss: () => latch({ reason: 'reconnected', stop: 'failed', unheld: [] }),
     async halt() {

@@ -8,6 +8,7 @@ import { createSimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
 import type { Lease } from './lease.ts';
 import { createSession } from './session.ts';
+import type { SharedLatchReason } from './state.ts';
 import type { Transport, TransportEvents } from './transport.ts';
 
 const FREE: Lease = {
@@ -41,7 +42,7 @@ async function sharedSession() {
     ...{ clock, session, left },
     tell: (lease: Lease) => tell?.(lease),
     follow: (command: Command) => follow?.(encodeCommand(command, familyOf('doc'))),
-    latch: () => latch?.(true),
+    latch: (reason: SharedLatchReason) => latch?.(reason),
   };
 }
 
@@ -96,9 +97,9 @@ test('whoever looks on knows as well as the driver where the robot is, also when
   follow({ kind: 'move', targets: [{ servo: 1, position: 1_000 }], durationMs: 1_000 });
   await clock.advance(500);
   expect(session.motion(1)).toEqual({ target: 1_000, estimated: 1_250 });
-  latch();
+  latch('unwatched');
   follow({ kind: 'move', targets: [{ servo: 1, position: 1_240 }], durationMs: 20 });
   await clock.advance(100);
   expect(session.motion(1)).toEqual({ target: 1_240, estimated: 1_240 });
-  expect(session.state.latch?.reason).toBe('elsewhere');
+  expect(session.state.latch?.reason).toBe('unwatched');
 });

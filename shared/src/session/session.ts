@@ -113,9 +113,9 @@ export function createSession(options: SessionOptions): Session {
       if (store.state.link.status === 'ready') driver.groups.linked();
     },
     followed: sentByOthers,
-    latched(latched) {
-      if (!latched) halt.released();
-      else if (store.state.latch === null) halt.latchedElsewhere();
+    latched(reason) {
+      if (reason === null) halt.released();
+      else if (store.state.latch === null) halt.latchedElsewhere(reason);
     },
   });
 

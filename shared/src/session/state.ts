@@ -22,10 +22,16 @@ export type LinkState =
   /** Only a person can go on: no access, or nobody knows which board this is. */
   | { readonly status: 'refused'; readonly error: LinkError };
 
+/** What only a shared link (gateway) can tell. */
+export type SharedLatchReason = 'elsewhere' | 'unwatched' | 'reconnected';
+
 /** Motion is refused while this is not null; only `resume` clears it. */
 export interface Latch {
-  /** `pressed` here, `elsewhere` by another screen, or set because the link came back and nobody has looked yet. */
-  readonly reason: 'pressed' | 'elsewhere' | 'reconnected';
+  /**
+   * `pressed` here, `elsewhere` by another screen, `unwatched`: its driver was not heard while it moved, or set because the
+   * link came back and nobody has looked yet.
+   */
+  readonly reason: 'pressed' | SharedLatchReason;
   /** `sending`: the stop packets are on their way. `sent`: they left the wire. `confirmed`: the board said so. */
   readonly stop: 'sending' | 'sent' | 'confirmed' | 'failed';
   /** Servos in a first move when it was pressed: nobody knows where, so they end that slow move and are not held. */

@@ -5,14 +5,15 @@ import type { Frame } from '../protocol/commands.ts';
 import type { BoardId } from '../protocol/families.ts';
 import type { Lease, LeaseAction } from './lease.ts';
 import type { LinkError } from './linkError.ts';
+import type { SharedLatchReason } from './state.ts';
 
 export interface TransportEvents {
   /** Bytes from the board, in order, in whatever pieces they came; `whole` where they are whole packets for sure. */
   received(bytes: Uint8Array, whole?: boolean): void;
   /** The link ended by itself. Comes at most once per `open`, never after `close`. */
   lost(error: LinkError): void;
-  /** Only a shared link (gateway): somebody pressed STOP or Resume; `latched` refuses motion for everyone. */
-  latched?(latched: boolean): void;
+  /** Only a shared link (gateway): what refuses motion for everyone; null once somebody has resumed. */
+  latched?(reason: SharedLatchReason | null): void;
   /** Only a shared link: somebody said which board this is, or wants it asked again (`unknown`). */
   identified?(board: BoardId): void;
   /** Only a shared link: how far it lets the robot's servos be turned, as another end has said; empty: nobody has. */

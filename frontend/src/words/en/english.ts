@@ -120,6 +120,7 @@ export const english = {
     reason: {
       pressed: 'Stop was pressed',
       elsewhere: 'Stopped on another screen',
+      unwatched: 'Its driver was gone while it moved',
       reconnected: 'The link came back; look at the robot first',
     },
     unheld: (servos: readonly number[]): string =>

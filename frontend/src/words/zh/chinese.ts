@@ -117,6 +117,7 @@ export const chinese: Words = {
     reason: {
       pressed: '按下了停止',
       elsewhere: '在另一个屏幕上停止',
+      unwatched: '运动时驾驶者不在了',
       reconnected: '连接恢复了；请先看看机器人',
     },
     unheld: (servos) => `${formatList(servos)}号舵机会走完缓慢的第一次移动：不知道该让它停在哪里`,
