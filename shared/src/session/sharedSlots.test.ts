@@ -1,6 +1,8 @@
 // What a session makes of a link that stores groups by itself: it asks for it, shows what it is told, and sends no frame.
 
 import { expect, test } from 'vitest';
+import type { Command } from '../protocol/commands.ts';
+import { encodeCommand } from '../protocol/encode.ts';
 import { family as familyOf } from '../protocol/families.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
@@ -65,6 +67,7 @@ async function sharedSession(known: Pick<SharedSlots, 'broken' | 'download'>) {
         ...{ driver, drives, asker: null, asks: false, answerInMs: null },
         ...{ mayDrive: true, mayTake: true, others: 1, unattended: null },
       }),
+    follow: (command: Command) => heard?.followed?.(encodeCommand(command, familyOf('doc'))),
     stored: () => settle.resolve(),
     failed: (error: LinkError) => settle.reject(error),
   };
@@ -85,6 +88,17 @@ test('a download is asked for, followed and noted, and no frame of it is sent fr
   await clock.advance(1_000);
   expect(session.state).toMatchObject({ activity: { kind: 'idle' }, brokenSlots: [], storedSlots: [5] });
   expect(sent).toEqual([]);
+});
+
+test('what is told of its frames after its end does not make the board deaf', async () => {
+  const { session, follow, stored, clock } = await sharedSession({ broken: [], download: null });
+  const done = session.download(5, WAVE);
+  stored();
+  await done;
+  follow({ kind: 'download', slot: 5, frameCount: 1, frameIndex: 0, frame: WAVE[0]! });
+  void session.run(5, 1).catch(() => undefined);
+  await clock.advance(400);
+  expect(session.motion(1)).toEqual({ target: 1_600, estimated: 1_600 });
 });
 
 test('one that somebody else began is shown, refuses motion, and can be called off', async () => {
