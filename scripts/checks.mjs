@@ -118,6 +118,7 @@ export function endToEnd() {
     name: 'end to end',
     command: node('@playwright/test/cli.js', 'test', '--reporter=dot,json'),
     env: { PLAYWRIGHT_JSON_OUTPUT_FILE: at(playwrightReport), CHROMIUM_PATH: findBrowser() ?? '' },
+    limitMs: 15 * 60_000,
     count: countPlaywright,
   };
 }

@@ -6,8 +6,12 @@ import { isHarmless } from '#shared/protocol/commands.ts';
 import { fromHex, toHex } from '#shared/protocol/hex.ts';
 import { parseCommand } from '#shared/protocol/parse.ts';
 import { LinkError } from '#shared/session/linkError.ts';
-import type { SharedLatchReason } from '#shared/session/state.ts';
-import type { ServoLimits, Transport, TransportEvents } from '#shared/session/transport.ts';
+import type {
+  ServoLimits,
+  SharedLatchReason,
+  Transport,
+  TransportEvents,
+} from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
 import type { ClientMessage, GatewayMessage, PortState, StateMessage } from './messages.generated.ts';

@@ -7,10 +7,10 @@ import { UNKNOWN_BOARD } from '../protocol/families.ts';
 import { requireReady } from './core.ts';
 import type { Lanes } from './lanes.ts';
 import { LinkError } from './linkError.ts';
-import type { Latch, SharedLatchReason } from './state.ts';
+import type { Latch } from './state.ts';
 import type { SessionStore } from './store.ts';
 import { STOP_REPEATS_MS } from './timings.ts';
-import type { Transport } from './transport.ts';
+import type { SharedLatchReason, Transport } from './transport.ts';
 
 export interface Halt {
   halt(): Promise<void>;

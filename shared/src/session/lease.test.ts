@@ -8,8 +8,7 @@ import { createSimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
 import type { Lease } from './lease.ts';
 import { createSession } from './session.ts';
-import type { SharedLatchReason } from './state.ts';
-import type { Transport, TransportEvents } from './transport.ts';
+import type { SharedLatchReason, Transport, TransportEvents } from './transport.ts';
 
 const FREE: Lease = {
   ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null, others: 1 },

@@ -7,7 +7,7 @@ import type { Family } from '../protocol/families.ts';
 import type { Lease } from './lease.ts';
 import type { Identity } from './identity.ts';
 import type { LinkError } from './linkError.ts';
-import type { ServoLimits } from './transport.ts';
+import type { ServoLimits, SharedLatchReason } from './transport.ts';
 
 export type LinkState =
   | { readonly status: 'closed' }
@@ -21,9 +21,6 @@ export type LinkState =
   | { readonly status: 'lost'; readonly error: LinkError; readonly retryAtMs: number | null }
   /** Only a person can go on: no access, or nobody knows which board this is. */
   | { readonly status: 'refused'; readonly error: LinkError };
-
-/** What only a shared link (gateway) can tell. */
-export type SharedLatchReason = 'elsewhere' | 'unwatched' | 'reconnected';
 
 /** Motion is refused while this is not null; only `resume` clears it. */
 export interface Latch {

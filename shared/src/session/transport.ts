@@ -5,7 +5,9 @@ import type { Frame } from '../protocol/commands.ts';
 import type { BoardId } from '../protocol/families.ts';
 import type { Lease, LeaseAction } from './lease.ts';
 import type { LinkError } from './linkError.ts';
-import type { SharedLatchReason } from './state.ts';
+
+/** Why a shared link (gateway) refuses motion: another screen, no driver while it moved, or a port that was lost. */
+export type SharedLatchReason = 'elsewhere' | 'unwatched' | 'reconnected';
 
 export interface TransportEvents {
   /** Bytes from the board, in order, in whatever pieces they came; `whole` where they are whole packets for sure. */
