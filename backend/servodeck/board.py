@@ -143,6 +143,8 @@ class Board:
         self._forget_motion()
 
     def port_changed(self) -> None:
+        if self.link.state.status != "open":
+            self._forget_motion()  # also what left with the last breath of the port
         self._events.board_changed()
 
     # What a download tells

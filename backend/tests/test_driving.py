@@ -6,8 +6,15 @@ import pytest
 
 from servodeck.callers import Caller
 from servodeck.clients import take
-from servodeck.errors import BusyError, CancelledError, ExpiredError, ForbiddenError, NotDrivingError
+from servodeck.errors import (
+    BusyError,
+    CancelledError,
+    ExpiredError,
+    ForbiddenError,
+    NotDrivingError,
+)
 from servodeck.messages import ResumeMessage
+from servodeck.wire import Left
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, RUN, STOP
@@ -313,6 +320,14 @@ async def test_who_leaves_behind_a_closed_port_latches_nothing() -> None:
     async with gateway_on() as control:
         anna = Client(control)
         await anna.send(MOVE)
-        await control.close_port()
+        await asyncio.sleep(0.1)
+        closing = asyncio.create_task(control.close_port())
+        anna.send(MOVE_ELSEWHERE).add_done_callback(taken)  # leaves with the last breath of the port
+        await closing
         control.leave(anna)
         assert control.latch is False
+
+
+def taken(left: Left) -> None:
+    """Whatever became of it."""
+    left.exception()
