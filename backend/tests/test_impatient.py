@@ -12,7 +12,7 @@ from tests.running import Running, server_on
 from tests.test_clients import hear_until
 
 # Slow machines run tests, too.
-MARGIN_S = 3.0
+MARGIN_S = 1.0
 HEAD = b"GET /api/health HTTP/1.1\r\nHost: %s\r\n"
 
 
