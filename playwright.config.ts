@@ -29,7 +29,7 @@ export default defineConfig<object, { way: Way }>({
   workers: 3,
   forbidOnly: Boolean(process.env.CI),
   timeout: 30_000,
-  // A busy machine may fail one of two hundred; `npm test` passes then, and names it in its closing lines.
+  // For the trace of it, and to tell what fails always from what fails at times: `npm test` takes neither.
   retries: 1,
   expect: { timeout: 5_000 },
   reporter: [['list']],

@@ -97,7 +97,7 @@ export function conclude(results) {
   for (const reason of new Set(results.flatMap(({ counts }) => counts.reasons ?? [])))
     say(`skipped: ${reason}`);
   for (const name of results.flatMap(({ counts }) => counts.flaky ?? []))
-    say(`passed on a second try only, look into it: ${name}`);
+    say(`failed once, passed on a second try: ${name}`);
   say(
     `${sum(({ counts }) => counts.passed)} passed, ${failed} failed, ${sum(({ counts }) => counts.skipped)} skipped`,
   );
