@@ -9,6 +9,7 @@ import socket
 import tty
 from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 
 import pytest
@@ -23,16 +24,22 @@ NOBODY = 65534
 
 
 class Pty:
+    """Under a name of its own: numbers are given again, and who still looks for one would find another's."""
+
     def __init__(self) -> None:
         self.board, slave = os.openpty()
         tty.setraw(slave)
-        self.device = os.ttyname(slave)
+        self._folder = TemporaryDirectory()
+        link = Path(self._folder.name, "board")
+        link.symlink_to(os.ttyname(slave))
+        self.device = str(link)
         os.close(slave)
 
     def unplug(self) -> None:
         if self.board >= 0:
             os.close(self.board)
         self.board = -1
+        self._folder.cleanup()
 
 
 @pytest.fixture
