@@ -72,6 +72,9 @@ async function expectSoundEverywhere(look: Look, state: string): Promise<void> {
 
 const heightOf = (place: Locator): Promise<number> => place.evaluate(({ clientHeight }) => clientHeight);
 
+const widthOf = (place: Locator): Promise<number> =>
+  place.evaluate((element) => element.getBoundingClientRect().width);
+
 async function expectRobotsSound(look: Look): Promise<void> {
   const robots = robotDialogOf(dashboardOf(look.page));
   await robots.opener.click();
@@ -182,13 +185,21 @@ for (const viewport of SIZES) {
   });
 }
 
-test('nothing has to be scrolled sideways from 390 to 1920 px', async ({ page, servers }) => {
+test('nothing has to be scrolled sideways from 390 to 1920 px, and the sliders are what is widest', async ({
+  page,
+  servers,
+}) => {
   const dashboard = dashboardOf(page);
   await page.goto((await servers.files()).url);
   await expect(dashboard.link).toContainText('Ready');
   for (const width of [390, 430, 600, 699, 700, 820, 1024, 1099, 1100, 1280, 1440, 1920]) {
     await page.setViewportSize({ width, height: 900 });
     await expectNoSidewaysScroll(page, `${width} px`);
+    const [sliderPx, fieldPx] = await Promise.all([
+      widthOf(dashboard.slider(1)),
+      widthOf(dashboard.target(1)),
+    ]);
+    expect.soft(sliderPx, `${width} px: the slider beside its number`).toBeGreaterThan(2 * fieldPx);
   }
 });
 

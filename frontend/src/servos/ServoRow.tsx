@@ -68,7 +68,7 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
   return (
     <div
       ref={area}
-      className={cx(styles.controls, isTelling && styles.telling)}
+      className={styles.controls}
       onPointerDown={hindrance === 'watching' ? () => device.lease('request') : undefined}
     >
       <PositionSlider
