@@ -15,7 +15,7 @@ test('a port that is not there at the start says what to do, and is found when i
   await page.goto(gateway.url);
   const dashboard = dashboardOf(page);
   await expect(dashboard.status).toContainText('The port is not there. Plug the robot in and switch it on');
-  await expect(page.getByText('It has not been asked yet')).toBeVisible();
+  await expect(page.getByRole('heading', { name: 'No robot yet' })).toBeVisible();
   await ptyBoard.plugIn();
   await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 8_000 });
   if (await dashboard.resume.isVisible()) await dashboard.resume.click();
@@ -27,7 +27,7 @@ test('a gateway without a port offers the ports it knows', async ({ page, newGat
   const gateway = await newGateway();
   await page.goto(gateway.url);
   const dashboard = dashboardOf(page);
-  await dashboard.link.click();
+  await dashboard.button('Choose its port').click();
   await expect(dashboard.connectDialog.getByRole('group', { name: 'Gateway' })).toBeVisible();
   await expect(dashboard.connectDialog.getByRole('button', { name: 'Look again' })).toBeVisible();
 });

@@ -16,9 +16,14 @@ test('an example is written out for the board, plays at twice its speed, pauses 
   await expect(dashboard.board).toContainText(/Fits\s*\d+ of 255 frames/);
   await expect(dashboard.board).toContainText(/At most \d µs \(0\.\d°\) off: servo \d/);
 
-  await dashboard.type(dashboard.field('Speed of playing from the page, in percent'), 200);
-  await dashboard.button('Play').click();
   const tools = page.getByRole('group', { name: 'Play the group' });
+  await dashboard.button('Preview').click();
+  await expect(tools.getByRole('status')).toHaveText('Only on the drawing, nothing moves');
+  await dashboard.button('Pause').click();
+  expect(ofKind(await robot.bus(), 'move')).toHaveLength(0);
+
+  await dashboard.type(dashboard.field('Speed of playing from the page, in percent'), 200);
+  await dashboard.button(/^Play/).click();
   await expect(tools.getByRole('status')).toHaveText('Going gently to the first pose');
   await expect(tools.getByRole('status')).toHaveText('Playing, 200% of the speed');
   await dashboard.button('Pause').click();

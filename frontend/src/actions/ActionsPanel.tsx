@@ -35,7 +35,12 @@ export function ActionsPanel() {
     );
   const isPainted = useIsPainted();
   const otherUnit = useDevice((state) => state.family.unit !== unit) && !isEmpty;
-  const timeline = <Timeline key="timeline" onPlay={() => playback.toggle()} />;
+  const timeline = (
+    <Timeline
+      key="timeline"
+      onPlay={(isPreview) => (isPreview ? playback.togglePreview() : playback.toggle())}
+    />
+  );
   const frames = (
     <Fragment key="frames">
       {isEmpty ? <Empty /> : <FrameStrip />}

@@ -3,10 +3,10 @@
 
 import { useRef } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
-import { useDevice, useStores } from '../stores/stores.ts';
+import { useDevice, usePlayback, useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { ArmFigure, drawArm } from './ArmFigure.tsx';
-import { BaseView, drawBase, drawHand, HandView } from './insets.tsx';
+import { BaseView, drawBase, drawHand, HandView, type InsetLook } from './insets.tsx';
 import { armPicture, JOINT, samePicture, type ArmPicture, type Pose } from './pose.ts';
 import { usePreview } from './usePreview.ts';
 import { useMotions } from './useMotion.ts';
@@ -24,19 +24,20 @@ export function LiveArm() {
   };
   const estimated = (): ArmPicture => pictureOf((motion) => motion.estimated);
   const commanded = (): ArmPicture => pictureOf((motion) => motion.target);
+  const nowhere = armPicture(() => null, family);
+  const isPreviewing = usePlayback(({ phase }) => phase === 'previewing');
   useMotions(ARM_SERVOS, () => {
     if (frame.current !== null) draw(frame.current, estimated(), commanded());
   });
 
   usePreview((pose) => {
-    const figure = frame.current?.querySelector<SVGGElement>("[data-figure='preview']");
-    figure?.setAttribute('visibility', pose === null ? 'hidden' : 'visible');
-    if (pose !== null && figure instanceof SVGGElement) drawArm(figure, armPicture(pose, family));
+    if (frame.current !== null)
+      drawViews(frame.current, 'preview', pose === null ? nowhere : armPicture(pose, family));
   });
 
   return (
-    <div className={styles.views} ref={frame}>
-      <svg className={styles.side} viewBox="-250 -252 500 304" role="img" aria-label={words.body.figure}>
+    <div className={styles.views} ref={frame} data-previewing={isPreviewing}>
+      <svg className={styles.side} viewBox="-250 -266 500 318" role="img" aria-label={words.body.figure}>
         <Floor />
         <g data-figure="estimated">
           <ArmFigure picture={estimated()} look="solid" />
@@ -44,30 +45,30 @@ export function LiveArm() {
         <g data-figure="commanded">
           <ArmFigure picture={commanded()} look="ghost" />
         </g>
-        <g data-figure="preview" visibility="hidden">
-          <ArmFigure picture={commanded()} look="preview" />
+        <g data-figure="preview">
+          <ArmFigure picture={nowhere} look="preview" />
         </g>
       </svg>
       <div className={styles.insets}>
-        <BaseView estimated={estimated()} commanded={commanded()} />
-        <HandView estimated={estimated()} commanded={commanded()} />
+        <BaseView estimated={estimated()} commanded={commanded()} preview={nowhere} />
+        <HandView estimated={estimated()} commanded={commanded()} preview={nowhere} />
       </div>
     </div>
   );
 }
 
 function draw(frame: HTMLElement, estimated: ArmPicture, commanded: ArmPicture): void {
-  const isThere = samePicture(estimated, commanded);
-  for (const [name, picture] of [
-    ['estimated', estimated],
-    ['commanded', commanded],
-  ] as const) {
-    const figure = frame.querySelector<SVGGElement>(`[data-figure='${name}']`);
-    if (figure !== null) drawArm(figure, picture);
-    if (name === 'commanded') figure?.setAttribute('visibility', isThere ? 'hidden' : 'visible');
-    drawBase(frame, name, picture);
-    drawHand(frame, name, picture);
-  }
+  drawViews(frame, 'estimated', estimated);
+  drawViews(frame, 'commanded', commanded);
+  const outline = frame.querySelector("[data-figure='commanded']");
+  outline?.setAttribute('visibility', samePicture(estimated, commanded) ? 'hidden' : 'visible');
+}
+
+function drawViews(frame: HTMLElement, name: InsetLook, picture: ArmPicture): void {
+  const figure = frame.querySelector(`[data-figure='${name}']`);
+  if (figure instanceof SVGGElement) drawArm(figure, picture);
+  drawBase(frame, name, picture);
+  drawHand(frame, name, picture);
 }
 
 /** The ground, the reach of the arm and the foot it stands on. */

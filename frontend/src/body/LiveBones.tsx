@@ -4,7 +4,7 @@
 import { useRef } from 'react';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import type { ServoMotion } from '#shared/session/state.ts';
-import { useRobot, useStores } from '../stores/stores.ts';
+import { usePlayback, useRobot, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
 import { BoneFigure, drawBones } from './BoneFigure.tsx';
@@ -34,6 +34,7 @@ export function LiveBones({ className }: { readonly className?: string | undefin
       }
     },
   );
+  const isPreviewing = usePlayback(({ phase }) => phase === 'previewing');
   usePreview((pose) => {
     const figure = picture.current?.querySelector<SVGGElement>("[data-figure='preview']");
     const bones = pose === null ? null : bonesOf(robot, pose);
@@ -49,6 +50,7 @@ export function LiveBones({ className }: { readonly className?: string | undefin
       viewBox="0 0 100 100"
       role="img"
       aria-label={words.servoPanel.figure(robot.name)}
+      data-previewing={isPreviewing}
     >
       <g data-figure="estimated">
         <BoneFigure picture={estimated} look="solid" />

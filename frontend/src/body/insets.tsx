@@ -5,12 +5,15 @@ import { words } from '../words/words.ts';
 import type { ArmPicture } from './pose.ts';
 import styles from './insets.module.css';
 
+export type InsetLook = 'commanded' | 'estimated' | 'preview';
+
 interface InsetProps {
   readonly estimated: ArmPicture;
   readonly commanded: ArmPicture;
+  readonly preview: ArmPicture;
 }
 
-export function BaseView({ estimated, commanded }: InsetProps) {
+export function BaseView({ estimated, commanded, preview }: InsetProps) {
   return (
     <figure className={styles.inset}>
       <svg viewBox="-50 -50 100 100" role="img" aria-label={words.body.base}>
@@ -22,6 +25,9 @@ export function BaseView({ estimated, commanded }: InsetProps) {
         <g data-base="estimated" transform={turn(estimated.base.degrees)}>
           <path className={cx(styles.solid, !estimated.base.known && styles.unknown)} d={POINTER} />
         </g>
+        <g data-base="preview" transform={turn(preview.base.degrees)}>
+          <path className={cx(styles.preview, !preview.base.known && styles.hidden)} d={POINTER} />
+        </g>
         <circle className={styles.pin} r={4} />
       </svg>
       <figcaption className={styles.caption}>{words.body.base}</figcaption>
@@ -29,7 +35,7 @@ export function BaseView({ estimated, commanded }: InsetProps) {
   );
 }
 
-export function HandView({ estimated, commanded }: InsetProps) {
+export function HandView({ estimated, commanded, preview }: InsetProps) {
   return (
     <figure className={styles.inset}>
       <svg viewBox="-50 -50 100 100" role="img" aria-label={words.body.hand}>
@@ -37,6 +43,7 @@ export function HandView({ estimated, commanded }: InsetProps) {
         <path className={styles.scale} d="M0 -44V-38M-44 0h6M44 0h-6M-31 -31l4 4M31 -31l-4 4" />
         <Hand name="commanded" picture={commanded} look={styles.ghost} missing={styles.hidden} />
         <Hand name="estimated" picture={estimated} look={styles.solid} missing={styles.unknown} />
+        <Hand name="preview" picture={preview} look={styles.preview} missing={styles.hidden} />
       </svg>
       <figcaption className={styles.caption}>{words.body.hand}</figcaption>
     </figure>
@@ -44,7 +51,7 @@ export function HandView({ estimated, commanded }: InsetProps) {
 }
 
 interface HandProps {
-  readonly name: 'commanded' | 'estimated';
+  readonly name: InsetLook;
   readonly picture: ArmPicture;
   readonly look: string | undefined;
   readonly missing: string | undefined;
@@ -61,13 +68,13 @@ function Hand({ name, picture, look, missing }: HandProps) {
   );
 }
 
-export function drawBase(frame: HTMLElement, name: 'commanded' | 'estimated', { base }: ArmPicture): void {
+export function drawBase(frame: HTMLElement, name: InsetLook, { base }: ArmPicture): void {
   const group = frame.querySelector(`[data-base='${name}']`);
   group?.setAttribute('transform', turn(base.degrees));
   group?.firstElementChild?.classList.toggle(missingClass(name), !base.known);
 }
 
-export function drawHand(frame: HTMLElement, name: 'commanded' | 'estimated', picture: ArmPicture): void {
+export function drawHand(frame: HTMLElement, name: InsetLook, picture: ArmPicture): void {
   const group = frame.querySelector(`[data-hand='${name}']`);
   if (group === null) return;
   group.setAttribute('transform', turn(picture.roll.degrees));
@@ -79,8 +86,8 @@ export function drawHand(frame: HTMLElement, name: 'commanded' | 'estimated', pi
 const POINTER = 'M-7 6a7 7 0 0 0 14 0V-26l-4 -4v-6h-6v6l-4 4z';
 const FINGER = 'M0 -8h9v16h-9z';
 
-const missingClass = (name: 'commanded' | 'estimated'): string =>
-  (name === 'commanded' ? styles.hidden : styles.unknown) ?? '';
+const missingClass = (name: InsetLook): string =>
+  (name === 'estimated' ? styles.unknown : styles.hidden) ?? '';
 
 const turn = (degrees: number): string => `rotate(${degrees.toFixed(2)})`;
 

@@ -23,23 +23,28 @@ export function usePreview(draw: (pose: Pose | null) => void): void {
 
 /** What the preview depends on: the same again draws the same. */
 function reasonsOf(stores: Stores): readonly unknown[] {
-  const { showsPreview, playheadMs } = stores.timeline.getState();
-  const { authoring } = stores.view.getState();
+  const { playheadMs } = stores.timeline.getState();
   const { family } = stores.device.store.getState();
   const { muted, solo } = servoViewOf(stores);
   const { targets } = stores.blend.store.getState();
   const group = stores.document.store.getState().present;
-  return [group, showsPreview, playheadMs, authoring, family, muted, solo, targets];
+  return [group, isShown(stores), playheadMs, family, muted, solo, targets];
+}
+
+function isShown({ view, timeline, playback }: Stores): boolean {
+  if (view.getState().authoring !== 'group') return false;
+  return timeline.getState().showsPreview || playback.store.getState().phase === 'previewing';
 }
 
 function previewOf(stores: Stores): Pose | null {
   const { targets } = stores.blend.store.getState();
   if (targets !== null) return (servo) => targets.find((one) => one.servo === servo)?.position ?? null;
-  const { showsPreview, playheadMs } = stores.timeline.getState();
   const group = stores.document.store.getState().present;
-  const isShown = showsPreview && stores.view.getState().authoring === 'group';
-  if (!isShown || group.unit !== stores.device.store.getState().family.unit) return null;
-  const pose = poseAtMs(timesOf(group).tracks, playheadMs);
+  if (!isShown(stores) || group.unit !== stores.device.store.getState().family.unit) return null;
+  const { tracks, ends } = timesOf(group);
+  // The first frame leads to the first pose from wherever the robot is.
+  const atMs = Math.max(stores.timeline.getState().playheadMs, ends[0] ?? 0);
+  const pose = poseAtMs(tracks, atMs);
   const view = servoViewOf(stores);
   return pose.size === 0 ? null : (servo) => (isSilent(view, servo) ? null : (pose.get(servo) ?? null));
 }

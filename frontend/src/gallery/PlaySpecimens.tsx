@@ -63,6 +63,11 @@ const CASES: readonly { readonly name: string; readonly panel: ReactNode; prepar
       prepare: ({ playback }) => playback.store.setState({ phase: 'leading' }),
     },
     {
+      name: 'Only on the drawing',
+      panel: <PlayBar />,
+      prepare: ({ playback }) => playback.store.setState({ phase: 'previewing' }),
+    },
+    {
       name: 'The board gets the group first',
       panel: <PlayBar />,
       prepare: ({ playback }) => playback.store.setState({ phase: 'storing' }),

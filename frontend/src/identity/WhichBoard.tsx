@@ -13,13 +13,40 @@ import styles from './WhichBoard.module.css';
 export function WhichBoard() {
   const link = useSnapshot((snapshot) => snapshot.link);
   const isAsking = link.status === 'identifying';
-  const title = link.status === 'refused' && link.error.code === 'wrongBoard' ? 'changed' : 'which';
+  const isUnasked = useSnapshot(({ identity }) => identity.evidence.length === 0);
+  const isChanged = link.status === 'refused' && link.error.code === 'wrongBoard';
+  const title = isChanged ? 'changed' : isAsking || !isUnasked ? 'which' : 'none';
   return (
     <Panel title={words.identity.title[title]}>
       <div className={styles.work}>
-        {isAsking ? <p className={styles.lead}>{words.identity.asking}</p> : <Answered />}
+        {isAsking ? (
+          <p className={styles.lead}>{words.identity.asking}</p>
+        ) : isUnasked ? (
+          <Unasked />
+        ) : (
+          <Answered />
+        )}
       </div>
     </Panel>
+  );
+}
+
+/** There is nobody to ask before a port is open. */
+function Unasked() {
+  const { view } = useStores();
+  return (
+    <>
+      <p className={styles.lead}>{words.identity.unasked}</p>
+      <div>
+        <Button tone="primary" icon="plug" onPress={() => view.setState({ connectOpen: true })}>
+          {words.identity.choosePort}
+        </Button>
+      </div>
+      <details className={styles.others}>
+        <summary>{words.identity.beforehand}</summary>
+        <Boards families={Object.values(FAMILIES)} />
+      </details>
+    </>
   );
 }
 
@@ -30,14 +57,13 @@ function Answered() {
   const fitting = (fit: Fit): readonly Family[] =>
     families.filter((family) => fitOf(family, evidence) === fit);
   const likely = fitting('fits');
-  const heading = evidence.length === 0 ? words.identity.all : words.identity.likely;
   return (
     <>
       <p className={styles.lead}>{words.identity.summary(evidence)}</p>
       <EvidenceList evidence={evidence} />
       {likely.length > 0 && (
-        <section className={styles.choice} aria-label={heading}>
-          <h3>{heading}</h3>
+        <section className={styles.choice} aria-label={words.identity.likely}>
+          <h3>{words.identity.likely}</h3>
           <Boards families={likely} />
         </section>
       )}

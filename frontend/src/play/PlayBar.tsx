@@ -37,7 +37,7 @@ export function PlayBar() {
         isDisabled={!mayPlay}
         onPress={() => playback.step(-1)}
       />
-      {phase === null ? <PlayButton /> : <EndButton phase={phase} />}
+      {phase === null ? <BeginButtons /> : <EndButton phase={phase} />}
       <IconButton
         icon="later"
         label={words.play.forth}
@@ -60,13 +60,24 @@ function useMayPlay(): boolean {
   return isFree && isSameUnit && !isEmpty;
 }
 
-function PlayButton() {
+function BeginButtons() {
   const { playback } = useStores();
   const mayPlay = useMayPlay();
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   return (
-    <Button icon="play" isDisabled={!mayPlay} onPress={() => playback.play()}>
-      <PlayWords />
-    </Button>
+    <>
+      <Button icon="play" isDisabled={!mayPlay} onPress={() => playback.play()}>
+        <PlayWords />
+      </Button>
+      <Button
+        icon="eye"
+        hint={words.play.previewHint}
+        isDisabled={isEmpty}
+        onPress={() => playback.togglePreview()}
+      >
+        {words.play.preview}
+      </Button>
+    </>
   );
 }
 
@@ -96,6 +107,7 @@ function EndButton({ phase }: { readonly phase: PlaybackPhase }) {
     playing: words.play.pause,
     storing: words.play.cancel,
     running: words.play.end,
+    previewing: words.play.pause,
   }[phase];
   return (
     <Button
@@ -166,8 +178,14 @@ function useBoardHint(): string {
 function Phase({ phase }: { readonly phase: PlaybackPhase | null }) {
   const speedPercent = usePlayback((state) => state.speedPercent);
   const silent = useSilentRows();
+  const hindrance = useSnapshot(motionHindrance);
   const { playing, ...others } = words.play.phase;
-  const rests = silent.length === 0 ? '' : words.play.silent(silent);
+  const rests =
+    hindrance !== null
+      ? words.servos.blocked[hindrance]
+      : silent.length === 0
+        ? ''
+        : words.play.silent(silent);
   return (
     <p className={styles.phase} role="status">
       {phase === null ? rests : phase === 'playing' ? playing(speedPercent / 100) : others[phase]}

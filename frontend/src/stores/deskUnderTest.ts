@@ -38,7 +38,8 @@ export async function createDesk(
   const view = createView(storage);
   const compiled = createCompiled({ document, device, robots, clock });
   const slots = createSlots({ device, robots, notices, storage, today: () => clock.now() });
-  const playhead = createPlayhead(createTimeline());
+  const timeline = createTimeline();
+  const playhead = createPlayhead(timeline);
   const playback = createPlayback({
     ...{ device, document, compiled, slots, notices, view, playhead, robots },
     documentId: () => 'at hand',
@@ -57,7 +58,7 @@ export async function createDesk(
     }
   }
   return {
-    ...{ document, view, compiled, slots, playhead, playback, tape, draw },
+    ...{ document, view, timeline, compiled, slots, playhead, playback, tape, draw },
     ...{ ...rig, texts, notices, robots, device, poses, macros, macroRun },
     blend: createBlend(device),
     book: () => poses.book.store.getState().present,

@@ -28,6 +28,59 @@ async function deskWith(group: ActionGroup) {
   return { ...desk, phase, activity };
 }
 
+describe('playing on the drawing alone', () => {
+  test('goes by the clock at the chosen speed and sends nothing, also without a robot and while stopped', async () => {
+    const { playback, playhead, session, draw, moves, phase } = await deskWith(WAVE);
+    void session.halt();
+    await draw(500);
+    playback.set({ speedPercent: 50 });
+    playback.togglePreview();
+    await draw(1000);
+    expect([phase(), playhead.at()]).toEqual(['previewing', 500]);
+    playback.togglePreview();
+    await draw(400);
+    expect([phase(), playhead.at()]).toEqual([null, 500]);
+    playback.togglePreview();
+    await draw(1900);
+    expect([phase(), playhead.at()]).toEqual([null, 1400]);
+    await session.close();
+    playback.togglePreview();
+    await draw(200);
+    expect([phase(), playhead.at()]).toEqual(['previewing', 100]);
+    expect(moves()).toEqual([]);
+  });
+
+  test('the robot does not follow it, and Stop and a hidden page end it', async () => {
+    const { playback, session, draw, moves, phase } = await deskWith(WAVE);
+    playback.set({ isLive: true });
+    playback.togglePreview();
+    await draw(400);
+    expect(playback.store.getState().isLive).toBe(false);
+    expect(moves()).toEqual([]);
+    void session.halt();
+    await draw(20);
+    expect(phase()).toBeNull();
+    playback.togglePreview();
+    playback.hidden();
+    expect(phase()).toBeNull();
+  });
+
+  test('runs through what is marked as often as the group is run, from within it at first', async () => {
+    const { playback, playhead, timeline, view, draw, phase } = await deskWith(WAVE);
+    timeline.setState({ range: { fromMs: 400, toMs: 800 } });
+    view.setState({ times: 2 });
+    playback.togglePreview();
+    await draw(500);
+    expect([phase(), playhead.at()]).toEqual(['previewing', 500]);
+    await draw(320);
+    expect([phase(), playhead.at()]).toEqual([null, 800]);
+    playback.set({ loops: true });
+    playback.togglePreview();
+    await draw(4100);
+    expect([phase(), playhead.at()]).toEqual(['previewing', 500]);
+  });
+});
+
 describe('playing from the page', () => {
   test('goes gently to the first pose, says so, and then moves as written; the playhead goes along', async () => {
     const { playback, playhead, phase, draw, moves } = await deskWith(WAVE);

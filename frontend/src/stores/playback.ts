@@ -17,14 +17,15 @@ import type { Document } from './document.ts';
 import { chosenPlace } from './groupPlace.ts';
 import { createFollower, type FollowedPose } from './follower.ts';
 import type { Notices } from './notices.ts';
+import { previewedAt, type PreviewRun } from './previewRun.ts';
 import { startHindrance } from './readiness.ts';
 import type { RobotStore } from './robots.ts';
 import { isSilent, servoViewFor } from './servoView.ts';
 import type { Slots } from './slots.ts';
 import type { View } from './view.ts';
 
-/** `leading`: gently on the way to the first pose. `storing`: the board gets the group first. */
-export type PlaybackPhase = 'leading' | 'playing' | 'storing' | 'running';
+/** `leading`: gently on the way to the first pose. `storing`: the board gets the group first. `previewing`: only on the drawing. */
+export type PlaybackPhase = 'leading' | 'playing' | 'storing' | 'running' | 'previewing';
 
 export interface PlaybackState {
   readonly speedPercent: number;
@@ -56,6 +57,8 @@ export interface Playback {
   play(): void;
   /** Plays, or pauses what plays. */
   toggle(): void;
+  /** Plays on the drawing alone, or pauses what plays. Needs no robot and moves none. */
+  togglePreview(): void;
   /** Downloads first where the board has not just this. */
   runOnBoard(): void;
   /** Where it is; a group on the board ends after its frame in progress. */
@@ -101,6 +104,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
   }));
   const follower = createFollower(device);
   let following: Following | null = null;
+  let previewing: PreviewRun | null = null;
 
   function poseAt(atMs: number): FollowedPose {
     const pose = poseAtMs(tracksOf(document.store.getState().present), atMs);
@@ -153,11 +157,15 @@ export function createPlayback(options: PlaybackOptions): Playback {
 
   /** Where the playhead is within what is meant; null: it begins at the beginning, as a loop always does. */
   function within(): number | null {
-    const range = playhead.range();
+    const { fromMs, toMs } = part();
     const at = playhead.at();
-    const endMs = range?.toMs ?? totalDurationMs(document.store.getState().present.frames);
-    const isWithin = at > (range?.fromMs ?? 0) && at < endMs && !store.getState().loops;
-    return isWithin ? at : null;
+    return at > fromMs && at < toMs && !store.getState().loops ? at : null;
+  }
+
+  /** What is meant: what was marked, or all of it. */
+  function part(): { readonly fromMs: number; readonly toMs: number } {
+    const { frames } = document.store.getState().present;
+    return playhead.range() ?? { fromMs: 0, toMs: totalDurationMs(frames) };
   }
 
   /** As often as the group is run on its board; from within it, the rest once. 0: until stopped. */
@@ -187,6 +195,20 @@ export function createPlayback(options: PlaybackOptions): Playback {
     });
   }
 
+  function preview(): void {
+    store.setState({ isLive: false });
+    const { speedPercent } = store.getState();
+    const startMs = within() ?? part().fromMs;
+    previewing = { ...part(), startMs, passes: passes(), speedPercent, beganMs: clock.now() };
+    phase('previewing');
+  }
+
+  function endPreview(): void {
+    if (previewing === null) return;
+    previewing = null;
+    phase(null);
+  }
+
   function runOnBoard(): void {
     const group = playable('board');
     if (group === null) return;
@@ -212,18 +234,20 @@ export function createPlayback(options: PlaybackOptions): Playback {
   }
 
   function pause(): void {
-    if (following !== null) device.stopPlaying();
+    if (previewing !== null) endPreview();
+    else if (following !== null) device.stopPlaying();
     else if (activity().kind === 'downloading') slots.cancel();
     else if (activity().kind === 'running') device.stopGroup();
   }
 
   let last = activity();
-  device.store.subscribe(({ snapshot }) => {
+  device.store.subscribe(({ snapshot }, { snapshot: before }) => {
     const next = snapshot.activity;
     if (next !== last) {
       last = next;
       noteActivity(next);
     }
+    if (snapshot.latch !== null && before.latch === null) endPreview();
     if (snapshot.latch !== null || snapshot.link.status !== 'ready') store.setState({ isLive: false });
   });
 
@@ -238,6 +262,12 @@ export function createPlayback(options: PlaybackOptions): Playback {
     // The board's word comes between two drawings.
     const lengthMs = totalDurationMs(compiled.store.getState().latest.frames);
     if (lengthMs - playhead.at() < NEAR_END_MS) playhead.go(lengthMs);
+  }
+
+  function followPreview(run: PreviewRun): void {
+    const atMs = previewedAt(run, clock.now());
+    playhead.go(Math.round(atMs ?? run.toMs));
+    if (atMs === null) endPreview();
   }
 
   function follow({ passage, index, beganMs, isLead }: Following): void {
@@ -287,15 +317,18 @@ export function createPlayback(options: PlaybackOptions): Playback {
     },
     play,
     toggle: () => (store.getState().phase === null ? play() : pause()),
+    togglePreview: () => (store.getState().phase === null ? preview() : pause()),
     runOnBoard,
     pause,
     step,
     frame() {
-      if (following !== null) follow(following);
+      if (previewing !== null) followPreview(previewing);
+      else if (following !== null) follow(following);
       else followBoard();
       if (store.getState().isLive) followPlayhead();
     },
     hidden() {
+      endPreview();
       store.setState({ isLive: false });
       device.stopPlaying();
     },

@@ -33,8 +33,8 @@ import { TimelineTools } from './TimelineTools.tsx';
 import { useRows } from './useRows.ts';
 import styles from './Timeline.module.css';
 
-/** `onPlay`: the play key was pressed here. */
-export function Timeline({ onPlay }: { onPlay(): void }) {
+/** `onPlay`: the play key was pressed here, with Shift to play on the drawing alone. */
+export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
   const stores = useStores();
   const id = useId();
   const [menu, setMenu] = useState<OpenMenu | null>(null);
@@ -102,7 +102,7 @@ export function Timeline({ onPlay }: { onPlay(): void }) {
     const isMenuKey = event.key === 'ContextMenu' || (event.key === 'F10' && event.shiftKey);
     const action = actionOf(event.nativeEvent);
     if (isMenuKey) openMenu('keys', cellAtCursor());
-    else if (event.key === ' ' && !event.ctrlKey && !event.shiftKey) onPlay();
+    else if (event.key === ' ' && !event.ctrlKey) onPlay(event.shiftKey);
     else if (action === undefined) return;
     else action(deskOf(stores));
     event.preventDefault();

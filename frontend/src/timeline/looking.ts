@@ -9,6 +9,8 @@ import { fitted, showing, zoomedAt, type Span } from './timeScale.ts';
 import { beside, walked, type Cell, type Direction, type Grid } from './walk.ts';
 
 const ZOOM = 1.5;
+/** An empty group is seen as a short one. */
+const EMPTY_MS = 5000;
 
 /** Brings the instant into sight. */
 export function lookAt({ stores }: Desk, atMs: number): void {
@@ -95,7 +97,7 @@ export function zoom(desk: Desk, step: 1 | -1): void {
 
 export function fitAll({ stores, times }: Pick<Desk, 'stores' | 'times'>): void {
   stores.timeline.setState(({ time, widthPx }) => ({
-    time: sameOr(time, fitted({ fromMs: 0, toMs: times.lengthMs }, widthPx)),
+    time: sameOr(time, fitted({ fromMs: 0, toMs: times.lengthMs || EMPTY_MS }, widthPx)),
     followsGroup: true,
   }));
 }

@@ -6,13 +6,15 @@ import type { Evidence } from '#shared/session/identity.ts';
 import { counted, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
 
 export const identityWords = {
-  title: { which: 'Which board is this?', changed: 'Another board answers here' },
+  title: { none: 'No robot yet', which: 'Which board is this?', changed: 'Another board answers here' },
+  unasked: 'Plug the robot in, switch it on and choose its port. That moves nothing.',
+  choosePort: 'Choose its port',
+  beforehand: 'Say beforehand which board it is',
   asking: 'Asking the board who it is. Nothing moves.',
   evidence: 'What it answered',
   evidenceOf,
   summary,
   likely: 'Boards that answer like this',
-  all: 'Choose it yourself',
   about: (family: Family): string =>
     `${DESCRIBED[family.id]} ${formatWhole(family.position.min)}–${formatWhole(family.position.max)} ${unitSymbol(family.unit)}`,
   again: 'Ask again',
@@ -87,7 +89,6 @@ function answerOf(report: Extract<Evidence, { kind: 'answered' }>['report']): st
 
 /** The whole in a sentence that says what to do. */
 function summary(evidence: readonly Evidence[]): string {
-  if (evidence.length === 0) return 'It has not been asked yet: its port has to be open for that.';
   const has = (kind: Evidence['kind']): boolean => evidence.some((one) => one.kind === kind);
   if (has('echoed'))
     return 'This port sends back everything it is given. Check the wiring between adapter and board: RX to TX, TX to RX.';

@@ -7,6 +7,8 @@ export const playWords = {
   tools: 'Play the group',
   play: (times: number): string => (times === 1 ? 'Play' : `Play ${timesWords(times)}`),
   playFrom: (atMs: number): string => `Play from ${formatSeconds(atMs)}`,
+  preview: 'Preview',
+  previewHint: 'Plays on the drawing alone. Moves nothing. Shift+Space in the timeline',
   pause: 'Pause',
   end: 'End',
   cancel: 'Cancel download',
@@ -29,5 +31,6 @@ export const playWords = {
     playing: (share: number): string => `Playing, ${formatPercent(share)} of the speed`,
     storing: 'The board gets this group first',
     running: 'The board plays it',
+    previewing: 'Only on the drawing, nothing moves',
   },
 };

@@ -92,7 +92,7 @@ export const timelineWords = {
     keyAfter: 'Key after',
   },
   more: 'More',
-  switches: { snaps: 'Snap', ripples: 'Ripple', showsPreview: 'Preview', isTall: 'Tall rows' },
+  switches: { snaps: 'Snap', ripples: 'Ripple', showsPreview: 'Outline', isTall: 'Tall rows' },
   snapsHint: 'To frames, keys, markers, playhead and the board’s raster; hold Alt to suspend',
   ripplesHint: 'What is behind a change moves along',
   previewHint: 'Shows the pose at the playhead on the body. Moves nothing.',

@@ -6,13 +6,15 @@ import type { identityWords as english } from '../en/identity.ts';
 import { formatCount, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
 
 export const identityWords: typeof english = {
-  title: { which: '这是哪种控制板？', changed: '应答的是另一种控制板' },
+  title: { none: '还没有机器人', which: '这是哪种控制板？', changed: '应答的是另一种控制板' },
+  unasked: '接好机器人并打开电源，然后选择它的串口。这不会让它动。',
+  choosePort: '选择串口',
+  beforehand: '预先说明是哪种控制板',
   asking: '正在询问控制板的型号。什么都不会动。',
   evidence: '它的应答',
   evidenceOf,
   summary,
   likely: '会这样应答的控制板',
-  all: '自己选择',
   about: (family) =>
     `${DESCRIBED[family.id]}${formatWhole(family.position.min)}–${formatWhole(family.position.max)}${unitSymbol(family.unit)}`,
   again: '再问一次',
@@ -84,7 +86,6 @@ function answerOf(report: Extract<Evidence, { kind: 'answered' }>['report']): st
 }
 
 function summary(evidence: readonly Evidence[]): string {
-  if (evidence.length === 0) return '还没有问过它：要先打开串口。';
   const has = (kind: Evidence['kind']): boolean => evidence.some((one) => one.kind === kind);
   if (has('echoed'))
     return '这个串口把发出的内容原样送了回来。请检查转接器与控制板的接线：RX 接 TX，TX 接 RX。';

@@ -8,6 +8,8 @@ export const playWords: typeof english = {
   tools: '播放动作组',
   play: (times) => (times === 1 ? '播放' : `播放，${timesWords(times)}`),
   playFrom: (atMs) => `从${formatSeconds(atMs)}播放`,
+  preview: '预览',
+  previewHint: '只在图上播放，不会移动机器人。时间线上按 Shift+空格',
   pause: '暂停',
   end: '结束',
   cancel: '取消下载',
@@ -29,5 +31,6 @@ export const playWords: typeof english = {
     playing: (share) => `正在播放，速度${formatPercent(share)}`,
     storing: '先把这个动作组下载到控制板',
     running: '控制板正在播放',
+    previewing: '只在图上播放，机器人不动',
   },
 };

@@ -79,7 +79,7 @@ export const timelineWords: typeof english = {
     keyAfter: '下一个关键帧',
   },
   more: '更多',
-  switches: { snaps: '吸附', ripples: '联动', showsPreview: '预览', isTall: '高行' },
+  switches: { snaps: '吸附', ripples: '联动', showsPreview: '轮廓', isTall: '高行' },
   snapsHint: '吸附到帧、关键帧、标记、播放头和控制板的时间步；按住Alt暂停',
   ripplesHint: '改动后面的内容跟着移动',
   previewHint: '在身体图上显示播放头处的姿态。不会移动机器人。',
