@@ -1,15 +1,17 @@
-"""HTTP connections that cannot be held open by saying little: a request comes soon and whole, with a head of
-sane size, or the connection ends.
+"""Connections that cannot be held open by saying little: a request comes soon and whole, with a head of sane
+size; a WebSocket answers a ping; else the connection ends.
 
-Knows time and bytes, no request's meaning. uvicorn itself waits for ever; an upgraded connection is not ours
-any more.
+Knows time and bytes, no request's meaning. uvicorn itself waits for ever.
 """
 
 import asyncio
 from collections.abc import Callable
 
 from starlette.types import Scope
+from uvicorn._types import ASGISendEvent
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
+from uvicorn.protocols.utils import ClientDisconnected
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
 # Browsers open a connection or two ahead of need.
 FIRST_BYTE_S = 10.0
@@ -19,6 +21,11 @@ BODY_S = 30.0
 # Whoever has its answer and talks on may read it first.
 ANSWERED_S = 0.5
 HEAD_BYTES = 32 * 1024
+# A browser answers by itself, also for a page that sleeps. Who does not read never gets to the ping.
+PING_S = 10.0
+PONG_S = 10.0
+# For the words of the end to arrive.
+FAREWELL_S = 2.0
 
 ABORT = "servodeck.abort"
 
@@ -83,3 +90,20 @@ class ImpatientProtocol(HttpToolsProtocol):
         if self._timer:
             self._timer.cancel()
         self._timer = None if seconds is None else self.loop.call_later(seconds, self.transport.abort)
+
+
+class ImpatientSocket(WebSocketsSansIOProtocol):
+    """To close is not enough: what was written and is not read would keep the connection for good."""
+
+    def keepalive_timeout(self) -> None:
+        super().keepalive_timeout()
+        self.transport.abort()
+
+    async def send(self, message: ASGISendEvent) -> None:
+        if self.close_sent:  # nobody's mistake: it was on its way when the end came
+            raise ClientDisconnected
+        await super().send(message)
+
+    async def run_asgi(self) -> None:
+        await super().run_asgi()
+        self.loop.call_later(FAREWELL_S, self.transport.abort)

@@ -21,7 +21,7 @@ from starlette.types import ASGIApp
 from servodeck import __version__, supervisor
 from servodeck.control import Control
 from servodeck.errors import PortError
-from servodeck.impatient import ImpatientProtocol
+from servodeck.impatient import PING_S, PONG_S, ImpatientProtocol, ImpatientSocket
 
 MESSAGE_BYTES = 16 * 1024
 LEAVE_S = 1
@@ -39,7 +39,9 @@ class Server(uvicorn.Server):
             uvicorn.Config(
                 app,
                 http=ImpatientProtocol,
-                ws="websockets-sansio",
+                ws=ImpatientSocket,
+                ws_ping_interval=PING_S,
+                ws_ping_timeout=PONG_S,
                 ws_per_message_deflate=False,
                 ws_max_size=MESSAGE_BYTES,
                 timeout_graceful_shutdown=LEAVE_S,

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import socket
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Any
@@ -86,3 +87,21 @@ def lease_of(connection: ClientConnection) -> str:
     while (message := json.loads(connection.recv(5)))["type"] != "tick":
         pass
     return str(message["nonce"])
+
+
+def upgrade_at(host: str) -> bytes:
+    """The first words of a client that is written by hand, to do what no library does."""
+    return (
+        f"GET /ws HTTP/1.1\r\nHost: {host}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+        "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+    ).encode()
+
+
+async def deaf_at(address: tuple[str, int]) -> socket.socket:
+    """A client on the WebSocket that never reads."""
+    made = socket.socket()
+    made.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    made.setblocking(False)
+    await asyncio.get_running_loop().sock_connect(made, address)
+    await asyncio.get_running_loop().sock_sendall(made, upgrade_at(f"{address[0]}:{address[1]}"))
+    return made

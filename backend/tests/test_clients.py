@@ -2,7 +2,6 @@
 
 import asyncio
 import json
-import socket
 from collections.abc import AsyncIterator
 from typing import Any
 
@@ -11,6 +10,8 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
+from servodeck import impatient
+from tests.client import deaf_at
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, RUN, STOP
@@ -125,17 +126,10 @@ async def test_bytes_and_giants_end_the_connection(gateway: Running) -> None:
 
 
 async def test_a_client_that_never_reads_is_dropped_and_the_others_lose_nothing(
-    port: FakePort, gateway: Running
+    port: FakePort, gateway: Running, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    lazy = socket.socket()
-    lazy.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-    lazy.setblocking(False)
-    await asyncio.get_running_loop().sock_connect(lazy, gateway.address)
-    handshake = (
-        f"GET /ws HTTP/1.1\r\nHost: {gateway.host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-        "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
-    )
-    await asyncio.get_running_loop().sock_sendall(lazy, handshake.encode())
+    monkeypatch.setattr(impatient, "FAREWELL_S", 0.1)
+    lazy = await deaf_at(gateway.address)
     async with connect(gateway.ws, max_queue=None) as client:
         await hear_until(client, "welcome")
         noises, rounds = 0, 0
@@ -149,6 +143,9 @@ async def test_a_client_that_never_reads_is_dropped_and_the_others_lose_nothing(
         nonce = await drive(client)
         await say(client, type="send", id=1, packet=MOVE.hex(), nonce=nonce)
         assert await hear_until(client, "sent") == {"type": "sent", "id": 1}
+        async with asyncio.timeout(PATIENCE_S):
+            while len(gateway.server.server_state.connections) > 1:  # noqa: ASYNC110 (nothing announces it)
+                await asyncio.sleep(0.01)
     lazy.close()
 
 

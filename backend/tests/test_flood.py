@@ -15,6 +15,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 
 from tests.amount import TIMES
+from tests.bus import kept_waiting_s
 from tests.test_cli import Served
 from tests.test_clients import hear_until, say
 
@@ -48,10 +49,11 @@ class Flooders:
         self.host = served.url.removeprefix("http://")
         self.ends: list[tuple[float, int | None]] = []
         self.knocks = 0
+        self._pids = (served.process.pid, os.getpid())
 
     async def shout(self) -> None:
         """Until it is sent away."""
-        begun_s = time.monotonic()
+        begun_s = time.monotonic() - self._kept_waiting_s()
         async with connect(self.ws, max_queue=None) as client:
             listening = asyncio.create_task(drain(client))
             with suppress(ConnectionClosed):
@@ -61,7 +63,8 @@ class Flooders:
                     await asyncio.sleep(1 / BURSTS_PER_S)
             await client.close()  # unless it was sent away
             await listening
-            self.ends.append((time.monotonic() - begun_s, client.close_code))
+            lasted_s = time.monotonic() - self._kept_waiting_s() - begun_s
+            self.ends.append((lasted_s, client.close_code))
 
     async def knock(self) -> None:
         """A handshake: of a page of another site, of our own, or given up half-way."""
@@ -75,6 +78,10 @@ class Flooders:
                 return
             async with connect(self.ws, additional_headers=headers, open_timeout=ANSWERED_WITHIN_S):
                 pass
+
+    def _kept_waiting_s(self) -> float:
+        """So far, by whatever else runs on this machine, and by one another where it has a single core."""
+        return sum(kept_waiting_s(pid) for pid in self._pids)
 
 
 async def drain(client: ClientConnection) -> None:
@@ -122,7 +129,7 @@ async def test_who_says_too_much_is_sent_away(served: Served) -> None:
     async with responsive(served):
         await asyncio.gather(*(for_a_while(flooders.shout) for _ in range(FLOODERS)))
     assert {code for _, code in flooders.ends} == {TOO_MANY}
-    assert max(lasted_s for lasted_s, _ in flooders.ends) <= CLOSED_WITHIN_S + ANSWERED_WITHIN_S
+    assert max(lasted_s for lasted_s, _ in flooders.ends) <= CLOSED_WITHIN_S
 
 
 async def test_who_only_knocks_keeps_nobody_out(served: Served) -> None:

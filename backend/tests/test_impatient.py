@@ -6,7 +6,8 @@ import time
 import pytest
 from websockets.asyncio.client import connect
 
-from servodeck import impatient
+from servodeck import impatient, server
+from tests.client import upgrade_at
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
 from tests.test_clients import hear_until
@@ -104,3 +105,29 @@ async def test_a_page_that_says_nothing_more_stays(monkeypatch: pytest.MonkeyPat
         await asyncio.sleep(0.4)
         await client.send('{"type":"stop","hold":null}')
         await hear_until(client, "halted")
+
+
+async def test_who_answers_no_ping_is_gone_and_who_does_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server, "PING_S", 0.1)
+    monkeypatch.setattr(server, "PONG_S", 0.3)
+    async with server_on(FakePorts(FakePort())) as gateway, connect(gateway.ws) as client:
+        reader, writer = await asyncio.open_connection(*gateway.address)
+        writer.write(upgrade_at(gateway.host))
+        assert await ends_after_s(reader) <= 0.4 + MARGIN_S
+        writer.close()
+        await client.send('{"type":"stop","hold":null}')
+        await hear_until(client, "halted")
+
+
+async def test_what_was_to_be_said_when_that_end_comes_is_no_mistake(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    async with server_on(FakePorts(FakePort())) as gateway, connect(gateway.ws) as client:
+        await hear_until(client, "welcome")
+        (seat,) = gateway.control.hub.seats
+        (served,) = gateway.server.server_state.connections
+        assert isinstance(served, impatient.ImpatientSocket)
+        seat.put("{}")
+        served.keepalive_timeout()
+        await client.wait_closed()
+    assert [record for record in caplog.records if record.levelname == "ERROR"] == []

@@ -7,7 +7,6 @@ import json
 import os
 import random
 import signal
-import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -19,6 +18,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
 from tests.amount import named, seeds
+from tests.bus import MARGIN_S, PATIENCE_S, Bus, bus_of_pty, serving
 from tests.client import lease_of
 from tests.samples import MOVE, MOVE_ELSEWHERE, STOP
 from tests.test_cli import END_S, Served
@@ -26,63 +26,14 @@ from tests.test_library_api import body
 from tests.test_ports import Pty
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals and ptys need POSIX")
-READY_S = 3.0
-# Others run on this machine, too.
-MARGIN_S = 3.0
-PATIENCE_S = 15.0
 OLDEST_MOTION_S = 0.5
-QUIET_S = 0.3
 DOWNLOAD_HEAD = bytes.fromhex("55550b1908")
-
-
-class Bus:
-    """All that reaches the board, with its time, from one process after the other."""
-
-    def __init__(self, pty: Pty) -> None:
-        self._pty = pty
-        self._taken: list[tuple[float, bytes]] = []
-        self._ended = threading.Event()
-        self._reader = threading.Thread(target=self._read, daemon=True)
-        self._reader.start()
-
-    def since(self, begin_s: float) -> bytes:
-        return b"".join(data for at_s, data in self._taken if at_s >= begin_s)
-
-    def rest(self) -> None:
-        """Until nothing has come for a while."""
-        while self._taken and time.monotonic() - self._taken[-1][0] < QUIET_S:
-            time.sleep(0.02)
-
-    def until_stopped(self, begin_s: float, served: Served) -> None:
-        while STOP not in self.since(begin_s):
-            if time.monotonic() - begin_s > PATIENCE_S:
-                pytest.fail(f"{self.since(begin_s)!r} {httpx2.get(f'{served.url}/api/status').text}")
-            time.sleep(0.01)
-
-    def end(self) -> None:
-        self._ended.set()
-        self._reader.join()
-
-    def _read(self) -> None:
-        while not self._ended.is_set():
-            try:
-                data = os.read(self._pty.board, 4096)
-            except BlockingIOError:
-                time.sleep(0.002)
-            except OSError:  # between two openings of the port nobody is at its other end
-                time.sleep(0.005)
-            else:
-                self._taken.append((time.monotonic(), data))
 
 
 @pytest.fixture
 def bus_on() -> Iterator[tuple[Pty, Bus]]:
-    pty = Pty()
-    os.set_blocking(pty.board, False)
-    bus = Bus(pty)
-    yield pty, bus
-    bus.end()
-    pty.unplug()
+    with bus_of_pty() as both:
+        yield both
 
 
 class Driver:
@@ -237,24 +188,6 @@ def test_whatever_ends_it_the_next_start_moves_nothing_and_lost_nothing(
         for name, text in acknowledged.items():
             answer = client.get(f"{served.url}/api/library/{name}")
             assert (name, answer.json().get("text")) == (name, text)
-
-
-@contextlib.contextmanager
-def serving(pty: Pty, folder: Path) -> Iterator[Served]:
-    begun_s = time.monotonic()
-    served = Served("--board", "doc", "--data", str(folder), pty=pty)
-    try:
-        assert time.monotonic() - begun_s - kept_waiting_s(served.process.pid) <= READY_S
-        yield served
-    finally:
-        served.process.kill()
-        sys.stderr.write(served.process.communicate()[1])  # its log, beside what failed
-
-
-def kept_waiting_s(pid: int) -> float:
-    """How long others had the processor while that process wanted it; a guess where nobody tells."""
-    stat = Path(f"/proc/{pid}/schedstat")
-    return int(stat.read_text().split()[1]) / 1e9 if stat.exists() else MARGIN_S
 
 
 def live_and_end(end: str, pty: Pty, bus: Bus, folder: Path, chance: random.Random) -> dict[str, str]:
