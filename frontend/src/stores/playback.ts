@@ -17,7 +17,7 @@ import type { Document } from './document.ts';
 import { chosenPlace } from './groupPlace.ts';
 import { createFollower, type FollowedPose } from './follower.ts';
 import type { Notices } from './notices.ts';
-import { previewedAt, type PreviewRun } from './previewRun.ts';
+import { boardAt, pageAt, previewAt, type PagePlay, type PreviewPlay } from './playedAt.ts';
 import { startHindrance } from './readiness.ts';
 import type { RobotStore } from './robots.ts';
 import { isSilent, servoViewFor } from './servoView.ts';
@@ -88,14 +88,6 @@ export interface PlaybackOptions {
 
 const NEAR_END_MS = 100;
 
-/** What plays from the page: which of its frames began when. */
-interface Following {
-  readonly passage: Passage;
-  readonly index: number;
-  readonly beganMs: number;
-  readonly isLead: boolean;
-}
-
 export function createPlayback(options: PlaybackOptions): Playback {
   const { device, document, compiled, slots, notices, view, playhead, robots } = options;
   const { clock } = device;
@@ -103,8 +95,8 @@ export function createPlayback(options: PlaybackOptions): Playback {
     ...{ speedPercent: 100, loops: false, isLive: false, phase: null },
   }));
   const follower = createFollower(device);
-  let following: Following | null = null;
-  let previewing: PreviewRun | null = null;
+  let following: PagePlay | null = null;
+  let previewing: PreviewPlay | null = null;
 
   function poseAt(atMs: number): FollowedPose {
     const pose = poseAtMs(tracksOf(document.store.getState().present), atMs);
@@ -264,36 +256,25 @@ export function createPlayback(options: PlaybackOptions): Playback {
     if (lengthMs - playhead.at() < NEAR_END_MS) playhead.go(lengthMs);
   }
 
-  function followPreview(run: PreviewRun): void {
-    const atMs = previewedAt(run, clock.now());
-    playhead.go(Math.round(atMs ?? run.toMs));
+  function showPreview(play: PreviewPlay): void {
+    const atMs = previewAt(play, clock.now());
+    playhead.go(Math.round(atMs ?? play.toMs));
     if (atMs === null) endPreview();
   }
 
-  function follow({ passage, index, beganMs, isLead }: Following): void {
-    const { frames, atMs, beginMs } = passage;
-    const to = atMs[index] ?? 0;
-    const durationMs = frames[index]?.durationMs ?? 0;
-    const from = index === 0 ? (isLead ? to : beginMs) : (atMs[index - 1] ?? 0);
-    const share = durationMs === 0 ? 1 : Math.min(1, (clock.now() - beganMs) / durationMs);
-    playhead.go(Math.round(from + (to - from) * share));
-  }
-
   /** By the clock since the board took it, as long as it is this group that runs. */
-  function followBoard(): void {
+  function showBoard(): void {
     const now = activity();
     if (now.kind !== 'running') return;
     const { latest } = compiled.store.getState();
     const record = recordOf(slots.store.getState().book, now.slot);
     if (record?.fingerprint !== latest.fingerprint) return;
-    const { family } = latest.source;
-    const onceMs = passMs(record.frames, { family, playedFrames: () => null });
-    const lengthMs = frameEnds(record.frames).at(-1) ?? 0;
-    const passedMs = clock.now() - now.sinceMs;
-    const inPass = now.times > 0 ? Math.min(passedMs, onceMs * now.times) : passedMs;
-    const share =
-      onceMs === 0 ? 1 : now.times > 0 && inPass === onceMs * now.times ? 1 : (inPass % onceMs) / onceMs;
-    playhead.go(Math.round(share * lengthMs));
+    const play = {
+      ...{ beganMs: now.sinceMs, times: now.times },
+      passMs: passMs(record.frames, { family: latest.source.family, playedFrames: () => null }),
+      lengthMs: frameEnds(record.frames).at(-1) ?? 0,
+    };
+    playhead.go(Math.round(boardAt(play, clock.now())));
   }
 
   function step(direction: 1 | -1): void {
@@ -322,9 +303,9 @@ export function createPlayback(options: PlaybackOptions): Playback {
     pause,
     step,
     frame() {
-      if (previewing !== null) followPreview(previewing);
-      else if (following !== null) follow(following);
-      else followBoard();
+      if (previewing !== null) showPreview(previewing);
+      else if (following !== null) playhead.go(Math.round(pageAt(following, clock.now())));
+      else showBoard();
       if (store.getState().isLive) followPlayhead();
     },
     hidden() {
