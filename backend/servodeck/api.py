@@ -12,6 +12,7 @@ from pydantic import Field
 from starlette.requests import HTTPConnection
 
 from servodeck import __version__
+from servodeck.background import in_thread
 from servodeck.callers import Caller
 from servodeck.clients import serve_client
 from servodeck.control import Control
@@ -20,7 +21,7 @@ from servodeck.errors import ErrorCode, OutOfRangeError
 from servodeck.gate import judge_script
 from servodeck.messages import Message, PortState, UnattendedRun
 from servodeck.packets import FAMILIES
-from servodeck.ports import list_devices
+from servodeck.ports import lasting_of, list_devices
 from servodeck.roles import DRIVER, OWNER, STOPPER, VIEWER
 
 
@@ -146,18 +147,23 @@ def ports(control: Controlled) -> list[Device]:
 @api.put("/port", dependencies=[OWNER])
 async def use_port(choice: PortChoice, control: Controlled) -> PortState:
     """Opens that port instead of the present one. After a failure it is tried again and again, as `status`
-    tells.
+    tells. One that opened is opened again at the next start, unless `--serial` names one.
     """
     if choice.board is not None and choice.board not in FAMILIES:
         raise OutOfRangeError(f"board is {choice.board}, allowed: {', '.join(FAMILIES)}")
     await control.use_port(choice.device, choice.board)
+    found = await in_thread(list_devices, undo=lambda _: None)
+    control.remembered.remember_port(lasting_of(choice.device, found))
+    await control.remembered.kept()
     return control.board.port
 
 
 @api.delete("/port", dependencies=[OWNER])
 async def close_port(control: Controlled) -> PortState:
-    """Closes the port and leaves it closed."""
+    """Closes the port and leaves it closed, also after the next start."""
     await control.close_port()
+    control.remembered.remember_port(None)
+    await control.remembered.kept()
     return control.board.port
 
 

@@ -62,6 +62,7 @@ JOB = {
 }
 TEXT = '{"format": "servodeck-group", "version": 1}'
 FACTS = {
+    "kind": "group",
     "name": "Wave",
     "robot": "Arm, 6 servos",
     "tags": ["greeting"],
@@ -136,6 +137,11 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         {"timeMs": 1500, "take": False},
         (*ON_THE_WIRE, "cancelled", "notFound"),
     ),
+    ("PUT", "/api/robot"): Example(
+        None,
+        {"id": DOCUMENT, "insteadOf": None},
+        ("conflict", "notDriving", "notFound", "outOfRange"),
+    ),
     ("GET", "/api/ports"): Example(
         [{"device": "/dev/ttyUSB0", "description": "USB Serial", "likely": True, "lasting": PORT["device"]}],
     ),
@@ -152,7 +158,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ("PUT", "/api/library/{document}"): Example(
         {"revision": 5},
         {"text": TEXT, "facts": FACTS, "expected": 4, "isRemoved": False},
-        ("conflict", "tooLarge", "storageFull", "storageBusy"),
+        ("conflict", "notDriving", "tooLarge", "storageFull", "storageBusy"),
     ),
     ("GET", "/api/library/{document}/versions"): Example(
         [{"id": "v1", "name": "Before the show", "atMs": 1795284000000}],

@@ -32,6 +32,7 @@ from servodeck.people_api import people_api
 from servodeck.pose_shelf import PoseShelf
 from servodeck.poses_api import poses_api
 from servodeck.pulse import Pulse
+from servodeck.robots_api import robots_api
 from servodeck.roles import ANYBODY, require_roles
 from servodeck.scripts import Scripts
 from servodeck.supervisor import sign_of_life
@@ -77,6 +78,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     app.include_router(motion_api)
     app.include_router(people_api)
     app.include_router(poses_api)
+    app.include_router(robots_api)
     app.include_router(socket)
     add_docs(app)
     add_errors(app)

@@ -4,29 +4,23 @@ Knows one small file and names of boards; no port and no packet. A disk that tak
 download: then it is remembered until the gateway ends.
 """
 
-import asyncio
 import json
-import logging
-import threading
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from servodeck.background import in_thread
-from servodeck.small_file import write_whole
+from servodeck.small_file import FileBehind
 
 FILE = "broken-slots.json"
-DISK_WAIT_S = 1.0
-log = logging.getLogger("servodeck.robot")
 
 
 class BrokenSlots:
     def __init__(self, folder: Path | None = None) -> None:
         """Without a folder they are forgotten with the gateway."""
-        self._file = folder / FILE if folder else None
-        self._slots = read(self._file) if self._file else {}
-        self._lock = threading.Lock()
-        self._keeping: set[asyncio.Task[None]] = set()
+        file = folder / FILE if folder else None
+        self._slots = read(file) if file else {}
+        behind = FileBehind(file, self._text)
+        self.kept = behind.kept
+        self.keep_soon = behind.keep_soon
 
     def of(self, board: str) -> list[int]:
         return sorted(self._slots.get(board, ()))
@@ -40,28 +34,8 @@ class BrokenSlots:
     def clear(self, board: str) -> None:
         self._slots = {other: slots for other, slots in self._slots.items() if other != board}
 
-    async def kept(self) -> None:
-        """When the disk has it as it is now, or does not take it."""
-        if self._file is None:
-            return
-        with suppress(TimeoutError):
-            async with asyncio.timeout(DISK_WAIT_S):
-                await in_thread(self._write, undo=lambda _: None)
-
-    def keep_soon(self) -> None:
-        task = asyncio.create_task(self.kept())
-        self._keeping.add(task)
-        task.add_done_callback(self._keeping.discard)
-
-    def _write(self) -> None:
-        """In a thread; what it writes is asked within the lock, so that nothing older overwrites it."""
-        assert self._file
-        with self._lock:
-            text = json.dumps({board: sorted(slots) for board, slots in self._slots.items() if slots})
-            try:
-                write_whole(self._file, text)
-            except OSError as error:
-                log.warning("broken slots not kept", extra={"facts": {"detail": str(error)}})
+    def _text(self) -> str:
+        return json.dumps({board: sorted(slots) for board, slots in self._slots.items() if slots})
 
 
 def read(file: Path) -> dict[str, frozenset[int]]:

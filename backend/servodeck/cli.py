@@ -111,7 +111,9 @@ def serve(
     from servodeck.errors import StorageError
     from servodeck.greeting import greeting, urls_for_others
     from servodeck.library import Library
+    from servodeck.library_api import robots_in
     from servodeck.logs import set_up_logs
+    from servodeck.remembered import Remembered
     from servodeck.server import Server, leave_with_stdin
 
     board = board or ("doc" if simulated else UNKNOWN.id)
@@ -125,6 +127,9 @@ def serve(
     log = set_up_logs(log_level, log_format)
     url = url_of(listener)
     announcement = Announcement(entrance.access.port) if entrance.access.mode == "lan" else None
+    library = Library(folder)
+    remembered = Remembered(folder)
+    device = serial or remembered.port
     control = Control(
         BackgroundPorts(),
         time.monotonic,
@@ -133,6 +138,8 @@ def serve(
         simulated=simulated,
         epoch=first_epoch(folder),
         broken_slots=BrokenSlots(folder),
+        remembered=remembered,
+        read_robot=robots_in(library),
     )
 
     def ready() -> None:
@@ -143,9 +150,8 @@ def serve(
         if sys.stdout.isatty() if open_page is None else open_page:
             webbrowser.open(url)
 
-    library = Library(folder)
     app = create_app(control, library, entrance)
-    server = Server(app, control, serial or None, ready)
+    server = Server(app, control, device, ready)
     if exit_with_stdin:
         leave_with_stdin(server.leave)
     if announcement:

@@ -34,6 +34,7 @@ from servodeck.messages import (
     Message,
     NoiseMessage,
     ReceivedMessage,
+    RobotMessage,
     ServoLimits,
     StateMessage,
     WelcomeMessage,
@@ -41,7 +42,9 @@ from servodeck.messages import (
 )
 from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command
 from servodeck.relay import Relay
+from servodeck.remembered import Remembered
 from servodeck.robot import RobotLimits
+from servodeck.robot_of_board import ReadFacts, RobotOfBoard, no_robot
 from servodeck.wire import Job, Left, Owner, always
 
 log = logging.getLogger("servodeck.robot")
@@ -58,15 +61,20 @@ class Control:
         simulated: bool = False,
         epoch: int = 0,
         broken_slots: BrokenSlots | None = None,
+        remembered: Remembered | None = None,
+        read_robot: ReadFacts = no_robot,
     ) -> None:
         """`named_device` is the port named at the start: always offered, even where the system does not list
         it. `simulated`: what is behind it is no real board. `epoch`: leases are counted on from there.
-        Without `broken_slots` these are forgotten at the end.
+        Without `broken_slots` and `remembered` these are forgotten at the end.
+        `read_robot` asks the library.
         """
         self.named_device = named_device
         self.now = now
         self.latched_by: LatchedBy | None = None
         self.limits = RobotLimits()
+        self.remembered = remembered or Remembered()
+        self.robot = RobotOfBoard(self.limits, read_robot, self.remembered, self._robot_changed)
         self.hub = Hub()
         self.driving = Driving(self.hub, now, epoch, self)
         simulated_device = named_device if simulated else None
@@ -134,7 +142,7 @@ class Control:
 
     def name_board(self, seat: Seat, board: str) -> None:
         """Raises NotDrivingError where somebody else drives whatever else it was."""
-        if board != self.board.taken_for and not self.driving.may_rule(seat):
+        if board != self.board.taken_for and not self.driving.may_rule(seat.caller):
             raise NotDrivingError("Somebody else drives: which board it is changes only under their hands.")
         self.take_for(board)
 
@@ -147,6 +155,7 @@ class Control:
         if board != self.board.taken_for:
             self.board.take_for(board)
             self._forget_limits()
+            self._see_robot()
         self._tell_state()
 
     def let_go_on(self, seat: Seat, for_ms: int | None) -> None:
@@ -167,7 +176,7 @@ class Control:
         """How far the robot's servos may be turned, by whoever said so last; every other client is told.
         Who may not say so now is told what holds.
         """
-        if not self.driving.may_rule(seat):
+        if not self.driving.may_rule(seat.caller):
             seat.put(encode(LimitsMessage(type="limits", servos=self.limits.told())))
             return
         self.limits.set(servos)
@@ -193,12 +202,14 @@ class Control:
     async def use_port(self, device: str, board: str | None = None) -> None:
         await self.board.quiet()
         self._forget_limits()
+        self.robot.leave()
         self.board.taken_for = board or self.board.taken_for
         await self.board.link.use(device)
 
     async def close_port(self) -> None:
         await self.board.quiet()
         self._forget_limits()
+        self.robot.leave()
         await self.board.link.close()
 
     async def shut_down(self) -> None:
@@ -213,6 +224,7 @@ class Control:
         self.latched_by = "loss"  # the change of the port's state follows and tells both
 
     def board_changed(self) -> None:
+        self._see_robot()
         self._tell_state()
 
     def job_changed(self, state: JobState) -> None:
@@ -289,6 +301,7 @@ class Control:
             clients=len(self.hub),
             unattended=self.board.unattended.told(),
             limits=self.limits.told(),
+            robot=self.robot.told(),
             lease=self.driving.state_for(seat),
             broken_slots=self.board.broken_slots,
             job=self.board.jobs.latest,
@@ -308,6 +321,14 @@ class Control:
 
     def _tell(self, message: Message, but: Seat | None = None) -> None:
         self.hub.tell_all(encode(message), but)
+
+    def _see_robot(self) -> None:
+        link = self.board.link
+        if link.state.status == "open":
+            self.robot.stands_on(self.board.taken_for, link.place)
+
+    def _robot_changed(self) -> None:
+        self._tell(RobotMessage(robot=self.robot.told()))
 
     def _forget_limits(self) -> None:
         if self.limits.told():

@@ -90,9 +90,9 @@ class Driving:
         """Raises NotDrivingError or ExpiredError."""
         self._lease.judge(permit, self._now())
 
-    def may_rule(self, seat: Seat) -> bool:
-        """Whether it may change what moves are judged by: while another drives, only an owner may."""
-        return self.driver in (None, seat) or seat.caller.may("owner")
+    def may_rule(self, caller: Caller) -> bool:
+        """Whether they may change what moves are judged by: while another drives, only an owner may."""
+        return self.driver is None or self.driver.caller.id == caller.id or caller.may("owner")
 
     def state_for(self, seat: Seat) -> LeaseState:
         lease = self._lease

@@ -65,23 +65,44 @@ class Library:
         with self._transaction("BEGIN") as db:
             return found(db.execute("SELECT text, revision FROM document WHERE id = ?", (document,)))
 
-    def write(self, document: str, text: str, facts: str, expected: int, *, is_removed: bool = False) -> int:
-        """Its new revision. Raises a ConflictError where it is not at `expected` and holds another text. The
-        same text sent again, because the answer was lost, is no conflict; one that is not here is taken in.
+    def facts_of(self, document: str, kind: str) -> tuple[str, int]:
+        """What a list says of one of that kind outside the trash, and its revision."""
+        with self._transaction("BEGIN") as db:
+            return found(
+                db.execute(
+                    "SELECT facts, revision FROM document "
+                    "WHERE id = ? AND kind = ? AND removed_at_ms IS NULL",
+                    (document, kind),
+                )
+            )
+
+    def write(
+        self,
+        document: str,
+        text: str,
+        facts: str,
+        expected: int,
+        *,
+        kind: str = "group",
+        is_removed: bool = False,
+    ) -> int:
+        """Its new revision. Raises a ConflictError where it is not at `expected` and holds another text, or
+        is of another kind. The same text sent again, because the answer was lost, is no conflict; one that is
+        not here is taken in.
         """
         with self._transaction() as db:
-            row = db.execute("SELECT revision, text FROM document WHERE id = ?", (document,)).fetchone()
+            row = db.execute("SELECT revision, text, kind FROM document WHERE id = ?", (document,)).fetchone()
             if row is None:
                 require_room(db, "document", (), MAX_DOCUMENTS)
-            elif row[1] != text and row[0] != expected:
+            elif (row[1] != text and row[0] != expected) or row[2] != kind:
                 raise ConflictError("Somebody else has changed this document meanwhile.")
             revision = row[0] if row and row[1] == text else expected + 1
             removed_at_ms = self._now_ms() if is_removed else None
             db.execute(
-                "INSERT INTO document VALUES (?, ?, ?, ?, ?) ON CONFLICT (id) DO UPDATE SET "
+                "INSERT INTO document VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT (id) DO UPDATE SET "
                 "revision = excluded.revision, removed_at_ms = excluded.removed_at_ms, "
                 "facts = excluded.facts, text = excluded.text",
-                (document, revision, removed_at_ms, facts, text),
+                (document, revision, removed_at_ms, facts, text, kind),
             )
             return int(revision)
 

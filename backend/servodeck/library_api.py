@@ -1,30 +1,35 @@
 """The library over HTTP. Translates between messages and `library`; decides only what text is a document.
 
-Plain functions, because the library waits for a disk: they run in threads, where STOP does not wait for them.
+The library waits for a disk: in threads, where STOP does not wait for it. The gateway itself goes by
+the robot on the board, which is told behind it.
 """
 
 import json
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Path
+from starlette.concurrency import run_in_threadpool
 from starlette.requests import HTTPConnection
 
-from servodeck.api import Problem, called_by_own_page
+from servodeck.api import Controlled, Problem, called_by_own_page
 from servodeck.callers import Caller
-from servodeck.errors import MalformedError
+from servodeck.control import Control
+from servodeck.errors import MalformedError, NotDrivingError
 from servodeck.library import Library, Version
 from servodeck.library_messages import (
     DocumentIds,
     DocumentWrite,
     DocumentWritten,
-    Facts,
     LibraryListing,
     ListedDocument,
     ListedVersion,
+    RobotFacts,
     StoredDocument,
     VersionText,
     VersionWrite,
+    facts_of,
 )
+from servodeck.robot_of_board import ReadFacts
 from servodeck.roles import DRIVER, OWNER, VIEWER
 
 
@@ -32,6 +37,16 @@ async def library_of(connection: HTTPConnection) -> Library:
     library = connection.app.state.library
     assert isinstance(library, Library)
     return library
+
+
+def robots_in(library: Library) -> ReadFacts:
+    """What the robot on the board is read by."""
+
+    def read(document: str) -> tuple[RobotFacts, int]:
+        facts, revision = library.facts_of(document, "robot")
+        return RobotFacts.model_validate_json(facts), revision
+
+    return read
 
 
 Kept = Annotated[Library, Depends(library_of)]
@@ -51,7 +66,7 @@ def list_documents(library: Kept) -> LibraryListing:
             id=one.id,
             revision=one.revision,
             is_removed=one.is_removed,
-            facts=Facts.model_validate_json(one.facts),
+            facts=facts_of.validate_json(one.facts),
         )
         for one in library.list()
     ]
@@ -59,9 +74,10 @@ def list_documents(library: Kept) -> LibraryListing:
 
 
 @library_api.post("/remove", status_code=204, dependencies=[OWNER])
-def remove(documents: DocumentIds, library: Kept) -> None:
+async def remove(documents: DocumentIds, library: Kept, control: Controlled) -> None:
     """Puts them into the trash for 30 days: all or none."""
-    library.remove(documents.ids)
+    await run_in_threadpool(library.remove, documents.ids)
+    control.robot.removed(documents.ids)
 
 
 @library_api.post("/restore", status_code=204, dependencies=[DRIVER])
@@ -78,16 +94,44 @@ def read(document: Id, library: Kept) -> StoredDocument:
 
 
 @library_api.put("/{document}")
-def write(
-    document: Id, wanted: DocumentWrite, library: Kept, caller: Annotated[Caller, DRIVER]
+async def write(
+    document: Id,
+    wanted: DocumentWrite,
+    library: Kept,
+    control: Controlled,
+    caller: Annotated[Caller, DRIVER],
 ) -> DocumentWritten:
-    """Keeps a text; 412, and nothing changed, where the document is at another revision with another text."""
+    """Keeps a text; 412, and nothing changed, where the document is at another revision with another text.
+    While somebody drives only they and owners change the limits of the robot on the board.
+    """
+    judge_limits(document, wanted, control, caller)
+    revision = await run_in_threadpool(keep, document, wanted, library, caller)
+    if isinstance(wanted.facts, RobotFacts):
+        control.robot.written(document, revision, wanted.facts)
+    return DocumentWritten(revision=revision)
+
+
+def judge_limits(document: str, wanted: DocumentWrite, control: Control, caller: Caller) -> None:
+    facts = wanted.facts
+    is_ruled = isinstance(facts, RobotFacts) and control.robot.changes_limits(document, facts)
+    if is_ruled and not control.driving.may_rule(caller):
+        raise NotDrivingError("Somebody else drives: the limits change only under their hands.")
+
+
+def keep(document: str, wanted: DocumentWrite, library: Library, caller: Caller) -> int:
+    """Waits for the disk."""
     check_document(wanted.text)
-    facts = wanted.facts.model_dump_json()
     if wanted.is_removed and not caller.may("owner"):
         library.require_removed(document)
-    revision = library.write(document, wanted.text, facts, wanted.expected, is_removed=wanted.is_removed)
-    return DocumentWritten(revision=revision)
+    facts = wanted.facts
+    return library.write(
+        document,
+        wanted.text,
+        facts.model_dump_json(),
+        wanted.expected,
+        kind=facts.kind,
+        is_removed=wanted.is_removed,
+    )
 
 
 @library_api.get("/{document}/versions", dependencies=[VIEWER])

@@ -23,6 +23,10 @@ STEPS: Sequence[Sequence[str]] = (
         "id TEXT NOT NULL, name TEXT NOT NULL, at_ms INTEGER NOT NULL, text TEXT NOT NULL, "
         "PRIMARY KEY (document, id))",
     ),
+    (
+        "ALTER TABLE document ADD COLUMN kind TEXT NOT NULL DEFAULT 'group'",
+        "UPDATE document SET facts = json_set(facts, '$.kind', 'group')",
+    ),
 )
 
 DAMAGED = frozenset({sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB})

@@ -8,9 +8,9 @@ import json
 import sys
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, TypeAdapter
 
-from servodeck.messages import Message, schema_of
+from servodeck.messages import Message, ServoLimits, schema_of
 
 MAX_SAFE = 2**53 - 1
 MAX_TEXT = 2 * 1024 * 1024
@@ -28,9 +28,10 @@ class PoseTarget(Message):
     position: Annotated[int, Field(ge=0, le=0xFFFF)]
 
 
-class Facts(Message):
-    """What a list says of a document without reading it; `pose` is its picture."""
+class GroupFacts(Message):
+    """What a list says of an action group without reading it; `pose` is its picture."""
 
+    kind: Literal["group"]
     name: Name
     robot: Name
     tags: Annotated[list[Name], Field(max_length=20)]
@@ -39,6 +40,32 @@ class Facts(Message):
     duration_ms: Whole
     unit: Literal["us", "steps"]
     pose: Annotated[list[PoseTarget], Field(max_length=256)]
+
+
+class NamedPose(Message):
+    """`id` stays when it is named anew. `targets` are some of the robot's servos, as its board counts."""
+
+    id: Whole
+    name: Annotated[str, Field(min_length=1, max_length=64)]
+    unit: Literal["us", "steps"]
+    targets: Annotated[list[PoseTarget], Field(min_length=1, max_length=253)]
+
+
+class RobotFacts(Message):
+    """What the gateway itself needs to know of a robot: how far its servos may be turned and the poses that
+    programs go to, as the board counts.
+    """
+
+    kind: Literal["robot"]
+    name: Name
+    board: Name
+    updated_at_ms: Whole
+    limits: Annotated[list[ServoLimits], Field(max_length=253)]
+    poses: Annotated[list[NamedPose], Field(max_length=1001)]
+
+
+Facts = Annotated[GroupFacts | RobotFacts, Field(discriminator="kind")]
+facts_of: TypeAdapter[GroupFacts | RobotFacts] = TypeAdapter(Facts)
 
 
 class ListedDocument(Message):

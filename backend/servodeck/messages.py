@@ -152,6 +152,13 @@ class LimitsMessage(Message):
     servos: Annotated[list[ServoLimits], Field(max_length=253)]
 
 
+class RobotTold(Message):
+    """The robot on the board: which document of the library, at which revision; 0 while it is read."""
+
+    id: str
+    revision: int
+
+
 class CalibrateMessage(Message):
     """This client looks for the limits of `servo` and may pass the present ones with it, until `null` or the
     end of its connection.
@@ -219,6 +226,7 @@ class WelcomeMessage(Message):
     clients: int
     unattended: UnattendedRun | None
     limits: list[ServoLimits]
+    robot: RobotTold | None
     lease: LeaseState
     broken_slots: list[int]
     job: JobState | None
@@ -280,6 +288,13 @@ class JobMessage(Message):
     job: JobState
 
 
+class RobotMessage(Message):
+    """Another robot stands on the board now, or any robot of the library has changed: look there."""
+
+    type: Literal["robot"] = "robot"
+    robot: RobotTold | None
+
+
 class LeaseToldMessage(Message):
     """Something of the lease changed."""
 
@@ -310,6 +325,7 @@ GatewayMessage = Annotated[
     | HaltedMessage
     | StateMessage
     | LimitsMessage
+    | RobotMessage
     | LeaseToldMessage
     | TickMessage
     | LeftMessage

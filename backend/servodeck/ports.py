@@ -7,7 +7,7 @@ event loop: every call here may block for a moment.
 import errno
 import os
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
@@ -194,6 +194,12 @@ def describe(port: Any) -> PortInfo:
     has_number = (port.serial_number or "") not in SHARED_NUMBERS
     lasting = lasting_name(device, has_number=has_number)
     return PortInfo(device, str(text), likely=port.vid in LIKELY_VENDORS, lasting=lasting)
+
+
+def lasting_of(device: str, found: Iterable[PortInfo]) -> str:
+    """What leads there after the next start, too, as far as the system keeps such a name."""
+    real = os.path.realpath(device)
+    return next((port.lasting for port in found if port.device == real and port.lasting), device)
 
 
 def lasting_name(device: str, *, has_number: bool) -> str | None:

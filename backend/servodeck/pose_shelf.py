@@ -4,25 +4,16 @@ Knows one small file; no board and no route. May be called from any thread; bloc
 """
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field, ValidationError
 
 from servodeck.errors import NotFoundError, OutOfRangeError, StorageError
-from servodeck.library_messages import Name, PoseTarget, Whole
+from servodeck.library_messages import Name, NamedPose
 from servodeck.messages import Message
 from servodeck.small_file import write_whole
 
 FILE = "poses.json"
-
-
-class NamedPose(Message):
-    """`id` stays when it is named anew. `targets` are some of the robot's servos or all."""
-
-    id: Whole
-    name: Annotated[str, Field(min_length=1, max_length=64)]
-    unit: Literal["us", "steps"]
-    targets: Annotated[list[PoseTarget], Field(min_length=1, max_length=253)]
 
 
 class Poses(Message):

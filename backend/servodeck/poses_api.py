@@ -13,10 +13,11 @@ from starlette.requests import HTTPConnection
 from servodeck.api import Controlled, Problem, called_by_own_page
 from servodeck.errors import OutOfRangeError
 from servodeck.families import Family
+from servodeck.library_messages import NamedPose
 from servodeck.limits import UNITS
 from servodeck.messages import Message
 from servodeck.motion_api import Driving, MoveBegun, Scripted, Take, begin_move
-from servodeck.pose_shelf import NamedPose, Poses, PoseShelf
+from servodeck.pose_shelf import Poses, PoseShelf
 from servodeck.roles import DRIVER, VIEWER
 
 

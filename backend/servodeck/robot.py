@@ -6,7 +6,7 @@ come here; this holds for every program that moves the robot.
 
 from collections.abc import Iterable
 
-from servodeck.errors import OutOfRangeError
+from servodeck.errors import MovingError, OutOfRangeError
 from servodeck.messages import ServoLimits
 from servodeck.packets import parse_command
 from servodeck.values import Command, Download, Move, ServoTarget
@@ -17,10 +17,16 @@ class RobotLimits:
     def __init__(self) -> None:
         self._limits: dict[int, ServoLimits] = {}
         self._calibrating: dict[Owner, int] = {}
+        self._are_awaited = False
+
+    def await_them(self) -> None:
+        """There are some, and nobody knows them yet: until `set` or `clear` nothing moves."""
+        self._are_awaited = True
 
     def set(self, servos: Iterable[ServoLimits]) -> None:
         """In place of all that was set before."""
         self._limits = {limits.servo: limits for limits in servos}
+        self._are_awaited = False
 
     def told(self) -> list[ServoLimits]:
         return list(self._limits.values())
@@ -46,11 +52,15 @@ class RobotLimits:
         """It is another board's robot now."""
         self._limits.clear()
         self._calibrating.clear()
+        self._are_awaited = False
 
     def judge(self, packet: bytes, owner: Owner) -> None:
-        """Raises OutOfRangeError that names the servo and its range."""
+        """Raises OutOfRangeError that names the servo and its range, or MovingError."""
         free = self._calibrating.get(owner)
-        for target in targets_of(parse_command(packet)):
+        targets = targets_of(parse_command(packet))
+        if targets and self._are_awaited:
+            raise MovingError("The limits of this robot are still being read: try again.")
+        for target in targets:
             limits = self._limits.get(target.servo)
             if limits and target.servo != free and not limits.min <= target.position <= limits.max:
                 raise OutOfRangeError(

@@ -19,8 +19,10 @@ from servodeck.control import Control
 from servodeck.devices import Devices, NoShelf
 from servodeck.entrance import Entrance
 from servodeck.library import Library, wall_clock_ms
+from servodeck.library_api import robots_in
 from servodeck.link import Ports
 from servodeck.page import STATIC
+from servodeck.remembered import Remembered
 from servodeck.server import Server
 
 PORT = 8300
@@ -34,6 +36,10 @@ def entrance_to(where: Access | None = None, now: Callable[[], float] = time.mon
     return Entrance(where or access.local(PORT), Devices(NoShelf(), wall_clock_ms), now)
 
 
+def remembered_in(library: Library) -> Remembered:
+    return Remembered(None if library is NO_LIBRARY else library.folder)
+
+
 @asynccontextmanager
 async def http_to(
     ports: Ports,
@@ -44,10 +50,18 @@ async def http_to(
     entrance: Entrance | None = None,
 ) -> AsyncIterator[tuple[AsyncClient, Control]]:
     """A client of the application itself, and what stands behind it; its port is open when it starts."""
-    control = Control(ports, now, "doc", device)
+    library = library or NO_LIBRARY
+    control = Control(
+        ports,
+        now,
+        "doc",
+        device,
+        remembered=remembered_in(library),
+        read_robot=robots_in(library),
+    )
     if device:
         await control.use_port(device)
-    app = create_app(control, library or NO_LIBRARY, entrance or entrance_to(), static)
+    app = create_app(control, library, entrance or entrance_to(), static)
     async with client_of(app) as client:
         yield client, control
     await control.board.link.close()
@@ -85,7 +99,7 @@ async def server_on(
     """A real server on a free port."""
     listener = socket.create_server(("127.0.0.1", 0))
     port = listener.getsockname()[1]
-    control = Control(ports, time.monotonic, "doc", device)
+    control = Control(ports, time.monotonic, "doc", device, read_robot=robots_in(library))
     ready = asyncio.Event()
     entrance = entrance_to(make_access(port))
     server = Server(create_app(control, library, entrance), control, device, ready.set)

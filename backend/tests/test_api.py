@@ -64,14 +64,15 @@ async def test_stop_answers_when_the_stops_have_left_and_resume_moves_nothing() 
         assert port.packets() == [STOP] * 4
 
 
-@in_virtual_time
 async def test_a_port_is_chosen_and_closed() -> None:
     ports = FakePorts(FakePort(), FakePort())
-    async with http_to(ports, now) as (client, control):
+    async with http_to(ports, time.monotonic) as (client, control):
         chosen = await client.put("/api/port", json={"device": "/dev/other", "board": "lsc-16"})
         assert chosen.json() == {**OPEN, "device": "/dev/other"}
         assert control.board.taken_for == "lsc-16"
+        assert control.remembered.port == "/dev/other"
         assert (await client.delete("/api/port")).json() == CLOSED
+        assert control.remembered.port is None
         assert (await client.delete("/api/port")).json() == CLOSED
         refused = await client.get("/api/battery")
         assert (refused.status_code, refused.json()["code"]) == (409, "closed")
@@ -80,10 +81,11 @@ async def test_a_port_is_chosen_and_closed() -> None:
 @in_virtual_time
 async def test_a_port_that_cannot_be_had_is_refused_with_its_reason_and_tried_again() -> None:
     ports = FakePorts(PortBusyError("Another program uses it."), FakePort())
-    async with http_to(ports, now, device=None) as (client, _):
+    async with http_to(ports, now, device=None) as (client, control):
         refused = await client.put("/api/port", json={"device": DEVICE})
         assert refused.status_code == 503
         assert refused.json() == {"code": "portBusy", "detail": "Another program uses it."}
+        assert control.remembered.port is None
         assert (await client.get("/api/status")).json()["port"]["retryInMs"] == 250
         await asyncio.sleep(1)
         assert (await client.get("/api/status")).json()["port"] == OPEN

@@ -39,12 +39,13 @@ class Served:
         program: Sequence[str] = ("-m", "servodeck"),
         variables: Mapping[str, str] | None = None,
         pty: Pty | None = None,
+        is_named: bool = True,
     ) -> None:
-        """On a pty of its own; whoever brings one reads it."""
+        """On a pty of its own; whoever brings one reads it. Not `is_named`: nobody says which port."""
         self.pty = pty or Pty()
         command = [*before, sys.executable, *program, "serve", "--listen", "127.0.0.1:0"]
         self.process = subprocess.Popen(
-            [*command, "--serial", self.pty.device, *more],
+            [*command, *(["--serial", self.pty.device] if is_named else []), *more],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -89,6 +90,32 @@ def served() -> Iterator[Served]:
 def test_serve_tells_its_real_address_and_opens_the_port(served: Served) -> None:
     with urlopen(f"{served.url}/api/status") as answer:
         assert json.load(answer)["port"]["status"] == "open"
+
+
+def port_of(served: Served) -> str | None:
+    with urlopen(f"{served.url}/api/status") as answer:
+        return str(json.load(answer)["port"]["device"])
+
+
+def test_the_port_that_was_chosen_is_opened_again_with_a_stop_and_an_option_goes_before_it(
+    tmp_path: Path,
+) -> None:
+    chosen, data = Pty(), ("--data", str(tmp_path))
+    first = Served(*data)
+    body = json.dumps({"device": chosen.device}).encode()
+    headers = {"Content-Type": "application/json"}
+    urlopen(Request(f"{first.url}/api/port", body, headers, method="PUT")).close()
+    assert os.read(chosen.board, 100) == STOP
+    first.end()
+    again = Served(*data, pty=chosen, is_named=False)
+    assert again.read_until_stops(1) == STOP
+    assert port_of(again) == chosen.device
+    again.process.kill()
+    again.process.communicate()
+    named = Served(*data)
+    assert port_of(named) == named.pty.device
+    named.end()
+    chosen.unplug()
 
 
 @pytest.mark.parametrize("ending", ["SIGTERM", "SIGINT", "end of stdin"])

@@ -167,6 +167,18 @@ def test_a_damaged_file_is_set_aside_and_told(library: Library, tmp_path: Path) 
     assert again.write("b", "text", "f", 0) == 1
 
 
+def test_a_document_stays_of_its_kind_and_is_asked_for_by_it(library: Library) -> None:
+    library.write("arm", "{}", "limits", 0, kind="robot")
+    assert library.facts_of("arm", "robot") == ("limits", 1)
+    with pytest.raises(ConflictError):
+        library.write("arm", "{}", "limits", 1, kind="group")
+    with pytest.raises(NotFoundError):
+        library.facts_of("arm", "group")
+    library.remove(["arm"])
+    with pytest.raises(NotFoundError):
+        library.facts_of("arm", "robot")
+
+
 def test_a_file_that_is_no_database_is_set_aside(tmp_path: Path) -> None:
     (tmp_path / FILE).write_text("not a database at all " * 100)
     library = Library(tmp_path)
@@ -178,10 +190,10 @@ def test_an_upgrade_keeps_a_copy_from_before(library: Library, tmp_path: Path) -
     library.write("a", "text", "f", 0)
     library.close()
     newer = Library(tmp_path, steps=[*STEPS, ["ALTER TABLE document ADD COLUMN note TEXT"]])
-    with pytest.raises(StorageError):  # this version writes five columns
+    with pytest.raises(StorageError):  # this version writes six columns
         newer.write("b", "text", "f", 0)
     assert newer.read("a") == ("text", 1)
-    with closing(sqlite3.connect(tmp_path / "library-before-version-2.sqlite")) as copy:
+    with closing(sqlite3.connect(tmp_path / f"library-before-version-{len(STEPS) + 1}.sqlite")) as copy:
         assert copy.execute("SELECT id, text FROM document").fetchall() == [("a", "text")]
     newer.close()
     with pytest.raises(StorageError, match="newer Servodeck"):

@@ -18,6 +18,7 @@ from tests.running import http_to
 
 NOWHERE = FakePorts(PortMissingError("There is no such port."))
 FACTS = {
+    "kind": "group",
     "name": "Wave",
     "robot": "Arm",
     "tags": ["greeting"],

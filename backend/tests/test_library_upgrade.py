@@ -19,7 +19,7 @@ LATER: Sequence[Sequence[str]] = [
 ]
 BACKUP = f"library-before-version-{len(LATER)}.sqlite"
 BEFORE_EVERYTHING_MS = 0
-POSE_FACTS = '{"name":"Posé"}'
+WAVE_FACTS, POSE_FACTS = '{"name":"Wave","kind":"group"}', '{"name":"Posé","kind":"group"}'
 
 
 def test_every_version_has_its_file() -> None:
@@ -39,9 +39,10 @@ def opened(folder: Path, steps: Sequence[Sequence[str]] = LATER) -> Library:
 
 def assert_holds_everything(library: Library) -> None:
     assert library.list() == [
-        Listed("wave", 2, False, '{"name":"Wave"}'),
+        Listed("wave", 2, False, WAVE_FACTS),
         Listed("old-pose", 1, True, POSE_FACTS),
     ]
+    assert library.facts_of("wave", "group") == (WAVE_FACTS, 2)
     assert library.read("wave") == ('{"frames":[1]}', 2)
     assert library.versions("wave") == [Version("v1", "First try", 1_700_000_000_000)]
     assert library.read_version("wave", "v1") == '{"frames":[]}'

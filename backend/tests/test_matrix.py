@@ -41,6 +41,7 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("POST", "/api/resume"): "driver",
     ("POST", "/api/move"): "driver",
     ("PUT", "/api/poses"): "driver",
+    ("PUT", "/api/robot"): "driver",
     ("POST", "/api/poses/{pose}/apply"): "driver",
     ("POST", "/api/slots/{slot}/run"): "driver",
     ("POST", "/api/lease"): "driver",

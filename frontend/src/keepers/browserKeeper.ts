@@ -12,6 +12,8 @@ import {
   type Version,
 } from '#shared/actions/library/keeper.ts';
 
+/** Rows of before robots were kept say no kind. */
+const OLDEST = { kind: 'group' } as const;
 const STORES = ['documents', 'texts', 'versions'] as const;
 
 interface Row {
@@ -69,7 +71,7 @@ export function createBrowserKeeper(name: string, nowMs: () => number): Keeper {
       inside('readonly', async (store) => {
         const rows = await done<Row[]>(store('documents').getAll());
         const documents = rows.map(({ id, revision, removedAtMs, facts }) => ({
-          ...{ id, revision, facts },
+          ...{ id, revision, facts: { ...OLDEST, ...facts } },
           isRemoved: removedAtMs !== null,
         }));
         return { documents, setAside: null };

@@ -10,6 +10,7 @@ import {
 } from '#shared/actions/library/keeper.ts';
 
 const FACTS: Facts = {
+  kind: 'group',
   ...{ name: 'Wave', robot: 'Arm', tags: ['greeting'], updatedAtMs: 1_790_000_000_000 },
   ...{ frames: 2, durationMs: 1500, unit: 'us', pose: [{ servo: 1, position: 1500 }] },
 };
@@ -25,7 +26,7 @@ export const KEEPER_CASES: Readonly<Record<string, Case>> = {
     same(await keeper.write(name('a'), writing(1, 0)), 1);
     same(await keeper.write(name('a'), writing(2, 1)), 2);
     same(await keeper.read(name('a')), { text: '{"x":2}', revision: 2 });
-    const expected: Listed = { id: name('a'), revision: 2, isRemoved: false, facts: FACTS };
+    const expected: Listed<Facts> = { id: name('a'), revision: 2, isRemoved: false, facts: FACTS };
     same(await listed(keeper, name('a')), expected);
   },
   'a write at an old revision is refused and changes nothing': async (keeper, name) => {
@@ -84,7 +85,7 @@ export const KEEPER_CASES: Readonly<Record<string, Case>> = {
   },
 };
 
-async function listed(keeper: Keeper, id: string): Promise<Listed | undefined> {
+async function listed(keeper: Keeper, id: string): Promise<Listed<Facts> | undefined> {
   const { documents } = await keeper.list();
   return documents.find((one) => one.id === id);
 }

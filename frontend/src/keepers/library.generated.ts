@@ -13,14 +13,15 @@ export interface DocumentWrite {
    * The document as JSON; only the page knows what it means.
    */
   text: string;
-  facts: Facts;
+  facts: GroupFacts | RobotFacts;
   expected: number;
   isRemoved: boolean;
 }
 /**
- * What a list says of a document without reading it; `pose` is its picture.
+ * What a list says of an action group without reading it; `pose` is its picture.
  */
-export interface Facts {
+export interface GroupFacts {
+  kind: 'group';
   name: string;
   robot: string;
   /**
@@ -39,6 +40,46 @@ export interface Facts {
 export interface PoseTarget {
   servo: number;
   position: number;
+}
+/**
+ * What the gateway itself needs to know of a robot: how far its servos may be turned and the poses that
+ * programs go to, as the board counts.
+ */
+export interface RobotFacts {
+  kind: 'robot';
+  name: string;
+  board: string;
+  updatedAtMs: number;
+  /**
+   * @maxItems 253
+   */
+  limits: ServoLimits[];
+  /**
+   * @maxItems 1001
+   */
+  poses: NamedPose[];
+}
+/**
+ * How far a servo may be turned, in its board's unit, and what people call it.
+ */
+export interface ServoLimits {
+  servo: number;
+  name: string;
+  min: number;
+  max: number;
+}
+/**
+ * `id` stays when it is named anew. `targets` are some of the robot's servos, as its board counts.
+ */
+export interface NamedPose {
+  id: number;
+  name: string;
+  unit: 'us' | 'steps';
+  /**
+   * @minItems 1
+   * @maxItems 253
+   */
+  targets: PoseTarget[];
 }
 export interface DocumentIds {
   /**
@@ -65,7 +106,7 @@ export interface ListedDocument {
   id: string;
   revision: number;
   isRemoved: boolean;
-  facts: Facts;
+  facts: GroupFacts | RobotFacts;
 }
 export interface StoredDocument {
   /**

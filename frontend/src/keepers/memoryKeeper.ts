@@ -3,6 +3,7 @@
 import {
   nextRevision,
   required,
+  type Facts,
   type Keeper,
   type Listed,
   type Version,
@@ -17,7 +18,7 @@ export function createMemoryKeeper(): Keeper {
   const documents = new Map<string, Kept>();
   const versions = new Map<string, Map<string, { version: Version; text: string }>>();
 
-  const listed = ([id, { revision, isRemoved, facts }]: [string, Kept]): Listed => ({
+  const listed = ([id, { revision, isRemoved, facts }]: [string, Kept]): Listed<Facts> => ({
     ...{ id, revision, isRemoved, facts },
   });
 

@@ -1,12 +1,12 @@
 // The picture of a group: its robot in the pose of the middle frame, or bars where that robot is not known here.
 
 import { useStore } from 'zustand';
-import type { Facts } from '#shared/actions/library/keeper.ts';
+import type { GroupFacts } from '#shared/actions/library/keeper.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { BarThumb, RobotThumb } from '../body/PoseThumb.tsx';
 import { useStores } from '../stores/stores.ts';
 
-export function DocumentThumb({ facts }: { readonly facts: Facts }) {
+export function DocumentThumb({ facts }: { readonly facts: GroupFacts }) {
   const { robots } = useStores();
   const robot = useStore(
     robots.store,
@@ -23,6 +23,6 @@ export function DocumentThumb({ facts }: { readonly facts: Facts }) {
 }
 
 /** Any that counts like that. */
-function familyOf(unit: Facts['unit']) {
+function familyOf(unit: GroupFacts['unit']) {
   return Object.values(FAMILIES).find((family) => family.unit === unit) ?? FAMILIES.doc;
 }

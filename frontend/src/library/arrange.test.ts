@@ -5,6 +5,7 @@ import { arranged, tagsIn, type Wish } from './arrange.ts';
 const document = (name: string, facts: Partial<Listed['facts']> = {}, isRemoved = false): Listed => ({
   ...{ id: name, revision: 1, isRemoved },
   facts: {
+    kind: 'group',
     ...{ name, robot: 'Arm', tags: [], updatedAtMs: 0, frames: 1, durationMs: 0, unit: 'us', pose: [] },
     ...facts,
   },

@@ -20,6 +20,7 @@ export type GatewayMessage =
   | HaltedMessage
   | StateMessage
   | LimitsMessage
+  | RobotMessage
   | LeaseToldMessage
   | TickMessage
   | LeftMessage
@@ -127,6 +128,7 @@ export interface WelcomeMessage {
   clients: number;
   unattended: UnattendedRun | null;
   limits: ServoLimits[];
+  robot: RobotTold | null;
   lease: LeaseState;
   brokenSlots: number[];
   job: JobState | null;
@@ -183,6 +185,13 @@ export interface UnattendedRun {
   times: number;
   by: string;
   endsInMs: number;
+}
+/**
+ * The robot on the board: which document of the library, at which revision; 0 while it is read.
+ */
+export interface RobotTold {
+  id: string;
+  revision: number;
 }
 /**
  * Who drives and who asks to, by name; `drives` and `asks`: that is this client. `answerInMs`: how long
@@ -327,6 +336,13 @@ export interface StateMessage {
   clients: number;
   unattended: UnattendedRun | null;
   brokenSlots: number[];
+}
+/**
+ * Another robot stands on the board now, or any robot of the library has changed: look there.
+ */
+export interface RobotMessage {
+  type: 'robot';
+  robot: RobotTold | null;
 }
 /**
  * Something of the lease changed.

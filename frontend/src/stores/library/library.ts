@@ -11,7 +11,8 @@ import type { Label } from '#shared/actions/history.ts';
 import { factsOf } from '#shared/actions/library/facts.ts';
 import {
   LibraryError,
-  type Facts,
+  listedOf,
+  type GroupFacts,
   type Keeper,
   type Listed,
   type Stored,
@@ -102,7 +103,7 @@ export function createLibrary(options: LibraryOptions): Library {
     onFailure: tell,
   });
 
-  function factsOfText(text: string): Facts | null {
+  function factsOfText(text: string): GroupFacts | null {
     const read = groupFromText(text);
     if ('problem' in read) return null;
     return factsOf(read.value, { updatedAtMs: epochMs(), robot: robots.current().robot.name });
@@ -196,7 +197,9 @@ export function createLibrary(options: LibraryOptions): Library {
 
   async function refresh(): Promise<void> {
     const keeper = await options.keeper;
-    const { documents, setAside } = await keeper.list();
+    const listing = await keeper.list();
+    const { setAside } = listing;
+    const documents = listedOf(listing, 'group');
     if (setAside !== null && !hasToldSetAside) notices.tell('warning', words.library.setAside(setAside));
     hasToldSetAside ||= setAside !== null;
     store.setState({ place: keeper.place, documents });

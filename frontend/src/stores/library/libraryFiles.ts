@@ -2,7 +2,13 @@
 
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { groupFromText, groupToText, sameGroup } from '#shared/actions/group/groupText.ts';
-import { LibraryError, type Facts, type Keeper, type Listed } from '#shared/actions/library/keeper.ts';
+import {
+  LibraryError,
+  listedOf,
+  type GroupFacts,
+  type Keeper,
+  type Listed,
+} from '#shared/actions/library/keeper.ts';
 import {
   libraryFromText,
   libraryToText,
@@ -21,7 +27,7 @@ export interface LibraryFiles {
 export interface LibraryFilesOptions {
   readonly keeper: Promise<Keeper>;
   readonly notices: Notices;
-  factsOf(group: ActionGroup, updatedAtMs: number): Facts;
+  factsOf(group: ActionGroup, updatedAtMs: number): GroupFacts;
   newId(): string;
   tell(error: unknown): void;
   refresh(): Promise<void>;
@@ -36,7 +42,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
   async function exportText(): Promise<string | null> {
     if (!(await options.flush())) return null;
     const keeper = await options.keeper;
-    const { documents } = await keeper.list();
+    const documents = listedOf(await keeper.list(), 'group');
     const kept = documents.filter(({ isRemoved }) => !isRemoved);
     const bundled = await Promise.all(kept.map((document) => bundle(keeper, document)));
     notices.tell('info', words.library.exported(bundled.length));
@@ -46,11 +52,11 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
   async function take(documents: readonly BundledDocument[]): Promise<void> {
     if (!(await options.flush())) return;
     const keeper = await options.keeper;
-    const present = await keeper.list();
+    const present = listedOf(await keeper.list(), 'group');
     const fates: Fate[] = [];
     const staged: string[] = [];
     for (const document of documents) {
-      const { fate, id } = await fateOf(keeper, present.documents, document);
+      const { fate, id } = await fateOf(keeper, present, document);
       fates.push(fate);
       staged.push(id);
       if (fate !== 'same') await stage(keeper, id, document);

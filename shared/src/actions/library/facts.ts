@@ -1,7 +1,7 @@
 // What a list says of an action group, worked out from the group. Knows no keeper's place.
 
 import { poseAt, totalDurationMs, type ActionGroup } from '../group/group.ts';
-import type { Facts } from './keeper.ts';
+import type { GroupFacts } from './keeper.ts';
 
 export interface FactsContext {
   readonly updatedAtMs: number;
@@ -9,10 +9,11 @@ export interface FactsContext {
   readonly robot: string;
 }
 
-export function factsOf(group: ActionGroup, { updatedAtMs, robot }: FactsContext): Facts {
+export function factsOf(group: ActionGroup, { updatedAtMs, robot }: FactsContext): GroupFacts {
   // The middle tells groups apart: many begin and end at rest.
   const pose = poseAt(group.frames, Math.floor(group.frames.length / 2));
   return {
+    kind: 'group',
     // Half a character, cut off at the length limit, could not be sent.
     name: group.name.toWellFormed(),
     robot: (group.robot === '' ? robot : group.robot).toWellFormed(),

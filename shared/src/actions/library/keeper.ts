@@ -1,13 +1,15 @@
 // Whoever keeps documents as texts: what a list says of each, revisions, a trash, named versions. One interface for every place
-// they may lie, and the one rule about writing that all of them follow. Knows no group and no place.
+// they may lie, and the one rule about writing that all of them follow. Knows no group, no robot and no place.
 
 import * as z from 'zod/mini';
 
 const whole = (max: number) => z.number().check(z.int(), z.gte(0), z.lte(max));
 const count = whole(Number.MAX_SAFE_INTEGER);
 const name = z.string().check(z.maxLength(64));
+const target = z.strictObject({ servo: whole(0xff), position: whole(0xffff) });
 
-export const factsSchema = z.strictObject({
+const groupFactsSchema = z.strictObject({
+  kind: z.literal('group'),
   name,
   robot: name,
   tags: z.array(name).check(z.maxLength(20)),
@@ -17,23 +19,49 @@ export const factsSchema = z.strictObject({
   durationMs: count,
   unit: z.enum(['us', 'steps']),
   /** Its picture. */
-  pose: z.array(z.strictObject({ servo: whole(0xff), position: whole(0xffff) })).check(z.maxLength(256)),
+  pose: z.array(target).check(z.maxLength(256)),
 });
 
-/** What a list says of a document without reading it. */
-export type Facts = z.infer<typeof factsSchema>;
+/** What whoever keeps it goes by itself: limits and poses are as the board counts. */
+const robotFactsSchema = z.strictObject({
+  kind: z.literal('robot'),
+  name,
+  board: name,
+  updatedAtMs: count,
+  limits: z.array(
+    z.strictObject({ servo: whole(0xff), name: z.string(), min: whole(0xffff), max: whole(0xffff) }),
+  ),
+  poses: z.array(
+    z.strictObject({ id: count, name: z.string(), unit: z.enum(['us', 'steps']), targets: z.array(target) }),
+  ),
+});
 
-export interface Listed {
+export const factsSchema = z.discriminatedUnion('kind', [groupFactsSchema, robotFactsSchema]);
+
+export type GroupFacts = z.infer<typeof groupFactsSchema>;
+export type RobotFacts = z.infer<typeof robotFactsSchema>;
+/** What a list says of a document without reading it. */
+export type Facts = GroupFacts | RobotFacts;
+
+export interface Listed<F extends Facts = GroupFacts> {
   readonly id: string;
   readonly revision: number;
   readonly isRemoved: boolean;
-  readonly facts: Facts;
+  readonly facts: F;
 }
 
 export interface Listing {
-  readonly documents: readonly Listed[];
+  readonly documents: readonly Listed<Facts>[];
   /** The name of a damaged file that the keeper found and kept; null for none. */
   readonly setAside: string | null;
+}
+
+/** Those of one kind. */
+export function listedOf<K extends Facts['kind']>(
+  { documents }: Listing,
+  kind: K,
+): readonly Listed<Extract<Facts, { kind: K }>>[] {
+  return documents.filter((one): one is Listed<Extract<Facts, { kind: K }>> => one.facts.kind === kind);
 }
 
 export interface Stored {
