@@ -52,7 +52,6 @@ async function expectSoundPages(look: Look): Promise<void> {
   await expectSound(look, 'keys and pad');
   if (isPhone) await page.getByRole('tab', { name: 'Buttons' }).click();
   else await page.getByRole('radio', { name: 'Buttons' }).check();
-  await page.getByRole('switch', { name: 'Edit buttons' }).check();
   await page.getByRole('button', { name: 'Add button' }).click();
   await page.getByRole('button', { name: 'Slot' }).click();
   await expectSound(look, 'buttons being changed');

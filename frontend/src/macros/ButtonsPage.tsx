@@ -2,7 +2,7 @@
 
 import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { EmptyState } from '../ui/EmptyState.tsx';
+import { EmptyState, type EmptyStateProps } from '../ui/EmptyState.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
@@ -11,6 +11,7 @@ import { EditGrid } from './EditGrid.tsx';
 import { MacroEditor } from './MacroEditor.tsx';
 import { MacroGrid } from './MacroGrid.tsx';
 import styles from './Macros.module.css';
+import { useAddMacro } from './useAddMacro.ts';
 
 export function ButtonsPage() {
   const edits = useView((state) => state.editsButtons);
@@ -18,7 +19,7 @@ export function ButtonsPage() {
   return (
     <div className={styles.page} data-edits={edits}>
       <Panel title={words.macros.title} tools={<Tools />} className={styles.panel}>
-        {edits ? <EditGrid /> : isEmpty ? <NoButtons /> : <MacroGrid />}
+        {edits ? <EditGrid /> : isEmpty ? <NoButtons action={<Add />} /> : <MacroGrid />}
         <Foot />
       </Panel>
       {edits && <MacroEditor />}
@@ -26,8 +27,16 @@ export function ButtonsPage() {
   );
 }
 
-export function NoButtons() {
-  return <EmptyState title={words.macros.noButtons} hint={words.macros.noButtonsHint} />;
+export function NoButtons({ action }: Pick<EmptyStateProps, 'action'>) {
+  return <EmptyState title={words.macros.noButtons} hint={words.macros.noButtonsHint} action={action} />;
+}
+
+function Add() {
+  return (
+    <Button icon="plus" onPress={useAddMacro()}>
+      {words.macros.add}
+    </Button>
+  );
 }
 
 function Tools() {

@@ -1,7 +1,7 @@
 // The buttons while they are changed: a press selects, a drag or Alt with an arrow moves. Nothing starts.
 
 import type { Macro } from '#shared/actions/macros/macro.ts';
-import { addMacro, moveMacro, removeMacro } from '#shared/actions/macros/macroEdits.ts';
+import { moveMacro, removeMacro } from '#shared/actions/macros/macroEdits.ts';
 import { useCards } from '../actions/useCards.ts';
 import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
@@ -11,10 +11,12 @@ import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
 import { words } from '../words/words.ts';
 import { MacroFace } from './MacroFace.tsx';
 import styles from './Macros.module.css';
+import { useAddMacro } from './useAddMacro.ts';
 
 export function EditGrid() {
   const { macros, view } = useStores();
-  const { macros: list, nextId } = useMacros(({ present }) => present);
+  const add = useAddMacro();
+  const list = useMacros(({ present }) => present.macros);
   const selected = useView((state) => state.selectedButton);
   const ids = list.map(({ id }) => id);
   const nameOf = (id: number): string => list.find((macro) => macro.id === id)?.name ?? '';
@@ -35,15 +37,6 @@ export function EditGrid() {
       ),
   });
   const { list: gridRef, tabStop, key } = cards;
-
-  function add(): void {
-    const name = words.macros.newName(nextId);
-    macros.edit(
-      () => words.macros.edits.add(name),
-      (page) => addMacro(page, name, []),
-    );
-    view.setState({ selectedButton: nextId });
-  }
 
   return (
     <ul ref={gridRef} className={styles.grid} aria-label={words.macros.list} onKeyDown={key}>

@@ -9,15 +9,18 @@ export interface EmptyStateProps {
   readonly hint: string;
   /** Over the words. */
   readonly sketch?: ReactNode;
+  /** The way to begin, where it does not stand beside. */
+  readonly action?: ReactNode;
   readonly className?: string | undefined;
 }
 
-export function EmptyState({ title, hint, sketch, className }: EmptyStateProps) {
+export function EmptyState({ title, hint, sketch, action, className }: EmptyStateProps) {
   return (
     <div className={cx(styles.empty, className)}>
       {sketch}
       <p className={styles.title}>{title}</p>
       <p>{hint}</p>
+      {action}
     </div>
   );
 }

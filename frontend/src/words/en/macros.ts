@@ -12,7 +12,8 @@ export const macroWords = {
   page: { label: 'Page', work: 'Controls', buttons: 'Buttons' },
   list: 'Buttons',
   noButtons: 'No buttons yet',
-  noButtonsHint: 'Add one here, or make one of a pose with Make a button. Anybody can use this page.',
+  noButtonsHint:
+    'A button moves the robot to a pose, plays a slot, or several in turn. Poses also have Make a button. Anybody can use this page.',
   notSaved: 'The browser does not store buttons; they are kept until the page is closed.',
   unreadable: 'The saved buttons could not be read. They were set aside unharmed.',
   empty: 'This button has no steps yet.',

@@ -11,7 +11,8 @@ export const macroWords: typeof english = {
   page: { label: '页面', work: '控制', buttons: '按钮' },
   list: '按钮',
   noButtons: '还没有按钮',
-  noButtonsHint: '在这里添加一个，或者用“做成按钮”从姿态生成。谁都能用这个页面。',
+  noButtonsHint:
+    '一个按钮可以让机器人到某个姿态、播放一个槽位，或依次做几件事。姿态里也有“做成按钮”。谁都能用这个页面。',
   notSaved: '浏览器不能保存按钮；关闭页面前它们一直在。',
   unreadable: '已保存的按钮无法读取。原文件已完好地另存。',
   empty: '这个按钮还没有步骤。',
