@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { deleteFrame, duplicateFrame } from '#shared/actions/group/groupEdits.ts';
+import { deleteFrame, duplicateFrame, insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { keepInStep } from './inStep.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';
 
@@ -34,6 +34,22 @@ test('a frame may be announced before it is there', async () => {
     [4, 3],
   ]);
   expect(stores.view.getState().selectedFrame).toBe(4);
+});
+
+test('a frame without keys is looked at, too', async () => {
+  const { stores, selected } = await createTimelineDesk();
+  stores.document.edit(
+    () => 'rest',
+    (group) => insertFrame(group, 1, { durationMs: 300, targets: [] }),
+  );
+  keepInStep(stores);
+  stores.view.setState({ selectedFrame: 1 });
+  stores.view.setState({ selectedFrame: 4 });
+  expect(stores.timeline.getState()).toMatchObject({ playheadMs: 800, cursor: { frameId: 4 } });
+  expect(selected()).toEqual([]);
+  expect(stores.view.getState().selectedFrame).toBe(4);
+  stores.view.setState({ selectedFrame: 1 });
+  expect(selected()).toHaveLength(3);
 });
 
 test('what is gone is no longer selected', async () => {

@@ -2,12 +2,12 @@
 // selected elsewhere is selected here, all of the group stays in sight until the person looks closer, and so does the
 // playhead.
 
-import { deskOf, type DeskStores } from './desk.ts';
+import { deskOf, type Desk, type DeskStores } from './desk.ts';
 import { endOfFrame, selectedKeys, timesOf } from './groupTimes.ts';
-import { fitAll, lookAt, selectFrame } from './looking.ts';
+import { fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
 import { paged, xOf } from './timeScale.ts';
 import type { TimelineState } from '../stores/timeline.ts';
-import { keyName, refsOf, type KeySet } from '../stores/keySet.ts';
+import { keyName, refsOf } from '../stores/keySet.ts';
 
 export function keepInStep(stores: DeskStores): () => void {
   const { document, view, timeline } = stores;
@@ -59,10 +59,14 @@ export function showFrame(stores: DeskStores, frameId: number | null): void {
 
 function takeUpFrame(stores: DeskStores): void {
   const { selectedFrame } = stores.view.getState();
-  const isKnown = endOfFrame(deskOf(stores).times, selectedFrame) !== null;
-  if (selectedFrame === null || !isKnown) return;
-  if (!hasKeyOf(stores.timeline.getState().selected, selectedFrame)) showFrame(stores, selectedFrame);
+  const desk = deskOf(stores);
+  if (selectedFrame === null || endOfFrame(desk.times, selectedFrame) === null) return;
+  if (!isTakenUp(desk, selectedFrame)) showFrame(stores, selectedFrame);
 }
 
-const hasKeyOf = (selected: KeySet, frame: number): boolean =>
-  refsOf(selected).some(({ frameId }) => frameId === frame);
+/** Of a frame without keys the cursor alone can tell. */
+function isTakenUp(desk: Desk, frame: number): boolean {
+  const { selected, cursor } = desk.state;
+  if (shownKeys(desk, frame).length === 0) return selected.size === 0 && cursor.frameId === frame;
+  return refsOf(selected).some(({ frameId }) => frameId === frame);
+}

@@ -80,8 +80,12 @@ export function selectRow(desk: Desk, id: string, mode: SelectMode): void {
   });
 }
 
+/** Of all rows that are shown. */
+export const shownKeys = (desk: Desk, frameId: number): readonly Key[] =>
+  keysOfFrame(desk.times, rowOf(desk, ALL_ROW)?.servos ?? [], frameId);
+
 export function selectFrame(desk: Desk, frameId: number, mode: SelectMode): void {
-  const keys = keysOfFrame(desk.times, rowOf(desk, ALL_ROW)?.servos ?? [], frameId);
+  const keys = shownKeys(desk, frameId);
   select(desk.stores, withKeys(desk.state.selected, keys, mode), { row: ALL_ROW, frameId });
   // A frame without keys is selected too, though nothing of it is.
   if (mode === 'replaces') desk.stores.view.setState({ selectedFrame: frameId });
