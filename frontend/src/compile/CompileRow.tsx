@@ -80,7 +80,7 @@ function Worst() {
   if (worst === null) return <p className={styles.dim}>{words.compile.exact}</p>;
   const { servo, atMs, units, degrees } = worst;
   const go = (): void => {
-    stores.playhead.go(Math.round(atMs));
+    stores.playhead.show(Math.round(atMs));
     editServoView(stores, (view) => select(view, [servo]));
   };
   return (

@@ -17,7 +17,7 @@ export function Problems() {
   if (problems.length === 0) return null;
   const go = (problem: CompileProblem): void => {
     const atMs = placeOf(problem, source.group);
-    if (atMs !== null) stores.playhead.go(atMs);
+    if (atMs !== null) stores.playhead.show(atMs);
     if ('frameId' in problem) stores.view.setState({ selectedFrame: problem.frameId });
     if ('servo' in problem) editServoView(stores, (view) => select(view, [problem.servo]));
   };

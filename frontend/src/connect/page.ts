@@ -119,7 +119,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   applyBatteryPolicy({ device, battery, robots, notices });
   watchInputs(window, pad);
   library.store.subscribe(({ openId }, before) => {
-    if (openId !== before.openId) playhead.go(0);
+    if (openId !== before.openId) playhead.show(0);
   });
   followPlace({ document: written, library, view });
   stores.view.subscribe(({ tab, kiosk }) => {

@@ -59,7 +59,7 @@ function ExampleCard({ id, onChosen }: { readonly id: ExampleId; onChosen(): voi
       () => group,
     );
     view.setState({ selectedFrame: null });
-    playhead.go(0);
+    playhead.show(0);
     onChosen();
   };
   return (

@@ -44,7 +44,7 @@ function Take({ samples, onClose }: TakeDialogProps) {
   const use = (step: keyof typeof words.record.steps, edit: (before: ActionGroup) => ActionGroup): void => {
     document.edit(() => words.record.steps[step], edit);
     view.setState({ selectedFrame: null });
-    playhead.go(0);
+    playhead.show(0);
     onClose();
   };
   return (

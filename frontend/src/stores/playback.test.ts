@@ -258,6 +258,41 @@ describe('playing from the page', () => {
   });
 });
 
+describe('the playhead', () => {
+  const FAR = { fromMs: 90_000, msPerPx: 1 };
+
+  async function deskLookingFar() {
+    const desk = await deskWith(WAVE);
+    const lookFar = (): void => desk.timeline.setState({ widthPx: 300, time: FAR });
+    const fromMs = (): number => desk.timeline.getState().time.fromMs;
+    desk.playhead.go(600);
+    lookFar();
+    return { ...desk, lookFar, fromMs };
+  }
+
+  test('is brought into sight where playing begins; whoever looks away meanwhile is left alone', async () => {
+    const { playback, lookFar, fromMs, draw } = await deskLookingFar();
+    playback.play();
+    expect(fromMs()).toBe(576);
+    lookFar();
+    await draw(1600);
+    expect(fromMs()).toBe(FAR.fromMs);
+  });
+
+  test('is brought into sight by a step', async () => {
+    const { playback, fromMs } = await deskLookingFar();
+    playback.step(-1);
+    expect(fromMs()).toBe(376);
+  });
+
+  test('is brought into sight when the board begins', async () => {
+    const { playback, fromMs, draw } = await deskLookingFar();
+    playback.runOnBoard();
+    await draw(800);
+    expect(fromMs()).toBe(-24);
+  });
+});
+
 describe('the robot that follows', () => {
   test('goes gently to the pose at the playhead, then along with it and with each edit', async () => {
     const { playback, playhead, document, draw, moves, transport } = await deskWith(WAVE);

@@ -39,7 +39,10 @@ export interface PlaybackState {
 /** The instant that is looked at, and the part of the group that is meant; null: all of it. */
 export interface Playhead {
   at(): number;
+  /** Out of sight it stays there: whoever looks elsewhere is left alone. */
   go(atMs: number): void;
+  /** Brought into sight. */
+  show(atMs: number): void;
   range(): { readonly fromMs: number; readonly toMs: number } | null;
 }
 
@@ -180,7 +183,9 @@ export function createPlayback(options: PlaybackOptions): Playback {
     const passage = passageNow(group);
     following = { passage, index: 0, beganMs: clock.now(), isLead: true };
     phase('leading');
-    device.play(passage.frames, passes(), (isDone) => {
+    const times = passes();
+    playhead.show(passage.atMs[0] ?? 0);
+    device.play(passage.frames, times, (isDone) => {
       if (isDone) playhead.go(passage.atMs.at(-1) ?? 0);
       following = null;
       phase(null);
@@ -218,6 +223,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
 
   function run(slot: number): void {
     phase('running');
+    playhead.show(0);
     const { times, untilStopped } = view.getState();
     const isEndless = untilStopped || store.getState().loops;
     runAsChosen({ device, view }, slot, isEndless ? 0 : times, (isTaken) => {
@@ -286,7 +292,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
       direction === 1 ? ends.find((endMs) => endMs > at) : (ends.findLast((endMs) => endMs < at) ?? ends[0]);
     if (to === undefined) return;
     follower.go(poseAt(to), Math.abs(to - at), poseAt(at));
-    playhead.go(to);
+    playhead.show(to);
   }
 
   return {

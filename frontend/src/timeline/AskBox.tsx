@@ -11,7 +11,7 @@ import { endOfFrame, selectedKeys } from './groupTimes.ts';
 import { sizesNow } from './lanes.ts';
 import { scaleAt } from './positions.ts';
 import { sceneOf } from './scene.ts';
-import { xOf } from './timeScale.ts';
+import { xOf } from '../stores/timeScale.ts';
 import { useDesk, type SeenDesk } from './useDesk.ts';
 import styles from './AskBox.module.css';
 

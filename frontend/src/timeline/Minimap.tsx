@@ -6,7 +6,7 @@ import { words } from '../words/words.ts';
 import { timesOf, type GroupTimes } from './groupTimes.ts';
 import { lookOf } from './look.ts';
 import { setTime } from './looking.ts';
-import { panned, seenSpan } from './timeScale.ts';
+import { panned, seenSpan } from '../stores/timeScale.ts';
 import styles from './Minimap.module.css';
 
 export function Minimap({ lanes }: { readonly lanes: string }) {

@@ -13,7 +13,7 @@ import type { Row } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';
 import { keyY, placedInSight } from './scene.ts';
 import type { Sizes } from './sizes.ts';
-import { seenSpan, xOf } from './timeScale.ts';
+import { seenSpan, xOf } from '../stores/timeScale.ts';
 import styles from './Rows.module.css';
 
 /** With more keys in sight only the cursor's row has cells, near the cursor. */

@@ -11,7 +11,7 @@ import { hitAt, keysInBox, type Hit, type Spot } from './hit.ts';
 import { keyGesture } from './keyGesture.ts';
 import { lookAt, selectFrame, setTime } from './looking.ts';
 import { sceneOf } from './scene.ts';
-import { msAt, panned } from './timeScale.ts';
+import { msAt, panned } from '../stores/timeScale.ts';
 
 export function gestureOf(press: Press): Gesture {
   const desk = deskOf(press.stores);

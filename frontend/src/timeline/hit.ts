@@ -7,7 +7,7 @@ import { keysOfFrame, selectedKeys, spanOf, type GroupTimes } from './groupTimes
 import type { PlacedRow, Row } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';
 import { keyY, type Scene } from './scene.ts';
-import { msAt, xOf, type Span } from './timeScale.ts';
+import { msAt, xOf, type Span } from '../stores/timeScale.ts';
 
 export type Hit =
   | { readonly kind: 'ruler'; readonly atMs: number }

@@ -5,7 +5,7 @@
 import { deskOf, type Desk, type DeskStores } from './desk.ts';
 import { endOfFrame, selectedKeys, timesOf } from './groupTimes.ts';
 import { fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
-import { paged, xOf } from './timeScale.ts';
+import { paged, xOf } from '../stores/timeScale.ts';
 import type { TimelineState } from '../stores/timeline.ts';
 import { keyName, refsOf } from '../stores/keySet.ts';
 

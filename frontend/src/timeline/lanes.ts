@@ -13,7 +13,7 @@ import { paint } from './paint.ts';
 import { followPointer } from './pointer.ts';
 import { sceneOf, type Scene } from './scene.ts';
 import { sizesOf, type Sizes } from './sizes.ts';
-import { panned, pinched, zoomedAt } from './timeScale.ts';
+import { panned, pinched, zoomedAt } from '../stores/timeScale.ts';
 import { followWheel } from './wheel.ts';
 
 export interface LaneParts {

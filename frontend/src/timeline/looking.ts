@@ -5,7 +5,7 @@ import { ALL_ROW, type Cursor, type TimeView } from '../stores/timeline.ts';
 import { withKeys, type SelectMode } from '../stores/keySet.ts';
 import { rowOf, select, type Desk } from './desk.ts';
 import { allKeys, endOfFrame, keysOfFrame, selectedKeys, spanOf } from './groupTimes.ts';
-import { fitted, showing, zoomedAt, type Span } from './timeScale.ts';
+import { fitted, showing, zoomedAt, type Span } from '../stores/timeScale.ts';
 import { beside, walked, type Cell, type Direction, type Grid } from './walk.ts';
 
 const ZOOM = 1.5;

@@ -11,7 +11,7 @@ import { changedStretch, isWithin, wholeOf, type Stretch } from './repaint.ts';
 import type { PlacedRow } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';
 import { keyY, type Scene } from './scene.ts';
-import { msAt, seenSpan, xOf } from './timeScale.ts';
+import { msAt, seenSpan, xOf } from '../stores/timeScale.ts';
 import { topOfRows } from './sizes.ts';
 import { keysOfFrame } from './groupTimes.ts';
 

@@ -14,7 +14,7 @@ import { gestureOf } from './gestures.ts';
 import { actionOf } from './keymap.ts';
 import { keyY, sceneOf } from './scene.ts';
 import { sizesOf } from './sizes.ts';
-import { xOf } from './timeScale.ts';
+import { xOf } from '../stores/timeScale.ts';
 
 const at = (...positions: readonly (number | null)[]) =>
   positions.flatMap((position, index) => (position === null ? [] : [{ servo: index + 1, position }]));

@@ -1,6 +1,6 @@
 // Time on the screen: where an instant is drawn, and what part of it is seen. Pure; knows no keys.
 
-import type { TimeView } from '../stores/timeline.ts';
+import type { TimeView } from './timeline.ts';
 
 /** Between 1 ms and an hour across a usual lane. */
 const CLOSEST_MS_PER_PX = 0.1;
