@@ -102,18 +102,14 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   if (problem !== null) notices.tell('warning', words.people.problem(problem.code, problem.message));
   beginAnewAsAnother(device, me);
   connector.start().catch(notices.tellError);
-  const save = (): void => {
-    written.flush();
-    library.flush();
-  };
   const paused = (): void => {
     playback.hidden();
     macroRun.end();
-    save();
+    written.flush();
   };
   const left = (): void => {
     connector.leave();
-    save();
+    written.flush();
   };
   watchLeaving(window, { hidden: paused, left });
   applyBatteryPolicy({ device, battery, robots, notices });

@@ -1,4 +1,4 @@
-// The action group being written: undoable, saved in the browser's storage soon after each edit. Text that cannot be read is
+// The action group being written: undoable, saved in the browser's storage right after each edit. Text that cannot be read is
 // never thrown away: it is set aside under another key and the person is told. Never moves the robot.
 
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
@@ -17,6 +17,8 @@ export interface Document extends Undoable<ActionGroup> {
   take(history: History<ActionGroup>): void;
   /** Saves at once what waits for it: the page goes. */
   flush(): void;
+  /** Whoever keeps it elsewhere, too, does so in the same moment: no crash comes between. */
+  onSave(listener: (text: string) => void): void;
 }
 
 /** The part of the browser's Storage that is needed; it may throw, as it does where storage is forbidden or full. */
@@ -27,16 +29,23 @@ export interface TextStorage {
 
 const KEY = 'servodeck.group';
 const ASIDE_KEY = 'servodeck.group.unreadable';
-/** To write a large group takes longer than the edit; a held key makes thirty edits a second. */
-export const SAVED_AFTER_MS = 300;
+/** Once the edit is drawn: to write a large group takes longer than the edit. */
+const SAVED_AFTER_MS = 16;
 
 export function createDocument(storage: TextStorage, notices: Notices, clock: Clock): Document {
   let savingFailed = false;
   let settled = load(storage, notices);
+  const listeners: ((text: string) => void)[] = [];
 
   function save(): void {
+    const text = groupToText(settled);
+    write(text);
+    for (const listener of listeners) listener(text);
+  }
+
+  function write(text: string): void {
     try {
-      storage.setItem(KEY, groupToText(settled));
+      storage.setItem(KEY, text);
       savingFailed = false;
     } catch {
       if (!savingFailed) notices.tell('warning', words.actions.notSaved);
@@ -58,6 +67,7 @@ export function createDocument(storage: TextStorage, notices: Notices, clock: Cl
       saveSoon(history.present);
     },
     flush: saving.flush,
+    onSave: (listener) => void listeners.push(listener),
   };
 }
 

@@ -279,6 +279,12 @@ describe('the playhead', () => {
     expect(fromMs()).toBe(FAR.fromMs);
   });
 
+  test('is brought into sight where a preview begins', async () => {
+    const { playback, fromMs } = await deskLookingFar();
+    playback.togglePreview();
+    expect(fromMs()).toBe(576);
+  });
+
   test('is brought into sight by a step', async () => {
     const { playback, fromMs } = await deskLookingFar();
     playback.step(-1);

@@ -198,6 +198,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
     const startMs = within() ?? part().fromMs;
     previewing = { ...part(), startMs, passes: passes(), speedPercent, beganMs: clock.now() };
     phase('previewing');
+    playhead.show(startMs);
   }
 
   function endPreview(): void {

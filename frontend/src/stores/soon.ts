@@ -3,26 +3,30 @@
 import type { Clock } from '#shared/clock.ts';
 
 export interface Soon {
-  /** It is done `afterMs` from the first time of asking. */
+  /** It is done `afterMs` from the first time of asking, or later where it takes long. */
   ask(): void;
-  isDue(): boolean;
   /** At once, if it was asked for: the page may be gone next. */
   flush(): void;
 }
 
+/** Of the time, for work that is asked for without end: a slow computer is not kept from the rest. */
+const SHARE = 0.05;
+
 export function createSoon(clock: Clock, afterMs: number, work: () => void): Soon {
   let cancelTimer: (() => void) | null = null;
+  let restsUntilMs = -Infinity;
 
   function flush(): void {
     if (cancelTimer === null) return;
     cancelTimer();
     cancelTimer = null;
+    const beganMs = clock.now();
     work();
+    restsUntilMs = beganMs + (clock.now() - beganMs) / SHARE;
   }
 
   return {
-    ask: () => (cancelTimer ??= clock.after(afterMs, flush)),
-    isDue: () => cancelTimer !== null,
+    ask: () => (cancelTimer ??= clock.after(Math.max(afterMs, restsUntilMs - clock.now()), flush)),
     flush,
   };
 }

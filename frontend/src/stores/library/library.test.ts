@@ -42,7 +42,7 @@ describe('keeping', () => {
     await page.later();
     page.capture(1500);
     page.capture(1800);
-    await clock.advance(499);
+    await clock.advance(515);
     expect((await keeper.list()).documents).toEqual([]);
     await clock.advance(1);
     expect((await keeper.list()).documents).toHaveLength(1);
@@ -90,7 +90,7 @@ describe('keeping', () => {
 
   test.each([
     ['the page went at once', (first: ReturnType<typeof createVisit>) => first.leave()],
-    ['it crashed a moment later', (_: unknown, clock: VirtualClock) => clock.advance(300)],
+    ['it crashed a moment later', (_: unknown, clock: VirtualClock) => clock.advance(16)],
   ])('what was not kept yet is kept at the next visit, which is told: %s', async (_name, end) => {
     const { visit, clock } = createPlace();
     const first = visit();
@@ -183,20 +183,21 @@ describe('keeping', () => {
 
 describe('two pages at one library', () => {
   async function bothOpen() {
-    const { visit, keeper } = createPlace();
+    const { visit, keeper, clock } = createPlace();
     const one = visit();
     one.document.edit(() => 'name', called('Wave'));
     await one.later();
     const other = visit();
     await other.later();
     await other.library.open(one.openId());
-    return { one, other, keeper };
+    return { one, other, keeper, clock };
   }
 
   test('changes at the same time are both kept, and the later one is told', async () => {
-    const { one, other, keeper } = await bothOpen();
+    const { one, other, keeper, clock } = await bothOpen();
     const id = one.openId();
     one.capture(1111);
+    await clock.advance(100);
     other.capture(2222);
     await one.later();
     await one.library.refresh();

@@ -19,10 +19,9 @@ import {
   type Version,
 } from '#shared/actions/library/keeper.ts';
 import { words } from '../../words/words.ts';
-import { SAVED_AFTER_MS, type Document, type TextStorage } from '../document.ts';
+import type { Document, TextStorage } from '../document.ts';
 import type { Notices } from '../notices.ts';
 import type { RobotStore } from '../robots.ts';
-import { createSoon } from '../soon.ts';
 import type { View } from '../view.ts';
 import { createLibraryFiles, type LibraryFiles } from './libraryFiles.ts';
 import { createOpenDocument } from './openDocument.ts';
@@ -61,8 +60,6 @@ export interface Library extends LibraryFiles {
   removeVersion(id: string, version: Version): Promise<void>;
   /** Opens the document and goes back to that version, undoably. */
   restoreVersion(id: string, version: Version): Promise<void>;
-  /** Nothing of what is shown waits to be written down: the page goes. */
-  flush(): void;
 }
 
 export interface LibraryOptions {
@@ -88,6 +85,8 @@ export function createLibrary(options: LibraryOptions): Library {
   const shown = (): ActionGroup => document.store.getState().present;
   /** What waits or is kept already; anything else that is shown is a change. */
   let noted = shown();
+  /** In the outbox, or not to be there. */
+  let isWritten = true;
   let isShowing = false;
   let hasToldSetAside = false;
   let isFound = true;
@@ -117,12 +116,15 @@ export function createLibrary(options: LibraryOptions): Library {
 
   const attempt = (work: Promise<void>): Promise<void> => work.catch(tell);
 
-  const noting = createSoon(options.clock, SAVED_AFTER_MS, () => {
-    outbox.put(opened.id(), { text: groupToText(noted), revision: opened.revisionOf(opened.id()) });
+  document.onSave((text) => {
+    if (isWritten) return;
+    isWritten = true;
+    outbox.put(opened.id(), { text, revision: opened.revisionOf(opened.id()) });
+    shelving.soon();
   });
 
   const tellKept = (): void =>
-    store.setState({ openId: opened.id(), isKept: !noting.isDue() && outbox.entries().length === 0 });
+    store.setState({ openId: opened.id(), isKept: isWritten && outbox.entries().length === 0 });
 
   function put(id: string, text: string): void {
     outbox.put(id, { text, revision: opened.revisionOf(id) });
@@ -133,18 +135,17 @@ export function createLibrary(options: LibraryOptions): Library {
   document.store.subscribe(({ present, gesture }) => {
     if (isShowing || gesture !== null || present === noted) return;
     noted = present;
-    noting.ask();
-    shelving.soon();
+    isWritten = false;
     tellKept();
   });
 
   function unkeptOf(id: string): Stored | undefined {
-    noting.flush();
+    document.flush();
     return outbox.get(id);
   }
 
   function flush(): Promise<boolean> {
-    noting.flush();
+    document.flush();
     return shelving.flush();
   }
 
@@ -176,7 +177,7 @@ export function createLibrary(options: LibraryOptions): Library {
   }
 
   function show(id: string, group: ActionGroup): void {
-    noting.flush();
+    document.flush();
     isShowing = true;
     opened.show(id, group, () => words.library.steps.elsewhere);
     isShowing = false;
@@ -290,7 +291,6 @@ export function createLibrary(options: LibraryOptions): Library {
       factsOf: (group, updatedAtMs) => factsOf(group, { updatedAtMs, robot: '' }),
     }),
     store,
-    flush: noting.flush,
     refresh: look,
     create,
     add: (group) => put(newId(), groupToText(group)),

@@ -2,7 +2,7 @@
 
 import type { Family } from '../../protocol/families.ts';
 import type { ActionGroup } from '../group/group.ts';
-import { groupToText } from '../group/groupText.ts';
+import { groupToFile } from '../group/groupText.ts';
 import type { Robot } from '../robot/robot.ts';
 import { arduinoOf } from './arduino.ts';
 import { writeCsv } from './csv.ts';
@@ -48,7 +48,7 @@ export async function writeGroupFile(
     return 'misfits' in made ? made : write(made.program);
   };
   const written = await {
-    json: () => groupToText(group),
+    json: () => groupToFile(group),
     xml: () => writeXml(whole),
     d6a: () => makeDatabase(sheetOf(whole)),
     rob: () => robOf(whole),

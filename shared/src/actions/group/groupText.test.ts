@@ -57,7 +57,7 @@ describe('a group as text', () => {
   });
 
   test.each([
-    ['another version', groupToText(SAMPLE).replace('"version": 1', '"version": 2'), 'version'],
+    ['another version', groupToText(SAMPLE).replace('"version":1', '"version":2'), 'version'],
     ['a unit nobody has', changed((group) => ({ ...group, unit: 'degrees' })), 'content.unit'],
     ['a name beyond 64 characters', changed((group) => ({ ...group, name: 'a'.repeat(65) })), 'content.name'],
     ['a time that is no whole number', changed(withFrame({ durationMs: 1.5 })), 'frames.0.durationMs'],

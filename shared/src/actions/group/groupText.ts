@@ -2,7 +2,7 @@
 // wrong in a sentence. Knows no place to store anything and no board's limits.
 
 import * as z from 'zod/mini';
-import { readVersioned, versionedText, type Read } from '../versionedText.ts';
+import { readVersioned, versionedLine, versionedText, type Read } from '../versionedText.ts';
 import { flawOfGroup, groupSchema, type ActionGroup } from './group.ts';
 
 const FORMAT = 'servodeck-group';
@@ -18,7 +18,10 @@ export function publishedGroupSchema(): object {
   return z.toJSONSchema(groupFileSchema, { target: 'draft-2020-12' });
 }
 
-export const groupToText = (group: ActionGroup): string => versionedText(FORMAT, group);
+export const groupToText = (group: ActionGroup): string => versionedLine(FORMAT, group);
+
+/** The same, for people to read. */
+export const groupToFile = (group: ActionGroup): string => versionedText(FORMAT, group);
 
 /** By what they say, whoever made the objects. */
 export const sameGroup = (one: ActionGroup, other: ActionGroup): boolean => plain(one) === plain(other);

@@ -1,0 +1,30 @@
+import { expect, test } from 'vitest';
+import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createSoon } from './soon.ts';
+
+/** Work that keeps the page for so long, asked for in each millisecond of a second: when it was done. */
+async function heldDown(workMs: number): Promise<readonly number[]> {
+  const clock = createVirtualClock();
+  let workedMs = 0;
+  const now = (): number => clock.now() + workedMs;
+  const done: number[] = [];
+  const soon = createSoon({ ...clock, now }, 16, () => {
+    done.push(clock.now());
+    workedMs += workMs;
+  });
+  for (let ms = 0; ms < 1000; ms += 1) {
+    soon.ask();
+    await clock.advance(1);
+  }
+  return done;
+}
+
+test('work that is asked for without end is done in each frame while it is quick', async () => {
+  expect((await heldDown(0)).slice(0, 3)).toEqual([16, 32, 48]);
+  expect((await heldDown(0.5)).slice(0, 3)).toEqual([16, 32, 48]);
+});
+
+test('work that takes long gets a twentieth of the time, the first of it at once', async () => {
+  const done = await heldDown(10);
+  expect(done).toEqual([16, 206, 396, 586, 776, 966]);
+});
