@@ -5,7 +5,7 @@ import contextlib
 from collections.abc import AsyncIterator
 from pathlib import Path
 
-from fastapi import FastAPI, Request, WebSocket
+from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.requests import HTTPConnection
@@ -112,11 +112,8 @@ def add_docs(app: FastAPI) -> None:
 
 def add_errors(app: FastAPI) -> None:
     @app.exception_handler(GatewayError)
-    async def gateway_error(connection: HTTPConnection, error: GatewayError) -> JSONResponse:
-        answer = problem(error.status, error.code, error.detail)
-        if isinstance(connection, WebSocket):  # an upgrade is refused by an ordinary answer
-            await connection.send_denial_response(answer)
-        return answer
+    async def gateway_error(_connection: HTTPConnection, error: GatewayError) -> JSONResponse:
+        return problem(error.status, error.code, error.detail)
 
     @app.exception_handler(RequestValidationError)
     async def validation_error(_request: Request, error: RequestValidationError) -> JSONResponse:

@@ -1,4 +1,5 @@
-// A message has room of its own: whatever could be pressed before it came can be pressed beside it.
+// A message has room of its own: whatever could be pressed before it came can be pressed beside it. A hint has not, so it lets
+// everything through and never lies over STOP.
 
 import type { Page } from '@playwright/test';
 import { dashboardOf } from '../fixtures/dashboard.ts';
@@ -41,6 +42,40 @@ for (const size of SIZES) {
     await expect(dashboard.notices.getByRole('listitem')).toHaveText(/Gripper/);
   });
 }
+
+/** Where a finger or the pointer would not meet STOP, though it is drawn there; of a grid over the button. */
+function coveredStop(page: Page): Promise<readonly string[]> {
+  return page.evaluate(() => {
+    const stop = document.querySelector('button[aria-keyshortcuts="Escape"]');
+    const { x, y, width, height } = stop?.getBoundingClientRect() ?? new DOMRect();
+    const shares = [0.05, 0.25, 0.5, 0.75, 0.95];
+    return shares
+      .flatMap((across) =>
+        shares.map((down) => document.elementFromPoint(x + width * across, y + height * down)),
+      )
+      .filter((met) => !stop?.contains(met))
+      .map((met) => met?.outerHTML ?? 'nothing');
+  });
+}
+
+test('no hint lies over Stop or takes a press', async ({ page, servers }) => {
+  await page.goto((await servers.files()).url);
+  const dashboard = dashboardOf(page);
+  await expect(dashboard.link).toHaveText(/Simulated/);
+  const stop = (await dashboard.stop.boundingBox())!;
+  const appearance = dashboard.bar.getByRole('button', { name: /^Appearance/ });
+  // As wide as any: where it hangs is the library's, whom it covers is ours.
+  await page.addStyleTag({ content: '[role="tooltip"] { width: 280px; height: 60px; }' });
+  await page.mouse.move(600, 400);
+  await appearance.hover();
+  const hint = page.getByRole('tooltip');
+  await expect(hint).toBeVisible();
+  const box = (await hint.boundingBox())!;
+  expect(box.x + box.width).toBeGreaterThan(stop.x);
+  expect(box.y).toBeLessThan(stop.y + stop.height);
+  expect(await coveredStop(page)).toEqual([]);
+  await expect(hint).toHaveCSS('pointer-events', 'none');
+});
 
 test('whoever dismisses a message by key is back where they came from', async ({ page, servers }) => {
   const dashboard = dashboardOf(page);
