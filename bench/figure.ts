@@ -14,6 +14,8 @@ export interface Figure {
   /** Empty for a plain ratio. */
   readonly unit: string;
   readonly against?: Rival;
+  /** What was promised, where something was; `npm run bench` says which are missed. */
+  readonly limit?: { readonly atMost: number } | { readonly atLeast: number };
   /** One line for people: what was measured and on how many samples. */
   readonly note: string;
 }

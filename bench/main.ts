@@ -13,6 +13,8 @@ import { measureDrag } from './drag.ts';
 import { toRecord, type Figure } from './figure.ts';
 import { measureFrames } from './frames.ts';
 import { measureLanes } from './lanes.ts';
+import { missed } from './limits.ts';
+import { measureNetwork } from './network.ts';
 import { measurePageSize } from './pageSize.ts';
 import { measureRelay } from './relay.ts';
 import { measureStart } from './start.ts';
@@ -26,6 +28,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   drag: measureDrag,
   download: measureDownload,
   relay: measureRelay,
+  network: measureNetwork,
   stop: measureStop,
   crowd: measureCrowd,
   frames: measureFrames,
@@ -83,6 +86,7 @@ await main(async () => {
   const measured = await measure(only);
   const figures = [load, ...measured.figures];
   say(`\n${toTable(figures)}\n`);
+  missed(figures).forEach(say);
   if (json !== undefined) writeFileSync(json, `${JSON.stringify(toRecord(figures), null, 2)}\n`);
   return measured.failed ? 1 : 0;
 });

@@ -8,10 +8,9 @@
 import type { Page } from '@playwright/test';
 import { encodeCommand, encodeReport } from '#shared/protocol/encode.ts';
 import { family } from '#shared/protocol/families.ts';
-import { freePort } from '../scripts/address.mjs';
-import { endChild, startChild } from '../scripts/children.mjs';
 import { python } from '../scripts/python.mjs';
-import { SetupProblem, mustRun } from '../scripts/steps.mjs';
+import { mustRun } from '../scripts/steps.mjs';
+import { withEcho } from './echo.ts';
 import type { Figure } from './figure.ts';
 import { withBoard, withPage } from './station.ts';
 import { percentile } from './statistics.ts';
@@ -21,9 +20,6 @@ const TRIPS = 400;
 const WARM_UP_TRIPS = 50;
 /** No question waits for its turn: longer than the gateway leaves between two packets, and it takes 30 messages a second. */
 const PAUSE_MS = 45;
-const HOST = '127.0.0.1';
-const START_MS = 10_000;
-const POLL_MS = 20;
 
 const question = hex(encodeCommand({ kind: 'run', slot: 200, times: 1 }, family('doc')));
 const answer = hex(encodeReport({ kind: 'runAccepted' }));
@@ -53,31 +49,11 @@ function slowest(trips: readonly number[], percent: number): number {
 }
 
 /** The same page and pauses against a server that only sends back. */
-async function tripsOfEcho(page: Page): Promise<readonly number[]> {
-  const port = await freePort(HOST);
-  const url = `http://${HOST}:${port}/`;
-  const lines: string[] = [];
-  const server = startChild(python, ['bench/echo_app.py', HOST, String(port)], (line) => lines.push(line));
-  try {
-    await untilAnswers(url, lines);
-    await page.goto(url);
-    return await page.evaluate(echoInPage, { trips: WARM_UP_TRIPS + TRIPS, pauseMs: PAUSE_MS });
-  } finally {
-    await endChild(server);
-  }
-}
-
-async function untilAnswers(url: string, lines: readonly string[]): Promise<void> {
-  const untilMs = performance.now() + START_MS;
-  while (
-    !(await fetch(url).then(
-      ({ ok }) => ok,
-      () => false,
-    ))
-  ) {
-    if (performance.now() > untilMs) throw new SetupProblem(`The echo did not start: ${lines.join('\n')}`);
-    await new Promise((resolve) => setTimeout(resolve, POLL_MS));
-  }
+function tripsOfEcho(page: Page): Promise<readonly number[]> {
+  return withEcho(async (address) => {
+    await page.goto(`http://${address}/`);
+    return page.evaluate(echoInPage, { trips: WARM_UP_TRIPS + TRIPS, pauseMs: PAUSE_MS });
+  });
 }
 
 /** Runs in the page, so it may name nothing from outside itself. */

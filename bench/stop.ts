@@ -6,11 +6,10 @@
 
 import type { Page } from '@playwright/test';
 import { family } from '#shared/protocol/families.ts';
-import { wireMs } from '#shared/protocol/packet.ts';
-import { packetsInto, type BusPacket } from './busPackets.ts';
+import { packetsInto } from './busPackets.ts';
 import type { Figure } from './figure.ts';
+import { stopFigures, stopTimes, type StopTimes } from './presses.ts';
 import { openDashboard, withBoard, withPage, type BoardOnPort } from './station.ts';
-import { percentile } from './statistics.ts';
 
 const PRESSES = 100;
 /** Between Resume and the next press: at any moment of the packet on the wire, whose cycle is about 36 ms. */
@@ -20,42 +19,26 @@ const SEQUENCE_MS = 220;
 const STOPS_PER_PRESS = 3;
 const GAP_MS = family('doc').serviceGapMs;
 
-interface Outcome {
-  readonly p99Ms: number;
-  readonly wireMs: number;
-}
-
 export function measureStop(): Promise<Figure[]> {
   return withBoard([], (board) =>
     withPage(board.device, async (page, url) => {
       await openDashboard(page, url);
-      const idle = await outcomeOfPresses(page, board);
+      const idle = await timesOfPresses(page, board);
       await page.getByRole('slider').evaluateAll(dragInPage);
-      return figuresOf({ idle, dragging: await outcomeOfPresses(page, board) });
+      const dragging = await timesOfPresses(page, board);
+      return [
+        ...stopFigures('stop.idle', idle, 'in the page; nothing else on the wire'),
+        ...stopFigures('stop.dragging', dragging, 'in the page; all sliders dragged'),
+      ];
     }),
   );
 }
 
-async function outcomeOfPresses(page: Page, board: BoardOnPort): Promise<Outcome> {
+async function timesOfPresses(page: Page, board: BoardOnPort): Promise<StopTimes> {
   const fromMs = Date.now();
   const pressedMs = await pressAgainAndAgain(page);
-  return outcomeOf(pressedMs, packetsInto(board.readBusLog().filter(({ atMs }) => atMs >= fromMs)));
-}
-
-function figuresOf({ idle, dragging }: { idle: Outcome; dragging: Outcome }): Figure[] {
-  const figure = (name: string, value: number, wireMs: number, note: string): Figure => ({
-    ...{ key: `stop.${name}`, value, unit: 'ms', note },
-    against: { what: 'wire alone', value: wireMs },
-  });
-  const worstMs = Math.max(idle.p99Ms, dragging.p99Ms);
-  const longestMs = Math.max(idle.wireMs, dragging.wireMs);
-  const aByte = `nothing on the wire but that byte; ${PRESSES} presses`;
-  const aPacket = `at worst behind the longest packet and its gap; ${PRESSES} presses`;
-  return [
-    figure('idle.firstByteP99Ms', idle.p99Ms, idle.wireMs, aByte),
-    figure('dragging.firstByteP99Ms', dragging.p99Ms, dragging.wireMs, aPacket),
-    figure('firstByteP99Ms', worstMs, longestMs, 'the worst of these states beside the longest packet'),
-  ];
+  const packets = packetsInto(board.readBusLog().filter(({ atMs }) => atMs >= fromMs));
+  return stopTimes(pressedMs, packets, { gapMs: GAP_MS, stopsPerPress: STOPS_PER_PRESS });
 }
 
 /** Returns when each press was, in milliseconds since the epoch. */
@@ -93,21 +76,4 @@ function dragInPage(sliders: readonly (HTMLElement | SVGElement)[]): void {
     requestAnimationFrame(move);
   };
   move();
-}
-
-/** Throws unless exactly one sequence of stops follows each press: then each first byte belongs to its press. */
-function outcomeOf(pressedMs: readonly number[], packets: readonly BusPacket[]): Outcome {
-  const stops = packets.filter(({ command }) => command.kind === 'stop');
-  const latencies = pressedMs.map((atMs, press) => {
-    const untilMs = pressedMs[press + 1] ?? Infinity;
-    const mine = stops.filter(({ firstByteMs }) => firstByteMs > atMs && firstByteMs < untilMs);
-    const [first] = mine;
-    if (first === undefined || mine.length !== STOPS_PER_PRESS)
-      throw new Error(`${mine.length} stops followed press ${press + 1} of ${pressedMs.length}`);
-    return first.firstByteMs - atMs;
-  });
-  const ahead = packets.some(({ command }) => command.kind === 'move')
-    ? wireMs(Math.max(...packets.map(({ byteCount }) => byteCount))) + GAP_MS
-    : 0;
-  return { p99Ms: percentile(latencies, 99), wireMs: ahead + wireMs(1) };
 }

@@ -40,7 +40,7 @@ function groupOf(figure: Figure | undefined): string {
   return figure?.key.split('.')[0] ?? '';
 }
 
-function withUnit(value: number, unit: string): string {
+export function withUnit(value: number, unit: string): string {
   return unit === '' ? readable(value) : `${readable(value)} ${unit}`;
 }
 
