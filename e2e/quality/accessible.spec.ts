@@ -258,15 +258,3 @@ for (const viewport of SIZES) {
     expect(seenTo).toBeLessThan(legendY);
   });
 }
-
-/** States that a test does not come by easily, each alone. */
-const RARE = ['Long names', 'One servo', 'Thirty-two servos', 'You drive, asked', 'Lost with countdown'];
-
-for (const state of RARE) {
-  test(`${state}: accessible`, async ({ page, servers }) => {
-    test.slow();
-    await page.goto(`${(await servers.files()).url}/gallery.html?state=${encodeURIComponent(state)}`);
-    await expect(page.getByRole('article', { name: state })).toBeVisible();
-    await expectSound({ page, isDark: false }, state);
-  });
-}

@@ -3,6 +3,7 @@
 
 import type { Page } from '@playwright/test';
 import { dashboardOf } from '../fixtures/dashboard.ts';
+import { walkGallery } from '../fixtures/gallery.ts';
 import { expect, test } from '../fixtures/test.ts';
 
 /** Names, formats, units and keys that are written so in Chinese too. */
@@ -89,11 +90,10 @@ async function expectChinese(page: Page, state: string): Promise<void> {
 }
 
 test('no state of the gallery has an English sentence left', async ({ page, servers }) => {
-  // Every state at once is a large page.
-  test.slow();
-  await page.goto(`${(await servers.files()).url}/gallery.html?language=zh`);
-  await expect(page.getByRole('article').first()).toBeVisible({ timeout: 60_000 });
-  await expectChinese(page, 'gallery');
+  test.setTimeout(120_000);
+  await walkGallery({ page, url: (await servers.files()).url, language: 'zh' }, (state) =>
+    expectChinese(page, state),
+  );
 });
 
 test.describe('in a Chinese browser', () => {

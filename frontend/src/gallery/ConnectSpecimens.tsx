@@ -3,7 +3,7 @@
 import type { Way } from '../stores/device.ts';
 import type { ConnectState } from '../connect/connector.ts';
 import { ConnectWays } from '../connect/ConnectWays.tsx';
-import styles from './Gallery.module.css';
+import type { Exhibit } from './exhibit.ts';
 
 const BASE: ConnectState = {
   board: 'doc',
@@ -52,27 +52,23 @@ const CASES: readonly {
   },
 ];
 
-export function ConnectSpecimens() {
-  const nothing = (): void => undefined;
-  return CASES.map(({ name, state, current }) => (
-    <article key={name} className={styles.specimen} aria-label={name}>
-      <h2 className={styles.name} lang="en">
-        {name}
-      </h2>
-      <div className={styles.dialog}>
-        <ConnectWays
-          state={state}
-          current={current}
-          onLook={nothing}
-          onSimulate={nothing}
-          onReconnects={nothing}
-          onGateway={nothing}
-          onGatewayPort={nothing}
-          onSerialPort={nothing}
-          onChooseSerial={nothing}
-          onDisconnect={nothing}
-        />
-      </div>
-    </article>
-  ));
-}
+const nothing = (): void => undefined;
+
+export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current }) => ({
+  name,
+  isInDialog: true,
+  content: (
+    <ConnectWays
+      state={state}
+      current={current}
+      onLook={nothing}
+      onSimulate={nothing}
+      onReconnects={nothing}
+      onGateway={nothing}
+      onGatewayPort={nothing}
+      onSerialPort={nothing}
+      onChooseSerial={nothing}
+      onDisconnect={nothing}
+    />
+  ),
+}));

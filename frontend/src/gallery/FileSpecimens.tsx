@@ -1,13 +1,14 @@
 // What the dialog about files shows: groups of which one asks for its unit, one that does not fit, and broken files.
 
-import { useState } from 'react';
 import type { Reading } from '#shared/actions/files/reading.ts';
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { FAMILIES } from '#shared/protocol/families.ts';
 import { FilesContent } from '../files/FilesDialog.tsx';
 import type { OpenedFile } from '../files/openedFiles.ts';
-import { StoresContext, type Stores } from '../stores/stores.ts';
-import styles from './Gallery.module.css';
+import type { Stores } from '../stores/stores.ts';
+import type { Exhibit } from './exhibit.ts';
+import { specimenStores } from './specimenStores.ts';
 
 const READINGS: readonly (readonly [name: string, reading: Reading | null])[] = [
   ['No.10 wave.xml', { groups: [wave('wave', 1500, 10)], asksUnit: true, remarks: [] }],
@@ -24,27 +25,23 @@ const READINGS: readonly (readonly [name: string, reading: Reading | null])[] = 
   ['greet.d6a', null],
 ];
 
-export function FileSpecimens({ newStores }: { newStores(): Stores }) {
-  const [stores] = useState(() => prepared(newStores()));
-  const [list] = useState<readonly OpenedFile[]>(() =>
-    READINGS.map(([name, reading], id) => ({ id, name, reading })),
-  );
-  const files = { list, open: () => undefined, drop: () => undefined };
-  return (
-    <StoresContext value={stores}>
-      <article className={styles.specimen} aria-label="Files">
-        <h2 className={styles.name} lang="en">
-          Files
-        </h2>
-        <div className={styles.dialog}>
-          <FilesContent files={files} onTake={() => undefined} />
-        </div>
-      </article>
-    </StoresContext>
-  );
-}
+const OPENED = {
+  list: READINGS.map(([name, reading], id): OpenedFile => ({ id, name, reading })),
+  open: () => undefined,
+  drop: () => undefined,
+};
 
-function prepared(stores: Stores): Stores {
+export const FILES: readonly Exhibit[] = [
+  {
+    name: 'Files',
+    isInDialog: true,
+    content: <FilesContent files={OPENED} onTake={() => undefined} />,
+    stores: prepared,
+  },
+];
+
+function prepared(): Stores {
+  const stores = specimenStores(FAMILIES.doc);
   stores.document.edit(
     () => 'open',
     () => wave('Wave', 1500, null),

@@ -1,12 +1,11 @@
 // The library in each of its states, fed by a library that lives as long as the page.
 
-import { useState } from 'react';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { insertFrame, rename } from '#shared/actions/group/groupEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { LibraryView } from '../library/LibraryView.tsx';
-import { StoresContext, type Stores } from '../stores/stores.ts';
-import styles from './Gallery.module.css';
+import type { Stores } from '../stores/stores.ts';
+import type { Exhibit } from './exhibit.ts';
 import { specimenStores } from './specimenStores.ts';
 
 const GROUPS = ['Wave to the visitors at the door', 'Bow', 'Pick up the red cube and put it down', 'Dance'];
@@ -38,31 +37,17 @@ async function fill({ library, document, robots }: Stores): Promise<void> {
   await library.keepVersion(library.store.getState().openId, 'Before the show');
 }
 
-export function LibrarySpecimens() {
-  return (
-    <>
-      <Shown name="Library, empty" isEmpty />
-      <Shown name="Library" isEmpty={false} />
-    </>
-  );
-}
+const CONTENT = { isInDialog: true, content: <LibraryView onDone={() => undefined} /> } as const;
 
-function Shown({ name, isEmpty }: { readonly name: string; readonly isEmpty: boolean }) {
-  const [stores] = useState(() => {
-    const made = specimenStores(FAMILIES.doc);
-    if (!isEmpty) void fill(made);
-    return made;
-  });
-  return (
-    <StoresContext value={stores}>
-      <article className={styles.specimen} aria-label={name}>
-        <h2 className={styles.name} lang="en">
-          {name}
-        </h2>
-        <div className={styles.dialog}>
-          <LibraryView onDone={() => undefined} />
-        </div>
-      </article>
-    </StoresContext>
-  );
-}
+export const LIBRARY: readonly Exhibit[] = [
+  { name: 'Library, empty', ...CONTENT },
+  {
+    name: 'Library',
+    ...CONTENT,
+    stores() {
+      const stores = specimenStores(FAMILIES.doc);
+      void fill(stores);
+      return stores;
+    },
+  },
+];

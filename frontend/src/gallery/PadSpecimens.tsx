@@ -1,17 +1,13 @@
 // Keys and pad in each of their states: without a pad, held, driving with servos that nobody knows, in conflict.
 
-import { useState } from 'react';
-import { FAMILIES } from '#shared/protocol/families.ts';
 import type { Binding } from '#shared/actions/mapping/mapping.ts';
-import { INITIAL_STATE } from '#shared/session/store.ts';
 import { PadPanel } from '../pad/PadPanel.tsx';
 import type { Gamepadlike } from '../stores/pad.ts';
-import { StoresContext, type Stores } from '../stores/stores.ts';
+import { useStores, type Stores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
-import { frozenSession } from './frozen.ts';
-import { specimenStores } from './specimenStores.ts';
 import { words } from '../words/words.ts';
-import styles from './Gallery.module.css';
+import { standing, type Exhibit } from './exhibit.ts';
+import { SIMULATED } from './states.ts';
 
 interface PadSpecimen {
   readonly name: string;
@@ -45,32 +41,22 @@ const CASES: readonly PadSpecimen[] = [
   },
 ];
 
-export function PadSpecimens() {
-  return CASES.map((specimen) => <Shown key={specimen.name} specimen={specimen} />);
+function Driven() {
+  const { pad } = useStores();
+  useEachFrame(() => pad.frame());
+  return <PadPanel />;
 }
 
-function Shown({ specimen }: { readonly specimen: PadSpecimen }) {
-  const [stores] = useState(() => storesOf(specimen));
-  useEachFrame(() => stores.pad.frame());
-  return (
-    <StoresContext value={stores}>
-      <article className={styles.specimen} aria-label={specimen.name}>
-        <h2 className={styles.name} lang="en">
-          {specimen.name}
-        </h2>
-        <PadPanel />
-      </article>
-    </StoresContext>
-  );
-}
+export const PADS: readonly Exhibit[] = CASES.map((specimen) => ({
+  name: specimen.name,
+  content: <Driven />,
+  stores: () => storesOf(specimen),
+}));
 
 function storesOf({ pad: held, isDriving = false, more = [] }: PadSpecimen): Stores {
-  const stores = specimenStores(FAMILIES.doc, held);
-  const { device, mappings, pad, view } = stores;
+  const stores = standing({ way: SIMULATED, pad: held });
+  const { mappings, pad, view } = stores;
   view.setState({ authoring: 'pad' });
-  device.attach(frozenSession(FAMILIES.doc, { ...INITIAL_STATE, link: { status: 'ready' } }, {}), {
-    ...{ kind: 'simulated', label: 'Simulated board', isSimulated: true },
-  });
   mappings.edit(
     () => words.pad.steps.ready,
     (mapping) => ({ ...mapping, bindings: [...mapping.bindings, ...more] }),

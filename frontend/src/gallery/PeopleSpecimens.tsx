@@ -1,10 +1,11 @@
 // Coming in and letting in, in each state: a stranger's card, the stop-only page, and what an owner sees.
 
+import type { ReactNode } from 'react';
 import { PairCard } from '../people/PairCard.tsx';
 import { PeopleView } from '../people/PeopleView.tsx';
 import { StopFace, type StopOutcome } from '../people/StopPage.tsx';
 import { PeopleError, type PeopleState } from '../stores/people.ts';
-import styles from './Gallery.module.css';
+import type { Exhibit } from './exhibit.ts';
 
 /** No QR code that anybody could use. */
 const PICTURE =
@@ -77,40 +78,22 @@ const PROBLEMS: readonly (PeopleError | null)[] = [
 ];
 const OUTCOMES: readonly StopOutcome[] = ['idle', 'sending', 'sent', new PeopleError('notPaired', '')];
 
-export function PeopleSpecimens() {
-  const nothing = (): void => undefined;
-  const wishes = {
-    ...{ invite: nothing, endInvitation: nothing, change: nothing, revoke: nothing },
-    ...{ makeToken: nothing, makeStopLink: nothing, closeShown: nothing },
-  };
-  return (
-    <>
-      {PROBLEMS.map((problem, index) => (
-        <Specimen key={index} name={`Pair card ${index + 1}`}>
-          <PairCard problem={problem} overheard onPair={nothing} />
-        </Specimen>
-      ))}
-      {OUTCOMES.map((outcome, index) => (
-        <Specimen key={index} name={`Stop only ${index + 1}`}>
-          <StopFace outcome={outcome} onPress={nothing} />
-        </Specimen>
-      ))}
-      {CASES.map(({ name, state }) => (
-        <Specimen key={name} name={name}>
-          <PeopleView state={state} wishes={wishes} now={() => 0} />
-        </Specimen>
-      ))}
-    </>
-  );
-}
+const nothing = (): void => undefined;
+const WISHES = {
+  ...{ invite: nothing, endInvitation: nothing, change: nothing, revoke: nothing },
+  ...{ makeToken: nothing, makeStopLink: nothing, closeShown: nothing },
+};
 
-function Specimen({ name, children }: { readonly name: string; readonly children: React.ReactNode }) {
-  return (
-    <article className={styles.specimen} aria-label={name}>
-      <h2 className={styles.name} lang="en">
-        {name}
-      </h2>
-      <div className={styles.dialog}>{children}</div>
-    </article>
-  );
-}
+const inDialog = (name: string, content: ReactNode): Exhibit => ({ name, content, isInDialog: true });
+
+export const PEOPLE: readonly Exhibit[] = [
+  ...PROBLEMS.map((problem, index) =>
+    inDialog(`Pair card ${index + 1}`, <PairCard problem={problem} overheard onPair={nothing} />),
+  ),
+  ...OUTCOMES.map((outcome, index) =>
+    inDialog(`Stop only ${index + 1}`, <StopFace outcome={outcome} onPress={nothing} />),
+  ),
+  ...CASES.map(({ name, state }) =>
+    inDialog(name, <PeopleView state={state} wishes={WISHES} now={() => 0} />),
+  ),
+];

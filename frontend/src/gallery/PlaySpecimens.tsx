@@ -1,17 +1,13 @@
 // What a group becomes on the board, how it is played, and the board's slots, in their states, fed by plain values.
 
-import { useState, type ReactNode } from 'react';
+import type { ReactNode } from 'react';
 import { insertFrame, setMeta, type NewFrame } from '#shared/actions/group/groupEdits.ts';
 import { EMPTY_SLOT_BOOK, withStored } from '#shared/actions/slots/slotBook.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
-import { INITIAL_STATE } from '#shared/session/store.ts';
 import { BoardPanel } from '../board/BoardPanel.tsx';
 import { PlayBar } from '../play/PlayBar.tsx';
 import { SlotBoard } from '../slots/SlotsControl.tsx';
-import { editServoView, StoresContext, type Stores } from '../stores/stores.ts';
-import { frozenSession } from './frozen.ts';
-import styles from './Gallery.module.css';
-import { specimenStores } from './specimenStores.ts';
+import { editServoView, type Stores } from '../stores/stores.ts';
+import { standing, type Exhibit } from './exhibit.ts';
 
 const frame = (durationMs: number, position: number, easing: 'linear' | 'inOut' = 'linear'): NewFrame => ({
   ...{ durationMs, easing },
@@ -101,28 +97,12 @@ const CASES: readonly { readonly name: string; readonly panel: ReactNode; prepar
     },
   ];
 
-export function PlaySpecimens() {
-  return CASES.map((each) => <Shown key={each.name} {...each} />);
-}
-
-function Shown({ name, panel, prepare }: (typeof CASES)[number]) {
-  const [stores] = useState(() => {
-    const made = specimenStores(FAMILIES.doc);
-    const ready = { ...INITIAL_STATE, link: { status: 'ready' } as const };
-    made.device.attach(frozenSession(FAMILIES.doc, ready, {}), {
-      ...{ kind: 'webSerial', label: 'USB', isSimulated: false },
-    });
-    prepare(made);
-    return made;
-  });
-  return (
-    <StoresContext value={stores}>
-      <article className={styles.specimen} aria-label={name}>
-        <h2 className={styles.name} lang="en">
-          {name}
-        </h2>
-        {panel}
-      </article>
-    </StoresContext>
-  );
-}
+export const PLAYING: readonly Exhibit[] = CASES.map(({ name, panel, prepare }) => ({
+  name,
+  content: panel,
+  stores() {
+    const stores = standing({});
+    prepare(stores);
+    return stores;
+  },
+}));

@@ -1,24 +1,20 @@
 // Poses and buttons in each of their states, fed by plain values.
 
-import { useState, type ReactNode } from 'react';
+import type { ReactNode } from 'react';
 import { addMacro, changeMacro } from '#shared/actions/macros/macroEdits.ts';
 import { addPose, markApplied, markRest } from '#shared/actions/poses/poseEdits.ts';
 import type { PoseBook } from '#shared/actions/poses/pose.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
-import { INITIAL_STATE } from '#shared/session/store.ts';
 import { ButtonsPage } from '../macros/ButtonsPage.tsx';
 import { Kiosk } from '../macros/Kiosk.tsx';
 import { BlendBar } from '../poses/BlendBar.tsx';
 import { PosesPanel } from '../poses/PosesPanel.tsx';
 import { useSelectedPose } from '../poses/useSelectedPose.ts';
-import { StoresContext, type Stores } from '../stores/stores.ts';
+import type { Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
-import { frozenSession } from './frozen.ts';
-import styles from './Gallery.module.css';
-import { LEASE, motionsOf } from './specimens.ts';
-import { specimenStores } from './specimenStores.ts';
+import { standing, type Exhibit } from './exhibit.ts';
+import { LEASE, READY } from './states.ts';
 
-const POSES = { 'Greet the visitor': 0.2, 'Look down': 0.5, Sit: 0.8 };
+const NAMED = { 'Greet the visitor': 0.2, 'Look down': 0.5, Sit: 0.8 };
 
 function fill({ poses, macros, view }: Stores, edits: boolean): void {
   const targets = (share: number) =>
@@ -26,14 +22,14 @@ function fill({ poses, macros, view }: Stores, edits: boolean): void {
   poses.book.edit(
     () => words.poses.steps.import,
     (empty) => {
-      const book = Object.entries(POSES).reduce<PoseBook>(
+      const book = Object.entries(NAMED).reduce<PoseBook>(
         (sum, [name, share]) => addPose(sum, { name, unit: 'us', targets: targets(share) }),
         empty,
       );
       return markApplied(markRest(book, 3), 1);
     },
   );
-  Object.keys(POSES).forEach((name, index) => {
+  Object.keys(NAMED).forEach((name, index) => {
     const go = { kind: 'pose', pose: index + 1, durationMs: 1500 } as const;
     macros.edit(
       () => words.poses.steps.import,
@@ -70,33 +66,17 @@ function Blend() {
   return pose === undefined ? null : <BlendBar pose={pose} otherFirst={2} />;
 }
 
-export function PoseSpecimens() {
-  return CASES.map(({ name, ...rest }) => <Shown key={name} name={name} {...rest} />);
-}
+export const POSES: readonly Exhibit[] = CASES.map(({ name, panel, ...rest }) => ({
+  name,
+  content: panel,
+  stores: () => storesOf(rest),
+}));
 
-type Case = (typeof CASES)[number];
+type Case = Omit<(typeof CASES)[number], 'name' | 'panel'>;
 
-function Shown({ name, panel, isEmpty = false, edits = false, isShared = false }: Case) {
-  const [stores] = useState(() => {
-    const made = specimenStores(FAMILIES.doc);
-    const lease = isShared ? LEASE : null;
-    const ready = { ...INITIAL_STATE, link: { status: 'ready' } as const, lease };
-    made.device.attach(frozenSession(FAMILIES.doc, ready, motionsOf({ pose: 'still' })), {
-      ...{ kind: 'webSerial', label: 'USB', isSimulated: false },
-    });
-    made.device.refreshTargets();
-    if (!isEmpty) fill(made, edits);
-    made.blend.store.setState({ isLive: true, targets: [] });
-    return made;
-  });
-  return (
-    <StoresContext value={stores}>
-      <article className={styles.specimen} aria-label={name}>
-        <h2 className={styles.name} lang="en">
-          {name}
-        </h2>
-        {panel}
-      </article>
-    </StoresContext>
-  );
+function storesOf({ isEmpty = false, edits = false, isShared = false }: Case): Stores {
+  const stores = standing({ state: { ...READY, lease: isShared ? LEASE : null }, pose: 'still' });
+  if (!isEmpty) fill(stores, edits);
+  stores.blend.store.setState({ isLive: true, targets: [] });
+  return stores;
 }

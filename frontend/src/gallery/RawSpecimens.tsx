@@ -4,15 +4,17 @@ import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { RawForm } from '../console/RawSender.tsx';
 import { judgeText } from '../console/judgeText.ts';
 import { words } from '../words/words.ts';
-import styles from './Gallery.module.css';
+import type { Exhibit } from './exhibit.ts';
 
-const CASES: readonly {
+interface Case {
   readonly name: string;
   readonly text: string;
   readonly board?: FamilyId;
   readonly isConsented?: boolean;
   readonly isStopped?: boolean;
-}[] = [
+}
+
+const CASES: readonly Case[] = [
   { name: 'By hand, empty', text: '' },
   { name: 'By hand, not whole', text: '55 55 08 03 01' },
   { name: 'By hand, refused', text: '55 55 02 0C', board: 'learm-esp32', isConsented: true },
@@ -26,24 +28,22 @@ const CASES: readonly {
   },
 ];
 
-export function RawSpecimens() {
+export const RAW: readonly Exhibit[] = CASES.map(({ name, ...rest }) => ({
+  name,
+  content: <Typed {...rest} />,
+}));
+
+function Typed({ text, board = 'doc', isConsented = false, isStopped = false }: Omit<Case, 'name'>) {
   const nothing = (): void => undefined;
-  return CASES.map(({ name, text, board = 'doc', isConsented = false, isStopped = false }) => {
-    const obstacle = isStopped ? words.raw.waits : null;
-    const judged = judgeText(text, FAMILIES[board]);
-    return (
-      <article key={name} className={styles.specimen} aria-label={name}>
-        <h2 className={styles.name} lang="en">
-          {name}
-        </h2>
-        <RawForm
-          {...{ text, judged, obstacle, isConsented }}
-          maySend={isConsented && judged.packet !== null && obstacle === null}
-          onText={nothing}
-          onConsent={nothing}
-          onSend={nothing}
-        />
-      </article>
-    );
-  });
+  const obstacle = isStopped ? words.raw.waits : null;
+  const judged = judgeText(text, FAMILIES[board]);
+  return (
+    <RawForm
+      {...{ text, judged, obstacle, isConsented }}
+      maySend={isConsented && judged.packet !== null && obstacle === null}
+      onText={nothing}
+      onConsent={nothing}
+      onSend={nothing}
+    />
+  );
 }

@@ -1,6 +1,5 @@
 // The action group's timeline in each of its states, fed by plain values.
 
-import { useState } from 'react';
 import { addMarker } from '#shared/actions/group/markerEdits.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { insertFrame, type NewFrame } from '#shared/actions/group/groupEdits.ts';
@@ -10,8 +9,8 @@ import { ActionsPanel } from '../actions/ActionsPanel.tsx';
 import { select } from '../timeline/desk.ts';
 import { keySet } from '../stores/keySet.ts';
 import { freshRobot } from '../stores/robots.ts';
-import { editServoView, StoresContext, type Stores } from '../stores/stores.ts';
-import styles from './Gallery.module.css';
+import { editServoView, type Stores } from '../stores/stores.ts';
+import type { Exhibit } from './exhibit.ts';
 import { specimenStores } from './specimenStores.ts';
 
 function wave(frames: number, servos: number): ActionGroup['frames'][number]['targets'][] {
@@ -106,26 +105,16 @@ const CASES: readonly Case[] = [
   { name: 'Timeline, 255 frames of 32 servos', frames: 255, robot: 'plain32' },
 ];
 
-export function TimelineSpecimens() {
-  return CASES.map((one) => <Shown key={one.name} specimen={one} />);
-}
+export const TIMELINES: readonly Exhibit[] = CASES.map((specimen) => ({
+  name: specimen.name,
+  content: <ActionsPanel />,
+  stores: () => storesOf(specimen),
+}));
 
-function Shown({ specimen: { name, frames, robot, prepare } }: { readonly specimen: Case }) {
-  const [stores] = useState(() => {
-    const made = specimenStores(FAMILIES.doc);
-    if (robot !== undefined) made.robots.add(() => '', freshRobot(robot, 'lsc-32'));
-    fill(made, frames, robot === 'plain32' ? 32 : robot === 'humanoid18' ? 18 : 6);
-    prepare?.(made);
-    return made;
-  });
-  return (
-    <StoresContext value={stores}>
-      <article className={styles.specimen} aria-label={name}>
-        <h2 className={styles.name} lang="en">
-          {name}
-        </h2>
-        <ActionsPanel />
-      </article>
-    </StoresContext>
-  );
+function storesOf({ frames, robot, prepare }: Case): Stores {
+  const stores = specimenStores(FAMILIES.doc);
+  if (robot !== undefined) stores.robots.add(() => '', freshRobot(robot, 'lsc-32'));
+  fill(stores, frames, robot === 'plain32' ? 32 : robot === 'humanoid18' ? 18 : 6);
+  prepare?.(stores);
+  return stores;
 }

@@ -51,12 +51,20 @@ interface Named {
   readonly nickname?: string;
   readonly groupName?: string;
   readonly board?: FamilyId;
+  readonly shows?: readonly ['live'];
   readonly robot: ServoSpecimen;
 }
 
+const LIVE = { shows: ['live'] } as const;
+
 export const SERVO_SPECIMENS: readonly Named[] = [
-  { name: 'One servo', robot: { robot: oneServo } },
-  { name: 'Thirty-two servos', board: 'lsc-32', robot: { robot: () => freshRobot('plain32', 'lsc-32') } },
+  { name: 'One servo', ...LIVE, robot: { robot: oneServo } },
+  {
+    name: 'Thirty-two servos',
+    board: 'lsc-32',
+    ...LIVE,
+    robot: { robot: () => freshRobot('plain32', 'lsc-32') },
+  },
   {
     name: 'Long names',
     board: 'lsc-24',
@@ -64,9 +72,10 @@ export const SERVO_SPECIMENS: readonly Named[] = [
     groupName: LONG_NAME,
     robot: { robot: longNames },
   },
-  { name: 'Limits, degrees', robot: { robot: describedArm, view: { positionsIn: 'degrees' } } },
+  { name: 'Limits, degrees', ...LIVE, robot: { robot: describedArm, view: { positionsIn: 'degrees' } } },
   {
     name: 'Together, weighted',
+    ...LIVE,
     robot: {
       robot: describedArm,
       servos: { selected: [3, 4], locked: [6], hidden: [1], together: 'weighted', weights: { 4: -50 } },
@@ -74,13 +83,14 @@ export const SERVO_SPECIMENS: readonly Named[] = [
   },
   ...(['hand', 'humanoid18', 'hexapod18'] as const).map((id): Named => {
     const board: FamilyId = id === 'hand' ? 'doc' : 'lsc-24';
-    return { name: `List of ${id}`, board, robot: { robot: () => freshRobot(id, board) } };
+    return { name: `List of ${id}`, board, ...LIVE, robot: { robot: () => freshRobot(id, board) } };
   }),
   ...(['arm', 'hand', 'humanoid18', 'hexapod18', 'plain16'] as const).map((id): Named => {
     const board: FamilyId = id === 'arm' || id === 'hand' ? 'doc' : 'lsc-24';
     return {
       name: `Body of ${id}`,
       board,
+      ...LIVE,
       robot: { robot: () => freshRobot(id, board), servos: { selected: [3] }, view: { servoLayout: 'body' } },
     };
   }),
