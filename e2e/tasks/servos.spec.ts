@@ -47,22 +47,37 @@ test('positions are shown and typed in degrees from home', async ({ dashboard, r
   await expect(dashboard.notices).toContainText('Elbow: 91° is out of range; it takes -90° to 90°.');
 });
 
-test('the wheel steps what has the focus and nothing else; a double click sends home', async ({
+test('the wheel steps a known servo that has the focus and nothing else; a double click sends home', async ({
   dashboard,
   robot,
   page,
 }) => {
+  // It reaches the page some frames later.
+  const turnInVain = async (): Promise<void> => {
+    await page.mouse.wheel(0, -120);
+    await page.evaluate(async () => {
+      for (let frame = 0; frame < 30; frame += 1) await new Promise(requestAnimationFrame);
+    });
+  };
+  await dashboard.slider(2).hover();
+  await turnInVain();
+  await dashboard.slider(2).focus();
+  await turnInVain();
+  await dashboard.slider(2).press('ArrowRight');
+  await poll(() => lastTarget(robot.bus, 2)).toBe(1501);
+  expect(ofKind(await robot.bus(), 'move')).toHaveLength(1);
+
   await dashboard.slider(2).hover();
   await page.mouse.wheel(0, -120);
-  // A turn of the wheel reaches the page some frames later; it shall find nothing focused.
-  await page.evaluate(async () => {
-    for (let frame = 0; frame < 30; frame += 1) await new Promise(requestAnimationFrame);
-  });
-  await dashboard.slider(2).focus();
-  await page.mouse.wheel(0, -120);
-  await poll(() => lastTarget(robot.bus, 2)).toBe(1501);
+  await poll(() => lastTarget(robot.bus, 2)).toBe(1502);
+  await dashboard.type(dashboard.target(2), 9999);
+  await expect(dashboard.notices).toContainText('9999 is out of range');
+  await turnInVain();
   await dashboard.type(dashboard.target(2), 1800);
   await poll(() => lastTarget(robot.bus, 2)).toBe(1800);
+  const moves = ofKind(await robot.bus(), 'move');
+  expect(moves).toHaveLength(3);
+  expect(moves.at(-1)?.durationMs).toBeGreaterThanOrEqual(290);
   await dashboard.slider(2).dblclick();
   await poll(() => lastTarget(robot.bus, 2)).toBe(1500);
 });

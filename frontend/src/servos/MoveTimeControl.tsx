@@ -43,6 +43,7 @@ export function MoveTimeControl() {
         onChange={setMs}
         onRefused={(value) => notices.tell('warning', words.refused(words.servos.moveTime, value, min, max))}
       />
+      <p className={styles.about}>{words.servos.moveTimeAbout[isTimed ? 'timed' : 'hand']}</p>
     </div>
   );
 }

@@ -26,6 +26,8 @@ export interface PositionSliderProps {
   readonly guess: number | null;
   readonly blocked: boolean;
   onMove(position: number): void;
+  /** At one stroke, with no hand that leads it there. */
+  onLeap(position: number): void;
   /** Between two frames, more often than the input itself tells. */
   onDrag(position: number): void;
   onHome(): void;
@@ -39,6 +41,7 @@ export function PositionSlider({
   guess,
   blocked,
   onMove,
+  onLeap,
   onDrag,
   onHome,
 }: PositionSliderProps) {
@@ -57,10 +60,11 @@ export function PositionSlider({
     if (input.current !== null) input.current.ariaValueText = valueText(scale, target, guess);
   });
 
-  /** Blocked, it keeps the focus and its place, and takes nothing. */
+  /** Blocked, it keeps the focus and its place, and takes nothing. Without a pointer on it, it was Home or End. */
   function moved(element: HTMLInputElement): void {
     if (blocked) element.value = String(shown());
-    else onMove(element.valueAsNumber);
+    else if (held.current) onMove(element.valueAsNumber);
+    else onLeap(element.valueAsNumber);
   }
 
   function release(): void {

@@ -2,7 +2,7 @@
 
 import { memo, useRef } from 'react';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
-import { motionHindrance, tellsPositions } from '../stores/readiness.ts';
+import { mayBrush, motionHindrance, tellsPositions } from '../stores/readiness.ts';
 import { isHeld } from '../stores/servoView.ts';
 import { useDevice, useGuess, useServoView, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
@@ -57,27 +57,52 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
   const isLocked = useServoView((view) => isHeld(view, servo));
   const isTelling = tellsPositions(family);
   const blocked = hindrance !== null || isLocked;
-  const move = (position: number): void => hand.move(servo, position);
-
   const area = useRef<HTMLDivElement>(null);
-  useWheelSteps(area, (change, isFar) => {
-    const from = targetOf(device, servo) ?? guess ?? own.home;
-    if (!blocked) move(stepped(scale, from, change * (isFar ? 10 : 1)));
+  /** Whoever reads why turns the wheel to scroll. */
+  const isRefused = useRef(false);
+  const touch = (): void => {
+    isRefused.current = false;
+  };
+  const move = (position: number): void => {
+    touch();
+    hand.move(servo, position);
+  };
+  const leap = (position: number): void => {
+    touch();
+    hand.leap(servo, position);
+  };
+  useWheelSteps(area, {
+    mayStep: () =>
+      !isLocked && !isRefused.current && mayBrush(device.store.getState().snapshot, targetOf(device, servo)),
+    step(change, isFar) {
+      const from = targetOf(device, servo);
+      if (from !== null) move(stepped(scale, from, change * (isFar ? 10 : 1)));
+    },
   });
 
   return (
     <div
       ref={area}
       className={styles.controls}
-      onPointerDown={hindrance === 'watching' ? () => device.lease('request') : undefined}
+      onFocus={touch}
+      onPointerDown={() => {
+        touch();
+        if (hindrance === 'watching') device.lease('request');
+      }}
     >
       <PositionSlider
         {...{ servo: own, family, scale, isKnown, guess, blocked }}
         onMove={move}
+        onLeap={leap}
         onDrag={(position) => hand.drag(servo, position)}
         onHome={() => hand.home([servo])}
       />
-      <TargetField {...{ servo: own, scale, guess, blocked }} onMove={move} />
+      <TargetField
+        {...{ servo: own, scale, guess, blocked }}
+        onStep={move}
+        onLeap={leap}
+        onRefused={() => (isRefused.current = true)}
+      />
       <div className={styles.readings}>
         <Estimate servo={servo} scale={scale} />
         {isTelling && <Reported servo={servo} scale={scale} />}
@@ -91,15 +116,21 @@ interface TargetFieldProps {
   readonly scale: Scale;
   readonly guess: number | null;
   readonly blocked: boolean;
-  onMove(position: number): void;
+  onStep(position: number): void;
+  onLeap(position: number): void;
+  onRefused(): void;
 }
 
-function TargetField({ servo: own, scale, guess, blocked, onMove }: TargetFieldProps) {
+function TargetField({ servo: own, scale, guess, blocked, onStep, onLeap, onRefused }: TargetFieldProps) {
   const { notices } = useStores();
   const [target, readAgain] = useReadTarget(own.servo);
-  const take = (shown: number): void => {
-    onMove(scale.position(shown));
+  const take = (shown: number, isStep: boolean): void => {
+    (isStep ? onStep : onLeap)(scale.position(shown));
     readAgain();
+  };
+  const refuse = (shown: number): void => {
+    notices.tell('warning', refusal(own, shown, scale));
+    onRefused();
   };
   return (
     <NumberField
@@ -118,7 +149,7 @@ function TargetField({ servo: own, scale, guess, blocked, onMove }: TargetFieldP
       start={scale.shown(guess ?? own.home)}
       isReadOnly={blocked}
       onChange={take}
-      onRefused={(shown) => notices.tell('warning', refusal(own, shown, scale))}
+      onRefused={refuse}
     />
   );
 }

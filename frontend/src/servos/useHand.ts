@@ -2,24 +2,28 @@
 
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
+import type { Pace } from '../stores/moveTime.ts';
 import { guessesNow, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
 import { isHeld, type ServoView } from '../stores/servoView.ts';
 import { moveGang, weightOf, type Gang, type Member } from './gang.ts';
 
 export interface Hand {
   move(servo: number, position: number): void;
+  /** To a place that no hand leads it to: its own time, unless one is set. */
+  leap(servo: number, position: number): void;
   /** The same between two frames, while a pointer holds the slider. */
   drag(servo: number, position: number): void;
-  /** Each to its own home; `durationMs` is left out for the set move time. */
+  /** Each to its own home; `durationMs` is left out for a leap. */
   home(servos: readonly number[], durationMs?: number): void;
 }
 
 export function useHand(): Hand {
   const stores = useStores();
   return {
-    move: (servo, position) => send(stores, 'move', together(stores, servo, position)),
-    drag: (servo, position) => send(stores, 'drag', together(stores, servo, position)),
-    home: (servos, durationMs) => send(stores, 'move', homes(stores, servos), durationMs),
+    move: (servo, position) => send(stores, 'move', together(stores, servo, position), 'hand'),
+    leap: (servo, position) => send(stores, 'move', together(stores, servo, position), 'leap'),
+    drag: (servo, position) => send(stores, 'drag', together(stores, servo, position), 'hand'),
+    home: (servos, durationMs) => send(stores, 'move', homes(stores, servos), durationMs ?? 'leap'),
   };
 }
 
@@ -52,13 +56,10 @@ function homes({ robots }: Stores, servos: readonly number[]): readonly ServoTar
   return own.map(({ servo, home }) => ({ servo, position: home }));
 }
 
-function send(
-  stores: Stores,
-  how: 'move' | 'drag',
-  targets: readonly ServoTarget[],
-  durationMs?: number,
-): void {
+function send(stores: Stores, how: 'move' | 'drag', targets: readonly ServoTarget[], pace: Pace): void {
   const view = servoViewOf(stores);
+  const { moveTime } = stores.view.getState();
   const free = targets.filter(({ servo }) => !isHeld(view, servo));
-  if (free.length > 0) stores.device[how](free, durationMs ?? stores.view.getState().moveTime);
+  if (free.length > 0)
+    stores.device[how](free, typeof pace === 'number' || moveTime === 'hand' ? pace : moveTime);
 }

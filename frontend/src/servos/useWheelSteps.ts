@@ -1,14 +1,18 @@
-// The wheel as a way to step: only over something that has the focus, so that scrolling past a servo never moves it.
+// The wheel as a way to step: only over something that has the focus and may be stepped now, so that scrolling past a servo
+// never moves it. Everywhere else it scrolls.
 
 import { useEffect, useEffectEvent, type RefObject } from 'react';
 
 /** Less than one notch of any common wheel; a touch pad sends many small parts. */
 const NOTCH_PX = 50;
 
-export function useWheelSteps(
-  area: RefObject<HTMLElement | null>,
-  step: (change: 1 | -1, isFar: boolean) => void,
-): void {
+export interface WheelSteps {
+  mayStep(): boolean;
+  step(change: 1 | -1, isFar: boolean): void;
+}
+
+export function useWheelSteps(area: RefObject<HTMLElement | null>, { mayStep, step }: WheelSteps): void {
+  const mayStepNow = useEffectEvent(mayStep);
   const stepNow = useEffectEvent(step);
   useEffect(() => {
     const element = area.current;
@@ -16,7 +20,7 @@ export function useWheelSteps(
     let turnedPx = 0;
     function turn(event: WheelEvent): void {
       // With Ctrl it is the browser's zoom.
-      if (event.ctrlKey) return;
+      if (event.ctrlKey || !mayStepNow()) return;
       event.preventDefault();
       // With Shift browsers turn the wheel sideways.
       const delta = event.deltaY === 0 ? event.deltaX : event.deltaY;

@@ -16,7 +16,7 @@ import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { Transport } from '#shared/session/transport.ts';
 import { words } from '../words/words.ts';
 import { limitRefusal } from './limits.ts';
-import { moveDurationMs, type MoveTime } from './moveTime.ts';
+import { moveDurationMs, type Pace } from './moveTime.ts';
 import type { Notices } from './notices.ts';
 import { followRobot } from './robotOfLink.ts';
 import type { RobotStore } from './robots.ts';
@@ -60,9 +60,9 @@ export interface Device {
   /** What each servo was last asked for, as of now; the store has it once a frame. */
   targetsNow(): Targets;
   /** False where it was refused; then the person was told why. */
-  move(targets: readonly ServoTarget[], time: MoveTime): boolean;
+  move(targets: readonly ServoTarget[], pace: Pace): boolean;
   /** As `move`, between two frames: the page shows it with its next one. */
-  drag(targets: readonly ServoTarget[], time: MoveTime): boolean;
+  drag(targets: readonly ServoTarget[], pace: Pace): boolean;
   /** This servo's limits are looked for: `creep` moves it, past the present ones too. null: no longer. */
   calibrate(servo: number | null): void;
   /** Moves the servo that is calibrated, as far as its board can. */
@@ -225,10 +225,10 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   /** False where it was refused; then the person was told why. */
-  function send(targets: readonly ServoTarget[], time: MoveTime): boolean {
+  function send(targets: readonly ServoTarget[], pace: Pace): boolean {
     if (session === null) return false;
     try {
-      session.move(onBoard(robot(), targets), moveDurationMs(time, targets, session.state.family, motion));
+      session.move(onBoard(robot(), targets), moveDurationMs(pace, targets, session.state.family, motion));
       book.wish(targets);
       return true;
     } catch (error) {
@@ -237,8 +237,8 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     }
   }
 
-  function drag(targets: readonly ServoTarget[], time: MoveTime): boolean {
-    return session !== null && allowed(targets) !== null && send(targets, time);
+  function drag(targets: readonly ServoTarget[], pace: Pace): boolean {
+    return session !== null && allowed(targets) !== null && send(targets, pace);
   }
 
   function attempt(work: (session: Session) => Promise<unknown>, settled: Settled = () => undefined): void {
@@ -315,8 +315,8 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     refreshTargets,
     waiting: book.waiting,
     targetsNow,
-    move(targets, time) {
-      const isSent = drag(targets, time);
+    move(targets, pace) {
+      const isSent = drag(targets, pace);
       if (isSent) refreshTargets();
       return isSent;
     },

@@ -19,6 +19,13 @@ describe('the time of a move from the sliders', () => {
     expect(moveDurationMs('hand', to(1000), FAMILIES['bus-ctrl'], at(500))).toBe(350);
   });
 
+  test('a leap takes its time by the way, even a short one', () => {
+    expect(moveDurationMs('leap', to(2500), FAMILIES.doc, at(500))).toBe(2000);
+    expect(moveDurationMs('leap', to(1200), FAMILIES.doc, at(1899))).toBe(699);
+    expect(moveDurationMs('leap', to(1000), FAMILIES['bus-ctrl'], at(500))).toBe(1000);
+    expect(moveDurationMs('leap', to(1501), FAMILIES.doc, at(1500))).toBe(300);
+  });
+
   test('the longest way of several decides; an unknown one is the session’s to soften', () => {
     const motion = (servo: number) => at(servo === 1 ? 1000 : null)();
     const targets = [

@@ -27,6 +27,12 @@ export function motionHindrance({ link, latch, lease, activity }: SessionState):
   return activity.kind === 'downloading' || activity.kind === 'erasing' ? 'busy' : null;
 }
 
+/** What only brushes a servo, like the wheel, may move it: never as its first move, and never to begin to drive. */
+export function mayBrush(snapshot: SessionState, target: number | null): boolean {
+  const drives = snapshot.lease?.drives ?? true;
+  return drives && target !== null && motionHindrance(snapshot) === null;
+}
+
 /** null: something that takes its own time may begin, because nothing else is at it. */
 export function startHindrance(snapshot: SessionState): Hindrance | null {
   return motionHindrance(snapshot) ?? (snapshot.activity.kind === 'idle' ? null : 'busy');

@@ -25,7 +25,8 @@ export interface NumberFieldProps {
   /** Takes nothing for now, yet keeps its place and the focus. */
   readonly isReadOnly?: boolean;
   readonly excludeFromTabOrder?: boolean;
-  onChange(value: number): void;
+  /** `isStep`: by a key, from the value before. */
+  onChange(value: number, isStep: boolean): void;
   onRefused(value: number): void;
 }
 
@@ -34,15 +35,15 @@ export function NumberField(props: NumberFieldProps) {
   /** What is being typed; null while it is the value. */
   const [draft, setDraft] = useState<string | null>(null);
 
-  function take(wanted: number): void {
+  function take(wanted: number, isStep: boolean): void {
     setDraft(null);
     if (Number.isNaN(wanted) || wanted === value) return;
     if (wanted < props.min || wanted > props.max) props.onRefused(wanted);
-    else props.onChange(wanted);
+    else props.onChange(wanted, isStep);
   }
 
   function commit(): void {
-    if (draft !== null) take(numberIn(draft, props.decimals ?? 0));
+    if (draft !== null) take(numberIn(draft, props.decimals ?? 0), false);
   }
 
   function onKey(event: KeyboardEvent): void {
@@ -52,7 +53,7 @@ export function NumberField(props: NumberFieldProps) {
     event.preventDefault();
     event.stopPropagation();
     const from = value ?? props.start ?? props.min;
-    take(Math.min(props.max, Math.max(props.min, from + change)));
+    take(Math.min(props.max, Math.max(props.min, from + change)), true);
   }
 
   return (

@@ -210,6 +210,10 @@ export const english = {
     moveTime: 'Move time',
     hand: 'As fast as my hand',
     timed: 'In a set time',
+    moveTimeAbout: {
+      hand: 'Follows the pointer. Typed numbers, Home and End: a whole range in 2 s.',
+      timed: 'Every move takes this long.',
+    },
     moveTimeField: 'Move time in milliseconds',
     ms: 'ms',
     age: (ms: number): string => formatAge(ms),

@@ -196,6 +196,10 @@ export const chinese: Words = {
     moveTime: '移动时间',
     hand: '跟手',
     timed: '定时',
+    moveTimeAbout: {
+      hand: '跟着指针走。键入的数字、Home 键和 End 键：全程 2 秒。',
+      timed: '每次移动都用这么久。',
+    },
     moveTimeField: '移动时间，单位毫秒',
     ms: '毫秒',
     age: (ms) => formatAge(ms),

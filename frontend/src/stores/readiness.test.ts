@@ -1,0 +1,31 @@
+import { describe, expect, test } from 'vitest';
+import type { Lease } from '#shared/session/lease.ts';
+import { INITIAL_STATE } from '#shared/session/store.ts';
+import type { SessionState } from '#shared/session/state.ts';
+import { mayBrush } from './readiness.ts';
+
+const READY: SessionState = { ...INITIAL_STATE, link: { status: 'ready' } };
+const LEASE: Lease = {
+  ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null },
+  ...{ mayDrive: true, mayTake: false, others: 0, unattended: null },
+};
+
+describe('what only brushes a servo', () => {
+  test('moves one whose place is known, on a link of its own or while driving', () => {
+    expect(mayBrush(READY, 1500)).toBe(true);
+    expect(mayBrush({ ...READY, lease: { ...LEASE, driver: 'Anna', drives: true } }, 1500)).toBe(true);
+  });
+
+  test('is no first move', () => {
+    expect(mayBrush(READY, null)).toBe(false);
+  });
+
+  test('does not begin to drive, though a press would', () => {
+    expect(mayBrush({ ...READY, lease: LEASE }, 1500)).toBe(false);
+    expect(mayBrush({ ...READY, lease: { ...LEASE, driver: 'Anna' } }, 1500)).toBe(false);
+  });
+
+  test('moves nothing that is stopped', () => {
+    expect(mayBrush({ ...READY, latch: { reason: 'pressed', stop: 'sent', unheld: [] } }, 1500)).toBe(false);
+  });
+});
