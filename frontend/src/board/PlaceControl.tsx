@@ -2,14 +2,16 @@
 
 import { setMeta } from '#shared/actions/group/groupEdits.ts';
 import { chosenPlace } from '../stores/groupPlace.ts';
-import { useGroup, useStores, useView } from '../stores/stores.ts';
+import { useDocument, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import styles from './BoardPanel.module.css';
 
 export function PlaceControl() {
   const { document, view } = useStores();
-  const { slot, times, frames } = useGroup();
+  const slot = useDocument(({ present }) => present.slot);
+  const times = useDocument(({ present }) => present.times);
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const isKept = useView((state) => {
     const chosen = chosenPlace(state);
     return chosen.slot === slot && chosen.times === times;
@@ -26,7 +28,7 @@ export function PlaceControl() {
         tone="quiet"
         icon="save"
         hint={words.board.keepPlaceHint}
-        isDisabled={isKept || frames.length === 0}
+        isDisabled={isKept || isEmpty}
         onPress={keep}
       >
         {words.board.keepPlace}

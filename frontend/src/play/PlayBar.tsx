@@ -1,6 +1,7 @@
 // Playing the group: from the page, from where the playhead is, or by the board itself, which gets it first where it has not just
 // this. What goes on is said in a line that is always there.
 
+import { useShallow } from 'zustand/react/shallow';
 import { SPEED_PERCENT, type PlaybackPhase } from '../stores/playback.ts';
 import { useFates } from '../slots/useFates.ts';
 import { motionHindrance, startHindrance } from '../stores/readiness.ts';
@@ -8,7 +9,6 @@ import { isSilent } from '../stores/servoView.ts';
 import {
   useDevice,
   useDocument,
-  useGroup,
   usePlayback,
   useRobot,
   useServoView,
@@ -196,11 +196,15 @@ function Phase({ phase }: { readonly phase: PlaybackPhase | null }) {
 /** The servos of the group that are muted, or beside those that play alone, by name. */
 function useSilentRows(): readonly string[] {
   const { servos } = useRobot();
-  const tracks = timesOf(useGroup()).tracks;
   // Not all of the view: a servo that is dragged changes it in each frame.
   const muted = useServoView((view) => view.muted);
   const solo = useServoView((view) => view.solo);
-  return servos
-    .filter(({ servo }) => tracks.has(servo) && isSilent({ muted, solo }, servo))
-    .map(({ name }) => name);
+  return useDocument(
+    useShallow(({ present }) => {
+      const { tracks } = timesOf(present);
+      return servos
+        .filter(({ servo }) => tracks.has(servo) && isSilent({ muted, solo }, servo))
+        .map(({ name }) => name);
+    }),
+  );
 }

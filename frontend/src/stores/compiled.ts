@@ -13,6 +13,7 @@ import type { Family } from '#shared/protocol/families.ts';
 import type { Device } from './device.ts';
 import type { Document } from './document.ts';
 import type { RobotStore } from './robots.ts';
+import { setChanged } from './setChanged.ts';
 
 interface Source {
   readonly group: ActionGroup;
@@ -87,7 +88,7 @@ export function createCompiled({ document, device, robots, clock }: CompiledOpti
     const isFresh = isLatest(sourceNow(store.getState().maxErrorUnits));
     if (isFresh && store.getState().isFresh) return;
     cancelTimer();
-    store.setState({ isFresh });
+    setChanged(store, { isFresh });
     if (!isFresh && document.store.getState().gesture === null) cancelTimer = clock.after(QUIET_MS, now);
   }
 

@@ -9,8 +9,9 @@ import { servoOf } from '#shared/actions/robot/robot.ts';
 import { positionRange, type Family, type Range } from '#shared/protocol/families.ts';
 import { keySet, type KeySet } from '../stores/keySet.ts';
 import { isHeld, type ServoView } from '../stores/servoView.ts';
+import { setChanged } from '../stores/setChanged.ts';
 import { servoViewOf, type Stores } from '../stores/stores.ts';
-import type { TimelineState } from '../stores/timeline.ts';
+import type { Cursor, TimelineState } from '../stores/timeline.ts';
 import type { PositionsIn } from '../stores/view.ts';
 import { words } from '../words/words.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
@@ -68,12 +69,14 @@ export interface Change {
   edit(group: ActionGroup): ActionGroup;
   /** What is selected afterwards; left out: what is still there of the selection. */
   selects?(times: GroupTimes): readonly KeyRef[];
+  /** Where the cursor is then; left out: where it was. */
+  cursor?(times: GroupTimes): Cursor;
 }
 
-export function apply({ stores }: Pick<Desk, 'stores'>, { label, edit, selects }: Change): void {
+export function apply({ stores }: Pick<Desk, 'stores'>, { label, edit, selects, cursor }: Change): void {
   stores.document.edit(label, edit);
   const times = timesOf(stores.document.store.getState().present);
-  select(stores, selects === undefined ? null : keySet(selects(times)));
+  select(stores, selects === undefined ? null : keySet(selects(times)), cursor?.(times));
 }
 
 /** The very set that was there, where it says the same: whoever shows it has nothing to do. */
@@ -81,17 +84,21 @@ const sameOr = (before: KeySet, after: KeySet): KeySet =>
   before.size === after.size && [...after].every((name) => before.has(name)) ? before : after;
 
 /** Null: what is still there. The frame strip goes along. */
-export function select(stores: DeskStores, wanted: KeySet | null, cursor?: TimelineState['cursor']): void {
+export function select(stores: DeskStores, wanted: KeySet | null, cursor?: Cursor): void {
   const times = timesOf(stores.document.store.getState().present);
   const before = stores.timeline.getState();
   const keys = selectedKeys(times, wanted ?? before.selected);
   const selected = sameOr(before.selected, keySet(keys));
-  stores.timeline.setState({ selected, marker: null, ...(cursor !== undefined && { cursor }) });
+  setChanged(stores.timeline, { selected, marker: null, cursor: sameCursor(before.cursor, cursor) });
   const frames = new Set(keys.map(({ frameId }) => frameId));
   const at = (cursor ?? before.cursor).frameId;
   const [first = null] = frames;
-  stores.view.setState({ selectedFrame: at !== null && frames.has(at) ? at : first });
+  setChanged(stores.view, { selectedFrame: at !== null && frames.has(at) ? at : first });
 }
+
+/** Left out: where it was. */
+const sameCursor = (before: Cursor, after: Cursor = before): Cursor =>
+  before.row === after.row && before.frameId === after.frameId ? before : after;
 
 /** False where nothing may be changed; then the person is told why. */
 export function hasChangeable(desk: Desk): boolean {

@@ -3,6 +3,7 @@
 import type { Key } from '#shared/actions/group/tracks.ts';
 import { ALL_ROW, type Cursor, type TimeView } from '../stores/timeline.ts';
 import { withKeys, type SelectMode } from '../stores/keySet.ts';
+import { setChanged } from '../stores/setChanged.ts';
 import { rowOf, select, type Desk } from './desk.ts';
 import { allKeys, endOfFrame, keysOfFrame, selectedKeys, spanOf } from './groupTimes.ts';
 import { fitted, showing, zoomedAt, type Span } from '../stores/timeScale.ts';
@@ -100,10 +101,9 @@ export function zoom(desk: Desk, step: 1 | -1): void {
 }
 
 export function fitAll({ stores, times }: Pick<Desk, 'stores' | 'times'>): void {
-  stores.timeline.setState(({ time, widthPx }) => ({
-    time: sameOr(time, fitted({ fromMs: 0, toMs: times.lengthMs || EMPTY_MS }, widthPx)),
-    followsGroup: true,
-  }));
+  const { time, widthPx } = stores.timeline.getState();
+  const whole = fitted({ fromMs: 0, toMs: times.lengthMs || EMPTY_MS }, widthPx);
+  setChanged(stores.timeline, { time: sameOr(time, whole), followsGroup: true });
 }
 
 /** Whoever shows a stretch that is the same has nothing to do. */

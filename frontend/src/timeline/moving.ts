@@ -64,9 +64,8 @@ export function nudge(desk: Desk, ticks: number, turns: number): void {
   const refs = changeable(desk);
   const deltaPosition = turns * nudgeUnits(desk, servoAtHand(desk, refs) ?? 0);
   const move = moveOf(desk, desk.group, refs, { deltaMs, deltaPosition });
-  apply(desk, { label: () => words.timeline.steps.move, ...move });
+  const cursor = (times: GroupTimes): Cursor => cursorAfter(desk, refs, move.selects(times));
+  apply(desk, { label: () => words.timeline.steps.move, ...move, cursor });
   const times = timesOf(desk.stores.document.store.getState().present);
-  const cursor = cursorAfter(desk, refs, move.selects(times));
-  desk.stores.timeline.setState({ cursor });
-  desk.stores.view.setState({ said: cellName({ ...desk, times }, cursor) });
+  desk.stores.view.setState({ said: cellName({ ...desk, times }, cursor(times)) });
 }

@@ -31,9 +31,8 @@ export function rowsOf(
     if (limbs.length === 1) return rows;
     return [limbRow(group, members), ...(folded.includes(group) ? [] : rows)];
   });
-  const strange = keyed.filter(
-    (number) => !hidden.includes(number) && !servos.some(({ servo }) => servo === number),
-  );
+  const known = new Set([...hidden, ...servos.map(({ servo }) => servo)]);
+  const strange = keyed.filter((number) => !known.has(number));
   const all = [...shown.map(({ servo }) => servo), ...strange];
   return [
     { id: ALL_ROW, kind: 'all', servos: all, name: '', servo: null },

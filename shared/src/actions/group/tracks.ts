@@ -86,8 +86,9 @@ export function isPlacedAlike(one: GroupFrame, other: GroupFrame): boolean {
 
 function reposition(tracks: Map<number, Track>, { frameId, servo }: KeyRef, position: number): void {
   const keys = tracks.get(servo)?.keys ?? [];
-  const moved = keys.map((key) => (key.frameId === frameId ? { ...key, position } : key));
-  tracks.set(servo, { servo, keys: moved });
+  const index = keys.findIndex((key) => key.frameId === frameId);
+  const key = keys[index];
+  if (key !== undefined) tracks.set(servo, { servo, keys: keys.with(index, { ...key, position }) });
 }
 
 function addKeys(
