@@ -68,7 +68,7 @@ export const chinese: Words = {
       ready: '就绪',
       stale: '没有应答',
       lost: '已断开',
-      refused: '需要您处理',
+      refused: '待处理',
     },
     simulated: '模拟',
     noBoard: '没有机器人',
