@@ -13,12 +13,13 @@ from starlette.requests import HTTPConnection
 
 from servodeck import __version__
 from servodeck.background import in_thread
-from servodeck.callers import Caller
+from servodeck.callers import Caller, as_script
 from servodeck.clients import serve_client
 from servodeck.control import Control
 from servodeck.driving import name_of
 from servodeck.errors import ErrorCode, OutOfRangeError
 from servodeck.gate import judge_script
+from servodeck.latch import Cause
 from servodeck.messages import Message, PortState, UnattendedRun
 from servodeck.packets import FAMILIES
 from servodeck.ports import lasting_of, list_devices
@@ -167,19 +168,25 @@ async def close_port(control: Controlled) -> PortState:
     return control.board.port
 
 
-@api.post("/stop", dependencies=[STOPPER])
-async def stop(control: Controlled) -> Stopped:
+def named(request: Request, caller: Caller) -> Caller:
+    """A page says where it comes from, a program does not."""
+    return caller if "origin" in request.headers else as_script(caller)
+
+
+@api.post("/stop")
+async def stop(request: Request, control: Controlled, caller: Annotated[Caller, STOPPER]) -> Stopped:
     """STOP: drops all that waits, sends stop three times, refuses motion until resume. Latches even without a
     port.
     """
-    await asyncio.shield(control.stop(None))
+    cause = Cause("person", named(request, caller).name)
+    await asyncio.shield(control.stop(None, cause=cause))
     return Stopped(latch=control.latch, halted=True)
 
 
-@api.post("/resume", dependencies=[DRIVER])
-async def resume(control: Controlled) -> Status:
-    """Allows motion again. Moves nothing."""
-    control.resume()
+@api.post("/resume")
+async def resume(request: Request, control: Controlled, caller: Annotated[Caller, DRIVER]) -> Status:
+    """Allows motion again. Moves nothing. While somebody drives, only they or an owner may."""
+    control.resume(named(request, caller))
     return await status(control)
 
 

@@ -1,6 +1,6 @@
 """Who asks, and what they may do at most. Knows no socket, no credential and no rule of motion."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from servodeck.errors import ForbiddenError
@@ -29,3 +29,8 @@ class Caller:
 
 THIS_COMPUTER = Caller("local", "This computer", "owner")
 """Whoever asks on the gateway's own computer: it is theirs."""
+
+
+def as_script(caller: Caller) -> Caller:
+    """A token has its name already; this computer's page and its scripts shall be told apart."""
+    return replace(caller, name="A script on this computer") if caller is THIS_COMPUTER else caller

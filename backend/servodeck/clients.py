@@ -19,6 +19,7 @@ from servodeck.errors import BusyError, GatewayError, MalformedError
 from servodeck.gate import judge_hold, judge_packet, role_for
 from servodeck.hub import AGAINST_THE_RULES, TRY_AGAIN_LATER, Seat
 from servodeck.intake import Intake, Rate
+from servodeck.latch import Cause
 from servodeck.messages import (
     AnyClientMessage,
     BeatMessage,
@@ -153,7 +154,7 @@ def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
         case StopMessage():
             take_stop(message, seat, control)
         case ResumeMessage():
-            control.resume()
+            control.resume(seat.caller, seat)
         case BoardMessage():
             control.name_board(seat, message.board)
         case LimitsMessage():
@@ -190,7 +191,7 @@ def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:
     with refusing(seat, None):  # a bad pose is told, and the stop goes out all the same
         hold = judge_hold(message.hold, control.board.taken_for)
     with refusing(seat, None):
-        control.stop(hold, seat)
+        control.stop(hold, seat, Cause("person", seat.caller.name))
 
 
 def answer(seat: Seat, message_id: int, left: Left) -> None:

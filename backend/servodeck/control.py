@@ -4,12 +4,12 @@ Knows what is asked and what may be done now. Must not know HTTP, WebSockets or 
 """
 
 import contextlib
-import logging
 from collections.abc import Callable
 
 from servodeck import __version__
 from servodeck.board import Board
 from servodeck.broken_slots import BrokenSlots
+from servodeck.callers import Caller
 from servodeck.decoder import COMMAND_AT
 from servodeck.driving import Driving
 from servodeck.errors import (
@@ -24,16 +24,17 @@ from servodeck.errors import (
 from servodeck.gate import RUN, STOP, is_harmless, judge_by_hand, judge_group, judge_latch, judge_packet
 from servodeck.hub import Hub, Seat
 from servodeck.jobs import Group
+from servodeck.latch import Cause, Latch
 from servodeck.link import Ports
 from servodeck.messages import (
     HaltedMessage,
     JobMessage,
     JobState,
-    LatchedBy,
     LimitsMessage,
     Message,
     NoiseMessage,
     ReceivedMessage,
+    ResumedMessage,
     RobotMessage,
     ServoLimits,
     StateMessage,
@@ -47,7 +48,7 @@ from servodeck.robot import RobotLimits
 from servodeck.robot_of_board import ReadFacts, RobotOfBoard, no_robot
 from servodeck.wire import Job, Left, Owner, always
 
-log = logging.getLogger("servodeck.robot")
+SOMEBODY = Cause("person")
 
 
 class Control:
@@ -71,7 +72,7 @@ class Control:
         """
         self.named_device = named_device
         self.now = now
-        self.latched_by: LatchedBy | None = None
+        self._latch = Latch(self._tell_state)
         self.limits = RobotLimits()
         self.remembered = remembered or Remembered()
         self.robot = RobotOfBoard(self.limits, read_robot, self.remembered, self._robot_changed)
@@ -85,7 +86,7 @@ class Control:
     @property
     def latch(self) -> bool:
         """Motion is refused until somebody resumes."""
-        return self.latched_by is not None
+        return self._latch.cause is not None
 
     # What clients ask
 
@@ -121,11 +122,11 @@ class Control:
             wire.purge(is_run, CancelledError("A stop has overtaken this run."))
         return wire.send(packet, owner, urgent=command == STOP, judge=judge)
 
-    def stop(self, hold: bytes | None, owner: Owner = None, by: LatchedBy = "person") -> Left:
+    def stop(self, hold: bytes | None, owner: Owner = None, cause: Cause = SOMEBODY) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
         stop.
         """
-        self._latch(by)
+        self._latch.close(cause)
         self.board.jobs.end(LatchedError("Stopped before all of it was stored."))
         left = self.board.halt(hold, LatchedError("Stopped before it left."), owner)
         if left is not self._halting:
@@ -133,12 +134,16 @@ class Control:
             left.add_done_callback(self._halted)
         return left
 
-    def resume(self) -> None:
-        """Refused while the port is lost: whoever resumes shall see the robot's answer."""
+    def resume(self, caller: Caller, seat: Seat | None = None) -> None:
+        """Everybody but `seat` hears whose word it was. Raises NotDrivingError while somebody else drives.
+        Refused while the port is lost: whoever resumes shall see the robot's answer.
+        """
+        self.driving.judge_resume(caller)
         port = self.board.link.state
         if port.status == "lost":
             raise PortLostError(port.detail or "The serial port is gone.")
-        self._latch(None)
+        if self._latch.open():
+            self._tell(ResumedMessage(by=caller.name), but=seat)
 
     def name_board(self, seat: Seat, board: str) -> None:
         """Raises NotDrivingError where somebody else drives whatever else it was."""
@@ -214,14 +219,14 @@ class Control:
 
     async def shut_down(self) -> None:
         """Stops the robot whatever it does and lets go of the port. Twice is harmless."""
-        self.latched_by = "person"  # nobody starts it again behind the stops
+        self._latch.cause = SOMEBODY  # nobody starts it again behind the stops
         await self.board.shut_down()
         self.hub.close()
 
     # What the board tells
 
     def port_lost(self) -> None:
-        self.latched_by = "loss"  # the change of the port's state follows and tells both
+        self._latch.cause = Cause("loss")  # the change of the port's state follows and tells both
 
     def board_changed(self) -> None:
         self._see_robot()
@@ -289,7 +294,7 @@ class Control:
     def _stop_for_nobody(self) -> None:
         """STOP because nobody watches over what moves: whoever goes on has to look first."""
         with contextlib.suppress(GatewayError):
-            self.stop(None, by="silence")
+            self.stop(None, cause=Cause("silence"))
 
     def _welcome(self, seat: Seat) -> Message:
         return WelcomeMessage(
@@ -297,7 +302,8 @@ class Control:
             board=self.board.taken_for,
             port=self.board.port,
             latch=self.latch,
-            latched_by=self.latched_by,
+            latched_by=self._latch.by,
+            stopped_by=self._latch.name,
             clients=len(self.hub),
             unattended=self.board.unattended.told(),
             limits=self.limits.told(),
@@ -312,7 +318,8 @@ class Control:
             board=self.board.taken_for,
             port=self.board.port,
             latch=self.latch,
-            latched_by=self.latched_by,
+            latched_by=self._latch.by,
+            stopped_by=self._latch.name,
             clients=len(self.hub),
             unattended=self.board.unattended.told(),
             broken_slots=self.board.broken_slots,
@@ -334,13 +341,6 @@ class Control:
         if self.limits.told():
             self._tell(LimitsMessage(type="limits", servos=[]))
         self.limits.clear()
-
-    def _latch(self, by: LatchedBy | None) -> None:
-        """Who latched first is told."""
-        if (by is None) == self.latch:
-            self.latched_by = by
-            log.info("stopped" if by else "resumed")
-            self._tell_state()
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:

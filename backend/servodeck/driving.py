@@ -94,6 +94,13 @@ class Driving:
         """Whether they may change what moves are judged by: while another drives, only an owner may."""
         return self.driver is None or self.driver.caller.id == caller.id or caller.may("owner")
 
+    def judge_resume(self, caller: Caller) -> None:
+        """Raises ForbiddenError, or NotDrivingError that names who may."""
+        caller.require("driver")
+        if self.driver and not self.may_rule(caller):
+            name = self.driver.caller.name
+            raise NotDrivingError(f"{name} drives: only {name} or an owner may resume.")
+
     def state_for(self, seat: Seat) -> LeaseState:
         lease = self._lease
         answer_in_s = lease.answer_in_s(self._now())

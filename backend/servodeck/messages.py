@@ -223,6 +223,7 @@ class WelcomeMessage(Message):
     port: PortState
     latch: bool
     latched_by: LatchedBy | None
+    stopped_by: str | None
     clients: int
     unattended: UnattendedRun | None
     limits: list[ServoLimits]
@@ -268,14 +269,24 @@ class HaltedMessage(Message):
     type: Literal["halted"] = "halted"
 
 
+class ResumedMessage(Message):
+    """Motion is allowed again, by somebody else's word."""
+
+    type: Literal["resumed"] = "resumed"
+    by: str
+
+
 class StateMessage(Message):
-    """Something of this changed. `brokenSlots` hold half a group: nobody may run them."""
+    """Something of this changed. `brokenSlots` hold half a group: nobody may run them. `stoppedBy` is what
+    people call whoever pressed STOP, where that is known.
+    """
 
     type: Literal["state"] = "state"
     board: str
     port: PortState
     latch: bool
     latched_by: LatchedBy | None
+    stopped_by: str | None
     clients: int
     unattended: UnattendedRun | None
     broken_slots: list[int]
@@ -323,6 +334,7 @@ GatewayMessage = Annotated[
     | ReceivedMessage
     | NoiseMessage
     | HaltedMessage
+    | ResumedMessage
     | StateMessage
     | LimitsMessage
     | RobotMessage

@@ -8,10 +8,10 @@ Knows what is asked and in which order it leaves; no HTTP. Who may drive is `dri
 import asyncio
 import contextlib
 from collections.abc import Awaitable, Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
-from servodeck.callers import THIS_COMPUTER, Caller
+from servodeck.callers import Caller, as_script
 from servodeck.control import Control
 from servodeck.errors import CancelledError, MovingError, NoAnswerError, OutOfRangeError
 from servodeck.families import Family
@@ -171,8 +171,7 @@ class Scripts:
         return self._control.board.family
 
     def _seat_of(self, caller: Caller) -> ScriptSeat:
-        name = "A script on this computer" if caller is THIS_COMPUTER else caller.name
-        return self._seats.setdefault(caller.id, ScriptSeat(replace(caller, name=name)))
+        return self._seats.setdefault(caller.id, ScriptSeat(as_script(caller)))
 
     @contextlib.contextmanager
     def _asking_the_board(self) -> Iterator[None]:

@@ -4,6 +4,7 @@ import asyncio
 
 import pytest
 
+from servodeck.callers import THIS_COMPUTER
 from servodeck.control import Control
 from servodeck.errors import (
     CancelledError,
@@ -62,8 +63,8 @@ async def test_stop_latches_for_everyone_until_resume() -> None:
             with pytest.raises(LatchedError):
                 anna.send(packet)
         await anna.send(BATTERY)
-        control.resume()
-        assert [message["latch"] for message in await bert.heard()] == [False]
+        control.resume(THIS_COMPUTER)
+        assert [message["type"] for message in await bert.heard()] == ["state", "resumed"]
         assert port.packets()[6:] == [BATTERY]
         await anna.send(MOVE)
 
@@ -139,14 +140,14 @@ async def test_a_lost_port_latches_fails_what_waits_and_refuses_resume_until_it_
             "lost",
         )
         with pytest.raises(PortLostError):
-            control.resume()
+            control.resume(THIS_COMPUTER)
         with pytest.raises(PortLostError):
             anna.send(MOVE)
         await asyncio.sleep(1)
         assert second.packets() == [STOP]
         with pytest.raises(LatchedError):
             anna.send(MOVE)
-        control.resume()
+        control.resume(THIS_COMPUTER)
         await anna.send(MOVE)
 
 

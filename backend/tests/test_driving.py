@@ -13,7 +13,7 @@ from servodeck.errors import (
     ForbiddenError,
     NotDrivingError,
 )
-from servodeck.messages import ResumeMessage
+from servodeck.messages import ResumeMessage, StopMessage
 from servodeck.wire import Left
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
@@ -25,6 +25,7 @@ STOPS = [STOP, STOP, STOP]
 MOVE_S = 1.0
 GUEST = Caller("guest", "Bert", "viewer")
 PUPIL = Caller("pupil", "Anna", "driver")
+CARL = Caller("carl", "Carl", "driver")
 
 
 def hold_at(position: int, duration_ms: int = 20) -> bytes:
@@ -73,6 +74,47 @@ async def test_a_viewer_may_stop_and_ask_questions_and_nothing_more() -> None:
         take(ResumeMessage(type="resume"), bert, control)
         assert [message["code"] for message in await bert.heard()] == ["forbidden"]
         assert control.latch is True
+
+
+@in_virtual_time
+async def test_while_somebody_drives_only_they_or_an_owner_resume_and_everybody_hears_it() -> None:
+    async with gateway_on() as control:
+        anna, carl, bert = Client(control, PUPIL), Client(control, CARL), Client(control, GUEST)
+        teacher = Client(control)
+        everybody = (anna, bert, carl, teacher)
+        for by, others in ((anna, (bert, carl, teacher)), (teacher, (anna, bert, carl))):
+            await anna.send(MOVE)
+            take(StopMessage(type="stop", hold=None), bert, control)
+            for one in everybody:
+                stopped = [message for message in await one.heard() if message["type"] == "state"]
+                assert [state["stoppedBy"] for state in stopped][-1:] == ["Bert"]
+            take(ResumeMessage(type="resume"), carl, control)
+            [refused] = await carl.heard()
+            assert (refused["code"], refused["detail"]) == (
+                "notDriving",
+                "Anna drives: only Anna or an owner may resume.",
+            )
+            assert control.latch is True
+            await asyncio.sleep(0.3)
+            for one in everybody:
+                await one.heard()
+            take(ResumeMessage(type="resume"), by, control)
+            assert control.latch is False
+            for one in others:
+                assert [message["by"] for message in await one.heard() if message["type"] == "resumed"] == [
+                    by.caller.name
+                ]
+            assert "resumed" not in [message["type"] for message in await by.heard()]
+
+
+@in_virtual_time
+async def test_while_nobody_drives_whoever_may_drive_resumes() -> None:
+    async with gateway_on() as control:
+        Client(control, PUPIL)
+        carl = Client(control, CARL)
+        control.stop(None)
+        take(ResumeMessage(type="resume"), carl, control)
+        assert control.latch is False
 
 
 @in_virtual_time

@@ -266,7 +266,7 @@ async def test_what_ends_it_is_said_and_leaves_the_slot_broken(end: str) -> None
         match end:
             case "stop":
                 await control.stop(None)
-                control.resume()
+                control.resume(THIS_COMPUTER)
             case "stop packet":
                 await anna.send(STOP)
             case "unplugged":

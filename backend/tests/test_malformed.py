@@ -8,6 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from servodeck.callers import THIS_COMPUTER
 from servodeck.clients import hear, intake_of
 from servodeck.errors import GatewayError
 from servodeck.gate import judge_hold, judge_packet
@@ -115,10 +116,10 @@ async def test_nothing_of_it_moves_or_breaks_anything() -> None:
             await asyncio.sleep(0.3)  # whatever was let through leaves
             answers = await anna.heard()
             refused += sum(answer["type"] == "refused" for answer in answers)
-            assert {answer["type"] for answer in answers} <= {"refused", "state", "halted"}
+            assert {answer["type"] for answer in answers} <= {"refused", "state", "halted", "resumed"}
             await bert.heard()
             if control.latch:
-                control.resume()
+                control.resume(THIS_COMPUTER)
         assert refused >= MESSAGES
         assert set(port.packets()) <= {STOP, BATTERY}
         await anna.send(MOVE)

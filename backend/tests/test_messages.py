@@ -69,7 +69,14 @@ def test_anything_else_is_refused(text: str) -> None:
 def test_names_on_the_wire_are_camel_case() -> None:
     port = PortState(device="/dev/board", status="lost", code="lost", detail="Gone.", retry_in_ms=250)
     told = StateMessage(
-        board="doc", port=port, latch=True, latched_by="person", clients=2, unattended=None, broken_slots=[]
+        board="doc",
+        port=port,
+        latch=True,
+        latched_by="person",
+        stopped_by="Anna",
+        clients=2,
+        unattended=None,
+        broken_slots=[],
     )
     state = json.loads(encode(told))
     assert state["port"]["retryInMs"] == 250
@@ -81,7 +88,7 @@ def test_the_schema_names_both_directions_and_leaves_nothing_open() -> None:
     definitions = json_schema()["$defs"]
     assert {"ClientMessage", "GatewayMessage", "PortState"} <= set(definitions)
     assert len(definitions["ClientMessage"]["oneOf"]) == 9
-    assert len(definitions["GatewayMessage"]["oneOf"]) == 12
+    assert len(definitions["GatewayMessage"]["oneOf"]) == 14
     for name, definition in definitions.items():
         if "properties" in definition:
             assert definition["additionalProperties"] is False, name

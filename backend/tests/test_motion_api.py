@@ -14,7 +14,7 @@ from starlette.types import ASGIApp, Message
 
 from servodeck import access
 from servodeck.app import create_app
-from servodeck.callers import Caller, Role
+from servodeck.callers import THIS_COMPUTER, Caller, Role
 from servodeck.control import Control
 from servodeck.messages import ServoLimits
 from servodeck.packets import FAMILIES, encode
@@ -167,7 +167,7 @@ async def test_a_stop_ends_what_has_not_left_also_where_somebody_resumes_at_once
         waiting = asyncio.create_task(here.move(1500, s1=2000, s2=2000, s3=2000))
         await asyncio.sleep(0.1)
         here.control.stop(None)
-        here.control.resume()
+        here.control.resume(THIS_COMPUTER)
         assert refusal(await waiting) == (409, "cancelled")
         await asyncio.sleep(1)
         assert here.sent() == [move(1500, s1=2000), *STOPS]

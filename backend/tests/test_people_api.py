@@ -12,8 +12,10 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from servodeck import access
-from servodeck.callers import Role
+from servodeck.callers import Caller, Role
+from servodeck.control import Control
 from servodeck.entrance import Entrance
+from tests.client import Client
 from tests.fake_port import FakePort, FakePorts
 from tests.knocking import NOWHERE
 from tests.running import PORT, Running, entrance_to, http_to, server_on
@@ -61,12 +63,18 @@ def secret_of(link: str) -> str:
 @asynccontextmanager
 async def lan() -> AsyncIterator[tuple[Entrance, AsyncClient, Browser]]:
     """A gateway on a LAN and its owner's browser."""
+    async with lan_with_control() as (entrance, client, owner, _):
+        yield entrance, client, owner
+
+
+@asynccontextmanager
+async def lan_with_control() -> AsyncIterator[tuple[Entrance, AsyncClient, Browser, Control]]:
     entrance = entrance_to(access.lan(PORT, "robot"), now)
-    async with http_to(NOWHERE, now, device=None, entrance=entrance) as (client, _):
+    async with http_to(NOWHERE, now, device=None, entrance=entrance) as (client, control):
         owner = Browser(client)
         invite = entrance.pairing.invite("owner", "Anna")
         assert (await owner.pair(secret=invite.secret)).json()["role"] == "owner"
-        yield entrance, client, owner
+        yield entrance, client, owner, control
 
 
 @in_virtual_time
@@ -179,6 +187,26 @@ async def test_a_token_has_a_fixed_role_and_is_shown_once() -> None:
         assert made["token"] not in (await owner.ask("GET", "/api/people")).text
         await owner.ask("DELETE", f"/api/people/{made['id']}")
         assert (await client.get("/api/status", headers=bearer)).status_code == 401
+
+
+@in_virtual_time
+async def test_over_http_too_only_whoever_drives_or_an_owner_resumes() -> None:
+    async with lan_with_control() as (_, client, owner, control):
+        wish = {"name": "Grader", "role": "driver"}
+        token = (await owner.ask("POST", "/api/tokens", json=wish)).json()["token"]
+        bearer = {"authorization": f"Bearer {token}"}
+        anna = Client(control, Caller("anna", "Anna", "driver"))
+        control.driving.act(anna, "request")
+        await client.post("/api/stop", headers=bearer)
+        [*_, told] = [message for message in await anna.heard() if message["type"] == "state"]
+        assert (told["latchedBy"], told["stoppedBy"]) == ("person", "Grader")
+        refused = await client.post("/api/resume", headers=bearer)
+        assert (refused.status_code, refused.json()) == (
+            409,
+            {"code": "notDriving", "detail": "Anna drives: only Anna or an owner may resume."},
+        )
+        assert control.latch is True
+        assert (await owner.ask("POST", "/api/resume")).json()["latch"] is False
 
 
 @in_virtual_time

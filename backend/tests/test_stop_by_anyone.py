@@ -5,7 +5,7 @@ import random
 
 import pytest
 
-from servodeck.callers import Caller
+from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.clients import take
 from servodeck.errors import LatchedError
 from servodeck.jobs import Group
@@ -61,7 +61,7 @@ async def stop_at_random(packets: list[bytes], chance: random.Random, is_downloa
         assert [packet for _, packet in behind if packet[3] in MOTION - {3}] == []
         assert all(left.done() for left in waiting)
         assert [job.status for job in [control.board.jobs.latest] if job] == ["failed"] * is_download
-        control.resume()
+        control.resume(THIS_COMPUTER)
         await anna.send(MOVE)
         assert port.packets()[-1] == MOVE
         for left in waiting:

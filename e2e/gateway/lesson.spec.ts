@@ -51,8 +51,11 @@ test('a class shares a robot, hands it on, and stops it from any phone', async (
   const before = await stops();
   await cleo.stop.tap();
   await poll(stops).toBeGreaterThanOrEqual(before + 3);
-  for (const someone of [teacher, ada, ben]) await expect(someone.status).toContainText('Stop');
+  for (const someone of [teacher, ada, ben]) await expect(someone.status).toContainText('Stopped by Cleo');
+  await expect(ada.status).toContainText('Ben or an owner may choose Resume');
+  for (const pupil of [ada, cleo]) await expect(pupil.resume).toHaveCount(0);
   await ben.resume.tap();
+  await expect(cleo.notices).toContainText('Ben chose Resume');
   await ben.type(ben.target(2), 1500);
   await last(2).toBe(1500);
 

@@ -14,10 +14,11 @@ test('a STOP on one screen stops the robot for both, and either may resume', asy
   await expect(other.link).toHaveText(/^Ready/);
   await dashboard.type(dashboard.target(1), 2000);
   await other.stop.click();
-  await expect(dashboard.status).toContainText('Stopped on another screen');
+  await expect(dashboard.status).toContainText('Stopped in another window');
   await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');
   await poll(async () => ofKind(await robot.bus(), 'stop').length).toBeGreaterThanOrEqual(3);
   await dashboard.resume.click();
   await expect(other.status).toHaveText('Idle');
   await expect(dashboard.status).toHaveText('Idle');
+  await expect(other.notices).toContainText('Another window chose Resume');
 });

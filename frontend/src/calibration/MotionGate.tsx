@@ -4,6 +4,7 @@
 import type { ReactNode } from 'react';
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { reachOf } from '#shared/actions/robot/robotEdits.ts';
+import { mayResume } from '#shared/session/lease.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { motionHindrance } from '../stores/readiness.ts';
@@ -20,6 +21,7 @@ export interface MotionGateProps {
 export function MotionGate({ robot, servo, children }: MotionGateProps) {
   const { device } = useStores();
   const hindrance = useSnapshot(motionHindrance);
+  const lease = useSnapshot((snapshot) => snapshot.lease);
   const targets = useDevice((state) => state.targets);
   const isKnown = targets[servo.servo] !== undefined;
   const homes = robot.servos
@@ -29,9 +31,13 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
     return (
       <>
         <p>{words.calibration.stopped}</p>
-        <Button tone="primary" onPress={device.resume}>
-          {words.stop.resume}
-        </Button>
+        {mayResume(lease) ? (
+          <Button tone="primary" onPress={device.resume}>
+            {words.stop.resume}
+          </Button>
+        ) : (
+          <p>{words.stop.mayResume(lease?.driver ?? null)}</p>
+        )}
       </>
     );
   }

@@ -12,7 +12,7 @@ import { READY, SIMULATED } from './states.ts';
 import { words } from '../words/words.ts';
 
 const BOARD = 'lsc-16';
-const STOPPED: SessionState = { ...READY, latch: { reason: 'pressed', stop: 'sent', unheld: [] } };
+const STOPPED: SessionState = { ...READY, latch: { reason: 'pressed', by: null, stop: 'sent', unheld: [] } };
 
 interface Case {
   readonly name: string;

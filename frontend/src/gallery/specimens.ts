@@ -69,7 +69,7 @@ const latched = (
   unheld: readonly number[] = [],
 ): SessionState => ({
   ...READY,
-  latch: { reason, stop, unheld },
+  latch: { reason, by: reason === 'elsewhere' ? 'Cleo' : null, stop, unheld },
 });
 
 export const SPECIMENS: readonly Specimen[] = [

@@ -303,6 +303,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
         state: noteState,
         traffic: (entry) => traffic.add(entry, next.state.family.id),
         problem: noteProblem,
+        resumed: (by) => notices.tell('info', words.stop.resumed(by)),
       });
     },
     describe(described, way) {

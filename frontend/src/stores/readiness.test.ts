@@ -26,6 +26,8 @@ describe('what only brushes a servo', () => {
   });
 
   test('moves nothing that is stopped', () => {
-    expect(mayBrush({ ...READY, latch: { reason: 'pressed', stop: 'sent', unheld: [] } }, 1500)).toBe(false);
+    expect(
+      mayBrush({ ...READY, latch: { reason: 'pressed', by: null, stop: 'sent', unheld: [] } }, 1500),
+    ).toBe(false);
   });
 });

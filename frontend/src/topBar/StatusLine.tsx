@@ -2,6 +2,7 @@
 // what the board does. Changes are read out.
 
 import { useSnapshot, useStores } from '../stores/stores.ts';
+import { mayResume } from '#shared/session/lease.ts';
 import type { LinkErrorCode } from '#shared/session/linkError.ts';
 import type { Activity, Latch, LinkState } from '#shared/session/state.ts';
 import { Button } from '../ui/Button.tsx';
@@ -55,16 +56,20 @@ function Said({ truth, text, more = '' }: { truth: Truth; text: string; more?: s
 
 function Latched({ latch }: { readonly latch: Latch }) {
   const { device } = useStores();
+  const isOurs = useSnapshot(({ lease }) => mayResume(lease));
+  const driver = useSnapshot(({ lease }) => lease?.driver ?? null);
   return (
     <>
       <Said
         truth={latch.stop === 'confirmed' ? 'confirmed' : latch.stop === 'failed' ? 'danger' : 'warning'}
         text={words.stop.outcome[latch.stop]}
-        more={latch.unheld.length > 0 ? words.stop.unheld(latch.unheld) : words.stop.reason[latch.reason]}
+        more={isOurs ? latchWords(latch) : `${latchWords(latch)}. ${words.stop.mayResume(driver)}`}
       />
-      <Button onPress={() => device.resume()} icon="play" hint={words.stop.resumeHint}>
-        {words.stop.resume}
-      </Button>
+      {isOurs && (
+        <Button onPress={() => device.resume()} icon="play" hint={words.stop.resumeHint}>
+          {words.stop.resume}
+        </Button>
+      )}
     </>
   );
 }
@@ -72,6 +77,11 @@ function Latched({ latch }: { readonly latch: Latch }) {
 const ANSWERED_ELSEWHERE: readonly LinkErrorCode[] = ['closed', 'boardUnknown', 'wrongBoard', 'echo'];
 
 const IN_ANOTHER_TAB: readonly LinkErrorCode[] = ['heldElsewhere', 'movedAway'];
+
+function latchWords({ reason, by, unheld }: Latch): string {
+  if (unheld.length > 0) return words.stop.unheld(unheld);
+  return reason === 'elsewhere' ? words.stop.stoppedBy(by) : words.stop.reason[reason];
+}
 
 type DownState = Extract<LinkState, { status: 'lost' | 'refused' }>;
 

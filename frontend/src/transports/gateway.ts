@@ -31,6 +31,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
   let port: PortState | null = null;
   let events: TransportEvents | null = null;
   let latched: SharedLatchReason | null = null;
+  let stoppedBy: string | null = null;
   let limits: readonly ServoLimits[] = [];
   let board: BoardId = 'unknown';
   let nextId = 1;
@@ -62,6 +63,9 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
         break;
       case 'limits':
         limitsChanged(message.servos);
+        break;
+      case 'resumed':
+        events?.resumed?.(message.by);
         break;
       case 'lease':
         turn.told(message.lease);
@@ -105,6 +109,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
     leaseChanged();
     boardChanged(state.board);
     portChanged(state.port);
+    stoppedBy = state.stoppedBy;
     latchChanged(state.latchedBy && LATCHED_BY[state.latchedBy]);
   }
 
@@ -148,7 +153,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
   }
 
   function latchChanged(next: SharedLatchReason | null): void {
-    if (next !== latched) events?.latched?.(next);
+    if (next !== latched) events?.latched?.(next, stoppedBy);
     latched = next;
     if (next === null) settleAll(resuming, (waiter) => waiter.resolve());
   }
@@ -222,7 +227,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
       events = next;
       next.limited?.(limits);
       if (turn.lease !== null) next.leased?.(turn.lease);
-      if (latched !== null) next.latched?.(latched);
+      if (latched !== null) next.latched?.(latched, stoppedBy);
     },
     async send(packet) {
       if (!isQuestion(packet)) await turn.begin();

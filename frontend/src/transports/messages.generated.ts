@@ -18,6 +18,7 @@ export type GatewayMessage =
   | ReceivedMessage
   | NoiseMessage
   | HaltedMessage
+  | ResumedMessage
   | StateMessage
   | LimitsMessage
   | RobotMessage
@@ -125,6 +126,7 @@ export interface WelcomeMessage {
   port: PortState;
   latch: boolean;
   latchedBy: ('person' | 'silence' | 'loss') | null;
+  stoppedBy: string | null;
   clients: number;
   unattended: UnattendedRun | null;
   limits: ServoLimits[];
@@ -325,7 +327,15 @@ export interface HaltedMessage {
   type: 'halted';
 }
 /**
- * Something of this changed. `brokenSlots` hold half a group: nobody may run them.
+ * Motion is allowed again, by somebody else's word.
+ */
+export interface ResumedMessage {
+  type: 'resumed';
+  by: string;
+}
+/**
+ * Something of this changed. `brokenSlots` hold half a group: nobody may run them. `stoppedBy` is what
+ * people call whoever pressed STOP, where that is known.
  */
 export interface StateMessage {
   type: 'state';
@@ -333,6 +343,7 @@ export interface StateMessage {
   port: PortState;
   latch: boolean;
   latchedBy: ('person' | 'silence' | 'loss') | null;
+  stoppedBy: string | null;
   clients: number;
   unattended: UnattendedRun | null;
   brokenSlots: number[];

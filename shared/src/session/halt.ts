@@ -15,8 +15,8 @@ import type { SharedLatchReason, Transport } from './transport.ts';
 export interface Halt {
   halt(): Promise<void>;
   resume(): Promise<void>;
-  /** Another screen stopped a shared link; what that sent is told apart. */
-  latchedElsewhere(reason: SharedLatchReason): void;
+  /** Another screen stopped a shared link, `by` where a person did; what that sent is told apart. */
+  latchedElsewhere(reason: SharedLatchReason, by: string | null): void;
   /** The link went: whoever brings it back must look before anything moves again. */
   latchedByLoss(): void;
   /** Another screen released a shared link. */
@@ -107,12 +107,12 @@ export function createHalt(options: HaltOptions): Halt {
   }
 
   return {
-    latchedElsewhere(reason) {
-      latch({ reason, stop: 'sent', unheld: [] });
+    latchedElsewhere(reason, by) {
+      latch({ reason, by, stop: 'sent', unheld: [] });
     },
-    latchedByLoss: () => latch({ reason: 'reconnected', stop: 'failed', unheld: [] }),
+    latchedByLoss: () => latch({ reason: 'reconnected', by: null, stop: 'failed', unheld: [] }),
     async halt() {
-      latch({ reason: 'pressed', stop: 'sending', unheld: options.unheld() });
+      latch({ reason: 'pressed', by: null, stop: 'sending', unheld: options.unheld() });
       await send(transport.halt ? haltSharedLink : haltOwnLink);
     },
     async resume() {

@@ -6,7 +6,7 @@ import { encodeCommand } from '../protocol/encode.ts';
 import { family as familyOf } from '../protocol/families.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
-import type { Lease } from './lease.ts';
+import { mayResume, type Lease } from './lease.ts';
 import { createSession } from './session.ts';
 import type { SharedLatchReason, Transport, TransportEvents } from './transport.ts';
 
@@ -23,11 +23,12 @@ async function sharedSession() {
   let tell: TransportEvents['leased'];
   let follow: TransportEvents['followed'];
   let latch: TransportEvents['latched'];
+  let resumed: TransportEvents['resumed'];
   const left: number[] = [];
   const transport: Transport = {
     ...line,
     open(events) {
-      ({ leased: tell, followed: follow, latched: latch } = events);
+      ({ leased: tell, followed: follow, latched: latch, resumed } = events);
       return line.open(events);
     },
     send(packet) {
@@ -41,7 +42,8 @@ async function sharedSession() {
     ...{ clock, session, left },
     tell: (lease: Lease) => tell?.(lease),
     follow: (command: Command) => follow?.(encodeCommand(command, familyOf('doc'))),
-    latch: (reason: SharedLatchReason) => latch?.(reason),
+    latch: (reason: SharedLatchReason, by?: string) => latch?.(reason, by),
+    resumed: (by: string) => resumed?.(by),
   };
 }
 
@@ -101,4 +103,26 @@ test('whoever looks on knows as well as the driver where the robot is, also when
   await clock.advance(100);
   expect(session.motion(1)).toEqual({ target: 1_240, estimated: 1_240 });
   expect(session.state.latch?.reason).toBe('unwatched');
+});
+
+test('whose hand it was is told: of a stop in the state, of a resume once', async () => {
+  const { session, latch, resumed } = await sharedSession();
+  const heard: string[] = [];
+  session.subscribe({ resumed: (by) => heard.push(by) });
+  latch('elsewhere', 'Cleo');
+  latch('elsewhere', 'Bert');
+  expect(session.state.latch).toMatchObject({ reason: 'elsewhere', by: 'Cleo' });
+  resumed('Anna');
+  expect(heard).toEqual(['Anna']);
+});
+
+test.each([
+  ['a link of its own', null, true],
+  ['nobody drives', FREE, true],
+  ['this end drives', OURS, true],
+  ['somebody else drives', THEIRS, false],
+  ['somebody else drives, an owner looks on', { ...THEIRS, mayTake: true }, true],
+  ['nobody drives, a viewer looks on', { ...FREE, mayDrive: false }, false],
+] as const)('who may resume: %s', (_, lease, may) => {
+  expect(mayResume(lease)).toBe(may);
 });

@@ -14,7 +14,7 @@ export type LineState =
 
 export interface LinkOptions extends Pick<
   TransportEvents,
-  'received' | 'latched' | 'identified' | 'limited' | 'leased' | 'slotsChanged' | 'followed'
+  'received' | 'latched' | 'resumed' | 'identified' | 'limited' | 'leased' | 'slotsChanged' | 'followed'
 > {
   readonly transport: Transport;
   readonly clock: Clock;
@@ -79,6 +79,7 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
       await transport.open({
         received: ifMine(events.received),
         latched: ifMine(events.latched),
+        resumed: ifMine(events.resumed),
         identified: ifMine(events.identified),
         limited: ifMine(events.limited),
         leased: ifMine(events.leased),

@@ -113,10 +113,11 @@ export function createSession(options: SessionOptions): Session {
       if (store.state.link.status === 'ready') driver.groups.linked();
     },
     followed: sentByOthers,
-    latched(reason) {
+    latched(reason, by = null) {
       if (reason === null) halt.released();
-      else if (store.state.latch === null) halt.latchedElsewhere(reason);
+      else if (store.state.latch === null) halt.latchedElsewhere(reason, by);
     },
+    resumed: (by) => store.emit('resumed', by),
   });
 
   const lanes = createLanes({

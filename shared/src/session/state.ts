@@ -29,6 +29,8 @@ export interface Latch {
    * link came back and nobody has looked yet.
    */
   readonly reason: 'pressed' | SharedLatchReason;
+  /** People's name for whoever stopped it `elsewhere`. */
+  readonly by: string | null;
   /** `sending`: the stop packets are on their way. `sent`: they left the wire. `confirmed`: the board said so. */
   readonly stop: 'sending' | 'sent' | 'confirmed' | 'failed';
   /** Servos in a first move when it was pressed: nobody knows where, so they end that slow move and are not held. */
@@ -114,4 +116,6 @@ export interface SessionEvents {
   traffic(entry: Traffic): void;
   /** Something asked for without waiting (a slider's move, a frame being played) could not be done. */
   problem(error: LinkError): void;
+  /** Somebody else on a shared link has allowed motion again. */
+  resumed(by: string): void;
 }

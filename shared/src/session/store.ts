@@ -8,7 +8,7 @@ export interface SessionStore {
   readonly state: SessionState;
   update(patch: Partial<SessionState>): void;
   subscribe(listener: Partial<SessionEvents>): () => void;
-  emit<K extends 'traffic' | 'problem'>(event: K, value: Parameters<SessionEvents[K]>[0]): void;
+  emit<K extends 'traffic' | 'problem' | 'resumed'>(event: K, value: Parameters<SessionEvents[K]>[0]): void;
 }
 
 /** Before the board was asked anything about itself. */

@@ -14,8 +14,10 @@ export interface TransportEvents {
   received(bytes: Uint8Array, whole?: boolean): void;
   /** The link ended by itself. Comes at most once per `open`, never after `close`. */
   lost(error: LinkError): void;
-  /** Only a shared link (gateway): what refuses motion for everyone; null once somebody has resumed. */
-  latched?(reason: SharedLatchReason | null): void;
+  /** Only a shared link (gateway): what refuses motion for everyone, and who stopped it; null once somebody has resumed. */
+  latched?(reason: SharedLatchReason | null, by?: string | null): void;
+  /** Only a shared link: whoever else allowed motion again. */
+  resumed?(by: string): void;
   /** Only a shared link: somebody said which board this is, or wants it asked again (`unknown`). */
   identified?(board: BoardId): void;
   /** Only a shared link: how far it lets the robot's servos be turned, as another end has said; empty: nobody has. */

@@ -37,6 +37,7 @@ import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
 import { packetWords, timesWords } from './packets.ts';
 import { slotWords } from './slots.ts';
+import { stopWords } from './stop.ts';
 import { timelineWords } from './timeline.ts';
 
 export const english = {
@@ -112,28 +113,7 @@ export const english = {
   timeline: timelineWords,
   macros: macroWords,
 
-  stop: {
-    button: 'Stop',
-    hint: 'Esc',
-    resume: 'Resume',
-    resumeHint: 'Allows motion again. Moves nothing.',
-    reason: {
-      pressed: 'Stop was pressed',
-      elsewhere: 'Stopped on another screen',
-      unwatched: 'Its driver was gone while it moved',
-      reconnected: 'The link came back; look at the robot first',
-    },
-    unheld: (servos: readonly number[]): string =>
-      servos.length === 1
-        ? `Servo ${formatList(servos)} ends its slow first move: nobody knows where to hold it`
-        : `Servos ${formatList(servos)} end their slow first moves: nobody knows where to hold them`,
-    outcome: {
-      sending: 'Stopping',
-      sent: 'Stop sent; this board does not confirm',
-      confirmed: 'Stopped',
-      failed: 'Stop could not be sent. Switch the robot off if it moves',
-    },
-  },
+  stop: stopWords,
 
   activity: {
     idle: 'Idle',

@@ -3,7 +3,7 @@
 import { counted, formatMinutes, formatWhole } from './numbers.ts';
 
 /** The gateway's name for whoever sits at its own computer. */
-const named = (name: string): string => (name === 'This computer' ? 'Another window' : name);
+export const named = (name: string): string => (name === 'This computer' ? 'Another window' : name);
 const begunBy = (name: string): string => (name === 'This computer' ? 'another window' : name);
 
 export const leaseWords = {

@@ -34,6 +34,7 @@ import { robotEditorWords } from './robotEditor.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
 import { slotWords } from './slots.ts';
+import { stopWords } from './stop.ts';
 import { timelineWords } from './timeline.ts';
 
 const UNSURE = '先要弄清这是哪种控制板。';
@@ -109,25 +110,7 @@ export const chinese: Words = {
   timeline: timelineWords,
   macros: macroWords,
 
-  stop: {
-    button: '停止',
-    hint: 'Esc',
-    resume: '恢复',
-    resumeHint: '允许再次运动。这一步什么都不会动。',
-    reason: {
-      pressed: '按下了停止',
-      elsewhere: '在另一个屏幕上停止',
-      unwatched: '运动时驾驶者不在了',
-      reconnected: '连接恢复了；请先看看机器人',
-    },
-    unheld: (servos) => `${formatList(servos)}号舵机会走完缓慢的第一次移动：不知道该让它停在哪里`,
-    outcome: {
-      sending: '正在停止',
-      sent: '停止已发出；这种控制板不会确认',
-      confirmed: '已停止',
-      failed: '停止没能发出。如果机器人还在动，请关掉它的电源',
-    },
-  },
+  stop: stopWords,
 
   activity: {
     idle: '空闲',

@@ -8,7 +8,7 @@ const NAMES: Readonly<Record<string, string>> = {
   'This computer': '另一个窗口',
   'A script on this computer': '这台电脑上的脚本',
 };
-const named = (name: string): string => NAMES[name] ?? name;
+export const named = (name: string): string => NAMES[name] ?? name;
 
 export const leaseWords: Words['lease'] = {
   label: '谁在操控',

@@ -1,0 +1,36 @@
+// Words about STOP and Resume: what became of a stop, whose it was, and who may allow motion again.
+
+import { formatList } from './numbers.ts';
+import { named } from './lease.ts';
+
+const STOPPED_AT: Readonly<Record<string, string>> = {
+  'This computer': 'Stopped in another window',
+  'A script on this computer': 'Stopped by a script on this computer',
+};
+
+export const stopWords = {
+  button: 'Stop',
+  hint: 'Esc',
+  resume: 'Resume',
+  resumeHint: 'Allows motion again. Moves nothing.',
+  resumed: (by: string): string => `${named(by)} chose Resume: the robot may move again.`,
+  mayResume: (driver: string | null): string =>
+    driver === null ? 'Only a driver may choose Resume' : `${named(driver)} or an owner may choose Resume`,
+  reason: {
+    pressed: 'Stop was pressed',
+    unwatched: 'Its driver was gone while it moved',
+    reconnected: 'The link came back; look at the robot first',
+  },
+  stoppedBy: (by: string | null): string =>
+    by === null ? 'Stopped on another screen' : (STOPPED_AT[by] ?? `Stopped by ${by}`),
+  unheld: (servos: readonly number[]): string =>
+    servos.length === 1
+      ? `Servo ${formatList(servos)} ends its slow first move: nobody knows where to hold it`
+      : `Servos ${formatList(servos)} end their slow first moves: nobody knows where to hold them`,
+  outcome: {
+    sending: 'Stopping',
+    sent: 'Stop sent; this board does not confirm',
+    confirmed: 'Stopped',
+    failed: 'Stop could not be sent. Switch the robot off if it moves',
+  },
+};

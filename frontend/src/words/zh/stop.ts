@@ -1,0 +1,32 @@
+// Words about STOP and Resume, in Chinese.
+
+import type { Words } from '../en/english.ts';
+import { formatList } from './numbers.ts';
+import { named } from './lease.ts';
+
+const STOPPED_AT: Readonly<Record<string, string>> = {
+  'This computer': '在另一个窗口停止',
+  'A script on this computer': '由这台电脑上的脚本停止',
+};
+
+export const stopWords: Words['stop'] = {
+  button: '停止',
+  hint: 'Esc',
+  resume: '恢复',
+  resumeHint: '允许再次运动。这一步什么都不会动。',
+  resumed: (by) => `${named(by)}选择了恢复：机器人可以再次运动。`,
+  mayResume: (driver) => (driver === null ? '只有操控者可以恢复' : `只有${named(driver)}或所有者可以恢复`),
+  reason: {
+    pressed: '按下了停止',
+    unwatched: '运动时驾驶者不在了',
+    reconnected: '连接恢复了；请先看看机器人',
+  },
+  stoppedBy: (by) => (by === null ? '在另一个屏幕上停止' : (STOPPED_AT[by] ?? `由${by}停止`)),
+  unheld: (servos) => `${formatList(servos)}号舵机会走完缓慢的第一次移动：不知道该让它停在哪里`,
+  outcome: {
+    sending: '正在停止',
+    sent: '停止已发出；这种控制板不会确认',
+    confirmed: '已停止',
+    failed: '停止没能发出。如果机器人还在动，请关掉它的电源',
+  },
+};
