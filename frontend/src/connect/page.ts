@@ -2,6 +2,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
+import { createAside } from '../compile/aside.ts';
 import { createBattery } from '../stores/battery.ts';
 import { applyBatteryPolicy } from '../stores/batteryPolicy.ts';
 import { pollBattery } from '../stores/batteryPoll.ts';
@@ -72,7 +73,10 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     ...{ document: written, storage, notices, robots, view, clock: pageClock },
     ...{ keeper: chooseKeeper(me), epochMs: Date.now, newId },
   });
-  const compiled = createCompiled({ document: written, device, robots, clock: pageClock });
+  const compiled = createCompiled({
+    ...{ document: written, device, robots, clock: pageClock },
+    aside: createAside(),
+  });
   const slots = createSlots({ device, robots, notices, storage, today: Date.now });
   const timeline = createTimeline();
   const playhead = createPlayhead(timeline);

@@ -1,7 +1,8 @@
 import { describe, expect, test } from 'vitest';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import { obstacles } from './compiled.ts';
+import { createCompiled, obstacles } from './compiled.ts';
 import { createDesk } from './deskUnderTest.ts';
+import { workedOut, type Source } from './workedOut.ts';
 
 const frame = (position: number, easing: 'linear' | 'inOut' = 'linear') => ({
   ...{ durationMs: 800, easing },
@@ -53,6 +54,48 @@ describe('the group as the board gets it', () => {
     expect(compiled.now().report.frameCount).toBe(1);
     expect(state().isFresh).toBe(true);
     expect(compiled.now()).toBe(compiled.now());
+  });
+
+  test('worked out beside the page: the last one stands until the next is there, one at a time, the newest wins', async () => {
+    const { document, device, robots, clock, add } = await openDesk();
+    const orders: { readonly source: Source; answer(): void; fail(): void }[] = [];
+    const { store, now } = createCompiled({
+      ...{ document, device, robots, clock },
+      aside: (source) =>
+        new Promise((resolve, reject) =>
+          orders.push({ source, answer: () => resolve(workedOut(source)), fail: () => reject(new Error()) }),
+        ),
+    });
+    const frames = (): readonly [number, boolean] => {
+      const { latest, isFresh } = store.getState();
+      return [latest.report.frameCount, isFresh];
+    };
+    add(1000);
+    await clock.advance(300);
+    add(1500);
+    await clock.advance(1000);
+    expect(orders).toHaveLength(1);
+    expect(frames()).toEqual([0, false]);
+    orders[0]!.answer();
+    await clock.advance(300);
+    expect(frames()).toEqual([0, false]);
+    expect(orders[1]!.source.group.frames).toHaveLength(2);
+    orders[1]!.answer();
+    await clock.advance(0);
+    expect(frames()).toEqual([2, true]);
+
+    add(1800);
+    await clock.advance(300);
+    const whole = now();
+    orders[2]!.answer();
+    await clock.advance(300);
+    expect(store.getState().latest).toBe(whole);
+
+    add(1200);
+    await clock.advance(300);
+    orders[3]!.fail();
+    await clock.advance(300);
+    expect(frames()).toEqual([4, true]);
   });
 
   test('needs fewer frames where a larger error may be', async () => {

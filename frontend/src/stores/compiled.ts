@@ -2,30 +2,18 @@
 // once for whoever is about to send it. Moves nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { compile, type Compiled } from '#shared/actions/group/compile.ts';
 import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { onBoard, type Robot } from '#shared/actions/robot/robot.ts';
-import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
 import type { Clock } from '#shared/clock.ts';
-import type { Frame } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import type { Device } from './device.ts';
 import type { Document } from './document.ts';
 import type { RobotStore } from './robots.ts';
 import { setChanged } from './setChanged.ts';
+import { workedOut, type Source, type WorkedOut } from './workedOut.ts';
 
-interface Source {
-  readonly group: ActionGroup;
-  readonly family: Family;
-  readonly robot: Robot;
-  readonly maxErrorUnits: number;
-}
-
-export interface CompiledGroup extends Compiled {
+export interface CompiledGroup extends WorkedOut {
   readonly source: Source;
-  /** Of the frames as the board gets them, with trims. */
-  readonly fingerprint: string;
 }
 
 export interface CompiledState {
@@ -54,10 +42,13 @@ export interface CompiledOptions {
   readonly device: Device;
   readonly robots: RobotStore;
   readonly clock: Clock;
+  /** Works a group out while the page goes on; left out: the page does it. */
+  aside?(source: Source): Promise<WorkedOut>;
 }
 
-export function createCompiled({ document, device, robots, clock }: CompiledOptions): CompiledStore {
+export function createCompiled({ document, device, robots, clock, aside }: CompiledOptions): CompiledStore {
   let cancelTimer = (): void => undefined;
+  let isBusy = false;
   const maxErrorUnits: CompiledState['maxErrorUnits'] = USUAL_ERROR;
 
   const sourceNow = (errors: CompiledState['maxErrorUnits']): Source => {
@@ -71,25 +62,37 @@ export function createCompiled({ document, device, robots, clock }: CompiledOpti
     isFresh: true,
   }));
 
-  const isLatest = (source: Source): boolean => {
-    const { latest } = store.getState();
-    return (Object.keys(source) as (keyof Source)[]).every((key) => source[key] === latest.source[key]);
-  };
+  const wanted = (): Source => sourceNow(store.getState().maxErrorUnits);
+  const isLatest = (source: Source): boolean => isSame(source, store.getState().latest.source);
 
   function now(): CompiledGroup {
     cancelTimer();
-    const source = sourceNow(store.getState().maxErrorUnits);
+    const source = wanted();
     if (!isLatest(source)) store.setState({ latest: compiled(source), isFresh: true });
-    else if (!store.getState().isFresh) store.setState({ isFresh: true });
+    else setChanged(store, { isFresh: true });
     return store.getState().latest;
   }
 
+  /** One at a time; what has changed meanwhile is worked out next. */
+  async function workOut(): Promise<void> {
+    if (aside === undefined) return void now();
+    if (isBusy) return;
+    isBusy = true;
+    const source = wanted();
+    const result = await aside(source).catch(() => workedOut(source));
+    isBusy = false;
+    if (isSame(source, wanted()) && !isLatest(source))
+      store.setState({ latest: { source, ...result }, isFresh: true });
+    else touched();
+  }
+
   function touched(): void {
-    const isFresh = isLatest(sourceNow(store.getState().maxErrorUnits));
+    const isFresh = isLatest(wanted());
     if (isFresh && store.getState().isFresh) return;
     cancelTimer();
     setChanged(store, { isFresh });
-    if (!isFresh && document.store.getState().gesture === null) cancelTimer = clock.after(QUIET_MS, now);
+    if (!isFresh && document.store.getState().gesture === null)
+      cancelTimer = clock.after(QUIET_MS, () => void workOut());
   }
 
   document.store.subscribe(touched);
@@ -111,18 +114,10 @@ export function createCompiled({ document, device, robots, clock }: CompiledOpti
   };
 }
 
-function compiled(source: Source): CompiledGroup {
-  const { group, family, robot, maxErrorUnits } = source;
-  const { frames, report } = compile(group, { family, robot, maxErrorUnits });
-  return { source, frames, report, fingerprint: boardFingerprint(robot, frames) };
-}
+const compiled = (source: Source): CompiledGroup => ({ source, ...workedOut(source) });
 
-/** Another trim makes another motion of the same frames. */
-export function boardFingerprint(robot: Robot, frames: readonly Frame[]): string {
-  return fingerprintOf(
-    frames.map(({ durationMs, targets }) => ({ durationMs, targets: onBoard(robot, targets) })),
-  );
-}
+const isSame = (one: Source, other: Source): boolean =>
+  (Object.keys(one) as (keyof Source)[]).every((key) => one[key] === other[key]);
 
 /** What the person hears of and may take: the servo comes later than it is told. */
 const REMARKS: readonly CompileProblem['kind'][] = ['tooFast'];

@@ -15,7 +15,7 @@ import {
 } from '#shared/actions/slots/slotBook.ts';
 import { words } from '../words/words.ts';
 import { nameOf } from './boards.ts';
-import { boardFingerprint } from './compiled.ts';
+import { boardFingerprint } from './workedOut.ts';
 import type { Device, DeviceState, Settled } from './device.ts';
 import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';

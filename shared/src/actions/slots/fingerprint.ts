@@ -2,14 +2,11 @@
 // mistakes, not against malice. Knows no board.
 
 import type { Frame } from '../../protocol/commands.ts';
+import { numbersOf } from './frameNumbers.ts';
 
 /** FNV-1a, 32 bits, from two beginnings: 64 bits, as hex. */
 export function fingerprintOf(frames: readonly Frame[]): string {
-  const words = frames.flatMap(({ durationMs, targets }) => [
-    durationMs,
-    targets.length,
-    ...targets.flatMap(({ servo, position }) => [servo, position]),
-  ]);
+  const words = numbersOf(frames);
   return [0x811c9dc5, 0x01000193].map((seed) => hashOf(words, seed).toString(16).padStart(8, '0')).join('');
 }
 

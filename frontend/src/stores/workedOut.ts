@@ -1,0 +1,32 @@
+// What a group becomes on its board, worked out from all that it depends on: in the page, or beside it. Keeps nothing.
+
+import { compile, type Compiled } from '#shared/actions/group/compile.ts';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { onBoard, type Robot } from '#shared/actions/robot/robot.ts';
+import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
+import type { Frame } from '#shared/protocol/commands.ts';
+import type { Family } from '#shared/protocol/families.ts';
+
+export interface Source {
+  readonly group: ActionGroup;
+  readonly family: Family;
+  readonly robot: Robot;
+  readonly maxErrorUnits: number;
+}
+
+export interface WorkedOut extends Compiled {
+  /** Of the frames as the board gets them, with trims. */
+  readonly fingerprint: string;
+}
+
+export function workedOut({ group, ...options }: Source): WorkedOut {
+  const { frames, report } = compile(group, options);
+  return { frames, report, fingerprint: boardFingerprint(options.robot, frames) };
+}
+
+/** Another trim makes another motion of the same frames. */
+export function boardFingerprint(robot: Robot, frames: readonly Frame[]): string {
+  return fingerprintOf(
+    frames.map(({ durationMs, targets }) => ({ durationMs, targets: onBoard(robot, targets) })),
+  );
+}
