@@ -26,6 +26,9 @@ test('a servo is calibrated from nothing, and what was set holds everywhere @eve
   );
   const lowest = await settledAt(robots);
   await robots.button('Set lowest here').click();
+  await robots.button('Undo: lowest of Gripper').click();
+  await expect(robots.button('Lowest')).toHaveAttribute('aria-current', 'step');
+  await robots.button('Set lowest here').click();
   await robots.creepUntil('higher', () =>
     poll(async () => (await lastTarget(robot.bus, 1)) ?? 0).toBeGreaterThan(1550),
   );

@@ -37,11 +37,10 @@ export function CalibrationWizard() {
           <div key={`${at.servo.servo} ${at.progress.step}`} className={styles.step}>
             {contentOf(at)}
           </div>
-          <KeepServo at={at} />
           <p className={styles.problem} role="alert">
             {at.problem}
           </p>
-          <Finished at={at} />
+          <div className={styles.foot}>{at.isFinished ? <Finished /> : <KeepServo at={at} />}</div>
         </section>
       </div>
     </>
@@ -130,7 +129,9 @@ function Steps({ at: { servo, progress, go } }: At) {
               aria-current={step === progress.step ? 'step' : undefined}
               onClick={() => go(servo.servo, step)}
             >
-              {done && <Mark truth="confirmed" />}
+              <span className={cx(styles.tick, !done && styles.notYet)}>
+                <Mark truth="confirmed" />
+              </span>
               {named(step)}
             </button>
           </li>
@@ -143,17 +144,14 @@ function Steps({ at: { servo, progress, go } }: At) {
 function KeepServo({ at: { servo, progress, keepServo } }: At) {
   if (isServoDone(progress, servo)) return null;
   return (
-    <div>
-      <Button tone="quiet" onPress={keepServo}>
-        {words.calibration.keepServo(words.robots.called(servo))}
-      </Button>
-    </div>
+    <Button tone="quiet" onPress={keepServo}>
+      {words.calibration.keepServo(words.robots.called(servo))}
+    </Button>
   );
 }
 
-function Finished({ at: { robot, progress } }: At) {
+function Finished() {
   const { view } = useStores();
-  if (!robot.servos.every((servo) => isServoDone(progress, servo))) return null;
   return (
     <div className={styles.actions} role="status">
       <p>{words.calibration.finished}</p>

@@ -1,39 +1,55 @@
 // Turns the servo a little and back, and asks whether that was the way of the arrow. Whichever side of home has more room is
-// tried, and the arrow says that side.
+// tried, and the arrow says that side. It begins at home: going there is an act of its own.
 
-import { useState } from 'react';
-import type { Frame } from '#shared/protocol/commands.ts';
+import { useEffect, useRef, useState } from 'react';
+import { JOINT } from '../body/pose.ts';
 import { changeServo } from '#shared/actions/robot/robotEdits.ts';
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
-import { useSnapshot, useStores } from '../stores/stores.ts';
+import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { motionHindrance } from '../stores/readiness.ts';
+import { useDevice, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { startTurning, type TurnPhase } from './turning.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
 
-export function DirectionStep({ at: { servo, accept } }: { readonly at: CalibrationAtHand }) {
+export function DirectionStep({ at: { robot, servo, accept } }: { readonly at: CalibrationAtHand }) {
   const { device } = useStores();
-  const [hasTurned, setTurned] = useState(false);
-  const isIdle = useSnapshot(({ activity }) => activity.kind === 'idle');
+  const { phase, turn } = useTurning(servo);
+  const target = useDevice(({ targets }) => targets[servo.servo]);
+  const isMoving = useDevice((state) => state.isMoving);
+  const isTurning = phase === 'away' || phase === 'back';
+  const isAway = target !== servo.home && !isTurning;
+  const isAsked = phase === 'done' && !isAway;
+  const { unit } = FAMILIES[robot.board];
+  const sight = words.calibration.sights[sightOf(robot, servo)];
   const answer = (isReversed: boolean) => () =>
-    accept((robot) => changeServo(robot, servo.servo, { isReversed }));
+    accept((all) => changeServo(all, servo.servo, { isReversed }));
   return (
     <>
-      <p>{words.calibration.direction}</p>
-      <TurnArrow isClockwise={sideOf(servo) > 0} />
-      <Button
-        tone={hasTurned ? 'plain' : 'primary'}
-        isDisabled={!isIdle}
-        onPress={() => device.play(turnAndBack(servo), 1, (isDone) => isDone && setTurned(true))}
-      >
-        {words.calibration.turn}
-      </Button>
-      <p>{hasTurned ? words.calibration.asked : ''}</p>
+      <p className={styles.ask}>
+        {isAway ? words.calibration.homeFirst(target ?? servo.home, servo.home, unit) : sight.about}
+      </p>
+      <div className={styles.arrow}>{phase === 'away' && <TurnArrow isClockwise={sideOf(servo) > 0} />}</div>
       <div className={styles.actions}>
-        <Button tone={hasTurned ? 'primary' : 'plain'} isDisabled={!hasTurned} onPress={answer(false)}>
+        {isAway ? (
+          <Button tone="primary" onPress={() => device.creep(servo.home, GENTLE_MOVE_MS)}>
+            {words.calibration.goTo(servo.home, unit)}
+          </Button>
+        ) : (
+          <Button tone={isAsked ? 'plain' : 'primary'} isDisabled={isTurning || isMoving} onPress={turn}>
+            {words.calibration.turn}
+          </Button>
+        )}
+      </div>
+      <p className={styles.asked}>{isAsked ? sight.asked[sideOf(servo) > 0 ? 'right' : 'left'] : ''}</p>
+      <div className={styles.actions}>
+        <Button tone={isAsked ? 'primary' : 'plain'} isDisabled={!isAsked} onPress={answer(false)}>
           {words.calibration.same}
         </Button>
-        <Button isDisabled={!hasTurned} onPress={answer(true)}>
+        <Button isDisabled={!isAsked} onPress={answer(true)}>
           {words.calibration.other}
         </Button>
       </div>
@@ -41,25 +57,57 @@ export function DirectionStep({ at: { servo, accept } }: { readonly at: Calibrat
   );
 }
 
-const sideOf = ({ min, home, max }: RobotServo): 1 | -1 => (max - home >= home - min ? 1 : -1);
-
-const TURN_MS = 900;
 const SHARE_OF_SIDE = 0.3;
 
-/** Home first: the servo may stand anywhere. */
-function turnAndBack(servo: RobotServo): readonly Frame[] {
+const sideOf = ({ min, home, max }: RobotServo): 1 | -1 => (max - home >= home - min ? 1 : -1);
+
+function awayOf(servo: RobotServo): number {
   const side = sideOf(servo) > 0 ? servo.max - servo.home : servo.min - servo.home;
-  const away = Math.round(servo.home + side * SHARE_OF_SIDE);
-  return [servo.home, away, servo.home].map((position) => ({
-    durationMs: TURN_MS,
-    targets: [{ servo: servo.servo, position }],
-  }));
+  return Math.round(servo.home + side * SHARE_OF_SIDE);
 }
+
+function useTurning(servo: RobotServo): { readonly phase: TurnPhase | null; turn(): void } {
+  const { device } = useStores();
+  const [phase, setPhase] = useState<TurnPhase | null>(null);
+  const end = useRef<() => void>(() => undefined);
+  useEffect(() => () => end.current(), []);
+  return {
+    phase,
+    turn() {
+      end.current();
+      end.current = startTurning(
+        {
+          clock: device.clock,
+          motion: () => device.motion(servo.servo),
+          mayMove: () => motionHindrance(device.store.getState().snapshot) === null,
+          move: device.creep,
+        },
+        { home: servo.home, away: awayOf(servo) },
+        setPhase,
+      );
+    },
+  };
+}
+
+/** Where one looks from, as the picture of the arm does; other bodies have no picture of a turn. */
+type Sight = keyof typeof words.calibration.sights;
+
+const ARM_SIGHTS: Readonly<Record<number, Sight>> = {
+  [JOINT.gripper]: 'gripper',
+  [JOINT.roll]: 'front',
+  [JOINT.wrist]: 'side',
+  [JOINT.elbow]: 'side',
+  [JOINT.shoulder]: 'side',
+  [JOINT.base]: 'above',
+};
+
+const sightOf = ({ body }: Robot, { servo }: RobotServo): Sight =>
+  (body === 'arm' ? ARM_SIGHTS[servo] : undefined) ?? 'horn';
 
 /** A horn and the way it turns; drawn the other way round it turns the other way. */
 function TurnArrow({ isClockwise }: { readonly isClockwise: boolean }) {
   return (
-    <svg className={styles.arrow} viewBox="-60 -60 120 76" role="img" aria-label={words.calibration.arrow}>
+    <svg viewBox="-60 -60 120 76" role="img" aria-label={words.calibration.arrow}>
       <g transform={isClockwise ? '' : 'scale(-1 1)'}>
         <path className={styles.horn} d="M-9 0L-4 -40a4 4 0 0 1 8 0L9 0A9 9 0 0 1 -9 0z" />
         <path className={styles.turn} d="M-36 -36A51 51 0 0 1 34 -38M34 -38l-4 -14M34 -38l-14 1" />

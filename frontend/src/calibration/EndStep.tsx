@@ -1,10 +1,12 @@
 // Lowest, highest and home: the servo is crept there and the commanded position becomes the figure.
 
-import { changeServo, reachOf, setEnd } from '#shared/actions/robot/robotEdits.ts';
-import type { Robot } from '#shared/actions/robot/robot.ts';
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
+import { endFound, noteFound, type Calibration } from '#shared/actions/robot/robotCalibration.ts';
+import { changeServo, reachOf } from '#shared/actions/robot/robotEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { ReachBar } from '../robots/ReachBar.tsx';
-import { useDevice } from '../stores/stores.ts';
+import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { useDevice, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import { CreepControl } from './CreepControl.tsx';
@@ -16,27 +18,57 @@ export interface EndStepProps {
   readonly end: 'min' | 'max' | 'home';
 }
 
-export function EndStep({ at: { robot, servo, accept, keep }, end }: EndStepProps) {
+export function EndStep({ at, end }: EndStepProps) {
+  const { robot, servo, progress, isFinished, keep } = at;
+  const { device } = useStores();
   const target = useDevice(({ targets }) => targets[servo.servo]);
   const { unit } = FAMILIES[robot.board];
   const reach = reachOf(robot, servo);
   if (target === undefined) return null;
-  const set = (all: Robot): Robot =>
-    end === 'home' ? changeServo(all, servo.servo, { home: target }) : setEnd(all, servo.servo, end, target);
+  // A servo that has just been crept to an end seldom rests there.
+  const isHomeKept = end === 'home' && (target <= servo.min || target >= servo.max);
+  const isAwayFromHome = end === 'home' && target !== servo.home;
+  const keepAndGo = (): void => {
+    device.creep(servo.home, GENTLE_MOVE_MS);
+    keep();
+  };
+  const [setTone, keepTone] = isFinished
+    ? (['plain', 'quiet'] as const)
+    : isHomeKept
+      ? (['plain', 'primary'] as const)
+      : (['primary', 'quiet'] as const);
   return (
     <>
-      <p>{words.calibration.ends[end]}</p>
+      <p className={styles.ask}>{words.calibration.ends[end]}</p>
       <CreepControl servo={servo} reach={reach} target={target} unit={unit} />
       <ReachBar servo={servo} reach={reach} unit={unit} />
-      <p className={styles.dim}>{words.calibration.past(reach.min, reach.max, unit)}</p>
+      <p className={styles.dim}>
+        {words.calibration.limitsNow(servo, unit)} {words.calibration.past(reach.min, reach.max, unit)}{' '}
+        {movedHome(progress, servo)}
+      </p>
       <div className={styles.actions}>
-        <Button tone="primary" onPress={() => accept(set)}>
+        <Button tone={setTone} onPress={() => take(at, end, target)}>
           {words.calibration.set[end]}
         </Button>
-        <Button tone="quiet" onPress={keep}>
-          {words.calibration.keep(servo[end], unit)}
+        <Button tone={keepTone} onPress={isAwayFromHome ? keepAndGo : keep}>
+          {isAwayFromHome
+            ? words.calibration.keepAndGo(servo.home, unit)
+            : words.calibration.keep(servo[end], unit)}
         </Button>
       </div>
     </>
   );
+}
+
+function take({ servo, progress, accept }: CalibrationAtHand, end: EndStepProps['end'], at: number): void {
+  if (end === 'home') accept((all) => changeServo(all, servo.servo, { home: at }));
+  else
+    accept((all) => endFound(all, progress, servo, end, at), {
+      note: (before) => noteFound(before, servo, end, at),
+    });
+}
+
+/** An end pushed it; empty where none did. */
+function movedHome({ found }: Calibration, { servo, home }: RobotServo): string {
+  return found?.servo === servo && found.home !== home ? words.calibration.homeMoved(found.home, home) : '';
 }

@@ -23,7 +23,7 @@ export function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly a
         <Button
           tone="primary"
           isDisabled={!fits}
-          onPress={() => accept((all) => changeServo(all, partner.servo, change), partner.servo)}
+          onPress={() => accept((all) => changeServo(all, partner.servo, change), { partner: partner.servo })}
         >
           {words.calibration.takeOver(words.robots.called(partner))}
         </Button>

@@ -8,21 +8,30 @@ import { words } from '../words/words.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
 
-export function TrimStep({ at: { robot, servo, accept, keep } }: { readonly at: CalibrationAtHand }) {
+export function TrimStep({
+  at: { robot, servo, isFinished, accept, keep },
+}: {
+  readonly at: CalibrationAtHand;
+}) {
   const { centre } = FAMILIES[robot.board];
   const change = servo.home === centre ? null : homeAtCentre(robot, servo);
   return (
     <>
-      <p>{sentence(robot, servo, change)}</p>
+      <p className={styles.ask}>{sentence(robot, servo, change)}</p>
       <div className={styles.actions}>
         {change !== null && (
-          <Button tone="primary" onPress={() => accept((all) => changeServo(all, servo.servo, change))}>
+          <Button
+            tone={isFinished ? 'plain' : 'primary'}
+            onPress={() => accept((all) => changeServo(all, servo.servo, change))}
+          >
             {words.calibration.trimSet(centre)}
           </Button>
         )}
-        <Button tone={change === null ? 'primary' : 'quiet'} onPress={keep}>
-          {change === null ? words.calibration.goOn : words.calibration.leaveAsIs}
-        </Button>
+        {!isFinished && (
+          <Button tone={change === null ? 'primary' : 'quiet'} onPress={keep}>
+            {change === null ? words.calibration.goOn : words.calibration.leaveAsIs}
+          </Button>
+        )}
       </div>
     </>
   );

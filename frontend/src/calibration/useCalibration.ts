@@ -4,6 +4,7 @@ import { useEffect, useState } from 'react';
 import { flawOf, servoOf, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
 import {
   beginCalibration,
+  isServoDone,
   partnerDone,
   servoDone,
   settled,
@@ -20,14 +21,26 @@ export interface CalibrationAtHand {
   readonly progress: Calibration;
   /** Why the last edit was not taken. */
   readonly problem: string;
+  /** There is nothing left to do on this robot. */
+  readonly isFinished: boolean;
   go(servo: number, step: CalibrationStep): void;
   /** Takes the edit and goes on; where the edit cannot be, says why and stays. */
-  accept(edit: (robot: Robot) => Robot, partner?: number): void;
+  accept(edit: (robot: Robot) => Robot, more?: More): void;
   /** Goes on with the robot as it is. */
   keep(): void;
   /** Goes on with the next servo. */
   keepServo(): void;
 }
+
+export interface More {
+  /** Took everything over. */
+  readonly partner?: number;
+  /** What the steps that follow shall know. */
+  note?(progress: Calibration): Calibration;
+}
+
+/** How far it had come with each state of a robot: what is undone is not done any longer. */
+const reached = new WeakMap<Robot, Calibration>();
 
 export function useCalibration(): CalibrationAtHand {
   const { view, robots } = useStores();
@@ -35,36 +48,48 @@ export function useCalibration(): CalibrationAtHand {
   const robotId = robots.current().id;
   const kept = useView(({ calibration }) => calibration);
   const selected = useServoView(({ selected }) => selected.at(-1) ?? null);
-  const [problem, setProblem] = useState('');
-  const begun = kept?.robotId === robotId ? settled(robot, kept.progress) : beginCalibration(robot, selected);
+  const [problem, setProblem] = useState<Problem | null>(null);
+  const latest = reached.get(robot) ?? (kept?.robotId === robotId ? kept.progress : null);
+  const begun = latest === null ? beginCalibration(robot, selected) : settled(robot, latest);
   const servo = servoOf(robot, begun.servo);
   if (servo === undefined) throw new Error('a settled calibration has its servo');
   useLimitsLifted(servo.servo);
 
   function put(progress: Calibration): void {
-    setProblem('');
+    setProblem(null);
+    reached.set(robots.current().robot, progress);
     view.setState({ calibration: { robotId, progress } });
   }
 
   return {
-    ...{ robot, servo, problem, progress: begun },
+    ...{ robot, servo, progress: begun },
+    problem: problem?.robot === robot ? problem.text : '',
+    isFinished: robot.servos.every((one) => isServoDone(begun, one)),
     go: (to, step) => put({ ...begun, servo: to, step }),
-    accept(edit, partner) {
+    accept(edit, { partner, note = (progress: Calibration) => progress } = {}) {
       const flaw = flawOf(edit(robot));
       if (flaw !== null) {
-        setProblem(words.robots.flaw(flaw));
+        setProblem({ robot, text: words.robots.flaw(flaw) });
         return;
       }
+      reached.set(robot, begun);
       robots.edit(() => {
         const { stepNames, stepLabel } = words.calibration;
         return stepLabel(stepNames[begun.step], words.robots.called(servo));
       }, edit);
       const next = edit(robot);
-      put(partner === undefined ? stepDone(next, begun) : partnerDone(next, begun, partner));
+      const noted = note(begun);
+      put(partner === undefined ? stepDone(next, noted) : partnerDone(next, noted, partner));
     },
     keep: () => put(stepDone(robot, begun)),
     keepServo: () => put(servoDone(robot, begun)),
   };
+}
+
+/** Of one state of the robot: it goes when that is undone or mended. */
+interface Problem {
+  readonly robot: Robot;
+  readonly text: string;
 }
 
 /** For this servo alone, and only as long as it is calibrated. */

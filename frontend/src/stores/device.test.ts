@@ -53,6 +53,24 @@ describe('a device with a session', () => {
     expect(state().targets).toEqual({ 3: 1700 });
   });
 
+  test('moves from the first packet until the servo is there, and a stream of drags is one motion', async () => {
+    const { device, state, draw } = await createDesk();
+    device.move([{ servo: 3, position: 1700 }], 500);
+    await draw(2000);
+    device.move([{ servo: 3, position: 1600 }], 500);
+    await draw(200);
+    expect(state().isMoving).toBe(true);
+    for (const position of [1610, 1620, 1630]) {
+      device.drag([{ servo: 3, position }], 100);
+      await draw(400);
+      expect(state().isMoving).toBe(true);
+    }
+    await draw(1500);
+    expect(state().isMoving).toBe(false);
+    await device.detach();
+    expect(state().isMoving).toBe(false);
+  });
+
   test('counts the servos whose newest target has not left yet', async () => {
     const { device, draw } = await createDesk();
     device.move(

@@ -17,6 +17,7 @@ import type { Transport } from '#shared/session/transport.ts';
 import { words } from '../words/words.ts';
 import { limitRefusal } from './limits.ts';
 import { moveDurationMs, type Pace } from './moveTime.ts';
+import { createMovingWatch } from './movingWatch.ts';
 import type { Notices } from './notices.ts';
 import { followRobot } from './robotOfLink.ts';
 import type { RobotStore } from './robots.ts';
@@ -37,6 +38,8 @@ export interface DeviceState {
   readonly snapshot: SessionState;
   /** What each servo was last asked for; a servo without an entry is where nobody knows. */
   readonly targets: Targets;
+  /** A servo is on its way, so far as anybody can know; looked at now and then, and kept for a moment between two moves. */
+  readonly isMoving: boolean;
 }
 
 export interface Device {
@@ -103,6 +106,8 @@ export type Settled = (isDone: boolean) => void;
 /** Whether something may begin to run now. Where not, it tells the person and may offer to begin it anyway. */
 export type RunGuard = (anyway: () => void) => boolean;
 
+const NOTHING = { way: null, snapshot: INITIAL_STATE, targets: {}, isMoving: false } as const;
+
 const NO_MOTION: ServoMotion = { target: null, estimated: null };
 
 export interface DeviceOptions {
@@ -114,9 +119,10 @@ export interface DeviceOptions {
 }
 
 export function createDevice({ family, clock, notices, robots }: DeviceOptions): Device {
-  const store = createStore<DeviceState>(() => ({ family, way: null, snapshot: INITIAL_STATE, targets: {} }));
+  const store = createStore<DeviceState>(() => ({ family, ...NOTHING }));
   const traffic = createTrafficLog();
   const book = createTargetBook(clock);
+  const watch = createMovingWatch(clock, isUnderWay);
   let session: Session | null = null;
   let unsubscribe = (): void => undefined;
   let paused = false;
@@ -157,11 +163,14 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   function isAtRest(): boolean {
-    if (store.getState().snapshot.activity.kind !== 'idle') return false;
-    return robot().servos.every(({ servo }) => {
+    return store.getState().snapshot.activity.kind === 'idle' && !isUnderWay();
+  }
+
+  function isUnderWay(): boolean {
+    return robot().servos.some(({ servo }) => {
       const { target, estimated } = motion(servo);
       // Without a target we moved it nowhere, even where the board told of it.
-      return target === null || target === estimated;
+      return target !== null && target !== estimated;
     });
   }
 
@@ -203,6 +212,8 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   function refreshTargets(): void {
     const targets = targetsNow();
     if (targets !== store.getState().targets) store.setState({ targets });
+    const isMoving = watch.isMoving();
+    if (isMoving !== store.getState().isMoving) store.setState({ isMoving });
   }
 
   /** What a latch or a failure swallowed will not come. */
@@ -271,7 +282,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     unsubscribe();
     book.clear();
     noteRobot(INITIAL_STATE);
-    store.setState({ way: null, snapshot: INITIAL_STATE, targets: {} });
+    store.setState(NOTHING);
     traffic.note(INITIAL_STATE, clock.now(), store.getState().family.id);
     await former?.close();
   }

@@ -1,7 +1,7 @@
 // What goes on, in one place that never moves: the latch with its Resume first, then a lost link with its countdown, then
 // what the board does. Changes are read out.
 
-import { useSnapshot, useStores } from '../stores/stores.ts';
+import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { mayResume } from '#shared/session/lease.ts';
 import type { LinkErrorCode } from '#shared/session/linkError.ts';
 import type { Activity, Latch, LinkState } from '#shared/session/state.ts';
@@ -23,6 +23,7 @@ export function StatusLine({ onMoveHere }: StatusLineProps) {
   const link = useSnapshot((snapshot) => snapshot.link);
   const latch = useSnapshot((snapshot) => snapshot.latch);
   const activity = useSnapshot((snapshot) => snapshot.activity);
+  const isMoving = useDevice((device) => device.isMoving) && activity.kind === 'idle';
   return (
     <div className={cx(styles.line, (link.status === 'lost' || link.status === 'refused') && styles.lost)}>
       {link.status === 'lost' || link.status === 'refused' ? (
@@ -34,7 +35,10 @@ export function StatusLine({ onMoveHere }: StatusLineProps) {
       ) : latch !== null ? (
         <Latched latch={latch} />
       ) : (
-        <Said truth={activityTruth(activity)} text={link.status === 'ready' ? activityWords(activity) : ''} />
+        <Said
+          truth={isMoving ? 'estimated' : activityTruth(activity)}
+          text={link.status !== 'ready' ? '' : isMoving ? words.activity.moving : activityWords(activity)}
+        />
       )}
       <LeaseChip />
       <UnattendedChip />

@@ -4,6 +4,19 @@ import type { CalibrationStep } from '#shared/actions/robot/robotCalibration.ts'
 import { counted, formatPosition, formatWhole, unitSymbol } from './numbers.ts';
 import type { PositionUnit } from '../numbers.ts';
 
+/** What holds of a servo, in its board's unit. */
+interface Limits {
+  readonly min: number;
+  readonly home: number;
+  readonly max: number;
+}
+
+/** What the arrow showed. */
+const WAYS = {
+  right: 'Did it turn right first, clockwise, as the arrow did?',
+  left: 'Did it turn left first, against the clock, as the arrow did?',
+};
+
 export const calibrationWords = {
   servos: 'Servos to calibrate',
   servo: (name: string, done: number, all: number): string =>
@@ -19,8 +32,8 @@ export const calibrationWords = {
   } satisfies Record<CalibrationStep, string>,
   isDone: (step: string): string => `${step}, done`,
   ends: {
-    min: 'Hold − or + until it is as low as it may go. Let go before it hums or touches anything.',
-    max: 'Now the other end: as high as it may go.',
+    min: 'Hold − or + until it has come to one end of its way, closed for a gripper. Let go before it hums or touches anything.',
+    max: 'Now the other end. Which of the two is the higher figure does not matter.',
     home: 'Bring it to where it rests: straight, level or half open.',
   },
   set: {
@@ -29,18 +42,47 @@ export const calibrationWords = {
     home: 'Set home here',
   },
   keep: (at: number, unit: PositionUnit): string => `Keep ${formatPosition(at, unit)}`,
+  keepAndGo: (at: number, unit: PositionUnit): string => `Keep ${formatPosition(at, unit)}, go there slowly`,
   stepLabel: (step: string, servo: string): string => `${step.toLowerCase()} of ${servo}`,
+  limitsNow: ({ min, home, max }: Limits, unit: PositionUnit): string =>
+    `Lowest ${formatWhole(min)}, home ${formatWhole(home)}, highest ${formatWhole(max)} ${unitSymbol(unit)} now.`,
+  homeMoved: (from: number, to: number): string =>
+    `Home was ${formatWhole(from)}; between these ends it is ${formatWhole(to)}.`,
+  goTo: (at: number, unit: PositionUnit): string => `Go slowly to ${formatPosition(at, unit)}`,
   lower: 'Creep lower',
   higher: 'Creep higher',
   now: 'Commanded position',
   past: (min: number, max: number, unit: PositionUnit): string =>
-    `May pass the present limits here, never what the board can do: ${formatWhole(min)} to ${formatWhole(max)} ${unitSymbol(unit)}.`,
+    `Here it may pass them, up to what the board can do: ${formatWhole(min)} to ${formatWhole(max)} ${unitSymbol(unit)}.`,
   unknown: 'Nobody knows where this servo stands. It first goes to the middle, slowly. Keep clear of it.',
   goHome: 'Go slowly to the middle',
-  direction: 'Press Turn a little and watch. It turns and comes back.',
+  homeFirst: (at: number, home: number, unit: PositionUnit): string =>
+    `The test begins at home, and this servo was sent to ${formatWhole(at)}. First it goes to ${formatPosition(home, unit)}, slowly.`,
   turn: 'Turn a little',
-  arrow: 'Which way it should turn, as the picture of the robot shows it',
-  asked: 'Did it turn the way of the arrow?',
+  arrow: 'The way it should turn now',
+  sights: {
+    gripper: {
+      about: 'Watch the gripper and press Turn a little. It moves and comes back.',
+      asked: { right: 'Did it close first?', left: 'Did it open first?' },
+    },
+    side: {
+      about:
+        'Look at the robot from the side, as in its picture, and press Turn a little. It turns and comes back.',
+      asked: WAYS,
+    },
+    above: {
+      about: 'Look at the robot from above and press Turn a little. It turns and comes back.',
+      asked: WAYS,
+    },
+    front: {
+      about: 'Look at the hand from the front and press Turn a little. It turns and comes back.',
+      asked: WAYS,
+    },
+    horn: {
+      about: 'Look at the horn of the servo from outside and press Turn a little. It turns and comes back.',
+      asked: WAYS,
+    },
+  },
   same: 'Yes, that way',
   other: 'No, the other way',
   partner: (name: string): string =>

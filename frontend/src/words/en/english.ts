@@ -117,6 +117,7 @@ export const english = {
 
   activity: {
     idle: 'Idle',
+    moving: 'Moving',
     running: (slot: number, times: number): string =>
       `Running slot ${formatWhole(slot)}, ${timesWords(times)}`,
     runTruth: {

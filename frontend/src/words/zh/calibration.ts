@@ -3,6 +3,11 @@
 import type { calibrationWords as english } from '../en/calibration.ts';
 import { formatPosition, formatWhole, unitSymbol } from './numbers.ts';
 
+const WAYS = {
+  right: '它是先像箭头那样顺时针转的吗？',
+  left: '它是先像箭头那样逆时针转的吗？',
+};
+
 export const calibrationWords: typeof english = {
   servos: '要校准的舵机',
   servo: (name, done, all) => `${name}，已完成${formatWhole(done)}步，共${formatWhole(all)}步`,
@@ -17,8 +22,8 @@ export const calibrationWords: typeof english = {
   },
   isDone: (step) => `${step}，已完成`,
   ends: {
-    min: '按住 − 或 +，直到允许的最低位置。在它发出嗡嗡声或碰到东西之前松开。',
-    max: '现在是另一端：允许的最高位置。',
+    min: '按住 − 或 +，直到行程的一端，夹爪就是闭合。在它发出嗡嗡声或碰到东西之前松开。',
+    max: '现在是另一端。两端哪个数字更大都没有关系。',
     home: '移到它休息时的位置：伸直、水平或半开。',
   },
   set: {
@@ -27,18 +32,33 @@ export const calibrationWords: typeof english = {
     home: '把这里设为初始位',
   },
   keep: (at, unit) => `保留 ${formatPosition(at, unit)}`,
+  keepAndGo: (at, unit) => `保留 ${formatPosition(at, unit)}，慢慢转到那里`,
   stepLabel: (step, servo) => `${servo}的${step}`,
+  limitsNow: ({ min, home, max }, unit) =>
+    `现在最低 ${formatWhole(min)}，初始位 ${formatWhole(home)}，最高 ${formatWhole(max)}${unitSymbol(unit)}。`,
+  homeMoved: (from, to) => `初始位原来是 ${formatWhole(from)}，在这两端之间是 ${formatWhole(to)}。`,
+  goTo: (at, unit) => `慢慢转到 ${formatPosition(at, unit)}`,
   lower: '点动减小',
   higher: '点动增大',
   now: '目标位置',
   past: (min, max, unit) =>
-    `这里可以超过现有限位，但不超过控制板的范围：${formatWhole(min)}到${formatWhole(max)}${unitSymbol(unit)}。`,
+    `这里可以超过它们，直到控制板的范围：${formatWhole(min)}到${formatWhole(max)}${unitSymbol(unit)}。`,
   unknown: '还不知道这个舵机在哪里。它会先慢慢转到中间。请保持距离。',
   goHome: '慢慢转到中间',
-  direction: '点“转一点”并观察。它会转过去再转回来。',
+  homeFirst: (at, home, unit) =>
+    `测试从初始位开始，而这个舵机的目标是 ${formatWhole(at)}。它先慢慢转到 ${formatPosition(home, unit)}。`,
   turn: '转一点',
-  arrow: '按机器人图中的方向，它应该往哪边转',
-  asked: '它是按箭头方向转的吗？',
+  arrow: '现在应该往哪边转',
+  sights: {
+    gripper: {
+      about: '看着夹爪，点“转一点”。它会动一下再回来。',
+      asked: { right: '它是先闭合的吗？', left: '它是先张开的吗？' },
+    },
+    side: { about: '像图中那样从侧面看机器人，点“转一点”。它会转过去再转回来。', asked: WAYS },
+    above: { about: '从上方看机器人，点“转一点”。它会转过去再转回来。', asked: WAYS },
+    front: { about: '从正面看手，点“转一点”。它会转过去再转回来。', asked: WAYS },
+    horn: { about: '从外面看舵机的舵盘，点“转一点”。它会转过去再转回来。', asked: WAYS },
+  },
   same: '是，方向一致',
   other: '不是，方向相反',
   partner: (name) => `${name}是它的镜像。可以把刚才设置的镜像值用在它上面：`,

@@ -114,6 +114,7 @@ export const chinese: Words = {
 
   activity: {
     idle: '空闲',
+    moving: '移动中',
     running: (slot, times) => `正在运行槽位${formatWhole(slot)}，${timesWords(times)}`,
     runTruth: {
       requested: '已请求，尚未收到',

@@ -2,7 +2,9 @@ import { describe, expect, test } from 'vitest';
 import { readyRobot, type ReadyRobotId } from './readyRobots.ts';
 import {
   beginCalibration,
+  endFound,
   isServoDone,
+  noteFound,
   partnerDone,
   servoDone,
   settled,
@@ -11,7 +13,7 @@ import {
   type Calibration,
 } from './robotCalibration.ts';
 import { changeServo, removeServo } from './robotEdits.ts';
-import type { Robot } from './robot.ts';
+import { servoOf, type Robot } from './robot.ts';
 
 const ready = (id: ReadyRobotId, board: Robot['board']): Robot =>
   readyRobot(id, board, { robot: 'Mine', role: (role, servo) => `${role} ${servo}`, limb: (limb) => limb });
@@ -68,5 +70,34 @@ describe('a calibration', () => {
     expect(settled(partnerless, { servo: 11, step: 'home', done: [] })).toMatchObject({ servo: 1 });
     const kept: Calibration = { servo: 3, step: 'home', done: [] };
     expect(settled(partnerless, kept)).toBe(kept);
+  });
+});
+
+describe('the ends of a servo', () => {
+  /** Lowest is asked for first, highest then. */
+  const found = (lowest: number, highest: number): Robot => {
+    const begun = beginCalibration(ARM, 2);
+    const first = servoOf(ARM, 2)!;
+    const half = endFound(ARM, begun, first, 'min', lowest);
+    const noted = noteFound(begun, first, 'min', lowest);
+    return endFound(half, noted, servoOf(half, 2)!, 'max', highest);
+  };
+
+  test('are what they are, though the servo sits the other way round', () => {
+    expect(servoOf(found(1745, 1100), 2)).toMatchObject({ min: 1100, home: 1500, max: 1745 });
+    expect(found(1745, 1100)).toEqual(found(1100, 1745));
+  });
+
+  test('take home along only where it is outside of both', () => {
+    expect(servoOf(found(1600, 2200), 2)).toMatchObject({ min: 1600, home: 1600, max: 2200 });
+    expect(servoOf(found(2200, 1600), 2)).toMatchObject({ min: 1600, home: 1600, max: 2200 });
+  });
+
+  test('of another servo have nothing to do with it', () => {
+    const noted = noteFound(beginCalibration(ARM, 2), servoOf(ARM, 2)!, 'min', 1745);
+    expect(servoOf(endFound(ARM, noted, servoOf(ARM, 3)!, 'max', 2000), 3)).toMatchObject({
+      min: 500,
+      max: 2000,
+    });
   });
 });

@@ -3,6 +3,7 @@
 
 import { FAMILIES } from '../../protocol/families.ts';
 import { servoOf, type Robot, type RobotServo } from './robot.ts';
+import { setEnds } from './robotEdits.ts';
 
 export const CALIBRATION_STEPS = ['min', 'max', 'home', 'direction', 'partner', 'trim'] as const;
 export type CalibrationStep = (typeof CALIBRATION_STEPS)[number];
@@ -11,6 +12,18 @@ export interface Calibration {
   readonly servo: number;
   readonly step: CalibrationStep;
   readonly done: readonly Done[];
+  /** The end that was found last, with home as it was before any was. */
+  readonly found?: FoundEnd;
+}
+
+/** One of the two ends of a servo's way. */
+export type End = 'min' | 'max';
+
+interface FoundEnd {
+  readonly servo: number;
+  readonly end: End;
+  readonly at: number;
+  readonly home: number;
 }
 
 interface Done {
@@ -44,6 +57,34 @@ export function isDone({ done }: Calibration, servo: number, step: CalibrationSt
 
 export function isServoDone(calibration: Calibration, servo: RobotServo): boolean {
   return stepsOf(servo).every((step) => isDone(calibration, servo.servo, step));
+}
+
+/** The end at hand is here. With the other one found before, the two are taken as they lie: a servo may sit the other way round. */
+export function endFound(
+  robot: Robot,
+  { found }: Calibration,
+  servo: RobotServo,
+  end: End,
+  at: number,
+): Robot {
+  const other = otherEnd(found, servo.servo, end);
+  const present = end === 'min' ? servo.max : servo.min;
+  return setEnds(robot, servo.servo, [at, other?.at ?? present], other?.home ?? servo.home);
+}
+
+/** What the other end shall know of this one. */
+export function noteFound(
+  calibration: Calibration,
+  { servo, home }: RobotServo,
+  end: End,
+  at: number,
+): Calibration {
+  const other = otherEnd(calibration.found, servo, end);
+  return { ...calibration, found: { servo, end, at, home: other?.home ?? home } };
+}
+
+function otherEnd(found: FoundEnd | undefined, servo: number, end: End): FoundEnd | null {
+  return found?.servo === servo && found.end !== end ? found : null;
 }
 
 /** The step at hand is done; on to the next one that is not. With everything done it stays at the last one. */

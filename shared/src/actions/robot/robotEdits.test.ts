@@ -14,7 +14,7 @@ import {
   reachOf,
   removeServo,
   renumber,
-  setEnd,
+  setEnds,
 } from './robotEdits.ts';
 
 const ready = (id: ReadyRobotId, board: Robot['board']): Robot =>
@@ -59,8 +59,24 @@ describe('servos come and go', () => {
 
 describe('calibrating', () => {
   test('an end takes home along', () => {
-    expect(servoOf(setEnd(ARM, 4, 'min', 1600), 4)).toMatchObject({ min: 1600, home: 1600, max: 2500 });
-    expect(servoOf(setEnd(ARM, 4, 'max', 2000), 4)).toMatchObject({ min: 500, home: 1500, max: 2000 });
+    expect(servoOf(setEnds(ARM, 4, [1600, 2500], 1500), 4)).toMatchObject({
+      min: 1600,
+      home: 1600,
+      max: 2500,
+    });
+    expect(servoOf(setEnds(ARM, 4, [500, 2000], 1500), 4)).toMatchObject({ min: 500, home: 1500, max: 2000 });
+  });
+
+  test('the lower end is the lowest, whichever was found first', () => {
+    const position = fc.integer({ min: 500, max: 2500 });
+    fc.assert(
+      fc.property(position, position, position, (one, other, home) => {
+        fc.pre(one !== other);
+        const robot = setEnds(ARM, 4, [one, other], home);
+        expect(flawOf(robot)).toBeNull();
+        expect(robot).toEqual(setEnds(ARM, 4, [other, one], home));
+      }),
+    );
   });
 
   test('a partner is the mirror image, and the image of the image the first one', () => {

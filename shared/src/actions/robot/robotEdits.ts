@@ -51,20 +51,18 @@ export function pair(robot: Robot, servo: number, partner: number | null): Robot
   };
 }
 
-/** A new end of its way; home moves along where it would be left outside. */
-export function setEnd(robot: Robot, servo: number, end: 'min' | 'max', at: number): Robot {
-  const home = servoOf(robot, servo)?.home ?? at;
-  return changeServo(robot, servo, {
-    [end]: at,
-    home: end === 'min' ? Math.max(home, at) : Math.min(home, at),
-  });
+/** Both ends of its way, whichever is the lower one; `home` moves along where it would be left outside. */
+export function setEnds(robot: Robot, servo: number, ends: readonly [number, number], home: number): Robot {
+  const [min, max] = [Math.min(...ends), Math.max(...ends)];
+  return changeServo(robot, servo, { min, max, home: Math.min(max, Math.max(min, home)) });
 }
 
 /** Limits as the board counts, taken over for the servos that are there. */
 export function withLimits(robot: Robot, held: readonly NamedLimits[]): Robot {
   return held.reduce((all, { servo, min, max }) => {
-    const trim = servoOf(all, servo)?.trim ?? 0;
-    return setEnd(setEnd(all, servo, 'min', min - trim), servo, 'max', max - trim);
+    const own = servoOf(all, servo);
+    if (own === undefined) return all;
+    return setEnds(all, servo, [min - own.trim, max - own.trim], own.home);
   }, robot);
 }
 

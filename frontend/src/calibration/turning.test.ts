@@ -1,0 +1,67 @@
+import { describe, expect, test } from 'vitest';
+import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { startTurning, type TurnPhase } from './turning.ts';
+
+function bench() {
+  const clock = createVirtualClock();
+  const moves: number[] = [];
+  const phases: TurnPhase[] = [];
+  let target = 1500;
+  let isLate = false;
+  let may = true;
+  const end = startTurning(
+    {
+      clock,
+      motion: () => ({ target, estimated: isLate ? 1499 : target }),
+      mayMove: () => may,
+      move(position) {
+        moves.push(position);
+        target = position;
+      },
+    },
+    { home: 1500, away: 1700 },
+    (phase) => phases.push(phase),
+  );
+  return {
+    ...{ clock, moves, phases, end },
+    be: (position: number) => (target = position),
+    lag: (on: boolean) => (isLate = on),
+    stop: () => (may = false),
+  };
+}
+
+describe('turning a little', () => {
+  test('goes away and comes back, and is done when it stands', async () => {
+    const { clock, moves, phases } = bench();
+    expect(phases).toEqual(['away']);
+    await clock.advance(1300);
+    expect(moves).toEqual([1700, 1500]);
+    expect(phases).toEqual(['away', 'back']);
+    await clock.advance(1300);
+    expect(phases).toEqual(['away', 'back', 'done']);
+  });
+
+  test('waits for a servo that is slow', async () => {
+    const { clock, moves, lag } = bench();
+    lag(true);
+    await clock.advance(4000);
+    expect(moves).toEqual([1700]);
+    lag(false);
+    await clock.advance(500);
+    expect(moves).toEqual([1700, 1500]);
+  });
+
+  test('ends where it is stopped, moved otherwise or left', async () => {
+    const stopped = bench();
+    stopped.stop();
+    const moved = bench();
+    moved.be(900);
+    const left = bench();
+    left.end();
+    for (const { clock } of [stopped, moved, left]) await clock.advance(5000);
+    expect([stopped, moved, left].map(({ moves }) => moves)).toEqual([[1700], [1700], [1700]]);
+    expect(stopped.phases).toEqual(['away', 'ended']);
+    expect(moved.phases).toEqual(['away', 'ended']);
+    expect(left.phases).toEqual(['away']);
+  });
+});

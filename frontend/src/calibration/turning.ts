@@ -1,0 +1,48 @@
+// A servo turns a little away from home and, once it stands there, back. Ends early where nothing may move any longer.
+// Knows no session.
+
+import type { Clock } from '#shared/clock.ts';
+import type { ServoMotion } from '#shared/session/state.ts';
+
+export interface Turning {
+  readonly clock: Clock;
+  motion(): ServoMotion;
+  mayMove(): boolean;
+  move(position: number, durationMs: number): void;
+}
+
+/** `away` is what is looked at; `ended`: something else took the servo or stopped it. */
+export type TurnPhase = 'away' | 'back' | 'done' | 'ended';
+
+const TURN_MS = 900;
+/** To see where it stands before it comes back. */
+const STAND_MS = 400;
+const LOOK_EACH_MS = 50;
+
+/** Returns what ends it; ending twice is harmless. */
+export function startTurning(
+  { clock, motion, mayMove, move }: Turning,
+  { home, away }: { readonly home: number; readonly away: number },
+  hear: (phase: TurnPhase) => void,
+): () => void {
+  let cancel = (): void => undefined;
+
+  function go(to: number, phase: TurnPhase, then: () => void): void {
+    if (!mayMove()) return hear('ended');
+    hear(phase);
+    move(to, TURN_MS);
+    cancel = clock.after(TURN_MS, () => untilThere(to, then));
+  }
+
+  function untilThere(to: number, then: () => void): void {
+    const { target, estimated } = motion();
+    if (!mayMove() || (target !== null && Math.abs(target - to) > 1)) return hear('ended');
+    cancel =
+      target === estimated
+        ? clock.after(STAND_MS, then)
+        : clock.after(LOOK_EACH_MS, () => untilThere(to, then));
+  }
+
+  go(away, 'away', () => go(home, 'back', () => hear('done')));
+  return () => cancel();
+}
