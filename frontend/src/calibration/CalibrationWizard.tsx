@@ -129,9 +129,7 @@ function Steps({ at: { servo, progress, go } }: At) {
               aria-current={step === progress.step ? 'step' : undefined}
               onClick={() => go(servo.servo, step)}
             >
-              <span className={cx(styles.tick, !done && styles.notYet)}>
-                <Mark truth="confirmed" />
-              </span>
+              <Mark truth={done ? 'confirmed' : 'neutral'} />
               {named(step)}
             </button>
           </li>
