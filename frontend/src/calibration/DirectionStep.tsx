@@ -90,7 +90,7 @@ function useTurning(servo: RobotServo): { readonly phase: TurnPhase | null; turn
 }
 
 /** Where one looks from, as the picture of the arm does; other bodies have no picture of a turn. */
-type Sight = keyof typeof words.calibration.sights;
+type Sight = 'gripper' | 'side' | 'above' | 'front' | 'horn';
 
 const ARM_SIGHTS: Readonly<Record<number, Sight>> = {
   [JOINT.gripper]: 'gripper',
