@@ -40,7 +40,7 @@ test('STOP is heard over a real port in each state', async ({ openPort, ptyBoard
   await openPort.button('Download').click();
   await expect(openPort.progress).toHaveAttribute('aria-valuetext', '0 of 2 frames');
   await stopIn(openPort, bus);
-  await expect(openPort.board).toContainText('Broken: its download did not finish.');
+  await expect(openPort.board).toContainText('Its download did not finish.');
 
   await downloadGroup(openPort, 5, 1400);
   await openPort.untilStopped.check();

@@ -76,11 +76,11 @@ test.describe('on a board with slow flash', () => {
       await poll(async () => ofKind(await ptyBoard.bus(), 'download').length).toBeGreaterThanOrEqual(heard);
       await pull();
       await expect(openPort.link).toHaveText(/^Lost/);
-      await expect(openPort.board).toContainText('Broken: its download did not finish.');
+      await expect(openPort.board).toContainText('Its download did not finish.');
       await plugIn();
       await expect(openPort.link).toHaveText(/^Ready/);
       await openPort.resume.click();
-      await expect(openPort.board).toContainText('Broken: its download did not finish.');
+      await expect(openPort.board).toContainText('Its download did not finish.');
       await expect(openPort.button('Run')).toBeDisabled();
     }
   });

@@ -157,10 +157,10 @@ test('what a hand did becomes keys: recorded on purpose, or taken after the fact
 
 test('the robot follows the playhead step by step, and no longer after STOP', async ({ dashboard, page }) => {
   await captureGroup(dashboard, [1000, 1400], 400);
-  await dashboard.button('A frame back').click();
-  await expect(dashboard.estimate(1)).toHaveText('≈ 1000');
   const follows = page.getByRole('switch', { name: 'Robot follows' });
   await follows.check();
+  await dashboard.button('A frame back').click();
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1000');
   await dashboard.type(dashboard.frameTime(1), 500);
   await page.keyboard.press('Escape');
   await expect(follows).not.toBeChecked();

@@ -73,7 +73,7 @@ test.describe('on a board with slow flash', () => {
     await expect(dashboard.notices).toContainText(
       'Download cancelled. Slot 7 is broken until a whole group is downloaded.',
     );
-    await expect(dashboard.board).toContainText('Broken: its download did not finish.');
+    await expect(dashboard.board).toContainText('Its download did not finish.');
     await expect(dashboard.button('Run')).toBeDisabled();
     expect(ofKind(await robot.bus(), 'download')).toHaveLength(1);
 

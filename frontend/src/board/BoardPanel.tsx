@@ -1,9 +1,11 @@
 // What lives on the board: slots, downloading to one, running one, erasing all. Boards cannot be read, so a slot is known
 // only as far as this page filled it.
 
+import { recordOf } from '#shared/actions/slots/slotBook.ts';
 import { obstacles } from '../stores/compiled.ts';
-import { useCompiled, useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useCompiled, useDevice, useSlots, useStores, useView } from '../stores/stores.ts';
 import { SlotsControl } from '../slots/SlotsControl.tsx';
+import { FATE_TRUTH, useFates } from '../slots/useFates.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Panel } from '../ui/Panel.tsx';
@@ -56,12 +58,12 @@ export function BoardPanel() {
 /** What stands below in full, for a window in which only the head of this panel is in sight. */
 function AtAGlance() {
   const slot = useView((state) => state.slot);
-  const fate = useFate(slot);
+  const fate = useFates()(slot);
   const { frames, report } = useCompiled((state) => state.latest);
   const fits = obstacles(report, 'board').length === 0;
   return (
     <span className={styles.glance} aria-hidden="true">
-      <Chip truth={FATE_TRUTH[fate]}>{words.board.glance(slot, words.board.slotBadge[fate])}</Chip>
+      <Chip truth={FATE_TRUTH[fate]}>{words.board.glance(slot, words.slots.badge[fate])}</Chip>
       {frames.length > 0 && (
         <Chip truth={fits ? 'confirmed' : 'danger'}>{fits ? words.compile.fits : words.compile.fitsNot}</Chip>
       )}
@@ -69,16 +71,12 @@ function AtAGlance() {
   );
 }
 
-const useFate = (slot: number): keyof typeof FATE_TRUTH =>
-  useSnapshot(({ brokenSlots, storedSlots }) =>
-    brokenSlots.includes(slot) ? 'broken' : storedSlots.includes(slot) ? 'stored' : 'unknown',
-  );
-
 function SlotControl() {
   const { view, notices } = useStores();
   const slot = useView((state) => state.slot);
   const { min, max } = useDevice((state) => state.family.slot);
-  const fate = useFate(slot);
+  const fate = useFates()(slot);
+  const held = useSlots(({ book }) => recordOf(book, slot)?.name ?? '');
   return (
     <div className={styles.row}>
       <div className={field.named}>
@@ -96,13 +94,11 @@ function SlotControl() {
       </div>
       <div>
         <div className={styles.about} role="status">
-          <Chip truth={FATE_TRUTH[fate]}>{words.board.slotBadge[fate]}</Chip>
-          <p>{words.board.slotAbout[fate]}</p>
+          <Chip truth={FATE_TRUTH[fate]}>{words.slots.badge[fate]}</Chip>
+          <p>{words.slots.holds(fate, held)}</p>
         </div>
         <PlaceControl />
       </div>
     </div>
   );
 }
-
-const FATE_TRUTH = { broken: 'danger', stored: 'confirmed', unknown: 'unknown' } as const;

@@ -84,6 +84,14 @@ const CASES: readonly { readonly name: string; readonly panel: ReactNode; prepar
         editServoView(stores, (view) => ({ ...view, muted: [1] }));
       },
     },
+    {
+      name: 'On the board, another group in the slot',
+      panel: <BoardPanel />,
+      prepare(stores) {
+        fill(stores);
+        stores.view.setState({ slot: 8 });
+      },
+    },
     { name: 'Slots', panel: <SlotBoard />, prepare: fill },
     {
       name: 'Slots, several groups',

@@ -130,7 +130,6 @@ export const SPECIMENS: readonly Specimen[] = [
   })),
   { name: 'Battery silent', state: { ...READY, battery: { kind: 'silent', lastMv: null } }, ...STORED },
   { name: 'Broken slot', state: { ...READY, brokenSlots: [0] }, frames: 3, ...STORED },
-  { name: 'Stored slot', state: { ...READY, storedSlots: [0] }, frames: 3, ...STORED },
   { name: 'Sixteen servos', board: 'lsc-16', pose: 'moving', ...DRIVEN },
   ...SERVO_SPECIMENS.map((specimen): Specimen => ({ pose: 'moving', frames: 3, ...specimen })),
   { name: 'Old uHand', board: 'openarm-old', state: NO_BATTERY, frames: 3, ...TOLD },

@@ -2,6 +2,7 @@
 // this. What goes on is said in a line that is always there.
 
 import { useShallow } from 'zustand/react/shallow';
+import { recordOf, type SlotFate } from '#shared/actions/slots/slotBook.ts';
 import { SPEED_PERCENT, type PlaybackPhase } from '../stores/playback.ts';
 import { useFates } from '../slots/useFates.ts';
 import { motionHindrance, startHindrance } from '../stores/readiness.ts';
@@ -12,12 +13,14 @@ import {
   usePlayback,
   useRobot,
   useServoView,
+  useSlots,
   useSnapshot,
   useStores,
   useView,
 } from '../stores/stores.ts';
 import { timesOf } from '../timeline/groupTimes.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
+import { Confirm } from '../ui/Confirm.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
@@ -29,19 +32,20 @@ export function PlayBar() {
   const { playback } = useStores();
   const mayPlay = useMayPlay();
   const isIdle = phase === null;
+  const mayStep = useDocument(({ present }) => present.frames.length > 0) && isIdle;
   return (
     <div className={styles.bar} role="group" aria-label={words.play.tools}>
       <IconButton
         icon="earlier"
         label={words.play.back}
-        isDisabled={!mayPlay}
+        isDisabled={!mayStep}
         onPress={() => playback.step(-1)}
       />
       {phase === null ? <BeginButtons /> : <EndButton phase={phase} />}
       <IconButton
         icon="later"
         label={words.play.forth}
-        isDisabled={!mayPlay}
+        isDisabled={!mayStep}
         onPress={() => playback.step(1)}
       />
       <Settings isDisabled={!isIdle} />
@@ -159,19 +163,35 @@ function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
 function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
   const { playback } = useStores();
   const commands = useDevice((state) => state.family.commands);
-  const hint = useBoardHint();
+  const slot = useView((state) => state.slot);
+  const fate = useFates()(slot);
+  const held = useSlots(({ book }) => recordOf(book, slot)?.name ?? '');
+  const name = useDocument(({ present }) => present.name);
   if (!commands.includes('run') || !commands.includes('download')) return null;
+  const looks = { icon: 'board', isDisabled, hint: boardHint(slot, fate) } as const;
+  const run = (): void => playback.runOnBoard();
+  if (fate === 'other')
+    return (
+      <Confirm
+        {...looks}
+        label={words.play.onBoard}
+        title={words.play.replaceTitle(slot)}
+        text={words.play.replaceText(slot, held, name)}
+        keepLabel={words.play.replaceKeep}
+        confirmLabel={words.play.replace}
+        closeLabel={words.close}
+        onConfirm={run}
+      />
+    );
   return (
-    <Button icon="board" hint={hint} isDisabled={isDisabled} onPress={() => playback.runOnBoard()}>
+    <Button {...looks} onPress={run}>
       {words.play.onBoard}
     </Button>
   );
 }
 
 /** Whether it downloads first is said before. */
-function useBoardHint(): string {
-  const slot = useView((state) => state.slot);
-  const fate = useFates()(slot);
+function boardHint(slot: number, fate: SlotFate): string {
   return fate === 'same' ? words.play.onBoardHint(slot) : words.play.onBoardDownloads(slot, fate === 'older');
 }
 

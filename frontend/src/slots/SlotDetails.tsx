@@ -11,8 +11,7 @@ import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { words } from '../words/words.ts';
 import { Comparison } from './Comparison.tsx';
-import { FATE_TRUTH } from './SlotMap.tsx';
-import { useFates } from './useFates.ts';
+import { FATE_TRUTH, useFates } from './useFates.ts';
 import styles from './Slots.module.css';
 
 const VERSION_LENGTH = 6;

@@ -2,14 +2,14 @@
 // slot that Download and Run mean.
 
 import { useEffect, useRef, type KeyboardEvent } from 'react';
-import { recordOf, type SlotFate } from '#shared/actions/slots/slotBook.ts';
+import { recordOf } from '#shared/actions/slots/slotBook.ts';
 import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
 import { useDevice, useSlots, useStores, useView } from '../stores/stores.ts';
-import { Mark, type Truth } from '../ui/Chip.tsx';
+import { Mark } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
 import { slotAfterKey } from './slotKeys.ts';
-import { useFates } from './useFates.ts';
+import { FATE_TRUTH, useFates } from './useFates.ts';
 import styles from './Slots.module.css';
 
 export function SlotMap() {
@@ -65,12 +65,3 @@ export function SlotMap() {
 /** A narrow window has fewer. */
 const columnsOf = (grid: HTMLElement | null): number =>
   grid === null ? 1 : getComputedStyle(grid).gridTemplateColumns.split(' ').length;
-
-export const FATE_TRUTH: Readonly<Record<SlotFate, Truth>> = {
-  broken: 'danger',
-  same: 'confirmed',
-  older: 'warning',
-  other: 'commanded',
-  empty: 'neutral',
-  unknown: 'unknown',
-};

@@ -52,6 +52,7 @@ export function createFollower(device: Device): Follower {
       move(changed, gentleMs > 0 ? gentleMs : 'hand');
     },
     go(pose, durationMs, from) {
+      told = pose;
       move([...pose], isAt(from) ? Math.max(durationMs, LEAST_STEP_MS) : GENTLE_MOVE_MS);
     },
   };

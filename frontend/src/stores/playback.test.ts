@@ -240,11 +240,16 @@ describe('playing from the page', () => {
     expect(told()[0]).toContain('Servo 1 in frame 2: 2600 is out of range');
   });
 
-  test('a step goes to the next frame and back', async () => {
+  test('a step goes to the next frame and back, and the robot only where it follows', async () => {
     const { playback, playhead, draw, moves } = await deskWith(WAVE);
     playback.step(1);
+    playback.step(1);
     await draw(2000);
-    expect(playhead.at()).toBe(400);
+    expect(playhead.at()).toBe(800);
+    expect(moves()).toEqual([]);
+    playhead.go(400);
+    playback.set({ isLive: true });
+    await draw(2000);
     playback.step(1);
     await draw(1000);
     playback.step(-1);

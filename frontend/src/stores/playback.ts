@@ -66,7 +66,7 @@ export interface Playback {
   runOnBoard(): void;
   /** Where it is; a group on the board ends after its frame in progress. */
   pause(): void;
-  /** To the end of the next frame of the group, or of the one before. */
+  /** To the end of the next frame of the group, or of the one before; the robot goes along where it follows. */
   step(direction: 1 | -1): void;
   /** To be called while the page is drawn: moves the playhead, and the robot where it follows. */
   frame(): void;
@@ -213,7 +213,8 @@ export function createPlayback(options: PlaybackOptions): Playback {
     const { slot } = view.getState();
     const { brokenSlots } = device.store.getState().snapshot;
     const own = { name: group.source.group.name, documentId: options.documentId() };
-    const fate = fateOf(slots.store.getState().book, brokenSlots, slot, { ...group, ...own });
+    const now = { broken: brokenSlots, arriving: null };
+    const fate = fateOf(slots.store.getState().book, now, slot, { ...group, ...own });
     if (fate === 'same') return run(slot);
     phase('storing');
     slots.download([{ slot, ...own, frames: group.frames }], (isDone) => {
@@ -285,14 +286,12 @@ export function createPlayback(options: PlaybackOptions): Playback {
   }
 
   function step(direction: 1 | -1): void {
-    const group = playable('page');
-    if (group === null) return;
-    const ends = frameEnds(group.source.group.frames);
+    const ends = frameEnds(document.store.getState().present.frames);
     const at = playhead.at();
     const to =
       direction === 1 ? ends.find((endMs) => endMs > at) : (ends.findLast((endMs) => endMs < at) ?? ends[0]);
     if (to === undefined) return;
-    follower.go(poseAt(to), Math.abs(to - at), poseAt(at));
+    if (store.getState().isLive) follower.go(poseAt(to), Math.abs(to - at), poseAt(at));
     playhead.show(to);
   }
 

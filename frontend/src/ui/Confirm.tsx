@@ -5,7 +5,7 @@ import { Button, type ButtonProps } from './Button.tsx';
 import { Dialog } from './Dialog.tsx';
 import styles from './Confirm.module.css';
 
-export interface ConfirmProps extends Pick<ButtonProps, 'tone' | 'icon' | 'isDisabled'> {
+export interface ConfirmProps extends Pick<ButtonProps, 'tone' | 'icon' | 'hint' | 'isDisabled'> {
   readonly label: string;
   readonly title: string;
   readonly text: string;
@@ -16,12 +16,12 @@ export interface ConfirmProps extends Pick<ButtonProps, 'tone' | 'icon' | 'isDis
 }
 
 export function Confirm({ label, title, text, keepLabel, confirmLabel, onConfirm, ...rest }: ConfirmProps) {
-  const { closeLabel, ...looks } = rest;
+  const { closeLabel, hint, ...looks } = rest;
   const [isAsking, setAsking] = useState(false);
   const close = (): void => setAsking(false);
   return (
     <>
-      <Button {...looks} onPress={() => setAsking(true)}>
+      <Button {...looks} {...(hint !== undefined && { hint })} onPress={() => setAsking(true)}>
         {label}
       </Button>
       <Dialog role="alertdialog" title={title} closeLabel={closeLabel} isOpen={isAsking} onClose={close}>

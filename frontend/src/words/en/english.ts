@@ -275,13 +275,7 @@ export const english = {
     keepPlaceHint:
       'The slot and the times chosen here become this group’s own, for the next time it is opened',
     steps: { place: 'slot and times' },
-    slotAbout: {
-      broken: 'Broken: its download did not finish. Download again before running it.',
-      stored: 'Holds what was downloaded here.',
-      unknown: 'What it holds is unknown; boards cannot be read.',
-    },
     glance: (slot: number, badge: string): string => `Slot ${formatWhole(slot)}: ${badge}`,
-    slotBadge: { broken: 'Broken', stored: 'Stored', unknown: 'Unknown' },
     download: 'Download',
     downloadHint: (count: number, slot: number): string =>
       `${counted(count, 'frame')} to slot ${formatWhole(slot)}`,

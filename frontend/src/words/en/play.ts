@@ -18,6 +18,11 @@ export const playWords = {
     isOlder
       ? `The copy in slot ${formatWhole(slot)} is older: downloads this group first, then runs it`
       : `Downloads to slot ${formatWhole(slot)} first, then runs it`,
+  replaceTitle: (slot: number): string => `Slot ${formatWhole(slot)} holds another group`,
+  replaceText: (slot: number, held: string, name: string): string =>
+    `“${name}” takes the place of ${held === '' ? 'what is' : `“${held}”`} in slot ${formatWhole(slot)} of the board. To keep both, choose another slot below.`,
+  replaceKeep: 'Leave it as it is',
+  replace: 'Replace and run',
   silent: (names: readonly string[]): string =>
     `Not sent from here: ${formatNames(names)}. The board plays every row.`,
   back: 'A frame back',

@@ -14,6 +14,7 @@ const buttons: Readonly<Record<PadButton, string>> = {
 };
 
 const about: Readonly<Record<SlotFate, string>> = {
+  arriving: 'Being downloaded',
   broken: 'Broken: its download did not finish',
   same: 'This group, as it is now',
   older: 'This group, an older version',
@@ -21,6 +22,18 @@ const about: Readonly<Record<SlotFate, string>> = {
   empty: 'Empty since everything was erased',
   unknown: 'Unknown: nothing was downloaded from here',
 };
+
+/** In a sentence; `name` is the group it holds, as far as anybody noted it. */
+const holds = (fate: SlotFate, name: string): string =>
+  ({
+    arriving: 'Being downloaded.',
+    broken: 'Its download did not finish. Download again before running it.',
+    same: 'Holds this group, as it is now.',
+    older: 'Holds an older version of this group.',
+    other: `Holds ${name === '' ? 'another group' : `“${name}”`}, not the group that is open.`,
+    empty: 'Empty since everything was erased.',
+    unknown: 'What it holds is unknown; boards cannot be read.',
+  })[fate];
 
 export const slotWords = {
   title: 'Slots of the board',
@@ -32,7 +45,9 @@ export const slotWords = {
   cell: (slot: number, fate: SlotFate, name: string | undefined): string =>
     name === undefined ? `${slotName(slot)}: ${about[fate]}` : `${slotName(slot)}: ${name}. ${about[fate]}`,
   about: (fate: SlotFate): string => about[fate],
+  holds,
   badge: {
+    arriving: 'Arriving',
     broken: 'Broken',
     same: 'Up to date',
     older: 'Older copy',

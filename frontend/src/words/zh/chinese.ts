@@ -261,13 +261,7 @@ export const chinese: Words = {
     keepPlace: '记在动作组里',
     keepPlaceHint: '这里选的槽位和次数成为这个动作组自己的，下次打开时使用',
     steps: { place: '槽位和次数' },
-    slotAbout: {
-      broken: '已损坏：下载没有完成。运行前请重新下载。',
-      stored: '存有从这里下载的内容。',
-      unknown: '里面有什么未知；控制板不能读取。',
-    },
     glance: (slot, badge) => `槽位${formatWhole(slot)}：${badge}`,
-    slotBadge: { broken: '已损坏', stored: '已存', unknown: '未知' },
     download: '下载',
     downloadHint: (count, slot) => `${formatCount(count)}帧到槽位${formatWhole(slot)}`,
     nothingToDownload: '请先记录一帧。',

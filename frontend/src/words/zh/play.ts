@@ -19,6 +19,11 @@ export const playWords: typeof english = {
     isOlder
       ? `槽位${formatWhole(slot)}里是旧版本：先下载这个动作组，再运行`
       : `先下载到槽位${formatWhole(slot)}，再运行`,
+  replaceTitle: (slot) => `槽位${formatWhole(slot)}里是另一个动作组`,
+  replaceText: (slot, held, name) =>
+    `“${name}”会替换控制板槽位${formatWhole(slot)}里的${held === '' ? '内容' : `“${held}”`}。想两个都保留，请在下面选择别的槽位。`,
+  replaceKeep: '保持原样',
+  replace: '替换并运行',
   silent: (names) => `不从页面发送：${formatNames(names)}。控制板会播放每一行。`,
   back: '后退一帧',
   forth: '前进一帧',

@@ -16,6 +16,7 @@ const buttons: Readonly<Record<PadButton, string>> = {
 };
 
 const about: Readonly<Record<SlotFate, string>> = {
+  arriving: '正在下载到这里',
   broken: '已损坏：下载没有完成',
   same: '这个动作组，与现在一致',
   older: '这个动作组的旧版本',
@@ -23,6 +24,17 @@ const about: Readonly<Record<SlotFate, string>> = {
   empty: '全部擦除后是空的',
   unknown: '未知：没有从这里下载过',
 };
+
+const holds = (fate: SlotFate, name: string): string =>
+  ({
+    arriving: '正在下载。',
+    broken: '下载没有完成。运行前请重新下载。',
+    same: '存有这个动作组，是现在的版本。',
+    older: '存有这个动作组的旧版本。',
+    other: `存有${name === '' ? '另一个动作组' : `“${name}”`}，不是打开的这个。`,
+    empty: '全部擦除以后一直是空的。',
+    unknown: '里面有什么未知；控制板不能读取。',
+  })[fate];
 
 export const slotWords: typeof english = {
   title: '控制板的槽位',
@@ -33,7 +45,9 @@ export const slotWords: typeof english = {
   cell: (slot, fate, name) =>
     name === undefined ? `${slotName(slot)}：${about[fate]}` : `${slotName(slot)}：${name}。${about[fate]}`,
   about: (fate) => about[fate],
+  holds,
   badge: {
+    arriving: '下载中',
     broken: '已损坏',
     same: '最新',
     older: '旧版本',

@@ -88,15 +88,22 @@ export function withErasing({ stored, erased, begun }: SlotBook): SlotBook {
 
 export const withErased = (book: SlotBook): SlotBook => ({ ...book, isEmptied: true });
 
-export type SlotFate = 'broken' | 'same' | 'older' | 'other' | 'empty' | 'unknown';
+export type SlotFate = 'arriving' | 'broken' | 'same' | 'older' | 'other' | 'empty' | 'unknown';
 
-/** `broken`: what the session knows. `group` is the one at hand, null where it cannot be on this board. */
+/** What the session knows: slots with half a group, and the one that is being filled. */
+export interface SlotsNow {
+  readonly broken: readonly number[];
+  readonly arriving: number | null;
+}
+
+/** `group` is the one at hand, null where it cannot be on this board. */
 export function fateOf(
   book: SlotBook,
-  broken: readonly number[],
+  { broken, arriving }: SlotsNow,
   slot: number,
   group: Pick<SlotRecord, 'name' | 'documentId' | 'fingerprint'> | null,
 ): SlotFate {
+  if (slot === arriving) return 'arriving';
   if (broken.includes(slot)) return 'broken';
   const record = recordOf(book, slot);
   if (record === undefined) return book.isEmptied ? 'empty' : 'unknown';

@@ -36,6 +36,8 @@ const someFrames = fc.array(
   { minLength: 1, maxLength: 12 },
 );
 
+const NOW = { broken: [], arriving: null };
+
 describe('a fingerprint', () => {
   test('is the same for the same frames, and another one after any change of a number', () => {
     fc.assert(
@@ -63,18 +65,19 @@ describe('the book of slots', () => {
 
   test('says of a slot what anybody can know', () => {
     const book = withStored(withStored(EMPTY_SLOT_BOOK, record(5)), record(7, 'Bow', [at(100, 1200)]));
-    expect(fateOf(book, [], 5, group)).toBe('same');
-    expect(fateOf(book, [], 5, edited)).toBe('older');
-    expect(fateOf(book, [], 7, group)).toBe('other');
-    expect(fateOf(book, [], 8, group)).toBe('unknown');
-    expect(fateOf(book, [5], 5, group)).toBe('broken');
-    expect(fateOf(book, [], 5, null)).toBe('other');
+    expect(fateOf(book, NOW, 5, group)).toBe('same');
+    expect(fateOf(book, NOW, 5, edited)).toBe('older');
+    expect(fateOf(book, NOW, 7, group)).toBe('other');
+    expect(fateOf(book, NOW, 8, group)).toBe('unknown');
+    expect(fateOf(book, { ...NOW, broken: [5] }, 5, group)).toBe('broken');
+    expect(fateOf(book, { broken: [5], arriving: 5 }, 5, group)).toBe('arriving');
+    expect(fateOf(book, NOW, 5, null)).toBe('other');
   });
 
   test('knows a group that was renamed, and one that only has the name', () => {
     const book = withStored(EMPTY_SLOT_BOOK, record(5));
-    expect(fateOf(book, [], 5, { ...edited, name: 'Greeting' })).toBe('older');
-    expect(fateOf(book, [], 5, { ...edited, documentId: 'id of another' })).toBe('other');
+    expect(fateOf(book, NOW, 5, { ...edited, name: 'Greeting' })).toBe('older');
+    expect(fateOf(book, NOW, 5, { ...edited, documentId: 'id of another' })).toBe('other');
   });
 
   test('of an earlier version is read, and goes by names', () => {
@@ -85,25 +88,25 @@ describe('the book of slots', () => {
     );
     const read = slotBookFromText(text);
     if (!('value' in read)) throw new Error(read.problem);
-    expect(fateOf(read.value, [], 5, edited)).toBe('older');
+    expect(fateOf(read.value, NOW, 5, edited)).toBe('older');
     expect(JSON.parse(slotBookToText(read.value))).toEqual(JSON.parse(text));
   });
 
   test('a copy of the very same motion is up to date under any name', () => {
     const book = withStored(EMPTY_SLOT_BOOK, record(5, 'Greeting'));
-    expect(fateOf(book, [], 5, group)).toBe('same');
+    expect(fateOf(book, NOW, 5, group)).toBe('same');
   });
 
   test('keeps what an erase took until it is downloaded again', () => {
     const stored = withStored(withStored(EMPTY_SLOT_BOOK, record(5)), record(7, 'Bow'));
     const erasing = withErasing(stored);
-    expect(fateOf(erasing, [], 5, group)).toBe('unknown');
+    expect(fateOf(erasing, NOW, 5, group)).toBe('unknown');
     const erased = withErased(erasing);
-    expect(fateOf(erased, [], 5, group)).toBe('empty');
+    expect(fateOf(erased, NOW, 5, group)).toBe('empty');
     expect(erased.erased.map(({ slot }) => slot)).toEqual([5, 7]);
     const restored = withStored(erased, record(5));
     expect(restored.erased.map(({ slot }) => slot)).toEqual([7]);
-    expect(fateOf(restored, [], 5, group)).toBe('same');
+    expect(fateOf(restored, NOW, 5, group)).toBe('same');
     expect(withErasing(withStored(restored, record(9))).erased.map(({ slot }) => slot)).toEqual([5, 7, 9]);
   });
 
