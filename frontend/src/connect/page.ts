@@ -21,6 +21,7 @@ import { createLastPoses } from '../stores/lastPoses.ts';
 import { createMacroRun } from '../stores/macroRun.ts';
 import { createMacros } from '../stores/macros.ts';
 import { createMappings } from '../stores/mappings.ts';
+import { lookAfresh } from '../stores/freshLook.ts';
 import { followPlace } from '../stores/groupPlace.ts';
 import { createMotionTape } from '../stores/motionTape.ts';
 import { createNotices } from '../stores/notices.ts';
@@ -118,9 +119,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   watchLeaving(window, { hidden: paused, left });
   applyBatteryPolicy({ device, battery, robots, notices });
   watchInputs(window, pad);
-  library.store.subscribe(({ openId }, before) => {
-    if (openId !== before.openId) playhead.show(0);
-  });
+  lookAfresh({ library, view, timeline });
   followPlace({ document: written, library, view });
   stores.view.subscribe(({ tab, kiosk }) => {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(false);

@@ -54,12 +54,8 @@ export const ALL_ROW = 'all';
 
 export function createTimeline(): Timeline {
   return createStore<TimelineState>(() => ({
-    selected: NO_KEYS,
-    cursor: { row: ALL_ROW, frameId: null },
-    playheadMs: 0,
-    range: null,
+    ...afresh(),
     time: { fromMs: 0, msPerPx: 10 },
-    followsGroup: true,
     widthPx: 0,
     heightPx: 0,
     scrollTop: 0,
@@ -68,8 +64,19 @@ export function createTimeline(): Timeline {
     ripples: false,
     showsPreview: true,
     clip: null,
+  }));
+}
+
+/** What is about one group and means nothing in another. */
+export function afresh() {
+  return {
+    selected: NO_KEYS,
+    cursor: { row: ALL_ROW, frameId: null },
+    playheadMs: 0,
+    range: null,
+    followsGroup: true,
     asks: null,
     typed: '',
     marker: null,
-  }));
+  } satisfies Partial<TimelineState>;
 }

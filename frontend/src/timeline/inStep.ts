@@ -22,7 +22,7 @@ export function keepInStep(stores: DeskStores): () => void {
       if (selectedFrame !== before.selectedFrame) takeUpFrame(stores);
     }),
     timeline.subscribe(({ widthPx, followsGroup, playheadMs }, before) => {
-      if (widthPx !== before.widthPx && followsGroup) fitAll(deskOf(stores));
+      if (followsGroup && (widthPx !== before.widthPx || !before.followsGroup)) fitAll(deskOf(stores));
       if (playheadMs !== before.playheadMs) followPlayhead(stores, before);
     }),
   ];
