@@ -4,7 +4,7 @@
 import { useMemo, useState } from 'react';
 import { misfitsOf } from '#shared/actions/files/fit.ts';
 import type { Unit } from '#shared/actions/files/reading.ts';
-import { inUnit, toSteps } from '#shared/actions/files/units.ts';
+import { inUnit, onlyFittingUnit, toSteps } from '#shared/actions/files/units.ts';
 import { poseAt, totalDurationMs, type ActionGroup } from '#shared/actions/group/group.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { useDevice, useRobot } from '../stores/stores.ts';
@@ -23,7 +23,7 @@ export interface FoundGroupProps {
 
 export function FoundGroup({ found, asksUnit, onTake }: FoundGroupProps) {
   const family = useDevice((state) => state.family);
-  const [unit, setUnit] = useState<Unit | null>(asksUnit ? null : found.unit);
+  const [unit, setUnit] = useState<Unit | null>(asksUnit ? onlyFittingUnit(found) : found.unit);
   const [converts, setConverts] = useState(false);
   const named = inUnit(found, unit ?? found.unit);
   const converted = family.unit === 'steps' ? toSteps(named) : null;

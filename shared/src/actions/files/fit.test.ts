@@ -4,7 +4,7 @@ import { emptyGroup, type ActionGroup } from '../group/group.ts';
 import { insertFrame } from '../group/groupEdits.ts';
 import { readyRobot } from '../robot/readyRobots.ts';
 import { misfitsOf } from './fit.ts';
-import { inUnit, meaningIn, toSteps } from './units.ts';
+import { inUnit, meaningIn, onlyFittingUnit, toSteps } from './units.ts';
 
 const family = FAMILIES['openarm-new'];
 const ready = readyRobot('arm', 'openarm-new', {
@@ -79,6 +79,13 @@ describe('units', () => {
     expect(meaningIn('us', group)).toEqual({ positions: { min: 400, max: 1200 }, outside: 1 });
     expect(meaningIn('steps', group)).toEqual({ positions: { min: 400, max: 1200 }, outside: 1 });
     expect(meaningIn('us', groupOf({}))).toEqual({ positions: null, outside: 0 });
+  });
+
+  test('where the numbers fit one unit alone, it is that one; else a person has to say', () => {
+    expect(onlyFittingUnit(groupOf({ 1: 1500 }))).toBe('us');
+    expect(onlyFittingUnit(groupOf({ 1: 0, 2: 1000 }))).toBe('steps');
+    expect(onlyFittingUnit(groupOf({ 1: 500, 2: 1000 }))).toBeNull();
+    expect(onlyFittingUnit(group)).toBeNull();
   });
 
   test('naming the unit changes no number', () => {

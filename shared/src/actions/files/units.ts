@@ -29,6 +29,12 @@ export function meaningIn(unit: Unit, { frames }: ActionGroup): Meaning {
   return { positions: lowest > highest ? null : { min: lowest, max: highest }, outside };
 }
 
+/** Where the numbers leave no choice; null: both units can be meant, or neither. */
+export function onlyFittingUnit(group: ActionGroup): Unit | null {
+  const fitting = (['us', 'steps'] as const).filter((unit) => meaningIn(unit, group).outside === 0);
+  return fitting.length === 1 ? (fitting[0] ?? null) : null;
+}
+
 export const inUnit = (group: ActionGroup, unit: Unit): ActionGroup =>
   group.unit === unit ? group : { ...group, unit };
 
