@@ -84,7 +84,7 @@ function figuresOf(
 }
 
 async function dragsOver(address: string, board: BoardOnPort): Promise<readonly Drag[]> {
-  const transport = createGatewayTransport(`ws://${address}/ws`, { tellsLimits: false });
+  const transport = createGatewayTransport(`ws://${address}/ws`);
   const session = createSession({ transport, family, clock: realClock });
   try {
     await session.open();

@@ -131,7 +131,6 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ("POST", "/api/erase"): Example({"erased": True}, {"take": False}, (*ON_THE_WIRE, "noAnswer")),
     ("POST", "/api/lease"): Example(LEASE, {"action": "beat"}, ("busy", "notDriving")),
     ("GET", "/api/poses"): Example(POSES),
-    ("PUT", "/api/poses"): Example(None, POSES, ("storageFailed", "tooLarge")),
     ("POST", "/api/poses/{pose}/apply"): Example(
         {"packets": 1, "overInMs": 1500, "firstMoves": []},
         {"timeMs": 1500, "take": False},
@@ -221,7 +220,7 @@ PROBLEMS: dict[ErrorCode, str] = {
     "portMissing": "There is no such port.",
     "slotBroken": "Slot 5 holds half a group: download it again.",
     "storageBusy": "The library is busy.",
-    "storageFailed": "The poses are not kept: Read-only file system.",
+    "storageFailed": "The library's file cannot be used: disk I/O error.",
     "storageFull": "The disk is full.",
     "tooLarge": "The request is larger than 3145728 bytes.",
 }

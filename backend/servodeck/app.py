@@ -29,7 +29,6 @@ from servodeck.motion_api import motion_api
 from servodeck.openapi import described
 from servodeck.page import STATIC, page
 from servodeck.people_api import people_api
-from servodeck.pose_shelf import PoseShelf
 from servodeck.poses_api import poses_api
 from servodeck.pulse import Pulse
 from servodeck.robots_api import robots_api
@@ -66,7 +65,6 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     app.state.control = control
     app.state.scripts = Scripts(control)
     app.state.library = library
-    app.state.poses = PoseShelf(library.folder)
     app.state.pulse = Pulse(sign_of_life())
     app.state.disk = Disk(library.folder, control.now)
     app.state.entrance = entrance

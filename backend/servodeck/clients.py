@@ -27,7 +27,6 @@ from servodeck.messages import (
     CalibrateMessage,
     ContinueMessage,
     LeaseMessage,
-    LimitsMessage,
     RefusedMessage,
     ResumeMessage,
     SendMessage,
@@ -51,7 +50,6 @@ ROLES: dict[type[AnyClientMessage], Role] = {
     StopMessage: "stopper",
     ResumeMessage: "driver",
     BoardMessage: "driver",
-    LimitsMessage: "driver",
     CalibrateMessage: "driver",
     LeaseMessage: "viewer",
     ContinueMessage: "driver",
@@ -157,8 +155,6 @@ def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
             control.resume(seat.caller, seat)
         case BoardMessage():
             control.name_board(seat, message.board)
-        case LimitsMessage():
-            control.limit(seat, message.servos)
         case CalibrateMessage():
             control.limits.calibrate(seat, message.servo)
         case LeaseMessage():

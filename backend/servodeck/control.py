@@ -30,13 +30,11 @@ from servodeck.messages import (
     HaltedMessage,
     JobMessage,
     JobState,
-    LimitsMessage,
     Message,
     NoiseMessage,
     ReceivedMessage,
     ResumedMessage,
     RobotMessage,
-    ServoLimits,
     StateMessage,
     WelcomeMessage,
     encode,
@@ -159,9 +157,8 @@ class Control:
             raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
         if board != self.board.taken_for:
             self.board.take_for(board)
-            self._forget_limits()
-            self._see_robot()
         self._tell_state()
+        self._see_robot()
 
     def let_go_on(self, seat: Seat, for_ms: int | None) -> None:
         """The run under way, without its driver; None: not any more."""
@@ -176,16 +173,6 @@ class Control:
         if run.times == 0:
             raise OutOfRangeError("times is 0: what goes on without its driver has an end.")
         self.board.unattended.allow(run, seat, for_ms / 1000)
-
-    def limit(self, seat: Seat, servos: list[ServoLimits]) -> None:
-        """How far the robot's servos may be turned, by whoever said so last; every other client is told.
-        Who may not say so now is told what holds.
-        """
-        if not self.driving.may_rule(seat.caller):
-            seat.put(encode(LimitsMessage(type="limits", servos=self.limits.told())))
-            return
-        self.limits.set(servos)
-        self._tell(LimitsMessage(type="limits", servos=servos), but=seat)
 
     def download(self, group: Group, by: str, claim: Callable[[], object]) -> JobState:
         """Begins to store it; raises what keeps it from that before anything is sent. `claim` raises where
@@ -206,14 +193,12 @@ class Control:
 
     async def use_port(self, device: str, board: str | None = None) -> None:
         await self.board.quiet()
-        self._forget_limits()
         self.robot.leave()
         self.board.taken_for = board or self.board.taken_for
         await self.board.link.use(device)
 
     async def close_port(self) -> None:
         await self.board.quiet()
-        self._forget_limits()
         self.robot.leave()
         await self.board.link.close()
 
@@ -229,8 +214,8 @@ class Control:
         self._latch.cause = Cause("loss")  # the change of the port's state follows and tells both
 
     def board_changed(self) -> None:
-        self._see_robot()
         self._tell_state()
+        self._see_robot()
 
     def job_changed(self, state: JobState) -> None:
         self._tell(JobMessage(job=state))
@@ -306,7 +291,6 @@ class Control:
             stopped_by=self._latch.name,
             clients=len(self.hub),
             unattended=self.board.unattended.told(),
-            limits=self.limits.told(),
             robot=self.robot.told(),
             lease=self.driving.state_for(seat),
             broken_slots=self.board.broken_slots,
@@ -336,11 +320,6 @@ class Control:
 
     def _robot_changed(self) -> None:
         self._tell(RobotMessage(robot=self.robot.told()))
-
-    def _forget_limits(self) -> None:
-        if self.limits.told():
-            self._tell(LimitsMessage(type="limits", servos=[]))
-        self.limits.clear()
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:

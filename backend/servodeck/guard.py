@@ -21,8 +21,6 @@ LARGER_BODIES = (
     (re.compile(r"/api/library/.*"), 3 * 1024 * 1024),
     # 255 frames of 32 servos as JSON, with spaces.
     (re.compile(r"/api/slots/[^/]+/download"), 256 * 1024),
-    # 1000 poses of 20 servos.
-    (re.compile(r"/api/poses"), 1024 * 1024),
 )
 STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
 

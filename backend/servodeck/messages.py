@@ -143,15 +143,6 @@ class ServoLimits(Message):
     max: Annotated[int, Field(ge=0, le=65535)]
 
 
-class LimitsMessage(Message):
-    """The robot's limits, for every client and in place of those before; gone with the board. From
-    the gateway: another client has told them, or they are gone.
-    """
-
-    type: Literal["limits"]
-    servos: Annotated[list[ServoLimits], Field(max_length=253)]
-
-
 class RobotTold(Message):
     """The robot on the board: which document of the library, at which revision; 0 while it is read."""
 
@@ -201,7 +192,6 @@ AnyClientMessage = (
     | StopMessage
     | ResumeMessage
     | BoardMessage
-    | LimitsMessage
     | CalibrateMessage
     | LeaseMessage
     | ContinueMessage
@@ -226,7 +216,6 @@ class WelcomeMessage(Message):
     stopped_by: str | None
     clients: int
     unattended: UnattendedRun | None
-    limits: list[ServoLimits]
     robot: RobotTold | None
     lease: LeaseState
     broken_slots: list[int]
@@ -336,7 +325,6 @@ GatewayMessage = Annotated[
     | HaltedMessage
     | ResumedMessage
     | StateMessage
-    | LimitsMessage
     | RobotMessage
     | LeaseToldMessage
     | TickMessage

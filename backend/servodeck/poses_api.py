@@ -1,24 +1,29 @@
-"""Poses for scripts, over HTTP: which there are, and go there. Pages hand them over.
+"""Poses for scripts, over HTTP: those of the robot on the board, and go there.
 
-Translates for `pose_shelf` and `scripts`; decides nothing.
+Translates for `robot_of_board` and `scripts`; decides which pose a name means.
 """
 
-import asyncio
+from collections.abc import Sequence
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Path, Request
 from pydantic import Field
-from starlette.requests import HTTPConnection
 
 from servodeck.api import Controlled, Problem, called_by_own_page
-from servodeck.errors import OutOfRangeError
+from servodeck.errors import NotFoundError, OutOfRangeError
 from servodeck.families import Family
-from servodeck.library_messages import NamedPose
+from servodeck.library_messages import Name, NamedPose
 from servodeck.limits import UNITS
 from servodeck.messages import Message
 from servodeck.motion_api import Driving, MoveBegun, Scripted, Take, begin_move
-from servodeck.pose_shelf import Poses, PoseShelf
-from servodeck.roles import DRIVER, VIEWER
+from servodeck.roles import VIEWER
+
+
+class Poses(Message):
+    """Of the robot on the board."""
+
+    robot: Name
+    poses: list[NamedPose]
 
 
 class ApplyWish(Message):
@@ -26,14 +31,7 @@ class ApplyWish(Message):
     take: Take = False
 
 
-async def shelf_of(connection: HTTPConnection) -> PoseShelf:
-    shelf = connection.app.state.poses
-    assert isinstance(shelf, PoseShelf)
-    return shelf
-
-
 GENTLY = ApplyWish()
-Shelved = Annotated[PoseShelf, Depends(shelf_of)]
 poses_api = APIRouter(
     prefix="/api/poses",
     dependencies=[Depends(called_by_own_page)],
@@ -41,17 +39,11 @@ poses_api = APIRouter(
 )
 
 
-# Plain functions where a disk is waited for: they run in threads.
 @poses_api.get("", dependencies=[VIEWER])
-def list_poses(shelf: Shelved) -> Poses:
-    """The poses that a page has handed over, with the name of their robot."""
-    return shelf.read()
-
-
-@poses_api.put("", status_code=204, dependencies=[DRIVER])
-def hand_over(poses: Poses, shelf: Shelved) -> None:
-    """Keeps these in place of all that were here. Positions as the board counts, with the trim in them."""
-    shelf.write(poses)
+async def list_poses(control: Controlled) -> Poses:
+    """The poses of the robot on the board, with its name; number 0 is home. Positions as the board counts."""
+    facts = control.robot.facts
+    return Poses(robot=facts.name if facts else "", poses=facts.poses if facts else [])
 
 
 @poses_api.post("/{pose}/apply")
@@ -61,14 +53,25 @@ async def apply(
     caller: Driving,
     scripts: Scripted,
     control: Controlled,
-    shelf: Shelved,
     wish: ApplyWish = GENTLY,
 ) -> MoveBegun:
     """Goes to the pose of that number or name; as `move` otherwise."""
-    found = await asyncio.to_thread(shelf.find, pose)
+    found = find((await list_poses(control)).poses, pose)
     judge_unit(found, control.board.family)
     positions = {target.servo: target.position for target in found.targets}
     return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
+
+
+def find(poses: Sequence[NamedPose], wanted: str) -> NamedPose:
+    """By its number or its name. Raises NotFoundError, or OutOfRangeError where a name is not enough."""
+    found = [pose for pose in poses if wanted in (str(pose.id), pose.name)]
+    exact = [pose for pose in found if str(pose.id) == wanted] or found
+    if not exact:
+        raise NotFoundError(f"No pose is called {wanted}. GET /api/poses lists them.")
+    if len(exact) > 1:
+        numbers = ", ".join(str(pose.id) for pose in exact)
+        raise OutOfRangeError(f"Several poses are called {wanted}: take one of the numbers {numbers}.")
+    return exact[0]
 
 
 def judge_unit(pose: NamedPose, family: Family) -> None:

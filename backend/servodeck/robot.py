@@ -28,9 +28,6 @@ class RobotLimits:
         self._limits = {limits.servo: limits for limits in servos}
         self._are_awaited = False
 
-    def told(self) -> list[ServoLimits]:
-        return list(self._limits.values())
-
     def name_of(self, servo: int) -> str:
         """As people are told of it."""
         limits = self._limits.get(servo)
@@ -49,7 +46,7 @@ class RobotLimits:
         self._calibrating.pop(owner, None)
 
     def clear(self) -> None:
-        """It is another board's robot now."""
+        """Nobody has described this one."""
         self._limits.clear()
         self._calibrating.clear()
         self._are_awaited = False

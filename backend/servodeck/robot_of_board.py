@@ -36,6 +36,7 @@ class RobotOfBoard:
         self._board: tuple[str, str] | None = None
         self._document: str | None = None
         self._revision = 0
+        self._last_told: RobotTold | None = None
         self._reading: asyncio.Task[None] | None = None
         self.facts: RobotFacts | None = None
 
@@ -54,17 +55,15 @@ class RobotOfBoard:
         if self._document:
             self._limits.await_them()
             self._reading = asyncio.create_task(self._recall(self._document))
-            self._changed()
+        if self.told() != self._last_told:
+            self._tell()
 
     def leave(self) -> None:
-        """No board is at hand."""
-        had_one = self._document is not None
+        """No board is at hand. Clients hear that from the port."""
         if self._reading:
             self._reading.cancel()
         self._board = self._reading = None
         self._forget()
-        if had_one:
-            self._changed()
 
     async def put(self, document: str, instead_of: str | None) -> None:
         """For everybody, and remembered. Raises a ConflictError where another one stood there, NotFoundError,
@@ -92,14 +91,14 @@ class RobotOfBoard:
         if document == self._document and revision > self._revision:
             self._hold(document, revision, facts)
         else:
-            self._changed()
+            self._tell()
 
     def removed(self, documents: list[str]) -> None:
         if self._document in documents:
             self._remembered.remember_robot(self._key(), None)
             self._remembered.keep_soon()
             self._forget()
-        self._changed()
+        self._tell()
 
     async def _recall(self, document: str) -> None:
         try:
@@ -107,7 +106,7 @@ class RobotOfBoard:
         except GatewayError as error:
             log.warning("robot not read", extra={"facts": {"detail": error.detail}})
             self._forget()
-            self._changed()
+            self._tell()
         else:
             if self.facts is None:  # nobody has written it meanwhile
                 self._hold(document, revision, facts)
@@ -115,6 +114,10 @@ class RobotOfBoard:
     def _hold(self, document: str, revision: int, facts: RobotFacts) -> None:
         self._document, self._revision, self.facts = document, revision, facts
         self._limits.set(facts.limits)
+        self._tell()
+
+    def _tell(self) -> None:
+        self._last_told = self.told()
         self._changed()
 
     def _forget(self) -> None:

@@ -25,7 +25,6 @@ WELL_FORMED: list[dict[str, Any]] = [
     {"type": "stop", "hold": MOVE.hex()},
     {"type": "resume"},
     {"type": "board", "board": "doc"},
-    {"type": "limits", "servos": [{"servo": 1, "name": "Elbow", "min": 500, "max": 2500}]},
     {"type": "calibrate", "servo": 1},
     {"type": "lease", "action": "request"},
     {"type": "beat", "nonce": "1-1"},

@@ -40,7 +40,6 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("POST", "/api/library/restore"): "driver",
     ("POST", "/api/resume"): "driver",
     ("POST", "/api/move"): "driver",
-    ("PUT", "/api/poses"): "driver",
     ("PUT", "/api/robot"): "driver",
     ("POST", "/api/poses/{pose}/apply"): "driver",
     ("POST", "/api/slots/{slot}/run"): "driver",

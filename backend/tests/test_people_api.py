@@ -300,7 +300,6 @@ async def test_a_viewer_sees_and_stops_and_nothing_more(port: FakePort, gateway:
         for message in (
             {"type": "resume"},
             {"type": "board", "board": "lsc-16"},
-            {"type": "limits", "servos": []},
             {"type": "calibrate", "servo": 1},
         ):
             await say(client, **message)

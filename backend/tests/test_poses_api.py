@@ -1,11 +1,14 @@
-"""The poses that a page has handed over, as a script finds them and goes there."""
+"""The poses of the robot on the board, as a script finds them and goes there."""
 
+import json
 import time
 from pathlib import Path
 from typing import Any
 
+from httpx2 import AsyncClient
+
 from servodeck.library import Library
-from servodeck.pose_shelf import FILE
+from servodeck.library_messages import RobotFacts
 from tests.fake_port import FakePort, FakePorts
 from tests.running import http_to
 from tests.test_motion_api import move, refusal
@@ -29,20 +32,28 @@ BOOK = {
 }
 
 
-async def test_what_is_handed_over_is_there_after_a_restart_and_damage_is_nothing(tmp_path: Path) -> None:
-    async with http_to(FakePorts(FakePort()), time.monotonic, library=Library(tmp_path)) as (client, _):
+ARM = {"kind": "robot", "name": "Arm", "board": "doc", "updatedAtMs": 0, "limits": [], "poses": BOOK["poses"]}
+
+
+async def describe(client: AsyncClient) -> None:
+    document = {"text": "{}", "facts": ARM, "expected": 0, "isRemoved": False}
+    assert (await client.put("/api/library/arm", json=document)).status_code == 200
+    assert (await client.put("/api/robot", json={"id": "arm"})).status_code == 204
+
+
+async def test_the_poses_are_those_of_the_robot_on_the_board(tmp_path: Path) -> None:
+    async with http_to(FakePorts(FakePort()), time.monotonic, library=Library(tmp_path)) as (client, control):
         assert (await client.get("/api/poses")).json() == {"robot": "", "poses": []}
-        assert (await client.put("/api/poses", json=BOOK)).status_code == 204
-    async with http_to(FakePorts(FakePort()), time.monotonic, library=Library(tmp_path)) as (client, _):
+        await describe(client)
         assert (await client.get("/api/poses")).json() == BOOK
-        (tmp_path / FILE).write_text("{")
+        control.robot.written("arm", 2, RobotFacts.model_validate_json(json.dumps(ARM | {"poses": []})))
         assert (await client.get("/api/poses")).json()["poses"] == []
 
 
 async def test_a_script_goes_to_a_pose_by_number_or_name(tmp_path: Path) -> None:
     port = FakePort()
     async with http_to(FakePorts(port), time.monotonic, library=Library(tmp_path)) as (client, _):
-        await client.put("/api/poses", json=BOOK)
+        await describe(client)
         begun = await client.post("/api/poses/Greeting/apply")
         assert begun.json() == {"packets": 2, "overInMs": 1500, "firstMoves": [1, 2]}
         assert (await client.post("/api/poses/1/apply", json={"timeMs": 1600})).status_code == 200
@@ -58,7 +69,7 @@ async def test_a_script_goes_to_a_pose_by_number_or_name(tmp_path: Path) -> None
 async def test_what_cannot_be_gone_to_is_told_and_moves_nothing(tmp_path: Path) -> None:
     port = FakePort()
     async with http_to(FakePorts(port), time.monotonic, library=Library(tmp_path)) as (client, _):
-        await client.put("/api/poses", json=BOOK)
+        await describe(client)
         for name, expected in {
             "Nowhere": (404, "notFound"),
             "Rest": (422, "outOfRange"),
@@ -70,8 +81,3 @@ async def test_what_cannot_be_gone_to_is_told_and_moves_nothing(tmp_path: Path) 
         assert "2, 3" in told
         assert (await client.get("/api/status")).json()["driver"] is None
         assert len(port.packets()) == 1
-
-
-async def test_a_disk_that_takes_nothing_refuses_what_is_handed_over() -> None:
-    async with http_to(FakePorts(FakePort()), time.monotonic) as (client, _):
-        assert refusal(await client.put("/api/poses", json=BOOK)) == (503, "storageFailed")

@@ -28,12 +28,11 @@ def say(control: Control, seat: Seat, **message: object) -> None:
 
 
 @in_virtual_time
-async def test_a_limit_that_one_client_tells_holds_for_all_even_after_it_left() -> None:
+async def test_a_limit_holds_for_all() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         anna, bert = Client(control), Client(control)
-        say(control, anna, type="limits", servos=[ELBOW.model_dump()])
-        await bert.heard()
+        control.limits.set([ELBOW])
         for owner in (anna, bert):
             with pytest.raises(OutOfRangeError, match=r"^Elbow \(servo 1\): position is 2000, allowed 600"):
                 owner.send(MOVE)
@@ -44,24 +43,6 @@ async def test_a_limit_that_one_client_tells_holds_for_all_even_after_it_left() 
         await bert.send(MOVE_ELSEWHERE)
         await bert.send(RUN)
         assert port.packets() == [STOP, MOVE_ELSEWHERE, RUN]
-
-
-@in_virtual_time
-async def test_limits_are_told_to_the_others_to_whoever_joins_and_when_they_are_gone() -> None:
-    told = [ELBOW.model_dump()]
-    async with gateway_on() as control:
-        anna, bert = Client(control), Client(control)
-        await anna.heard()
-        await bert.heard()
-        say(control, anna, type="limits", servos=told)
-        assert await anna.heard() == []
-        assert await bert.heard() == [{"type": "limits", "servos": told}]
-        cora = Client(control)
-        welcome, *_ = await cora.heard()
-        assert welcome["limits"] == told
-        await bert.heard()
-        control.take_for("lsc-6")
-        assert {"type": "limits", "servos": []} in await bert.heard()
 
 
 @pytest.mark.parametrize(("position", "passes"), [(1500, True), (1400, True), (1399, False), (1501, False)])
@@ -110,39 +91,16 @@ async def test_who_calibrates_a_servo_may_pass_its_limits_alone_and_until_the_en
 
 
 @in_virtual_time
-async def test_limits_end_with_their_board_or_by_word() -> None:
-    async with gateway_on(FakePort(), FakePort()) as control:
-        anna = Client(control)
-        control.limits.set([ELBOW])
-        control.take_for("doc")  # nothing new
-        with pytest.raises(OutOfRangeError):
-            anna.send(MOVE)
-        control.take_for("lsc-6")
-        await anna.send(MOVE)
-        control.limits.set([ELBOW])
-        await control.use_port("/dev/other")
-        await anna.heard()
-        await anna.send(MOVE)
-        control.limits.set([ELBOW])
-        say(control, anna, type="limits", servos=[])
-        await anna.send(MOVE)
-
-
-@in_virtual_time
-async def test_who_does_not_drive_changes_no_rules_for_whoever_does() -> None:
+async def test_who_does_not_drive_names_no_board_for_whoever_does() -> None:
     async with gateway_on() as control:
-        anna, bert, owner = Client(control, PUPIL), Client(control, OTHER_PUPIL), Client(control)
-        say(control, bert, type="limits", servos=[ELBOW.model_dump()])
+        anna, bert = Client(control, PUPIL), Client(control, OTHER_PUPIL)
         control.driving.act(anna, "request")
         await bert.heard()
-        say(control, bert, type="limits", servos=[])
         say(control, bert, type="board", board="lsc-6")
-        assert (control.board.taken_for, control.limits.told()) == ("doc", [ELBOW])
         told = await bert.heard()
-        assert {"type": "limits", "servos": [ELBOW.model_dump()]} in told
+        assert control.board.taken_for == "doc"
         assert [message["code"] for message in told if message["type"] == "refused"] == ["notDriving"]
         say(control, bert, type="board", board="doc")  # what it is taken for already
         assert [message["type"] for message in await bert.heard()] == ["state"]
-        say(control, owner, type="limits", servos=[])
         say(control, anna, type="board", board="lsc-6")
-        assert (control.board.taken_for, control.limits.told()) == ("lsc-6", [])
+        assert control.board.taken_for == "lsc-6"

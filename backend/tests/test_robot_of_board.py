@@ -47,8 +47,14 @@ class Shelf:
             raise NotFoundError("The library does not hold that.") from None
 
 
-def gateway_at(shelf: Shelf, remembered: Remembered | None = None) -> Control:
-    return Control(FakePorts(FakePort()), time.monotonic, "doc", remembered=remembered, read_robot=shelf.read)
+def gateway_at(shelf: Shelf, remembered: Remembered | None = None, *ports: FakePort) -> Control:
+    return Control(
+        FakePorts(*(ports or (FakePort(),))),
+        time.monotonic,
+        "doc",
+        remembered=remembered,
+        read_robot=shelf.read,
+    )
 
 
 async def robots_told(client: Client) -> list[Any]:
@@ -89,7 +95,8 @@ async def test_an_edit_counts_at_once_and_an_older_answer_does_not() -> None:
 
 
 async def test_only_the_robot_that_is_known_to_stand_there_is_replaced_and_by_one_that_fits() -> None:
-    control = gateway_at(Shelf(arm=(arm(), 1), hand=(arm(), 1), bus=(arm(board="lsc-6"), 1)))
+    shelf = Shelf(arm=(arm(), 1), hand=(arm(), 1), bus=(arm(board="lsc-6"), 1))
+    control = gateway_at(shelf, None, FakePort(), FakePort())
     with pytest.raises(ConflictError):
         await control.robot.put("arm", None)  # no board
     await control.use_port(PLACE)
@@ -107,8 +114,9 @@ async def test_only_the_robot_that_is_known_to_stand_there_is_replaced_and_by_on
     told = control.robot.told()
     assert told is not None
     assert told.id == "hand"
-    await control.close_port()
+    await control.use_port("/dev/other")
     assert control.robot.told() is None
+    await control.close_port()
 
 
 async def test_after_a_restart_it_stands_there_again_and_until_its_limits_are_read_nothing_moves(

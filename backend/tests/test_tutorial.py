@@ -13,6 +13,7 @@ import pytest
 
 from servodeck.background import BackgroundPorts
 from servodeck.library import Library
+from servodeck.library_messages import NamedPose, PoseTarget, RobotFacts
 from servodeck.packets import FAMILIES, encode
 from servodeck.values import Move, Run, ServoTarget
 from tests.running import Running, server_on
@@ -25,12 +26,16 @@ PIECE = re.compile(r"^```(sh|python)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PROGRAMS = {"sh": ["sh", "-eu"], "python": [sys.executable, "-W", "error", "-"]}
 PLACE = "http://127.0.0.1:8300"
 DOC = FAMILIES["doc"]
+GREETING = NamedPose(id=1, name="Greeting", unit="us", targets=[PoseTarget(servo=1, position=1700)])
+ARM = RobotFacts(kind="robot", name="Arm", board="doc", updated_at_ms=0, limits=[], poses=[GREETING])
 
 
 @pytest.fixture
 async def gateway(board: Board, tmp_path: Path) -> AsyncIterator[Running]:
     library = Library(tmp_path / "data")
     async with server_on(BackgroundPorts(), str(board.link), library=library) as running:
+        library.write("arm", "{}", ARM.model_dump_json(), 0, kind="robot")
+        await running.control.robot.put("arm", None)
         yield running
     library.close()
 

@@ -52,19 +52,16 @@ test('what may go on can be bound to its page again, and then ends with it', asy
   await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
 });
 
-test('poses that a page has handed over can be gone to by a script', async ({
-  dashboard,
-  robot,
-  request,
-}) => {
+test('a pose that a page has captured can be gone to by a script', async ({ dashboard, robot, request }) => {
   const { page } = dashboard;
   const { origin } = new URL(page.url());
   await page.getByRole('radio', { name: 'Poses' }).check();
   await dashboard.type(dashboard.target(1), 1777);
   await expect(dashboard.estimate(1)).toHaveText('≈ 1777');
   await dashboard.button('Capture pose').click();
-  await dashboard.button('Hand the poses to scripts').click();
-  await expect(dashboard.notices).toContainText('Scripts can go to 2 poses');
+  await expect
+    .poll(async () => (await (await request.get(`${origin}/api/poses`)).json()) as unknown)
+    .toMatchObject({ poses: [{ name: 'home' }, { targets: [{ servo: 1, position: 1777 }] }] });
   await dashboard.type(dashboard.target(1), 1234);
   await expect(dashboard.estimate(1)).toHaveText('≈ 1234');
   const answer = await request.post(`${origin}/api/poses/1/apply`, { data: { take: true } });

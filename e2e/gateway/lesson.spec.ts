@@ -4,6 +4,7 @@ import type { Browser } from '@playwright/test';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import type { Dashboard } from '../fixtures/dashboard.ts';
 import { firstInvitation, newDevice, peopleOf, PHONE, ready } from '../fixtures/people.ts';
+import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 /** A pupil scans what the teacher's page shows. */
@@ -25,6 +26,13 @@ test('a class shares a robot, hands it on, and stops it from any phone', async (
   test.slow();
   const gateway = await newGateway({ serial: device, lan: true });
   const teacher = await ready(await newDevice(browser, (await firstInvitation(gateway)).link));
+  const robots = robotDialogOf(teacher);
+  await robots.opener.click();
+  await robots.button('Edit').click();
+  await robots.dialog.getByRole('textbox', { name: 'Name of the robot' }).fill('Crane');
+  await robots.cell('Lowest', 'Elbow').fill('1000');
+  await robots.cell('Lowest', 'Elbow').press('Enter');
+  await robots.button('Close').click();
   const people = peopleOf(teacher);
   await people.opener.click();
   const ada = await joins(browser, teacher, 'driver', 'Ada');
@@ -33,6 +41,11 @@ test('a class shares a robot, hands it on, and stops it from any phone', async (
   await people.dialog.getByRole('button', { name: 'Close' }).click();
   const stops = async (): Promise<number> => ofKind(await bus(), 'stop').length;
   const last = (servo: number) => poll(() => lastTarget(bus, servo));
+
+  for (const pupil of [ada, ben, cleo]) {
+    await expect(robotDialogOf(pupil).opener).toHaveAccessibleName('Robot: Crane');
+    await expect(pupil.slider(4)).toHaveAttribute('min', '1000');
+  }
 
   await ada.type(ada.target(1), 1700);
   await last(1).toBe(1700);

@@ -177,7 +177,7 @@ export function createConnector(options: ConnectorOptions): Connector {
   }
 
   const gatewayTransport = (): Transport =>
-    createGatewayTransport(gatewayUrl(), { tellsLimits: role !== 'viewer' });
+    createGatewayTransport(gatewayUrl(), { mayDrive: role !== 'viewer' });
 
   const simulated = (): Transport => createSimulatedTransport(simulatedAs(store.getState().board));
 

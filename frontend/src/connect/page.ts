@@ -31,6 +31,8 @@ import type { Me } from '../stores/people.generated.ts';
 import { createPlayback } from '../stores/playback.ts';
 import { createPlayhead } from '../stores/playhead.ts';
 import { createPoses } from '../stores/poses.ts';
+import { createRobotKeeping } from '../stores/robotKeeping.ts';
+import { followRobot } from '../stores/robotOfLink.ts';
 import { createRobots } from '../stores/robots.ts';
 import { createSlots } from '../stores/slots.ts';
 import type { Stores } from '../stores/stores.ts';
@@ -41,7 +43,7 @@ import { browserClock } from '../transports/browserClock.ts';
 import { hasGateway } from './gatewayApi.ts';
 import { isAnother, type Arrival } from './arrival.ts';
 import { peopleApi, readMe } from './peopleApi.ts';
-import { handOverPoses } from './posesApi.ts';
+import { putOnBoard } from './robotsApi.ts';
 import { watchLeaving } from './leaving.ts';
 import { createConnector, type Connector } from './connector.ts';
 
@@ -67,12 +69,23 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   const mappings = createMappings(storage, notices, robots);
   const readPads = () => (isSecureContext ? navigator.getGamepads() : []);
   const pad = createPad({ device, robots, mappings, notices, clock: pageClock, readPads });
-  const poses = createPoses({ storage, notices, robots, device, handOver: handOverPoses });
+  const poses = createPoses({ storage, notices, robots, device });
+  const macros = createMacros(storage, notices, robots);
   const macroRun = createMacroRun({ device, poses, robots, notices, clock: pageClock });
   const written = createDocument(storage, notices, pageClock);
+  const keeper = chooseKeeper(me);
   const library = createLibrary({
     ...{ document: written, storage, notices, robots, view, clock: pageClock },
-    ...{ keeper: chooseKeeper(me), epochMs: Date.now, newId },
+    ...{ keeper, epochMs: Date.now, newId },
+  });
+  const mayWrite = me?.you?.role !== 'viewer';
+  const keeping = createRobotKeeping({
+    ...{ robots, poses: poses.book, buttons: macros, pad: mappings, storage, notices, clock: pageClock },
+    ...{ keeper: mayWrite ? keeper : Promise.resolve(gatewayKeeper), mayWrite, epochMs: Date.now, newId },
+  });
+  const noteRobot = followRobot({ robots, keeping, notices, mayWrite, putOnBoard });
+  device.store.subscribe(({ snapshot }, before) => {
+    if (snapshot !== before.snapshot) noteRobot(snapshot);
   });
   const compiled = createCompiled({
     ...{ document: written, device, robots, clock: pageClock },
@@ -87,11 +100,11 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   });
   const stores = {
     ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
-    ...{ compiled, slots, playhead, playback },
+    ...{ compiled, slots, playhead, playback, keeping },
     blend: createBlend(device),
     people: createPeople({ api: peopleApi, me, notices, now: pageClock.now }),
     tape: createMotionTape({ device, robots, clock: pageClock }),
-    macros: createMacros(storage, notices, robots),
+    macros,
     document: written,
     lastPoses: createLastPoses(storage, device),
     timeline,
@@ -125,7 +138,10 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(false);
   });
   pollBattery(device, isWatched);
-  window.addEventListener('focus', () => void library.refresh());
+  window.addEventListener('focus', () => {
+    void library.refresh();
+    keeping.refresh();
+  });
   return { stores, connector };
 }
 

@@ -12,7 +12,6 @@ import { useSelectedPose } from '../poses/useSelectedPose.ts';
 import type { Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { standing, type Exhibit } from './exhibit.ts';
-import { LEASE, READY } from './states.ts';
 
 const NAMED = { 'Greet the visitor': 0.2, 'Look down': 0.5, Sit: 0.8 };
 
@@ -48,12 +47,9 @@ const CASES: readonly {
   readonly panel: ReactNode;
   readonly isEmpty?: boolean;
   readonly edits?: boolean;
-  /** A gateway is there to hand poses to. */
-  readonly isShared?: boolean;
 }[] = [
   { name: 'Poses, none', panel: <PosesPanel />, isEmpty: true },
   { name: 'Poses', panel: <PosesPanel /> },
-  { name: 'Poses, at a gateway', panel: <PosesPanel />, isShared: true },
   { name: 'Poses, robot follows a blend', panel: <Blend /> },
   { name: 'Buttons, none', panel: <ButtonsPage />, isEmpty: true },
   { name: 'Buttons', panel: <ButtonsPage /> },
@@ -74,8 +70,8 @@ export const POSES: readonly Exhibit[] = CASES.map(({ name, panel, ...rest }) =>
 
 type Case = Omit<(typeof CASES)[number], 'name' | 'panel'>;
 
-function storesOf({ isEmpty = false, edits = false, isShared = false }: Case): Stores {
-  const stores = standing({ state: { ...READY, lease: isShared ? LEASE : null }, pose: 'still' });
+function storesOf({ isEmpty = false, edits = false }: Case): Stores {
+  const stores = standing({ pose: 'still' });
   if (!isEmpty) fill(stores, edits);
   stores.blend.store.setState({ isLive: true, targets: [] });
   return stores;

@@ -1,5 +1,6 @@
 // What the dialog about robots shows: the list, the description, and the calibration at each kind of step.
 
+import type { Keeper } from '#shared/actions/library/keeper.ts';
 import type { Calibration } from '#shared/actions/robot/robotCalibration.ts';
 import type { SessionState } from '#shared/session/state.ts';
 import { CalibrationWizard } from '../calibration/CalibrationWizard.tsx';
@@ -19,11 +20,16 @@ interface Case {
   readonly content: 'list' | 'edit' | 'calibrate';
   readonly state?: SessionState;
   readonly isUnknown?: boolean;
+  readonly place?: Keeper['place'];
   readonly at?: Pick<Calibration, 'servo' | 'step'>;
 }
 
 const CASES: readonly Case[] = [
   { name: 'Robots, list', content: 'list' },
+  {
+    ...{ name: 'Robots, list, at a gateway', content: 'list', place: 'gateway' },
+    state: { ...READY, robotOnBoard: { document: 'arm' } },
+  },
   { name: 'Robots, description', content: 'edit' },
   { name: 'Calibration, lowest', content: 'calibrate' },
   { name: 'Calibration, unknown position', content: 'calibrate', isUnknown: true },
@@ -42,8 +48,9 @@ export const ROBOTS: readonly Exhibit[] = CASES.map((specimen) => ({
   stores: () => storesOf(specimen),
 }));
 
-function storesOf({ state = READY, isUnknown = false, at }: Case): Stores {
-  const stores = standing({ board: BOARD, way: SIMULATED, state, pose: isUnknown ? 'unknown' : 'still' });
+function storesOf({ state = READY, isUnknown = false, place = 'browser', at }: Case): Stores {
+  const pose = isUnknown ? 'unknown' : 'still';
+  const stores = standing({ board: BOARD, way: SIMULATED, state, pose, place });
   const { robots, device, view } = stores;
   robots.add(() => words.robots.steps.add, freshRobot('humanoid16', BOARD));
   device.refreshTargets();

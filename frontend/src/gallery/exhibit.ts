@@ -1,6 +1,7 @@
 // One state that the gallery shows: its name, what is seen of it, and the stores behind that.
 
 import type { ReactNode } from 'react';
+import type { Keeper } from '#shared/actions/library/keeper.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import type { SessionState } from '#shared/session/state.ts';
 import type { Way } from '../stores/device.ts';
@@ -24,6 +25,7 @@ interface Standing {
   readonly state?: SessionState;
   readonly pose?: Pose;
   readonly pad?: Gamepadlike | null;
+  readonly place?: Keeper['place'];
 }
 
 /** The stores of a page whose link is in one state. */
@@ -33,9 +35,10 @@ export function standing({
   state = READY,
   pose = 'unknown',
   pad = null,
+  place = 'browser',
 }: Standing): Stores {
   const family = FAMILIES[board];
-  const stores = specimenStores(family, pad);
+  const stores = specimenStores(family, pad, place);
   stores.device.attach(frozenSession(family, state, motionsOf(board, pose)), way);
   stores.device.refreshTargets();
   return stores;

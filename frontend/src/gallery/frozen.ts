@@ -20,7 +20,6 @@ export function frozenSession(
     setAutoReconnect: () => undefined,
     identify: nothing,
     choose: nothing,
-    setLimits: () => undefined,
     lease: () => undefined,
     letGoOn: () => undefined,
     calibrate: () => undefined,

@@ -1,5 +1,6 @@
 // The page's stores with nothing in them and nothing behind them, for one specimen.
 
+import type { Keeper } from '#shared/actions/library/keeper.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import { pageClock } from '../connect/page.ts';
 import { createMemoryKeeper } from '../keepers/memoryKeeper.ts';
@@ -21,6 +22,7 @@ import { createPeople, PeopleError, type PeopleApi } from '../stores/people.ts';
 import { createPlayback } from '../stores/playback.ts';
 import { createPlayhead } from '../stores/playhead.ts';
 import { createPoses } from '../stores/poses.ts';
+import { createRobotKeeping } from '../stores/robotKeeping.ts';
 import { createRobots } from '../stores/robots.ts';
 import { createSlots } from '../stores/slots.ts';
 import type { Stores } from '../stores/stores.ts';
@@ -34,7 +36,11 @@ const NOBODY: PeopleApi = {
 };
 const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined };
 
-export function specimenStores(family: Family, held: Gamepadlike | null = null): Stores {
+export function specimenStores(
+  family: Family,
+  held: Gamepadlike | null = null,
+  place: Keeper['place'] = 'browser',
+): Stores {
   const notices = createNotices(pageClock);
   const robots = createRobots(NO_STORAGE, notices);
   const device = createDevice({ family, clock: pageClock, notices, robots });
@@ -48,14 +54,19 @@ export function specimenStores(family: Family, held: Gamepadlike | null = null):
   const playhead = createPlayhead(timeline);
   const readPads = () => [held];
   let ids = 0;
-  const library = createLibrary({
-    ...{ document, storage: NO_STORAGE, notices, robots, view, clock: pageClock },
-    keeper: Promise.resolve(createMemoryKeeper()),
+  const kept = {
+    ...{ storage: NO_STORAGE, notices, robots, clock: pageClock },
+    keeper: Promise.resolve(createMemoryKeeper(place)),
     epochMs: Date.now,
     newId: () => `specimen-${++ids}`,
+  };
+  const library = createLibrary({ ...kept, document, view });
+  const macros = createMacros(NO_STORAGE, notices, robots);
+  const keeping = createRobotKeeping({
+    ...{ ...kept, poses: poses.book, buttons: macros, pad: mappings, mayWrite: true },
   });
   return {
-    ...{ notices, robots, device, poses, mappings, document, view, library },
+    ...{ notices, robots, device, poses, mappings, document, view, library, keeping },
     pad: createPad({ device, robots, mappings, notices, clock: pageClock, readPads }),
     battery: createBattery(device, robots),
     blend: createBlend(device),
@@ -69,7 +80,7 @@ export function specimenStores(family: Family, held: Gamepadlike | null = null):
     }),
     boards: createBoards(NO_STORAGE),
     lastPoses: createLastPoses(NO_STORAGE, device),
-    macros: createMacros(NO_STORAGE, notices, robots),
+    macros,
     macroRun: createMacroRun({ device, poses, robots, notices, clock: pageClock }),
   };
 }

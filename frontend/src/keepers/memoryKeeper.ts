@@ -14,7 +14,7 @@ interface Kept extends Writing {
   readonly revision: number;
 }
 
-export function createMemoryKeeper(): Keeper {
+export function createMemoryKeeper(place: Keeper['place'] = 'browser'): Keeper {
   const documents = new Map<string, Kept>();
   const versions = new Map<string, Map<string, { version: Version; text: string }>>();
 
@@ -31,7 +31,7 @@ export function createMemoryKeeper(): Keeper {
     versions.get(id) ?? new Map<string, { version: Version; text: string }>();
 
   return {
-    place: 'browser',
+    place,
     list: () => asked(() => ({ documents: [...documents].map(listed), setAside: null })),
     read: (id) =>
       asked(() => {

@@ -1,9 +1,9 @@
-// Poses to a file and from one, and to scripts where a gateway keeps them. An import adds to what is there.
+// Poses to a file and from one. An import adds to what is there.
 
 import { useRef } from 'react';
 import { poseBookToText } from '#shared/actions/poses/poseText.ts';
 import { saveFile } from '../ui/saveFile.ts';
-import { usePoses, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
+import { usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 
@@ -11,7 +11,6 @@ export function PoseFiles() {
   const { poses, notices } = useStores();
   const book = usePoses(({ present }) => present);
   const { name } = useRobot();
-  const mayHandOver = useSnapshot(({ lease }) => lease?.mayDrive ?? false);
   const input = useRef<HTMLInputElement>(null);
 
   function take(files: FileList | null): void {
@@ -38,9 +37,6 @@ export function PoseFiles() {
         isDisabled={book.poses.length === 0}
         onPress={() => saveFile({ name: `${words.poses.fileName(name)}.json`, text: poseBookToText(book) })}
       />
-      {mayHandOver && (
-        <IconButton icon="board" label={words.poses.handOver} onPress={() => poses.handOver()} />
-      )}
     </>
   );
 }

@@ -5,7 +5,7 @@ import { useId } from 'react';
 import { useStore } from 'zustand';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { currentOf, type OwnRobot } from '../stores/robots.ts';
-import { useDevice, useStores } from '../stores/stores.ts';
+import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { words } from '../words/words.ts';
@@ -18,8 +18,12 @@ import dialog from './RobotDialog.module.css';
 import styles from './RobotList.module.css';
 
 export function RobotList() {
-  const { robots } = useStores();
+  const { robots, keeping } = useStores();
   const { own, currentId } = useStore(robots.store, ({ present }) => present);
+  const place = useStore(keeping.store, (state) => state.place);
+  const isEveryones = useSnapshot(
+    ({ robotOnBoard }) => robotOnBoard !== null && robotOnBoard.document !== null,
+  );
   const current = currentOf({ own, currentId, nextId: 0 });
   const connected = useDevice(({ snapshot: { family } }) => (family.id === 'unknown' ? null : family.id));
   const headingId = useId();
@@ -35,10 +39,11 @@ export function RobotList() {
             <UndoTools of={robots} />
           </div>
         </div>
+        {place !== null && <p className={styles.dim}>{words.robots.place[place]}</p>}
         <ul className={styles.own}>
           <li className={styles.current}>
             <Described {...current} />
-            <Chip truth="confirmed">{words.robots.atHand}</Chip>
+            <Chip truth="confirmed">{isEveryones ? words.robots.everyones : words.robots.atHand}</Chip>
             <RobotTools {...current} isLast={isLast} />
           </li>
           {others

@@ -2,8 +2,7 @@
 // intents of the panels into calls whose failures become notices. Live, never undoable; knows no transport and no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { fromBoard, limitsOnBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
-import { withLimits } from '#shared/actions/robot/robotEdits.ts';
+import { fromBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
@@ -19,7 +18,6 @@ import { limitRefusal } from './limits.ts';
 import { moveDurationMs, type Pace } from './moveTime.ts';
 import { createMovingWatch } from './movingWatch.ts';
 import type { Notices } from './notices.ts';
-import { followRobot } from './robotOfLink.ts';
 import type { RobotStore } from './robots.ts';
 import { createTargetBook, type Targets } from './targetBook.ts';
 import { createTrafficLog, type TrafficLog } from './traffic.ts';
@@ -133,27 +131,12 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   const setPaused = (on: boolean): boolean => (paused = on);
   const robot = (): Robot => robots.current().robot;
 
-  const tellCalibrated = (): void => {
-    if (calibrated !== null) session?.calibrate(calibrated);
-  };
+  /** On a link of one's own it is the last one described for such a board. */
+  function takeUpRobot({ family: connected, robotOnBoard }: SessionState): void {
+    if (robotOnBoard === null && connected.id !== 'unknown') robots.takeUpFor(connected.id);
+  }
 
-  const noteRobot = followRobot(robots, {
-    tell(described) {
-      session?.setLimits(limitsOnBoard(described));
-      tellCalibrated();
-    },
-    heldOtherwise(limits) {
-      tellCalibrated();
-      notices.tell('warning', words.robots.heldOtherwise(limits), {
-        label: words.robots.takeLimits,
-        act: () =>
-          void robots.edit(
-            () => words.robots.steps.limits,
-            (all) => withLimits(all, limits),
-          ),
-      });
-    },
-  });
+  robots.store.subscribe(() => takeUpRobot(store.getState().snapshot));
 
   function motion(servo: number): ServoMotion {
     if (session === null) return NO_MOTION;
@@ -223,7 +206,9 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   function noteState(snapshot: SessionState): void {
-    noteRobot(snapshot);
+    const wasReady = store.getState().snapshot.link.status === 'ready';
+    takeUpRobot(snapshot);
+    if (!wasReady && snapshot.link.status === 'ready' && calibrated !== null) session?.calibrate(calibrated);
     // First into the log: whoever hears of the state may send something at once.
     traffic.note(snapshot, clock.now(), snapshot.family.id);
     store.setState({ snapshot, family: snapshot.family });
@@ -281,7 +266,6 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     session = null;
     unsubscribe();
     book.clear();
-    noteRobot(INITIAL_STATE);
     store.setState(NOTHING);
     traffic.note(INITIAL_STATE, clock.now(), store.getState().family.id);
     await former?.close();

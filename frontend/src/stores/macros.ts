@@ -5,15 +5,14 @@ import { macroPageFromText, macroPageToText } from '#shared/actions/macros/macro
 import { words } from '../words/words.ts';
 import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';
-import { createRobotDocument } from './robotDocument.ts';
+import { createRobotDocument, type RobotDocument } from './robotDocument.ts';
 import type { RobotStore } from './robots.ts';
-import type { Undoable } from './undoable.ts';
 
 export function createMacros(
   storage: TextStorage,
   notices: Notices,
   robots: RobotStore,
-): Undoable<MacroPage> {
+): RobotDocument<MacroPage> {
   return createRobotDocument({
     ...{ storage, notices, robots, key: 'servodeck.buttons' },
     ...{ notSaved: () => words.macros.notSaved, unreadable: () => words.macros.unreadable },

@@ -7,15 +7,14 @@ import { mappingFromText, mappingToText } from '#shared/actions/mapping/mappingT
 import { words } from '../words/words.ts';
 import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';
-import { createRobotDocument } from './robotDocument.ts';
+import { createRobotDocument, type RobotDocument } from './robotDocument.ts';
 import type { RobotStore } from './robots.ts';
-import type { Undoable } from './undoable.ts';
 
 export function createMappings(
   storage: TextStorage,
   notices: Notices,
   robots: RobotStore,
-): Undoable<Mapping> {
+): RobotDocument<Mapping> {
   return createRobotDocument({
     ...{ storage, notices, robots, key: 'servodeck.mapping' },
     ...{ notSaved: () => words.pad.notSaved, unreadable: () => words.pad.unreadable },

@@ -6,31 +6,17 @@ import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/actions
 import { markApplied, withPosesOf } from '#shared/actions/poses/poseEdits.ts';
 import { homeTargets } from '#shared/actions/poses/poseShapes.ts';
 import { poseBookFromText, poseBookToText } from '#shared/actions/poses/poseText.ts';
-import { onBoard } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { family as familyOf } from '#shared/protocol/families.ts';
 import { words } from '../words/words.ts';
 import type { Device } from './device.ts';
 import type { TextStorage } from './document.ts';
 import { limitRefusal } from './limits.ts';
 import type { Notices } from './notices.ts';
-import { createRobotDocument } from './robotDocument.ts';
+import { createRobotDocument, type RobotDocument } from './robotDocument.ts';
 import type { RobotStore } from './robots.ts';
-import type { Undoable } from './undoable.ts';
-
-/** Poses of one robot as its board counts, for scripts. */
-export interface HandedPoses {
-  readonly robot: string;
-  readonly poses: readonly {
-    readonly id: number;
-    readonly name: string;
-    readonly unit: 'us' | 'steps';
-    readonly targets: readonly ServoTarget[];
-  }[];
-}
 
 export interface Poses {
-  readonly book: Undoable<PoseBook>;
+  readonly book: RobotDocument<PoseBook>;
   /** null where there is no such pose, or none in the unit of the board at hand. */
   targetsOf(ref: PoseRef): readonly ServoTarget[] | null;
   /** False where it was refused; then the person was told why. */
@@ -39,8 +25,6 @@ export interface Poses {
   applyBlend(label: Label, targets: readonly ServoTarget[], durationMs: number): void;
   /** Adds the poses of a file, all or none. */
   importText(text: string): void;
-  /** To the gateway, in place of those that were handed over before; home is number 0. */
-  handOver(): void;
 }
 
 export interface PosesOptions {
@@ -48,11 +32,9 @@ export interface PosesOptions {
   readonly notices: Notices;
   readonly robots: RobotStore;
   readonly device: Device;
-  /** Where no gateway is, nobody asks for it. */
-  readonly handOver?: (handed: HandedPoses) => Promise<void>;
 }
 
-export function createPoses({ storage, notices, robots, device, handOver }: PosesOptions): Poses {
+export function createPoses({ storage, notices, robots, device }: PosesOptions): Poses {
   const book = createRobotDocument({
     ...{
       storage,
@@ -63,6 +45,7 @@ export function createPoses({ storage, notices, robots, device, handOver }: Pose
       unreadable: () => words.poses.unreadable,
     },
     ...{ fresh: () => EMPTY_BOOK, toText: poseBookToText, fromText: poseBookFromText },
+    shared: { of: withoutPlace, onto: onPlaceOf },
   });
   const present = (): PoseBook => book.store.getState().present;
 
@@ -81,25 +64,8 @@ export function createPoses({ storage, notices, robots, device, handOver }: Pose
     );
   }
 
-  function handed(): HandedPoses {
-    const { robot } = robots.current();
-    const home = { id: 0, name: 'home', unit: familyOf(robot.board).unit, targets: homeTargets(robot) };
-    const all = [home, ...present().poses].map(({ id, name, unit, targets }) => ({
-      ...{ id, name: name.toWellFormed(), unit },
-      targets: onBoard(robot, targets),
-    }));
-    return { robot: robot.name.toWellFormed(), poses: all };
-  }
-
   return {
     book,
-    handOver() {
-      const { robot, poses } = handed();
-      handOver?.({ robot, poses }).then(
-        () => notices.tell('info', words.poses.handedOver(poses.length, robot)),
-        notices.tellError,
-      );
-    },
     targetsOf,
     apply(ref, durationMs) {
       const targets = targetsOf(ref);
@@ -126,6 +92,13 @@ export function createPoses({ storage, notices, robots, device, handOver }: Pose
         );
     },
   };
+}
+
+/** Where the robot went last is told by the robot, not by the book. */
+const withoutPlace = (book: PoseBook): PoseBook => ({ ...book, applied: null });
+
+function onPlaceOf({ applied }: PoseBook, book: PoseBook): PoseBook {
+  return typeof applied === 'number' && poseOf(book, applied) === undefined ? book : { ...book, applied };
 }
 
 export function poseName(book: PoseBook, ref: PoseRef): string {

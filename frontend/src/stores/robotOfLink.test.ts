@@ -1,103 +1,185 @@
 import { describe, expect, test } from 'vitest';
-import { limitsOnBoard, type NamedLimits, type Robot } from '#shared/actions/robot/robot.ts';
-import { withLimits } from '#shared/actions/robot/robotEdits.ts';
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
+import { changeServo } from '#shared/actions/robot/robotEdits.ts';
+import { FAMILIES } from '#shared/protocol/families.ts';
+import { LinkError } from '#shared/session/linkError.ts';
+import type { Lease } from '#shared/session/lease.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { SessionState } from '#shared/session/state.ts';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import { createNotices } from './notices.ts';
+import { createVirtualClock, type VirtualClock } from '#shared/simulator/virtualClock.ts';
+import type { Keeper } from '#shared/actions/library/keeper.ts';
+import { createMemoryKeeper } from '../keepers/memoryKeeper.ts';
 import { followRobot } from './robotOfLink.ts';
-import { createRobots } from './robots.ts';
+import { freshRobot } from './robots.ts';
+import { createVisit, named } from './robotVisitUnderTest.ts';
 
-const ready = (board: FamilyId): SessionState => ({
-  ...INITIAL_STATE,
-  family: FAMILIES[board],
-  link: { status: 'ready' },
-});
+const LEASE: Lease = {
+  ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null },
+  ...{ mayDrive: true, mayTake: false, others: 1, unattended: null },
+};
 
-const ELBOW = { servo: 4, name: 'Elbow', min: 1000, max: 2000 };
+const narrowed = (robot: Robot): Robot => changeServo(robot, 4, { max: 2000 });
 
-const trimmed = (robot: Robot): Robot => ({
-  ...robot,
-  servos: robot.servos.map((servo) => ({ ...servo, min: 700, max: 2300, trim: 20 })),
-});
-
-function follower() {
-  const storage = { getItem: () => null, setItem: () => undefined };
-  const robots = createRobots(storage, createNotices(createVirtualClock()));
-  const told: Robot[] = [];
-  const held: (readonly NamedLimits[])[] = [];
-  const note = followRobot(robots, {
-    tell: (robot) => told.push(robot),
-    heldOtherwise: (limits) => held.push(limits),
-  });
-  return { robots, told, held, note };
+/** What a gateway does: which robot is on the board, told to every screen. */
+function createGateway(clock: VirtualClock) {
+  const screens = new Set<(document: string | null) => void>();
+  let document: string | null = null;
+  let refusal: LinkError | null = null;
+  return {
+    asked: [] as string[],
+    document: () => document,
+    refuseBy: (error: LinkError | null) => (refusal = error),
+    async put(this: { asked: string[] }, next: string, insteadOf: string | null): Promise<void> {
+      this.asked.push(next);
+      await Promise.resolve();
+      if (refusal !== null) throw refusal;
+      if (insteadOf !== document)
+        throw new LinkError('gatewayRefused', 'Another robot was put there meanwhile.');
+      document = next;
+      // The answer comes before the word to everybody.
+      clock.after(50, () => {
+        for (const tell of screens) tell(next);
+      });
+    },
+    join(tell: (document: string | null) => void): void {
+      screens.add(tell);
+      tell(document);
+    },
+  };
 }
 
-describe('the robot of a link', () => {
-  test('is told once the link is ready, once, and whenever it changes', () => {
-    const { robots, told, note } = follower();
-    robots.edit(() => 'limits', trimmed);
-    expect(told).toEqual([]);
-    note(ready('doc'));
-    note(ready('doc'));
-    expect(told).toHaveLength(1);
-    robots.undo();
-    expect(told).toHaveLength(2);
-    expect(limitsOnBoard(told[0]!)[0]).toEqual({ servo: 1, name: 'Gripper', min: 720, max: 2320 });
+type Gateway = ReturnType<typeof createGateway>;
+
+function createScreen(gateway: Gateway, keeper: Keeper, clock: VirtualClock, mayWrite = true) {
+  const visit = createVisit(keeper, clock, new Map(), mayWrite);
+  let state: SessionState = {
+    ...INITIAL_STATE,
+    ...{ family: FAMILIES.doc, link: { status: 'ready' }, lease: LEASE },
+  };
+  const note = followRobot({ ...visit, mayWrite, putOnBoard: (...put) => gateway.put(...put) });
+  const change = (patch: Partial<SessionState>): void => note((state = { ...state, ...patch }));
+  gateway.join((document) => change({ robotOnBoard: { document } }));
+  return {
+    ...visit,
+    change,
+    atHand: () => visit.robots.current().robot.name,
+    isTheBoards: () => visit.keeping.robotOf(gateway.document() ?? '') === visit.robots.current().id,
+  };
+}
+
+function lesson() {
+  const clock = createVirtualClock();
+  return { clock, gateway: createGateway(clock), keeper: createMemoryKeeper('gateway') };
+}
+
+describe('the robot of a shared board', () => {
+  test('is the usual one where nobody has described any, the same for two screens at once', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const screens = [createScreen(gateway, keeper, clock), createScreen(gateway, keeper, clock)];
+    await clock.advance(1000);
+    expect(gateway.document()).toBe('usual-doc');
+    expect(gateway.asked).toHaveLength(2);
+    for (const screen of screens) {
+      expect(screen.isTheBoards()).toBe(true);
+      expect(screen.names()).toHaveLength(1);
+      expect(screen.told()).toEqual([]);
+    }
   });
 
-  test('is told again after the link was away', () => {
-    const { told, note } = follower();
-    note(ready('doc'));
-    note({ ...ready('doc'), link: { status: 'opening' } });
-    note(ready('doc'));
-    expect(told).toHaveLength(2);
+  test('is at hand of whoever joins, and each edit follows', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const teacher = createScreen(gateway, keeper, clock);
+    teacher.robots.add(() => 'add', { ...freshRobot('arm', 'doc'), name: 'Crane' });
+    await clock.advance(1000);
+    const pupil = createScreen(gateway, keeper, clock);
+    await clock.advance(1000);
+    expect([pupil.atHand(), pupil.isTheBoards()]).toEqual(['Crane', true]);
+    teacher.robots.edit(() => 'rename', named('Digger'));
+    teacher.capture('Wave');
+    await clock.advance(300);
+    pupil.change({ robotOnBoard: { document: gateway.document() } });
+    await clock.advance(300);
+    expect([pupil.atHand(), pupil.poses()]).toEqual(['Digger', ['Wave']]);
   });
 
-  test('leaves limits standing that others had said before, until it is changed here', () => {
-    const { robots, told, held, note } = follower();
-    note({ ...ready('doc'), limitsHeld: [ELBOW] });
-    expect(told).toEqual([]);
-    expect(held).toEqual([[ELBOW]]);
-    robots.edit(
-      () => 'limits',
-      (robot) => withLimits(robot, [ELBOW]),
-    );
-    expect(limitsOnBoard(told[0]!).find(({ servo }) => servo === 4)).toEqual(ELBOW);
+  test('is changed for everybody by whoever takes up another one', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const [one, other] = [createScreen(gateway, keeper, clock), createScreen(gateway, keeper, clock)];
+    await clock.advance(1000);
+    one.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
+    await clock.advance(1000);
+    expect([one.atHand(), other.atHand()]).toEqual(['Hand', 'Hand']);
+    other.robots.takeUp(other.robots.store.getState().present.own[0]?.id ?? 0);
+    await clock.advance(1000);
+    expect(one.atHand()).toBe(other.atHand());
+    expect(one.atHand()).not.toBe('Hand');
   });
 
-  test('hears what others say while it is ready, and is silent about what it has itself', () => {
-    const { told, held, note } = follower();
-    note(ready('doc'));
-    note({ ...ready('doc'), limitsHeld: limitsOnBoard(told[0]!) });
-    expect(held).toEqual([]);
-    const heard = { ...ready('doc'), limitsHeld: [ELBOW] };
-    note(heard);
-    note({ ...heard, latch: null });
-    expect(held).toEqual([[ELBOW]]);
-    expect(told).toHaveLength(1);
+  test('and its limits are left to whoever drives; poses are not', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const pupil = createScreen(gateway, keeper, clock);
+    await clock.advance(1000);
+    pupil.change({ lease: { ...LEASE, driver: 'Ada' } });
+    expect(pupil.robots.edit(() => 'limits', narrowed)).toBe(false);
+    expect(pupil.told().at(-1)).toContain('Ada drives');
+    expect(pupil.robots.edit(() => 'rename', named('Crane'))).toBe(true);
+    pupil.capture('Wave');
+    expect(pupil.poses()).toEqual(['Wave']);
+    pupil.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
+    expect(pupil.atHand()).toBe('Crane');
+    for (const lease of [
+      { driver: 'Ada', drives: true },
+      { driver: 'Ada', mayTake: true },
+      { driver: null },
+    ]) {
+      pupil.change({ lease: { ...LEASE, ...lease } });
+      expect(pupil.robots.edit(() => 'limits', narrowed)).toBe(true);
+      pupil.robots.undo();
+    }
   });
 
-  test('is told where it was changed while the link was away, whatever others said meanwhile', () => {
-    const { robots, told, held, note } = follower();
-    note(ready('doc'));
-    note({ ...ready('doc'), link: { status: 'opening' } });
-    robots.edit(() => 'limits', trimmed);
-    note({ ...ready('doc'), limitsHeld: [ELBOW] });
-    expect(held).toEqual([]);
-    expect(told).toHaveLength(2);
+  test('a viewer sees it and changes nothing', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const teacher = createScreen(gateway, keeper, clock);
+    teacher.robots.add(() => 'add', { ...freshRobot('arm', 'doc'), name: 'Crane' });
+    await clock.advance(1000);
+    const asked = gateway.asked.length;
+    const viewer = createScreen(gateway, keeper, clock, false);
+    await clock.advance(1000);
+    expect(viewer.atHand()).toBe('Crane');
+    viewer.robots.edit(() => 'rename', named('Mine'));
+    viewer.capture('Wave');
+    const before = viewer.names();
+    viewer.robots.duplicate();
+    expect([viewer.atHand(), viewer.poses(), viewer.names()]).toEqual(['Crane', [], before]);
+    expect(viewer.told()[0]).toContain('Viewers');
+    await clock.advance(1000);
+    expect(gateway.asked).toHaveLength(asked);
   });
 
-  test('is always one of the connected board, whatever is undone, removed or chosen', () => {
-    const { robots, told, note } = follower();
-    const arm = robots.current();
-    note(ready('lsc-16'));
-    expect(robots.current().robot.board).toBe('lsc-16');
-    robots.takeUp(arm.id);
-    expect(robots.current().robot.board).toBe('lsc-16');
-    robots.remove(robots.current().id);
-    expect(robots.current().robot.board).toBe('lsc-16');
-    expect(told.map(({ board }) => board)).not.toContain('doc');
+  test('stays what it is where the gateway refuses another one, which is told once', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const one = createScreen(gateway, keeper, clock);
+    await clock.advance(1000);
+    const before = one.atHand();
+    gateway.refuseBy(new LinkError('gatewayRefused', 'Somebody else drives.'));
+    one.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
+    await clock.advance(1000);
+    expect(one.atHand()).toBe(before);
+    expect(one.told()).toHaveLength(1);
+    expect(gateway.asked.filter((document) => document !== 'usual-doc')).toHaveLength(1);
+  });
+
+  test('a link of its own asks nobody, and nothing is asked before it is ready', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const screen = createScreen(gateway, keeper, clock);
+    screen.change({ link: { status: 'opening' } });
+    await clock.advance(1000);
+    const asked = gateway.asked.length;
+    screen.change({ link: { status: 'ready' }, robotOnBoard: null });
+    screen.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
+    await clock.advance(1000);
+    expect(gateway.asked).toHaveLength(asked);
+    expect(screen.atHand()).toBe('Hand');
   });
 });

@@ -1,52 +1,114 @@
-// Keeps the robot at hand the one of the connected board, and keeps it and a shared link at one about its limits: what changed here
-// is told, what others said stands until then. Knows no session.
+// On a shared link the robot at hand is the one that the link says to stand on the board, and what a person takes up here is put
+// there for everybody. Knows who may change what it is judged by. Moves nothing.
 
-import { limitsApart, type NamedLimits, type Robot } from '#shared/actions/robot/robot.ts';
+import { limitsOnBoard, type Robot } from '#shared/actions/robot/robot.ts';
+import type { FamilyId } from '#shared/protocol/families.ts';
+import type { Lease } from '#shared/session/lease.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { SessionState } from '#shared/session/state.ts';
+import { words } from '../words/words.ts';
+import type { Notices } from './notices.ts';
+import type { RobotKeeping } from './robotKeeping.ts';
 import type { RobotStore } from './robots.ts';
 
-export interface RobotOfLink {
-  /** A robot that the link does not know yet. */
-  tell(robot: Robot): void;
-  /** The link holds these servos to other limits than the robot at hand has. */
-  heldOtherwise(limits: readonly NamedLimits[]): void;
+export interface RobotOfLinkOptions {
+  readonly robots: RobotStore;
+  readonly keeping: RobotKeeping;
+  readonly notices: Notices;
+  /** False in a viewer's browser, which only looks at what the library has. */
+  readonly mayWrite: boolean;
+  /** In the library both; rejects where another one stands there than `insteadOf`, or somebody else drives. */
+  putOnBoard(document: string, insteadOf: string | null): Promise<void>;
 }
 
 /** Returns what is to be called with each state of the session. */
-export function followRobot(
-  robots: RobotStore,
-  { tell, heldOtherwise }: RobotOfLink,
-): (snapshot: SessionState) => void {
-  let { family, link, limitsHeld } = INITIAL_STATE;
-  let wasReady = false;
-  let heard = limitsHeld;
-  /** What the link knows, or knew before it was away. */
-  let told: Robot | null = null;
+export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionState) => void {
+  const { robots, keeping, notices, mayWrite } = options;
+  let { family, link, lease, robotOnBoard: told } = INITIAL_STATE;
+  /** The word that was followed; another robot at hand since then is the person's wish. */
+  let followed: string | null = null;
+  let isOffering = false;
+  /** Nothing is asked twice by itself: the answer may be on its way, or have been no. */
+  let asked = '';
+  let waitsForLibrary = false;
 
   function settle(): void {
-    // May change the robot at hand, and with it call this again first.
-    if (family.id !== 'unknown') robots.takeUpFor(family.id);
-    const isReady = link.status === 'ready';
-    const isNew = isReady && !wasReady;
-    wasReady = isReady;
-    if (isReady) agree(robots.current().robot, isNew);
+    if (family.id !== 'unknown' && told !== null && link.status === 'ready' && !isOffering)
+      agree(told.document, family.id);
   }
 
-  function agree(robot: Robot, isNew: boolean): void {
-    const isChanged = told !== null && told !== robot;
-    const isHeard = isNew ? !isChanged : limitsHeld !== heard;
-    const isTold = !isNew && told === robot;
-    told = robot;
-    heard = limitsHeld;
-    const apart = isHeard ? limitsApart(robot, limitsHeld) : [];
-    if (apart.length > 0) heldOtherwise(apart);
-    else if (!isTold) tell(robot);
+  function agree(document: string | null, board: FamilyId): void {
+    const there = document === null ? null : keeping.robotOf(document);
+    if (document !== null && there === null) return; // it is on its way
+    const isNews = document !== followed;
+    followed = document;
+    // Either may have `settle` called anew.
+    if (there === null) robots.takeUpFor(board);
+    else if (isNews) robots.takeUp(there);
+    const { id, robot } = robots.current();
+    if (id === there || isOffering) return;
+    const wish = `${id} ${document}`;
+    if (robot.board === board && mayWrite && mayRule(lease) && wish !== asked) void offer(id, document);
+    else if (there !== null) bounce(there, robot.board === board && wish !== asked);
   }
 
+  function bounce(there: number, isNews: boolean): void {
+    if (isNews) notices.tell('warning', whyNot());
+    robots.takeUp(there);
+  }
+
+  const whyNot = (): string =>
+    mayWrite ? words.robots.othersHands(lease?.driver ?? '') : words.robots.onlyLooking;
+
+  async function offer(id: number, insteadOf: string | null): Promise<void> {
+    isOffering = true;
+    let isOnItsWay = false;
+    asked = `${id} ${insteadOf}`;
+    try {
+      const document = await keeping.keep(id);
+      waitsForLibrary = document === null;
+      const isWanted = link.status === 'ready' && told?.document === insteadOf;
+      if (document !== null && document !== insteadOf && isWanted) {
+        // Our own word is no news: what was taken up meanwhile is wished for.
+        followed = document;
+        await options.putOnBoard(document, insteadOf);
+        isOnItsWay = told?.document !== document;
+      }
+    } catch (error) {
+      followed = insteadOf;
+      if (insteadOf !== null) notices.tellError(error);
+    } finally {
+      isOffering = false;
+    }
+    // Else the word about it calls this.
+    if (!isOnItsWay) settle();
+  }
+
+  robots.refuseBy((before, next) => {
+    if (!mayWrite) return whyNot();
+    const isShared = link.status === 'ready' && told !== null;
+    if (!isShared || mayRule(lease) || next === null || sameLimits(before, next)) return null;
+    return whyNot();
+  });
   robots.store.subscribe(settle);
+  keeping.store.subscribe(() => {
+    if (waitsForLibrary) asked = '';
+    settle();
+  });
   return (snapshot) => {
-    ({ family, link, limitsHeld } = snapshot);
+    const before = told;
+    ({ family, link, lease, robotOnBoard: told } = snapshot);
+    if (link.status !== 'ready' || told?.document !== before?.document) asked = '';
+    if (told !== before && told !== null) keeping.refresh();
     settle();
   };
+}
+
+/** Whether what moves are judged by may be changed from here. */
+function mayRule(lease: Lease | null): boolean {
+  return lease !== null && lease.mayDrive && (lease.driver === null || lease.drives || lease.mayTake);
+}
+
+function sameLimits(one: Robot, other: Robot): boolean {
+  return JSON.stringify(limitsOnBoard(one)) === JSON.stringify(limitsOnBoard(other));
 }

@@ -1,9 +1,10 @@
-// The robots a person has described, and the one at hand: undoable, saved in the browser's storage after each edit. Text that
-// cannot be read is set aside, never thrown away. Knows no link; which robot belongs to a connected board is asked of it.
+// The robots that are described, and the one at hand: undoable, saved in the browser's storage after each edit. Text that cannot
+// be read is set aside, never thrown away. Knows no link and no keeper: what others have changed is told to it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import {
   commit,
+  rebase,
   record,
   redo,
   startHistory,
@@ -45,6 +46,14 @@ export interface RobotStore {
   remove(id: number): void;
   undo(): void;
   redo(): void;
+  /** Why the robot at hand may not be changed now, for people, or null; `next` where the change is one of its figures. */
+  refusal(next?: Robot): string | null;
+  /** Asked for `refusal` from now on. */
+  refuseBy(refusal: (before: Robot, next: Robot | null) => string | null): void;
+  /** From elsewhere, null for one that is new here: its number. A step only where it would undo what was done here. */
+  takeIn(id: number | null, robot: Robot): number;
+  /** It is gone elsewhere. */
+  drop(id: number): void;
 }
 
 const KEY = 'servodeck.robots';
@@ -69,6 +78,32 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
   const silently = (next: Robots): void => change({ ...commit(store.getState()), present: next });
 
   const current = (): OwnRobot => currentOf(present());
+  let refuse: (before: Robot, next: Robot | null) => string | null = () => null;
+  const refusal = (next?: Robot): string | null => refuse(current().robot, next ?? null);
+
+  /** Tells the person. */
+  function isRefused(next?: Robot): boolean {
+    const why = refusal(next);
+    if (why !== null) notices.tell('warning', why);
+    return why !== null;
+  }
+
+  function takeIn(id: number | null, robot: Robot): number {
+    const history = commit(store.getState());
+    if (id === null) {
+      const fresh = Math.max(...valuesOf(history).map(({ nextId }) => nextId));
+      change(
+        rebase(history, (robots) => ({ ...withRobot(robots, robot, fresh), currentId: robots.currentId })),
+      );
+      return fresh;
+    }
+    const before = robotIn(present(), id);
+    const isTouched = valuesOf(history).some((value) => robotIn(value, id) !== before);
+    const next = (robots: Robots): Robots => replaced(robots, id, robot);
+    if (isTouched) change(record(history, () => words.robots.steps.elsewhere, next(history.present)));
+    else change(rebase(history, next));
+    return id;
+  }
 
   return {
     store,
@@ -81,18 +116,25 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
       else silently(withRobot(present(), freshRobot(usualRobot(board), board)));
     },
     takeUp(id) {
-      if (present().own.some((one) => one.id === id)) silently({ ...present(), currentId: id });
+      const chosen = (robots: Robots): Robots =>
+        robotIn(robots, id) === undefined ? robots : { ...robots, currentId: id };
+      // No step that is taken back later chooses another one.
+      if (id !== present().currentId) change(rebase(commit(store.getState()), chosen));
     },
-    add: (label, robot) => step(label, withRobot(present(), robot)),
+    add(label, robot) {
+      if (!isRefused()) step(label, withRobot(present(), robot));
+    },
     edit(label, edit) {
       const { id, robot } = current();
       const next = edit(robot);
       const flaw = flawOf(next);
       if (flaw !== null) notices.tell('warning', words.robots.flaw(flaw));
-      else if (next !== robot) step(label, replaced(present(), id, next));
-      return flaw === null;
+      if (flaw !== null || (next !== robot && isRefused(next))) return false;
+      if (next !== robot) step(label, replaced(present(), id, next));
+      return true;
     },
     duplicate() {
+      if (isRefused()) return;
       const { robot } = current();
       step(
         () => words.robots.steps.duplicate,
@@ -102,7 +144,7 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
     remove(id) {
       const own = present().own.filter((one) => one.id !== id);
       const next = own.at(-1);
-      if (next === undefined) return;
+      if (next === undefined || isRefused()) return;
       const { currentId } = present();
       step(() => words.robots.steps.remove, {
         ...present(),
@@ -112,7 +154,29 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
     },
     undo: () => change(undo(store.getState())),
     redo: () => change(redo(store.getState())),
+    refusal,
+    refuseBy: (refusedBy) => (refuse = refusedBy),
+    takeIn,
+    drop: (id) => change(rebase(commit(store.getState()), (robots) => without(robots, id))),
   };
+}
+
+const valuesOf = ({ past, present, future }: History<Robots>): readonly Robots[] => [
+  present,
+  ...[...past, ...future].map(({ value }) => value),
+];
+
+const robotIn = ({ own }: Robots, id: number): Robot | undefined => own.find((one) => one.id === id)?.robot;
+
+/** There is always one: the last of a board is described anew. */
+function without(robots: Robots, id: number): Robots {
+  const gone = robotIn(robots, id);
+  if (gone === undefined) return robots;
+  const own = robots.own.filter((one) => one.id !== id);
+  const last = own.at(-1);
+  if (last === undefined)
+    return withRobot({ ...robots, own }, freshRobot(usualRobot(gone.board), gone.board));
+  return { ...robots, own, currentId: robots.currentId === id ? last.id : robots.currentId };
 }
 
 export function currentOf({ own, currentId }: Robots): OwnRobot {
@@ -125,9 +189,13 @@ export function freshRobot(id: ReadyRobotId, board: FamilyId): Robot {
   return readyRobot(id, board, words.robots.names(id));
 }
 
-function withRobot(robots: Robots, robot: Robot): Robots {
-  const { own, nextId } = robots;
-  return { own: [...own, { id: nextId, robot }], currentId: nextId, nextId: nextId + 1 };
+function withRobot({ own, nextId }: Robots, robot: Robot, id = nextId): Robots {
+  return { own: [...own, { id, robot }], currentId: id, nextId: id + 1 };
+}
+
+/** As it comes with its board, so nobody has described it. */
+export function isUsual(robot: Robot): boolean {
+  return robotToText(robot) === robotToText(freshRobot(usualRobot(robot.board), robot.board));
 }
 
 function replaced(robots: Robots, id: number, robot: Robot): Robots {

@@ -17,6 +17,7 @@ import type { Mapping } from '#shared/actions/mapping/mapping.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { Document, DocumentState } from './document.ts';
 import { currentOf, type RobotStore } from './robots.ts';
+import type { RobotKeeping } from './robotKeeping.ts';
 import { guessesOf, guessOf, type LastPoses } from './lastPoses.ts';
 import type { Notices } from './notices.ts';
 import { servoViewFor, type ServoView, type Stand } from './servoView.ts';
@@ -41,6 +42,7 @@ export interface Stores {
   readonly boards: Boards;
   readonly lastPoses: LastPoses;
   readonly robots: RobotStore;
+  readonly keeping: RobotKeeping;
   readonly battery: BatteryStore;
   readonly mappings: Undoable<Mapping>;
   readonly pad: Pad;

@@ -7,14 +7,20 @@ import { fromHex, toHex } from '#shared/protocol/hex.ts';
 import { parseCommand } from '#shared/protocol/parse.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type {
-  ServoLimits,
+  RobotOnBoard,
   SharedLatchReason,
   Transport,
   TransportEvents,
 } from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
-import type { ClientMessage, GatewayMessage, PortState, StateMessage } from './messages.generated.ts';
+import type {
+  ClientMessage,
+  GatewayMessage,
+  PortState,
+  RobotTold,
+  StateMessage,
+} from './messages.generated.ts';
 import { createTurn } from './turn.ts';
 
 const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, SharedLatchReason>> = {
@@ -25,14 +31,14 @@ const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, Shared
 
 type Settle = { resolve: () => void; reject: (error: LinkError) => void };
 
-/** `url` is the gateway's WebSocket, e.g. `ws://127.0.0.1:8300/ws`. Whoever only looks on has no limits to tell. */
-export function createGatewayTransport(url: string, { tellsLimits = true } = {}): Transport {
+/** `url` is the gateway's WebSocket, e.g. `ws://127.0.0.1:8300/ws`. Whoever only looks on calibrates nothing. */
+export function createGatewayTransport(url: string, { mayDrive = true } = {}): Transport {
   let socket: WebSocket | null = null;
   let port: PortState | null = null;
   let events: TransportEvents | null = null;
   let latched: SharedLatchReason | null = null;
   let stoppedBy: string | null = null;
-  let limits: readonly ServoLimits[] = [];
+  let robot: RobotOnBoard = { document: null };
   let board: BoardId = 'unknown';
   let nextId = 1;
   const turn = createTurn(post, () => performance.now());
@@ -54,15 +60,15 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
     switch (message.type) {
       case 'welcome':
         turn.told(message.lease);
-        limitsChanged(message.limits);
+        robotChanged(message.robot);
         slots.told(message.job);
         stateChanged(message);
         break;
       case 'state':
         stateChanged(message);
         break;
-      case 'limits':
-        limitsChanged(message.servos);
+      case 'robot':
+        robotChanged(message.robot);
         break;
       case 'resumed':
         events?.resumed?.(message.by);
@@ -117,9 +123,9 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
     if (turn.lease !== null) events?.leased?.(turn.lease);
   }
 
-  function limitsChanged(next: readonly ServoLimits[]): void {
-    limits = next;
-    events?.limited?.(next);
+  function robotChanged(told: RobotTold | null): void {
+    robot = { document: told?.id ?? null };
+    events?.described?.(robot);
   }
 
   /** Only packets have an id: without one it was a stop or a resume. */
@@ -193,10 +199,6 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
     if (socket?.readyState === WebSocket.OPEN) post(message);
   }
 
-  function tellLimits(message: ClientMessage): void {
-    if (tellsLimits) postIfOpen(message);
-  }
-
   const nextState = (): Promise<void> =>
     new Promise((resolve, reject) => stateWaiters.add({ resolve: () => resolve(), reject }));
 
@@ -215,8 +217,9 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
         naming.add({ resolve, reject });
       });
     },
-    setLimits: (own) => tellLimits({ type: 'limits', servos: [...own] }),
-    calibrate: (servo) => tellLimits({ type: 'calibrate', servo }),
+    calibrate(servo) {
+      if (mayDrive) postIfOpen({ type: 'calibrate', servo });
+    },
     get label() {
       return port?.device ?? '';
     },
@@ -225,7 +228,7 @@ export function createGatewayTransport(url: string, { tellsLimits = true } = {})
       while (port?.status === 'opening') await nextState();
       if (port?.status !== 'open') throw portError(port);
       events = next;
-      next.limited?.(limits);
+      next.described?.(robot);
       if (turn.lease !== null) next.leased?.(turn.lease);
       if (latched !== null) next.latched?.(latched, stoppedBy);
     },

@@ -6,7 +6,6 @@ export type ClientMessage =
   | StopMessage
   | ResumeMessage
   | BoardMessage
-  | LimitsMessage
   | CalibrateMessage
   | LeaseMessage
   | ContinueMessage
@@ -20,7 +19,6 @@ export type GatewayMessage =
   | HaltedMessage
   | ResumedMessage
   | StateMessage
-  | LimitsMessage
   | RobotMessage
   | LeaseToldMessage
   | TickMessage
@@ -62,26 +60,6 @@ export interface ResumeMessage {
 export interface BoardMessage {
   type: 'board';
   board: string;
-}
-/**
- * The robot's limits, for every client and in place of those before; gone with the board. From
- * the gateway: another client has told them, or they are gone.
- */
-export interface LimitsMessage {
-  type: 'limits';
-  /**
-   * @maxItems 253
-   */
-  servos: ServoLimits[];
-}
-/**
- * How far a servo may be turned, in its board's unit, and what people call it.
- */
-export interface ServoLimits {
-  servo: number;
-  name: string;
-  min: number;
-  max: number;
 }
 /**
  * This client looks for the limits of `servo` and may pass the present ones with it, until `null` or the
@@ -129,7 +107,6 @@ export interface WelcomeMessage {
   stoppedBy: string | null;
   clients: number;
   unattended: UnattendedRun | null;
-  limits: ServoLimits[];
   robot: RobotTold | null;
   lease: LeaseState;
   brokenSlots: number[];

@@ -54,6 +54,18 @@ export function commit<T>(history: History<T>): History<T> {
     : step(settled, gesture.label, gesture.value, history.present);
 }
 
+/** What has happened elsewhere, as if it always had: no step of anybody here takes it back. */
+export function rebase<T>(history: History<T>, change: (value: T) => T): History<T> {
+  const changed = (step: Step<T>): Step<T> => ({ ...step, value: change(step.value) });
+  const { present, past, future, gesture } = history;
+  return {
+    present: change(present),
+    past: past.map(changed),
+    future: future.map(changed),
+    gesture: gesture && changed(gesture),
+  };
+}
+
 /** Forgets the gesture; the value is again what it was when the gesture began. */
 export function cancel<T>(history: History<T>): History<T> {
   return history.gesture === null ? history : { ...history, present: history.gesture.value, gesture: null };

@@ -14,7 +14,7 @@ export type LineState =
 
 export interface LinkOptions extends Pick<
   TransportEvents,
-  'received' | 'latched' | 'resumed' | 'identified' | 'limited' | 'leased' | 'slotsChanged' | 'followed'
+  'received' | 'latched' | 'resumed' | 'identified' | 'described' | 'leased' | 'slotsChanged' | 'followed'
 > {
   readonly transport: Transport;
   readonly clock: Clock;
@@ -81,7 +81,7 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
         latched: ifMine(events.latched),
         resumed: ifMine(events.resumed),
         identified: ifMine(events.identified),
-        limited: ifMine(events.limited),
+        described: ifMine(events.described),
         leased: ifMine(events.leased),
         slotsChanged: ifMine(events.slotsChanged),
         followed: ifMine(events.followed),

@@ -20,7 +20,7 @@ import { createResync } from './resync.ts';
 import type { LinkState, ServoMotion, SessionEvents, SessionState } from './state.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { createSessionStore, NOTHING_READ } from './store.ts';
-import type { ServoLimits, Transport } from './transport.ts';
+import type { Transport } from './transport.ts';
 import { createWakefulClock } from './wakefulClock.ts';
 
 export interface SessionOptions {
@@ -50,13 +50,11 @@ export interface Session {
   identify(): Promise<void>;
   /** A person says which board this is. Refused in the link's state where its answers say otherwise. */
   choose(family: Family): Promise<void>;
-  /** What others on a shared link are held to; the session itself knows no robot. */
-  setLimits(limits: readonly ServoLimits[]): void;
   /** On a shared link: about who drives; the outcome is in `state.lease`. */
   lease(action: LeaseAction): void;
   /** On a shared link: the run under way may go on without this end, for so long at most; null: it may not. */
   letGoOn(forMs: number | null): void;
-  /** On a shared link: moves of this servo may pass those limits; null ends it, and so does the end of the link. */
+  /** On a shared link: moves of this servo may pass the robot's limits; null ends it, and so does the end of the link. */
   calibrate(servo: number | null): void;
   /** Newest wins per servo. Positions in the family's unit; `durationMs` 0 is as fast as the link allows. */
   move(targets: readonly ServoTarget[], durationMs: number): void;
@@ -107,7 +105,7 @@ export function createSession(options: SessionOptions): Session {
     received: (bytes, whole = false) => receiver.push(bytes, whole),
     changed: lineChanged,
     identified: (board) => identification.told(board),
-    limited: (limitsHeld) => store.update({ limitsHeld }),
+    described: (robotOnBoard) => store.update({ robotOnBoard }),
     leased,
     slotsChanged() {
       if (store.state.link.status === 'ready') driver.groups.linked();
@@ -269,7 +267,6 @@ export function createSession(options: SessionOptions): Session {
     setAutoReconnect: link.setAutoReconnect,
     identify: identification.again,
     choose: (chosen) => identification.choose(chosen),
-    setLimits: (limits) => transport.setLimits?.(limits),
     lease: (action) => transport.lease?.(action),
     letGoOn: (forMs) => transport.letGoOn?.(forMs),
     calibrate: (servo) => transport.calibrate?.(servo),

@@ -7,7 +7,7 @@ import type { Family } from '../protocol/families.ts';
 import type { Lease } from './lease.ts';
 import type { Identity } from './identity.ts';
 import type { LinkError } from './linkError.ts';
-import type { ServoLimits, SharedLatchReason } from './transport.ts';
+import type { RobotOnBoard, SharedLatchReason } from './transport.ts';
 
 export type LinkState =
   | { readonly status: 'closed' }
@@ -93,8 +93,8 @@ export interface SessionState {
   readonly brokenSlots: readonly number[];
   /** What this session stored, by slot. */
   readonly storedSlots: readonly number[];
-  /** What a shared link holds this robot to, as it was told by others; empty where nobody has told it. */
-  readonly limitsHeld: readonly ServoLimits[];
+  /** Which robot it is, by the word of a shared link; null on one's own. Another object whenever it was told. */
+  readonly robotOnBoard: RobotOnBoard | null;
 }
 
 /** Where a servo was asked to be in this session, null before, and where it should be by now, null while nobody knows. */

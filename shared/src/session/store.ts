@@ -30,7 +30,7 @@ export const INITIAL_STATE: SessionState = {
   ...NOTHING_READ,
   brokenSlots: [],
   storedSlots: [],
-  limitsHeld: [],
+  robotOnBoard: null,
 };
 
 export function createSessionStore(family: Family): SessionStore {

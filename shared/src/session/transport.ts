@@ -20,8 +20,8 @@ export interface TransportEvents {
   resumed?(by: string): void;
   /** Only a shared link: somebody said which board this is, or wants it asked again (`unknown`). */
   identified?(board: BoardId): void;
-  /** Only a shared link: how far it lets the robot's servos be turned, as another end has said; empty: nobody has. */
-  limited?(limits: readonly ServoLimits[]): void;
+  /** Only a shared link: which robot stands on the board. Told once it is open, and whenever any robot has changed there. */
+  described?(robot: RobotOnBoard): void;
   /** Only a shared link: this packet of somebody else has left the wire. */
   followed?(packet: Uint8Array): void;
   /** Only a shared link: who drives. Told once it is open, and on each change. */
@@ -50,12 +50,9 @@ export interface SharedSlots {
   cancel(): Promise<void>;
 }
 
-/** How far a servo may be turned, in the board's unit, and what people call it. */
-export interface ServoLimits {
-  readonly servo: number;
-  readonly name: string;
-  readonly min: number;
-  readonly max: number;
+/** Which document of a shared link's library describes the robot on its board; null for none. */
+export interface RobotOnBoard {
+  readonly document: string | null;
 }
 
 export interface Transport {
@@ -68,8 +65,6 @@ export interface Transport {
   readonly knownBoard?: BoardId;
   /** Says so to everybody; `identified` follows. */
   setBoard?(board: BoardId): Promise<void>;
-  /** Only a shared link: what it shall hold everybody to who moves this robot, in place of what was said before. */
-  setLimits?(limits: readonly ServoLimits[]): void;
   /** Only a shared link. */
   readonly slots?: SharedSlots;
   /** Only a shared link: about who drives; `leased` follows. */

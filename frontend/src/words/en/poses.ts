@@ -1,6 +1,6 @@
 // Words about poses: capturing, changing and going to them.
 
-import { counted, formatMs, formatPercent, formatWhole } from './numbers.ts';
+import { formatMs, formatPercent, formatWhole } from './numbers.ts';
 
 export const poseWords = {
   title: 'Poses',
@@ -65,9 +65,6 @@ export const poseWords = {
   fileName: (robot: string): string => `${robot} poses`,
   import: 'Import poses',
   export: 'Export poses',
-  handOver: 'Hand the poses to scripts',
-  handedOver: (count: number, robot: string): string =>
-    `Scripts can go to ${counted(count, 'pose')} of ${robot} now, home among them.`,
   importFailed: (problem: string): string => `No pose was taken from the file: ${problem}.`,
   unreadableFile: 'The file could not be read.',
 

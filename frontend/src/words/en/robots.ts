@@ -1,10 +1,12 @@
 // Words about robots: names of the ready ones, of their servos and limbs, and what can be done with a description.
 
 import type { Limb, ReadyRobotId, RobotNames, Role } from '#shared/actions/robot/readyRobots.ts';
-import type { NamedLimits, RobotFlaw, ServoFlaw } from '#shared/actions/robot/robot.ts';
+import type { RobotFlaw, ServoFlaw } from '#shared/actions/robot/robot.ts';
 import type { RobotFileFlaw } from '#shared/actions/robot/robotText.ts';
 import type { Range } from '#shared/protocol/families.ts';
-import { counted, formatWhole } from './numbers.ts';
+import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
+import { libraryWords } from './library.ts';
+import { counted, formatNames, formatWhole } from './numbers.ts';
 
 const READY: Readonly<Record<ReadyRobotId, string>> = {
   arm: 'Arm, 6 servos',
@@ -94,26 +96,36 @@ export const robotWords = {
   notSaved: 'The browser does not store robots; they are kept until the page is closed.',
   unreadable: 'The saved robots could not be read. They were set aside unharmed.',
   flaw: (flaw: RobotFlaw): string => `This cannot be: ${flawText(flaw)}.`,
+  notKept: (code: LibraryErrorCode, detail: string): string =>
+    `Robots are not kept in the library yet: ${libraryWords.problem(code, detail)} It is tried again.`,
+  otherVersion: (name: string): string => `${name}, other version`,
+  conflict: (name: string, copy: string): string =>
+    `Somebody else has changed ${name} meanwhile. Yours is kept beside it as ${copy}.`,
+  handedIn: (names: readonly string[]): string =>
+    `The gateway keeps robots now, for every screen. Those of this browser stand beside the others: ${formatNames(names)}.`,
+  onlyLooking: 'Viewers see the robot as others describe it; they change nothing.',
+  othersHands: (driver: string): string =>
+    `${driver} drives: which robot it is and its limits change only under the hands of whoever drives.`,
   copyOf: (name: string): string => `${name}, copy`,
   steps: {
     duplicate: 'duplicate robot',
     remove: 'remove robot',
     add: 'new robot',
     import: 'import robot',
-    limits: 'limits of another screen',
+    elsewhere: 'change on another screen',
   },
-  heldOtherwise: ([first, ...others]: readonly NamedLimits[]): string =>
-    first === undefined
-      ? ''
-      : `Limits set on another screen hold: ${first.name} ${formatWhole(first.min)} to ${formatWhole(first.max)}` +
-        `${others.length === 0 ? '' : `, and ${formatWhole(others.length)} more`}.`,
-  takeLimits: 'Take over here',
   /** Both knees of a body are called Knee. */
   called: ({ name, group }: { readonly name: string; readonly group: string }): string =>
     group === '' ? name : `${name}, ${group}`,
   title: 'Robots',
   button: (name: string): string => `Robot: ${name}`,
-  own: 'Yours',
+  own: 'Described',
+  /** Where they are. */
+  place: {
+    gateway: 'Kept by the gateway: every screen sees these.',
+    browser: 'Kept in this browser.',
+  },
+  everyones: 'On the board, for everyone',
   count: (servos: number): string => counted(servos, 'servo'),
   atHand: 'At hand',
   use: (name: string): string => `Use ${name}`,

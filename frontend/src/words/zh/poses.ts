@@ -64,8 +64,6 @@ export const poseWords: typeof english = {
   fileName: (robot) => `${robot}姿态`,
   import: '导入姿态',
   export: '导出姿态',
-  handOver: '把姿态交给脚本',
-  handedOver: (count, robot) => `脚本现在可以使用“${robot}”的${formatWhole(count)}个姿态，包括初始姿态。`,
   // Where a file is damaged is told in English, for whoever writes such files.
   importFailed: () => '没有导入任何姿态：这不是 Servodeck 的姿态文件，或者文件已损坏。',
   unreadableFile: '无法读取这个文件。',

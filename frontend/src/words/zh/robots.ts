@@ -5,7 +5,8 @@ import type { ServoFlaw } from '#shared/actions/robot/robot.ts';
 import type { RobotFileFlaw } from '#shared/actions/robot/robotText.ts';
 import type { Range } from '#shared/protocol/families.ts';
 import type { robotWords as english } from '../en/robots.ts';
-import { formatWhole } from './numbers.ts';
+import { libraryWords } from './library.ts';
+import { formatNames, formatWhole } from './numbers.ts';
 
 const READY: Readonly<Record<ReadyRobotId, string>> = {
   arm: '机械臂，6个舵机',
@@ -104,24 +105,30 @@ export const robotWords: typeof english = {
   notSaved: '浏览器不能保存机器人；关闭页面前它们一直在。',
   unreadable: '已保存的机器人无法读取。原文件已完好地另存。',
   flaw: (flaw) => `这样不行：${flawText(flaw)}。`,
+  notKept: (code, detail) => `机器人尚未存入库：${libraryWords.problem(code, detail)}稍后会再试。`,
+  otherVersion: (name) => `${name}（另一版本）`,
+  conflict: (name, copy) => `“${name}”同时被别人改过。您的版本另存为“${copy}”。`,
+  handedIn: (names) =>
+    `网关现在保存机器人，所有屏幕都能看到。此浏览器里的机器人已加入列表：${formatNames(names)}。`,
+  onlyLooking: '观看者看到的是别人描述的机器人，不能更改。',
+  othersHands: (driver) => `${driver}正在控制：使用哪个机器人以及它的限位，只能由控制者更改。`,
   copyOf: (name) => `${name}（副本）`,
   steps: {
     duplicate: '复制机器人',
     remove: '删除机器人',
     add: '新机器人',
     import: '导入机器人',
-    limits: '另一屏幕的限位',
+    elsewhere: '另一屏幕上的更改',
   },
-  heldOtherwise: ([first, ...others]) =>
-    first === undefined
-      ? ''
-      : `另一个屏幕设置的限位有效：${first.name} ${formatWhole(first.min)}到${formatWhole(first.max)}` +
-        `${others.length === 0 ? '' : `，另有${formatWhole(others.length)}个`}。`,
-  takeLimits: '这里也采用',
   called: ({ name, group }) => (group === '' ? name : `${name}，${group}`),
   title: '机器人',
   button: (name) => `机器人：${name}`,
-  own: '您的机器人',
+  own: '已描述的机器人',
+  place: {
+    gateway: '由网关保存：所有屏幕都能看到。',
+    browser: '保存在此浏览器中。',
+  },
+  everyones: '在控制板上，对所有人有效',
   count: (servos) => `${formatWhole(servos)}个舵机`,
   atHand: '当前',
   use: (name) => `使用${name}`,

@@ -160,14 +160,6 @@ export interface NamedLimits extends Range {
   readonly name: string;
 }
 
-/** Those that are not what this robot's own servos have. */
-export function limitsApart(robot: Robot, held: readonly NamedLimits[]): readonly NamedLimits[] {
-  const own = limitsOnBoard(robot);
-  return held.filter(({ servo, min, max }) =>
-    own.some((one) => one.servo === servo && (one.min !== min || one.max !== max)),
-  );
-}
-
 /** What the person means by a position of the board. */
 export function fromBoard(robot: Robot, servo: number, onBoardAt: number): number {
   return onBoardAt - (servoOf(robot, servo)?.trim ?? 0);

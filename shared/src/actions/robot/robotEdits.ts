@@ -1,7 +1,7 @@
 // Edits of a robot that touch more than one figure: pure, from a robot to the next one. What cannot be is for `flawOf` to say.
 
 import { FAMILIES, positionRange, type Range } from '../../protocol/families.ts';
-import { servoOf, TRIM, type NamedLimits, type Robot, type RobotServo } from './robot.ts';
+import { servoOf, TRIM, type Robot, type RobotServo } from './robot.ts';
 
 export function changeServo(robot: Robot, servo: number, change: Partial<RobotServo>): Robot {
   return {
@@ -55,15 +55,6 @@ export function pair(robot: Robot, servo: number, partner: number | null): Robot
 export function setEnds(robot: Robot, servo: number, ends: readonly [number, number], home: number): Robot {
   const [min, max] = [Math.min(...ends), Math.max(...ends)];
   return changeServo(robot, servo, { min, max, home: Math.min(max, Math.max(min, home)) });
-}
-
-/** Limits as the board counts, taken over for the servos that are there. */
-export function withLimits(robot: Robot, held: readonly NamedLimits[]): Robot {
-  return held.reduce((all, { servo, min, max }) => {
-    const own = servoOf(all, servo);
-    if (own === undefined) return all;
-    return setEnds(all, servo, [min - own.trim, max - own.trim], own.home);
-  }, robot);
 }
 
 /** What it takes from its partner on the other side: built the other way round, so everything is turned about the centre. */
