@@ -39,10 +39,13 @@ class BatteryAge(Message):
 
 
 class Running(Message):
-    """The group that may run: it was begun, and nobody has stopped it or heard that it ended."""
+    """The group that may run: it was begun, and nobody has stopped it or heard that it ended. `endsInMs`: at
+    the latest; null where only the board could tell, which not every family does.
+    """
 
     slot: int
     times: int
+    ends_in_ms: int | None
 
 
 class Status(Message):
@@ -127,8 +130,12 @@ async def status(control: Controlled) -> Status:
 
 
 def running_in(control: Control) -> Running | None:
-    run = control.board.motion.run
-    return None if run is None else Running(slot=run.slot, times=run.times)
+    motion, now = control.board.motion, control.now()
+    if motion.run is None or not motion.group_may_run(now):
+        return None
+    ends_in_s = motion.group_ends_in_s(now)
+    ends_in_ms = None if ends_in_s is None else round(ends_in_s * 1000)
+    return Running(slot=motion.run.slot, times=motion.run.times, ends_in_ms=ends_in_ms)
 
 
 def age_of(control: Control) -> BatteryAge | None:

@@ -34,7 +34,7 @@ STATUS = {
     "clients": 2,
     "battery": {"batteryMv": 7500, "ageMs": 4200},
     "driver": "Anna's tablet",
-    "running": {"slot": 3, "times": 2},
+    "running": {"slot": 3, "times": 2, "endsInMs": 4200},
     "unattended": {"slot": 3, "times": 2, "by": "Anna's tablet", "endsInMs": 245000},
 }
 LEASE = {
@@ -199,7 +199,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
 }
 
 PROBLEMS: dict[ErrorCode, str] = {
-    "busy": "A group may be running: stop it, then resume.",
+    "busy": "A group runs for up to 4.2 s more: wait, or let go of the lease to end it.",
     "cancelled": "Stopped, or taken over, before all of it had left.",
     "closed": "No serial port is open.",
     "conflict": "Somebody else has changed this document meanwhile.",

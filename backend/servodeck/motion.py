@@ -80,6 +80,10 @@ class Motion:
     def group_may_run(self, now: float) -> bool:
         return self.run is not None and now < self._run_end_s
 
+    def group_ends_in_s(self, now: float) -> float | None:
+        """At the latest, for a group that may run; None where only the board could tell."""
+        return None if math.isinf(self._run_end_s) else max(0.0, self._run_end_s - now)
+
     def left(self, packet: bytes, at_s: float) -> None:
         """The last bit of that packet leaves then."""
         match parse_command(packet):

@@ -80,6 +80,12 @@ class Turn:
             raise CancelledError("Stopped, or taken over, before all of it had left.")
 
 
+def end_of_group(ends_in_s: float | None) -> str:
+    if ends_in_s is None:
+        return "A group may be running, and only its board knows its end: let go of the lease to end it."
+    return f"A group runs for up to {ends_in_s:.1f} s more: wait, or let go of the lease to end it."
+
+
 class Scripts:
     def __init__(self, control: Control) -> None:
         self._control = control
@@ -99,7 +105,7 @@ class Scripts:
         control, seat = self._control, self._seat_of(caller)
         family, now = self._family(), control.now()
         if control.board.motion.group_may_run(now):
-            raise MovingError("A group may be running: stop it, then resume.")
+            raise MovingError(end_of_group(control.board.motion.group_ends_in_s(now)))
         plan = plan_move(duration_ms, positions, family, control.board.motion, now, control.limits.name_of)
         for step in plan.steps:
             control.limits.judge(step.packet, seat)

@@ -18,7 +18,7 @@ from servodeck.callers import THIS_COMPUTER, Caller, Role
 from servodeck.control import Control
 from servodeck.messages import ServoLimits
 from servodeck.packets import FAMILIES, encode
-from servodeck.values import Move, ServoTarget
+from servodeck.values import Frame, Move, ServoTarget
 from tests.client import Client
 from tests.fake_port import FakePort, FakePorts
 from tests.knocking import scope_of
@@ -226,6 +226,37 @@ async def test_another_run_ends_the_one_before_and_a_move_waits_for_its_end() ->
         here.port.say(RUN_ENDED)
         await asyncio.sleep(0.1)
         assert (await here.move(1500, s1=2000)).status_code == 200
+
+
+@in_virtual_time
+async def test_where_only_the_board_knows_the_end_letting_go_is_enough_and_nobody_has_to_resume() -> None:
+    async with script() as here:
+        await here.post("slots/8/run")
+        assert (await running(here)) == {"slot": 8, "times": 1, "endsInMs": None}
+        assert "let go" in (await here.move(1500, s1=2000)).json()["detail"]
+        await here.post("lease", action="release")
+        await asyncio.sleep(0.3)
+        assert (await here.move(1500, s1=2000)).status_code == 200
+        assert here.sent() == [RUN, *STOPS, move(1500, s1=2000)]
+
+
+@in_virtual_time
+async def test_of_a_group_that_the_gateway_stored_itself_it_says_how_long_it_may_take() -> None:
+    async with script() as here:
+        here.control.board.motion.stored(8, [Frame(2000, (ServoTarget(1, 1500),))])
+        await here.post("slots/8/run")
+        ends_in_ms = (await running(here))["endsInMs"]
+        assert 2000 < ends_in_ms < 3600
+        assert f"up to {ends_in_ms / 1000:.1f} s" in (await here.move(1500, s1=2000)).json()["detail"]
+        for _ in range(4):
+            await here.post("lease", action="beat")
+            await asyncio.sleep(ends_in_ms / 4000)
+        assert await running(here) is None
+        assert (await here.move(1500, s1=2000)).status_code == 200
+
+
+async def running(here: Scripted) -> Any:
+    return (await here.client.get("/api/status")).json()["running"]
 
 
 @in_virtual_time

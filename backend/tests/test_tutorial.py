@@ -33,7 +33,8 @@ ARM = RobotFacts(kind="robot", name="Arm", board="doc", updated_at_ms=0, limits=
 @pytest.fixture
 async def gateway(board: Board, tmp_path: Path) -> AsyncIterator[Running]:
     library = Library(tmp_path / "data")
-    async with server_on(BackgroundPorts(), str(board.link), library=library) as running:
+    async with server_on(BackgroundPorts(), None, library=library) as running:
+        await running.control.use_port(str(board.link))
         library.write("arm", "{}", ARM.model_dump_json(), 0, kind="robot")
         await running.control.robot.put("arm", None)
         yield running
