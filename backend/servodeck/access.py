@@ -99,6 +99,11 @@ def is_name(text: str) -> bool:
     return all(label and label.replace("-", "").isalnum() and label.isascii() for label in labels)
 
 
+def answered_at(host: str, addresses: list[str]) -> list[str]:
+    """Those of this computer's addresses where a gateway that listens at `host` answers others."""
+    return [one for one in addresses if host in ("0.0.0.0", "::", one)]
+
+
 def lan_addresses() -> list[str]:
     """This computer's IPv4 addresses that others may reach, for people to read. Never raises."""
     try:

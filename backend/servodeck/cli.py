@@ -126,7 +126,13 @@ def serve(
     entrance = entrance_to(proxied or by_address(listener.getsockname()[1]), folder)
     log = set_up_logs(log_level, log_format)
     url = url_of(listener)
-    announcement = Announcement(entrance.access.port) if entrance.access.mode == "lan" else None
+    host = listener.getsockname()[0]
+
+    def reachable() -> list[str]:
+        return access.answered_at(host, access.lan_addresses())
+
+    is_heard = entrance.access.mode == "lan" and not is_loopback(host)
+    announcement = Announcement(entrance.access.port, addresses=reachable) if is_heard else None
     library = Library(folder)
     remembered = Remembered(folder)
     device = serial or remembered.port
@@ -145,8 +151,10 @@ def serve(
     def ready() -> None:
         print(f"Servodeck is at {url}", flush=True)
         if entrance.access.needs_pairing:
-            others = urls_for_others(entrance.access, access.lan_addresses(), url)
+            others = urls_for_others(entrance.access, reachable(), url)
             print(greeting(entrance, others, invites=invite), flush=True)
+            if entrance.access.mode == "lan" and is_loopback(host):
+                print(f"Only this computer reaches it: for others, write --listen {LAN_LISTEN}.", flush=True)
         if sys.stdout.isatty() if open_page is None else open_page:
             webbrowser.open(url)
 

@@ -60,3 +60,17 @@ def test_addresses_as_a_host_header_has_them() -> None:
     assert bracketed("::ffff:10.0.0.7") == "10.0.0.7"
     assert bracketed("::1") == "[::1]"
     assert "127.0.0.1" not in lan_addresses()
+
+
+@pytest.mark.parametrize(
+    ("host", "told"),
+    [
+        ("0.0.0.0", ["192.168.1.5", "10.0.0.2"]),
+        ("::", ["192.168.1.5", "10.0.0.2"]),
+        ("10.0.0.2", ["10.0.0.2"]),
+        ("127.0.0.1", []),
+        ("::1", []),
+    ],
+)
+def test_only_addresses_that_answer_are_named_to_others(host: str, told: list[str]) -> None:
+    assert access.answered_at(host, ["192.168.1.5", "10.0.0.2"]) == told

@@ -1,5 +1,9 @@
 import { expect, test } from 'vitest';
-import { deviceName, isAnother, wishIn } from './arrival.ts';
+import { createStore } from 'zustand/vanilla';
+import { LinkError } from '#shared/session/linkError.ts';
+import type { LinkState } from '#shared/session/state.ts';
+import { INITIAL_STATE } from '#shared/session/store.ts';
+import { beginAnewAsAnother, deviceName, isAnother, wishIn } from './arrival.ts';
 
 test.each([
   ['', null],
@@ -31,3 +35,40 @@ test('somebody who was revoked, or may more or less now, is another one', () => 
   expect(isAnother(ben, { ...me, you: null })).toBe(true);
   expect(isAnother(ben, null)).toBe(false);
 });
+
+const LOST: LinkState = {
+  status: 'lost',
+  error: new LinkError('gatewayUnreachable', 'gone'),
+  retryAtMs: 250,
+};
+
+test.each(['local', 'lan'] as const)(
+  'a page of a %s gateway begins anew once that is back and does not know it any more, and not before',
+  async (mode) => {
+    const you = { id: 'local', name: 'This computer', role: 'owner' } as const;
+    const answers = [
+      null,
+      { mode, overheard: false, you },
+      { mode: 'lan' as const, overheard: true, you: null },
+    ];
+    const store = createStore(() => ({ snapshot: INITIAL_STATE }));
+    const begun: number[] = [];
+    let asked = 0;
+    beginAnewAsAnother(
+      store,
+      you,
+      () => begun.push(asked),
+      () => Promise.resolve(answers[asked++] ?? null),
+    );
+    store.setState({ snapshot: { ...INITIAL_STATE, link: { status: 'ready' } } });
+    for (const retryAtMs of [250, 500, 1000]) {
+      const link = { ...LOST, retryAtMs };
+      store.setState({ snapshot: { ...INITIAL_STATE, link } });
+      store.setState({ snapshot: { ...INITIAL_STATE, link, waitingToStart: [1] } });
+      await Promise.resolve();
+    }
+    await Promise.resolve();
+    expect(asked).toBe(3);
+    expect(begun).toEqual([3]);
+  },
+);

@@ -1,6 +1,8 @@
 // How somebody arrives at the page: with a link that pairs, with one that only stops, or with neither. What is secret in the
 // address leaves it at once, so that neither history nor a screenshot keeps it.
 
+import type { StoreApi } from 'zustand/vanilla';
+import type { DeviceState } from '../stores/device.ts';
 import { PeopleError } from '../stores/people.ts';
 import type { Me, PairWish, You } from '../stores/people.generated.ts';
 import { pair, readMe } from './peopleApi.ts';
@@ -59,4 +61,22 @@ export function deviceName(userAgent: string): string {
 export function isAnother(before: You | null, now: Me | null): boolean {
   if (now === null || before === null) return false;
   return now.you?.id !== before.id || now.you.role !== before.role;
+}
+
+/**
+ * A lost gateway may have sent this device away, made more or less of it, or come back as one that lets in paired devices only:
+ * asked at each attempt, because at the first it may not be back yet.
+ */
+export function beginAnewAsAnother(
+  store: Pick<StoreApi<Pick<DeviceState, 'snapshot'>>, 'subscribe'>,
+  you: You,
+  begin: () => void,
+  read: () => Promise<Me | null> = readMe,
+): void {
+  store.subscribe(({ snapshot: { link } }, before) => {
+    if (link.status !== 'lost' || link === before.snapshot.link) return;
+    void read().then((now) => {
+      if (isAnother(you, now)) begin();
+    });
+  });
 }

@@ -9,7 +9,7 @@ import { pollBattery } from '../stores/batteryPoll.ts';
 import { createBlend } from '../stores/blend.ts';
 import { createBoards } from '../stores/boards.ts';
 import { createCompiled } from '../stores/compiled.ts';
-import { createDevice, type Device } from '../stores/device.ts';
+import { createDevice } from '../stores/device.ts';
 import { createDocument, type TextStorage } from '../stores/document.ts';
 import type { Keeper } from '#shared/actions/library/keeper.ts';
 import { createBrowserKeeper } from '../keepers/browserKeeper.ts';
@@ -41,8 +41,8 @@ import { createView } from '../stores/view.ts';
 import { words } from '../words/words.ts';
 import { browserClock } from '../transports/browserClock.ts';
 import { hasGateway } from './gatewayApi.ts';
-import { isAnother, type Arrival } from './arrival.ts';
-import { peopleApi, readMe } from './peopleApi.ts';
+import { beginAnewAsAnother, type Arrival } from './arrival.ts';
+import { peopleApi } from './peopleApi.ts';
 import { putOnBoard } from './robotsApi.ts';
 import { watchLeaving } from './leaving.ts';
 import { createConnector, type Connector } from './connector.ts';
@@ -118,7 +118,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     role: me?.you?.role ?? 'owner',
   });
   if (problem !== null) notices.tell('warning', words.people.problem(problem.code, problem.message));
-  beginAnewAsAnother(device, me);
+  if (me?.you) beginAnewAsAnother(device.store, me.you, () => location.reload());
   connector.start().catch(notices.tellError);
   const paused = (): void => {
     playback.hidden();
@@ -150,17 +150,6 @@ async function chooseKeeper(me: Me | null): Promise<Keeper> {
   const isViewer = me?.you?.role === 'viewer';
   const isKept = !isViewer && (me !== null || (await hasGateway(pageClock)));
   return isKept ? gatewayKeeper : createBrowserKeeper('servodeck', Date.now);
-}
-
-/** A lost gateway may have sent this device away, or made more or less of it. */
-function beginAnewAsAnother(device: Device, me: Me | null): void {
-  if (me === null || me.mode === 'local') return;
-  device.store.subscribe(({ snapshot }, before) => {
-    if (snapshot.link.status !== 'lost' || before.snapshot.link.status === 'lost') return;
-    void readMe().then((now) => {
-      if (isAnother(me.you, now)) location.reload();
-    });
-  });
 }
 
 /** Not `randomUUID`, which is there only at secure addresses. */

@@ -17,7 +17,7 @@ export function pollBattery(device: Device, visible: () => boolean): () => void 
   };
   const tick = (): void => {
     askIn(INTERVAL_MS);
-    if (visible() && mayAsk(device.store.getState()) && device.isAtRest()) device.readBattery();
+    if (visible() && mayAsk(device.store.getState()) && device.isAtRest()) device.watchBattery();
   };
   tick();
   const unsubscribe = device.store.subscribe((state, before) => {

@@ -85,6 +85,8 @@ export interface Device {
   /** `settled` hears whether the board said so. */
   erase(settled?: Settled): void;
   readBattery(): void;
+  /** Unasked, so nobody is told that it failed: another screen's question may have met this one on the board (S52). */
+  watchBattery(): void;
   readPositions(servos: readonly number[]): void;
   /** Firmware and trims, one question after the other. */
   readDetails(): void;
@@ -340,6 +342,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     erase: (settled) =>
       attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased)), settled),
     readBattery: () => attempt((current) => current.readBattery()),
+    watchBattery: () => void session?.readBattery().catch(() => undefined),
     readPositions: (servos) => attempt((current) => current.readPositions(servos)),
     readDetails: () => attempt((current) => current.readVersion().then(() => current.readOffsets())),
     setSpeed: (slot, percent) =>

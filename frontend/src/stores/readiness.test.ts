@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import type { Lease } from '#shared/session/lease.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { SessionState } from '#shared/session/state.ts';
-import { mayBrush } from './readiness.ts';
+import { mayBrush, motionHindrance } from './readiness.ts';
 
 const READY: SessionState = { ...INITIAL_STATE, link: { status: 'ready' } };
 const LEASE: Lease = {
@@ -30,4 +30,13 @@ describe('what only brushes a servo', () => {
       mayBrush({ ...READY, latch: { reason: 'pressed', by: null, stop: 'sent', unheld: [] } }, 1500),
     ).toBe(false);
   });
+});
+
+test.each([
+  ['nobody drives and it may', LEASE, null],
+  ['somebody else drives', { ...LEASE, driver: 'Anna' }, 'watching'],
+  ['a viewer, while nobody drives', { ...LEASE, mayDrive: false }, 'viewing'],
+  ['a viewer, while somebody drives', { ...LEASE, mayDrive: false, driver: 'Anna' }, 'viewing'],
+] as const)('what keeps a page from moving: %s', (_, lease, hindrance) => {
+  expect(motionHindrance({ ...READY, lease })).toBe(hindrance);
 });

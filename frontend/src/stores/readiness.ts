@@ -5,7 +5,7 @@ import { isWatching } from '#shared/session/lease.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import type { SessionState } from '#shared/session/state.ts';
 
-export type Hindrance = 'closed' | 'identifying' | 'stale' | 'latched' | 'watching' | 'busy';
+export type Hindrance = 'closed' | 'identifying' | 'stale' | 'latched' | 'watching' | 'viewing' | 'busy';
 
 /** Where its servos stand can be asked of such a board. */
 export function tellsPositions({ commands }: Family): boolean {
@@ -23,6 +23,7 @@ export function motionHindrance({ link, latch, lease, activity }: SessionState):
   if (link.status === 'identifying' || link.status === 'stale') return link.status;
   if (link.status !== 'ready') return 'closed';
   if (latch !== null) return 'latched';
+  if (lease?.mayDrive === false) return 'viewing';
   if (isWatching(lease)) return 'watching';
   return activity.kind === 'downloading' || activity.kind === 'erasing' ? 'busy' : null;
 }

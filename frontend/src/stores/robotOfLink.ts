@@ -48,7 +48,7 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
     const { id, robot } = robots.current();
     if (id === there || isOffering) return;
     const wish = `${id} ${document}`;
-    if (robot.board === board && mayWrite && mayRule(lease) && wish !== asked) void offer(id, document);
+    if (robot.board === board && mayWrite && mayResume(lease) && wish !== asked) void offer(id, document);
     else if (there !== null) bounce(there, robot.board === board && wish !== asked);
   }
 
@@ -87,7 +87,7 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
   robots.refuseBy((before, next) => {
     if (!mayWrite) return whyNot();
     const isShared = link.status === 'ready' && told !== null;
-    if (!isShared || mayRule(lease) || next === null || sameLimits(before, next)) return null;
+    if (!isShared || mayResume(lease) || next === null || sameLimits(before, next)) return null;
     return whyNot();
   });
   robots.store.subscribe(settle);
@@ -105,7 +105,7 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
 }
 
 /** Whether what moves are judged by may be changed from here. */
-function mayRule(lease: Lease | null): boolean {
+function mayResume(lease: Lease | null): boolean {
   return lease !== null && lease.mayDrive && (lease.driver === null || lease.drives || lease.mayTake);
 }
 

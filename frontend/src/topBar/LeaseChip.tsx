@@ -102,9 +102,10 @@ function Said({ truth, text, more }: SaidProps) {
 }
 
 /** Counts from when it was told. */
-function PassesIn({ lease: { answerInMs } }: { readonly lease: Lease }) {
+function PassesIn({ lease: { answerInMs, asks } }: { readonly lease: Lease }) {
   const { device } = useStores();
   const [toldMs] = useState(device.clock.now);
   const nowMs = useNow(device.clock.now, 250);
-  return words.lease.passesIn((answerInMs ?? 0) - (nowMs - toldMs));
+  const leftMs = (answerInMs ?? 0) - (nowMs - toldMs);
+  return asks ? words.lease.yoursIn(leftMs) : words.lease.theirsIn(leftMs);
 }

@@ -41,7 +41,7 @@ export function isWatching(lease: Lease | null): boolean {
   return lease !== null && !lease.drives && (lease.driver !== null || !lease.mayDrive);
 }
 
-/** While somebody drives, they or an owner may allow motion again; otherwise whoever may drive. */
+/** Who may resume: while somebody drives they or an owner, otherwise whoever may drive. */
 export function mayResume(lease: Lease | null): boolean {
   return lease === null || lease.mayTake || (lease.mayDrive && (lease.drives || lease.driver === null));
 }

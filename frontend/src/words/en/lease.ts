@@ -6,6 +6,8 @@ import { counted, formatMinutes, formatWhole } from './numbers.ts';
 export const named = (name: string): string => (name === 'This computer' ? 'Another window' : name);
 const begunBy = (name: string): string => (name === 'This computer' ? 'another window' : name);
 
+const secondsLeft = (ms: number): string => `${formatWhole(Math.max(0, Math.ceil(ms / 1000)))} s`;
+
 export const leaseWords = {
   label: 'Who drives',
   drives: 'You drive',
@@ -16,7 +18,8 @@ export const leaseWords = {
   watching: 'You look on',
   asked: (name: string): string => `${named(name)} was asked`,
   asker: (name: string): string => `${named(name)} asks to drive`,
-  passesIn: (ms: number): string => `Passes in ${formatWhole(Math.max(0, Math.ceil(ms / 1000)))} s`,
+  theirsIn: (ms: number): string => `Theirs in ${secondsLeft(ms)} unless you refuse`,
+  yoursIn: (ms: number): string => `Yours in ${secondsLeft(ms)} unless it is refused`,
   request: 'Ask to drive',
   requestHint: 'Passes to you when the driver agrees or says nothing for five seconds',
   takeBack: 'Do not ask',

@@ -10,6 +10,8 @@ const NAMES: Readonly<Record<string, string>> = {
 };
 export const named = (name: string): string => NAMES[name] ?? name;
 
+const secondsLeft = (ms: number): string => `${formatWhole(Math.max(0, Math.ceil(ms / 1000)))} 秒`;
+
 export const leaseWords: Words['lease'] = {
   label: '谁在操控',
   drives: '由你操控',
@@ -20,7 +22,8 @@ export const leaseWords: Words['lease'] = {
   watching: '你在观看',
   asked: (name) => `已请求${named(name)}`,
   asker: (name) => `${named(name)}请求操控`,
-  passesIn: (ms) => `${formatWhole(Math.max(0, Math.ceil(ms / 1000)))} 秒后转交`,
+  theirsIn: (ms) => `不拒绝的话，${secondsLeft(ms)}后转交给对方`,
+  yoursIn: (ms) => `没人拒绝的话，${secondsLeft(ms)}后由你操控`,
   request: '请求操控',
   requestHint: '操控者同意，或五秒内没有回应，就转交给你',
   takeBack: '取消请求',
