@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import { createNotices } from './notices.ts';
 import { createRobots } from './robots.ts';
@@ -93,5 +94,39 @@ describe('robots', () => {
     expect(robots.current().robot.body).toBe('arm');
     expect(storage.texts.get('servodeck.robots.unreadable')).toBe(text);
     expect(told()).toHaveLength(1);
+  });
+});
+
+describe('robots that others describe', () => {
+  const HAND = readyRobot('hand', 'doc', { robot: 'Hand', role: (role) => role, limb: (limb) => limb });
+
+  test('come and go without a step that could take them back', () => {
+    const { robots, names } = shelf();
+    const id = robots.takeIn(null, HAND);
+    expect(names()).toEqual([expect.any(String), 'Hand']);
+    robots.undo();
+    expect(names()).toHaveLength(2);
+    robots.drop(id);
+    robots.undo();
+    expect(names()).toHaveLength(1);
+  });
+
+  test('are a step where one would undo what was done here', () => {
+    const { robots } = shelf();
+    robots.edit(() => 'rename', named('Desk arm'));
+    robots.takeIn(1, { ...robots.current().robot, name: 'Crane' });
+    expect(robots.current().robot.name).toBe('Crane');
+    robots.undo();
+    expect(robots.current().robot.name).toBe('Desk arm');
+  });
+
+  test('never lend their number to the one that stands in where the last is gone', () => {
+    const { robots } = shelf();
+    robots.add(() => 'add', HAND);
+    const hand = robots.current().id;
+    robots.drop(1);
+    robots.undo();
+    expect(robots.current().id).not.toBe(hand);
+    expect(robots.current().robot.body).toBe('arm');
   });
 });

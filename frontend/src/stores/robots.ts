@@ -91,7 +91,7 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
   function takeIn(id: number | null, robot: Robot): number {
     const history = commit(store.getState());
     if (id === null) {
-      const fresh = Math.max(...valuesOf(history).map(({ nextId }) => nextId));
+      const fresh = unusedId(history);
       change(
         rebase(history, (robots) => ({ ...withRobot(robots, robot, fresh), currentId: robots.currentId })),
       );
@@ -157,7 +157,10 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
     refusal,
     refuseBy: (refusedBy) => (refuse = refusedBy),
     takeIn,
-    drop: (id) => change(rebase(commit(store.getState()), (robots) => without(robots, id))),
+    drop(id) {
+      const history = commit(store.getState());
+      change(rebase(history, (robots) => without(robots, id, unusedId(history))));
+    },
   };
 }
 
@@ -166,16 +169,20 @@ const valuesOf = ({ past, present, future }: History<Robots>): readonly Robots[]
   ...[...past, ...future].map(({ value }) => value),
 ];
 
+/** In no step, so that one that is taken back gives nobody another's number. */
+const unusedId = (history: History<Robots>): number =>
+  Math.max(...valuesOf(history).map(({ nextId }) => nextId));
+
 const robotIn = ({ own }: Robots, id: number): Robot | undefined => own.find((one) => one.id === id)?.robot;
 
 /** There is always one: the last of a board is described anew. */
-function without(robots: Robots, id: number): Robots {
+function without(robots: Robots, id: number, unused: number): Robots {
   const gone = robotIn(robots, id);
   if (gone === undefined) return robots;
   const own = robots.own.filter((one) => one.id !== id);
   const last = own.at(-1);
   if (last === undefined)
-    return withRobot({ ...robots, own }, freshRobot(usualRobot(gone.board), gone.board));
+    return withRobot({ ...robots, own }, freshRobot(usualRobot(gone.board), gone.board), unused);
   return { ...robots, own, currentId: robots.currentId === id ? last.id : robots.currentId };
 }
 
