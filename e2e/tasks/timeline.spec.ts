@@ -169,6 +169,17 @@ test('the wheel zooms where the pointer is, and all of it fits again', async ({ 
   await page.mouse.wheel(0, -600);
   await expect(timeline.key('Gripper, 0.50 s, 1000 µs, linear')).toBeHidden();
   expect((await timeline.middleOf(timeline.key(name))).x).toBeCloseTo(before.x, -1);
+
+  // Dragged past the end of the lanes it takes them along.
+  const lanes = (await timeline.grid.boundingBox())!;
+  await page.mouse.down();
+  await page.mouse.move(lanes.x + lanes.width - 2, before.y, { steps: 4 });
+  const seen = await timeline.minimap.getAttribute('aria-valuetext');
+  await page.mouse.move(lanes.x + lanes.width + 6, before.y);
+  await expect(timeline.minimap).not.toHaveAttribute('aria-valuetext', seen ?? '');
+  await page.keyboard.press('Escape');
+  await page.mouse.up();
+  await dashboard.resume.click();
   await dashboard.button('Fit all').click();
   await expect(timeline.key('Gripper, 0.50 s, 1000 µs, linear')).toBeVisible();
 });

@@ -8,6 +8,7 @@ import type { Words } from '../words/words.ts';
 import type { Desk, DeskStores } from './desk.ts';
 import type { Spot } from './hit.ts';
 import type { Sizes } from './sizes.ts';
+import { msAt } from '../stores/timeScale.ts';
 import { snapped } from './snap.ts';
 
 export type StatusName = keyof Words['timeline']['status'];
@@ -31,6 +32,8 @@ export interface Press {
 
 export interface Gesture {
   readonly status: StatusName;
+  /** Past an end of the lanes these go on below it. */
+  readonly leadsOn?: true;
   move(spot: Spot, held: Held): void;
   /** `isClick`: the pointer never left its place. */
   end(isClick: boolean): void;
@@ -54,6 +57,7 @@ export function edits(
   let hasBegun = false;
   return {
     status,
+    leadsOn: true,
     move(spot, held) {
       const edit = moved(spot, held);
       if (edit === null) return;
@@ -84,9 +88,10 @@ export function draggedTo(
   const { times, state, group, family } = desk;
   const others = [...times.ends, ...group.markers.map((marker) => marker.atMs), state.playheadMs, 0];
   const placesMs = others.filter((placeMs) => !own.has(placeMs));
+  const pressedMs = msAt(state.time, press.spot.x);
   return ({ x }, { alt }) => {
     const { time, snaps } = press.stores.timeline.getState();
-    const wanted = Math.max(0, atMs + (x - press.spot.x) * time.msPerPx);
+    const wanted = Math.max(0, atMs + msAt(time, x) - pressedMs);
     const field = { placesMs, tickMs: family.motion.tickMs, reachMs: NEAR_PX * time.msPerPx };
     return snapped(wanted, alt || !snaps ? null : field);
   };

@@ -1,6 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { addMarker } from '#shared/actions/group/markerEdits.ts';
 import { editServoView } from '../stores/stores.ts';
+import type { Timeline } from '../stores/timeline.ts';
 import { createTimelineDesk, smallGroup } from './timelineUnderTest.ts';
 
 const HEADS_Y = 33;
@@ -43,6 +44,48 @@ describe('a press on a key', () => {
       [2, 2],
     ]);
     expect(stores.view.getState().selectedFrame).toBe(2);
+  });
+});
+
+describe('lanes that go on below a drag', () => {
+  const goOn = (stores: { timeline: Timeline }, byMs: number): void =>
+    stores.timeline.setState(({ time }) => ({ time: { ...time, fromMs: time.fromMs + byMs } }));
+
+  test('take a key along: it is where the pointer is in time', async () => {
+    const { press, spotOf, keys, stores } = await createTimelineDesk();
+    const gesture = press(spotOf(1, 3));
+    gesture.by(10, 0);
+    goOn(stores, 1000);
+    gesture.by(10, 0);
+    gesture.end(false);
+    expect(keys(1).at(-1)).toEqual([2600, 1400]);
+  });
+
+  test('keep the corner where a box was begun', async () => {
+    const { press, selected, stores } = await createTimelineDesk();
+    const gesture = press({ x: 90, y: 75 });
+    gesture.by(700, 300);
+    goOn(stores, 1200);
+    gesture.by(700, 300);
+    expect(selected()).toEqual([
+      [2, 1],
+      [3, 1],
+      [2, 2],
+      [3, 2],
+      [3, 3],
+    ]);
+  });
+
+  test('show the playhead at their end while it is scrubbed past it', async () => {
+    const { press, stores } = await createTimelineDesk();
+    const gesture = press({ x: 100, y: 10 });
+    gesture.by(900, 0);
+    expect(stores.timeline.getState()).toMatchObject({ playheadMs: 8000, time: { fromMs: 0 } });
+    goOn(stores, 500);
+    gesture.by(900, 0);
+    expect(stores.timeline.getState().playheadMs).toBe(8500);
+    gesture.by(-900, 0);
+    expect(stores.timeline.getState().playheadMs).toBe(500);
   });
 });
 

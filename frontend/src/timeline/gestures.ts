@@ -11,7 +11,7 @@ import { hitAt, keysInBox, type Hit, type Spot } from './hit.ts';
 import { keyGesture } from './keyGesture.ts';
 import { lookAt, selectFrame, setTime } from './looking.ts';
 import { sceneOf } from './scene.ts';
-import { msAt, panned } from '../stores/timeScale.ts';
+import { msAt, panned, seenSpan, xOf } from '../stores/timeScale.ts';
 
 export function gestureOf(press: Press): Gesture {
   const desk = deskOf(press.stores);
@@ -37,8 +37,13 @@ export function gestureOf(press: Press): Gesture {
 
 function scrubGesture(press: Press, desk: Desk, atMs: number): Gesture {
   lookAt(desk, atMs);
-  const move = ({ x }: Spot): void => lookAt(desk, msAt(press.stores.timeline.getState().time, x));
-  return { status: 'scrub', move, end: nothing, cancel: nothing };
+  const move = ({ x }: Spot): void =>
+    press.stores.timeline.setState(({ time, widthPx }) => {
+      const { fromMs, toMs } = seenSpan(time, widthPx);
+      const inSight = Math.max(Math.ceil(fromMs), Math.min(Math.floor(toMs), Math.round(msAt(time, x))));
+      return { playheadMs: Math.max(0, inSight) };
+    });
+  return { status: 'scrub', leadsOn: true, move, end: nothing, cancel: nothing };
 }
 
 function rangeGesture(press: Press, desk: Desk, fromMs: number): Gesture {
@@ -46,6 +51,7 @@ function rangeGesture(press: Press, desk: Desk, fromMs: number): Gesture {
   const before = desk.state.range;
   return {
     status: 'scrub',
+    leadsOn: true,
     move({ x }) {
       const ends = [fromMs, Math.max(0, msAt(timeline.getState().time, x))].toSorted((a, b) => a - b);
       timeline.setState({ range: { fromMs: Math.round(ends[0] ?? 0), toMs: Math.round(ends[1] ?? 0) } });
@@ -126,13 +132,17 @@ function boxGesture(press: Press, desk: Desk, { row }: Hit & { kind: 'empty' }):
   const { stores, held, spot: from } = press;
   const before = desk.state.selected;
   const mode = modeOf(held);
+  const fromMs = msAt(desk.state.time, from.x);
   const close = (): void => press.showBox(null);
   return {
     status: 'box',
+    leadsOn: true,
     move(spot) {
-      press.showBox({ from, to: spot });
+      // Where it was begun in time: the lanes may have gone on.
+      const corner = { ...from, x: xOf(stores.timeline.getState().time, fromMs) };
+      press.showBox({ from: corner, to: spot });
       const scene = sceneOf(deskOf(stores), press.sizes);
-      select(stores, withKeys(before, keysInBox(scene, from, spot), mode === 'toggles' ? 'adds' : mode));
+      select(stores, withKeys(before, keysInBox(scene, corner, spot), mode === 'toggles' ? 'adds' : mode));
     },
     end(isClick) {
       close();

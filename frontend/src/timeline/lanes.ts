@@ -46,6 +46,7 @@ export function bringToLife(parts: LaneParts, stores: DeskStores, host: LaneHost
       change((time) => pinched(time, [one[0] ?? 0, one[1] ?? 0], [other[0] ?? 0, other[1] ?? 0]));
       scroll(middle(before) - middle(now));
     },
+    pan: (byPx) => change((time) => panned(time, byPx)),
     openMenu(spot) {
       selectForMenu(stores, sizes(), spot);
       host.openMenu(spot);

@@ -1,6 +1,7 @@
 // The pointer on the lanes, whatever it is: one press at a time becomes a gesture, two fingers zoom and pan, a finger that rests
 // opens the menu or, dragged on, draws a box; the middle button pans. Escape, a lost pointer and a lost window call a gesture off. Knows no edits.
 
+import { createEdgePan } from './edgePan.ts';
 import type { Spot } from './hit.ts';
 import type { Gesture, Held, Press, StatusName } from './gesture.ts';
 import { boxFrom, gestureOf, panFrom } from './gestures.ts';
@@ -9,6 +10,8 @@ export interface PointerHost {
   /** What a press begins with; `isTouch` tells fingers from mice and pens. */
   press(spot: Spot, held: Held, isTouch: boolean): Press;
   pinch(before: readonly [Spot, Spot], now: readonly [Spot, Spot]): void;
+  /** Through time. */
+  pan(byPx: number): void;
   openMenu(spot: Spot): void;
   doubleClick(spot: Spot): void;
   /** A mouse is over the lanes and presses nothing; null: no longer. */
@@ -24,9 +27,15 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
   const fingers = new Map<number, Spot>();
   let gesture: Gesture | null = null;
   let press: Press | null = null;
+  let again = (): void => undefined;
   let hasMoved = false;
   let rest: ReturnType<typeof setTimeout> | undefined;
   let hasRested = false;
+  const edge = createEdgePan({
+    widthPx: () => lanes.clientWidth,
+    pan: host.pan,
+    panned: () => again(),
+  });
   const listening = new AbortController();
   const { signal } = listening;
 
@@ -40,6 +49,7 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
 
   function finish(done: (gesture: Gesture) => void): void {
     clearTimeout(rest);
+    edge.end();
     const ended = gesture;
     gesture = null;
     press = null;
@@ -81,7 +91,10 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
     if (!hasMoved && hasRested) draw(press);
     hasMoved = true;
     clearTimeout(rest);
-    gesture.move(spot, heldOf(event));
+    const held = heldOf(event);
+    again = () => gesture?.move(spot, held);
+    again();
+    if (gesture.leadsOn === true) edge.at(spot.x);
   }
 
   function draw(from: Press): void {
