@@ -3,6 +3,7 @@ import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
 import { createMemoryKeeper } from '../keepers/memoryKeeper.ts';
 import { lookAfresh } from './freshLook.ts';
 import { createVisit } from './library/libraryUnderTest.ts';
+import { keySet } from './keySet.ts';
 import { createTimeline } from './timeline.ts';
 
 test('what was selected and looked at in one group is not in another, whose frames have the same ids', async () => {
@@ -14,7 +15,7 @@ test('what was selected and looked at in one group is not in another, whose fram
   const [frame] = visit.document.store.getState().present.frames;
   visit.view.setState({ selectedFrame: frame!.id });
   timeline.setState({
-    ...{ selected: new Set([`1 ${frame!.id}`]), playheadMs: 800, followsGroup: false },
+    ...{ selected: keySet([{ frameId: frame!.id, servo: 1 }]), playheadMs: 800, followsGroup: false },
     range: { fromMs: 0, toMs: 500 },
   });
   await visit.later();
