@@ -28,6 +28,7 @@ from servodeck.messages import (
     ContinueMessage,
     LeaseMessage,
     RefusedMessage,
+    ReplacedMessage,
     ResumeMessage,
     SendMessage,
     SentMessage,
@@ -171,7 +172,7 @@ def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
 def take_send(message: SendMessage, seat: Seat, control: Control) -> None:
     with refusing(seat, message.id):
         seat.caller.require(role_for(judge_packet(message.packet, control.board.taken_for)))
-        left = control.send(seat, message.packet, message.nonce)
+        left = control.send(seat, message.packet, message.nonce, newest=message.newest)
         left.add_done_callback(lambda left: answer(seat, message.id, left))
 
 
@@ -192,6 +193,7 @@ def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:
 
 def answer(seat: Seat, message_id: int, left: Left) -> None:
     if left.cancelled():
+        seat.put(encode(ReplacedMessage(id=message_id)))
         return
     with refusing(seat, message_id):
         left.result()

@@ -21,7 +21,16 @@ from servodeck.errors import (
     OutOfRangeError,
     PortLostError,
 )
-from servodeck.gate import RUN, STOP, is_harmless, judge_by_hand, judge_group, judge_latch, judge_packet
+from servodeck.gate import (
+    RUN,
+    STOP,
+    is_harmless,
+    judge_by_hand,
+    judge_group,
+    judge_latch,
+    judge_newest,
+    judge_packet,
+)
 from servodeck.hub import Hub, Seat
 from servodeck.jobs import Group
 from servodeck.latch import Cause, Latch
@@ -102,11 +111,13 @@ class Control:
         self._relay.forget(seat)
         self._tell_state()
 
-    def send(self, owner: Owner, packet_hex: str, nonce: str | None = None) -> Left:
+    def send(self, owner: Owner, packet_hex: str, nonce: str | None = None, *, newest: bool = False) -> Left:
         """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving. What
-        is not harmless needs the lease and its `nonce`.
+        is not harmless needs the lease and its `nonce`. A `newest` move is cancelled where a later one takes
+        its place.
         """
         packet = judge_packet(packet_hex, self.board.taken_for)
+        judge_newest(packet, newest)
         self.limits.judge(packet, owner)
         wire = self.board.link.wire()
         judge_latch(packet, self.latch)
@@ -118,7 +129,7 @@ class Control:
         if command == STOP:
             # A stop overtakes all that waits; a run it overtook must not start the group again behind it.
             wire.purge(is_run, CancelledError("A stop has overtaken this run."))
-        return wire.send(packet, owner, urgent=command == STOP, judge=judge)
+        return wire.send(packet, owner, urgent=command == STOP, newest=newest, judge=judge)
 
     def stop(self, hold: bytes | None, owner: Owner = None, cause: Cause = SOMEBODY) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to

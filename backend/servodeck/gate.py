@@ -134,6 +134,12 @@ def judge_by_hand(packet: bytes) -> None:
         raise NotSupportedError("Groups are stored as a whole: POST /api/slots/{slot}/download.")
 
 
+def judge_newest(packet: bytes, newest: bool) -> None:
+    """Nothing but a move is made void by a later one. Raises MalformedError."""
+    if newest and packet[COMMAND_AT] != MOVE:
+        raise MalformedError("Only a move can give way to a newer one.")
+
+
 def refusal_of(error: PacketError) -> GatewayError:
     if error.code == "malformed":
         return MalformedError(error.detail)

@@ -101,12 +101,16 @@ class JobState(Message):
 
 
 class SendMessage(Message):
-    """Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none."""
+    """Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none.
+    `newest`: a move that a later one like it takes the place of while it waits; each says anew where all
+    servos shall go that may still wait.
+    """
 
     type: Literal["send"]
     id: MessageId
     packet: Hex
     nonce: Nonce | None
+    newest: bool = False
 
 
 class StopMessage(Message):
@@ -229,6 +233,13 @@ class SentMessage(Message):
     id: MessageId
 
 
+class ReplacedMessage(Message):
+    """That `newest` move has not left: a newer one has taken its place."""
+
+    type: Literal["replaced"] = "replaced"
+    id: MessageId
+
+
 class RefusedMessage(Message):
     """`id` is null where the message itself could not be read, and for a stop."""
 
@@ -319,6 +330,7 @@ class TickMessage(Message):
 GatewayMessage = Annotated[
     WelcomeMessage
     | SentMessage
+    | ReplacedMessage
     | RefusedMessage
     | ReceivedMessage
     | NoiseMessage

@@ -8,8 +8,9 @@ wait for.
 import asyncio
 import contextlib
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from itertools import islice
 
 from servodeck import metrics
 from servodeck.decoder import COMMAND_AT
@@ -49,6 +50,7 @@ class Job:
     left: Left
     asked_at: float
     judge: Callable[[], None] = always
+    newest: bool = False
 
 
 @dataclass(eq=False, slots=True)
@@ -98,17 +100,28 @@ class Wire:
         self._ended: GatewayError | None = None
 
     def send(
-        self, packet: bytes, owner: Owner, *, urgent: bool = False, judge: Callable[[], None] = always
+        self,
+        packet: bytes,
+        owner: Owner,
+        *,
+        urgent: bool = False,
+        newest: bool = False,
+        judge: Callable[[], None] = always,
     ) -> Left:
         """Queues a packet, an urgent one before all others. Raises BusyError when this owner has too many
-        waiting. `judge` is asked when its turn has come, and raises what keeps it from leaving.
+        waiting. `judge` is asked when its turn has come, and raises what keeps it from leaving. The `newest`
+        one takes the place of the one like it that still waits, whose `left` is cancelled.
         """
         if self._ended:
             raise self._ended
         lane = self._urgent if urgent else self._queue
-        if sum(job.owner is owner for job in lane) >= QUEUE_PER_OWNER:
+        job = Job(packet, owner, asyncio.get_running_loop().create_future(), self._now(), judge, newest)
+        before = newest_of(lane, owner) if newest else None
+        if before:
+            take_place(lane, before, job)
+            return job.left
+        if sum(other.owner is owner for other in lane) >= QUEUE_PER_OWNER:
             raise BusyError(f"{QUEUE_PER_OWNER} packets wait already; send the next one when one has left.")
-        job = Job(packet, owner, asyncio.get_running_loop().create_future(), self._now(), judge)
         lane.append(job)
         self._work.set()
         return job.left
@@ -233,6 +246,20 @@ class Wire:
         waiting = [job.left for job in jobs] + ([self._halt.left] if self._halt else [])
         for left in waiting:
             fail(left, error)
+
+
+def newest_of(lane: Iterable[Job], owner: Owner) -> Job | None:
+    """The one that waits to be overtaken; there is never another."""
+    return next((job for job in lane if job.newest and job.owner is owner), None)
+
+
+def take_place(lane: deque[Job], before: Job, job: Job) -> None:
+    """Without queuing up again, unless something of the same owner came between them: their order stays."""
+    at = lane.index(before)
+    is_last = all(other.owner is not job.owner for other in islice(lane, at + 1, None))
+    del lane[at]
+    lane.insert(at if is_last else len(lane), job)
+    before.left.cancel()
 
 
 def settle(future: Left) -> None:

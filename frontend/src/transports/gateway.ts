@@ -30,6 +30,7 @@ const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, Shared
 };
 
 type Settle = { resolve: () => void; reject: (error: LinkError) => void };
+type SettleSent = { resolve: (hasLeft: boolean) => void; reject: (error: LinkError) => void };
 
 /** `url` is the gateway's WebSocket, e.g. `ws://127.0.0.1:8300/ws`. Whoever only looks on calibrates nothing. */
 export function createGatewayTransport(url: string, { mayDrive = true } = {}): Transport {
@@ -43,7 +44,7 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
   let nextId = 1;
   const turn = createTurn(post, () => performance.now());
   const slots = createGatewaySlots(beginTurn, () => events?.slotsChanged?.());
-  const sending = new Map<number, Settle>();
+  const sending = new Map<number, SettleSent>();
   const halting = new Set<Settle>();
   const resuming = new Set<Settle>();
   const naming = new Set<Settle>();
@@ -93,7 +94,10 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
         events?.received(fromHex(message.bytes));
         break;
       case 'sent':
-        take(message.id)?.resolve();
+        take(message.id)?.resolve(true);
+        break;
+      case 'replaced':
+        take(message.id)?.resolve(false);
         break;
       case 'refused':
         refused(message.id, refusal(message.code, message.detail));
@@ -135,7 +139,7 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
       for (const waiters of [halting, resuming, naming]) settleAll(waiters, (waiter) => waiter.reject(error));
   }
 
-  function take(id: number): Settle | undefined {
+  function take(id: number): SettleSent | undefined {
     const waiter = sending.get(id);
     sending.delete(id);
     return waiter;
@@ -199,6 +203,16 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
     if (socket?.readyState === WebSocket.OPEN) post(message);
   }
 
+  /** Resolves with whether it has left. */
+  async function put(packet: Uint8Array, newest: boolean): Promise<boolean> {
+    if (!isQuestion(packet)) await turn.begin();
+    return new Promise((resolve, reject) => {
+      const id = nextId++;
+      post({ type: 'send', id, packet: compactHex(packet), nonce: turn.nonce, newest });
+      sending.set(id, { resolve, reject });
+    });
+  }
+
   const nextState = (): Promise<void> =>
     new Promise((resolve, reject) => stateWaiters.add({ resolve: () => resolve(), reject }));
 
@@ -233,13 +247,9 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
       if (latched !== null) next.latched?.(latched, stoppedBy);
     },
     async send(packet) {
-      if (!isQuestion(packet)) await turn.begin();
-      await new Promise<void>((resolve, reject) => {
-        const id = nextId++;
-        post({ type: 'send', id, packet: compactHex(packet), nonce: turn.nonce });
-        sending.set(id, { resolve, reject });
-      });
+      await put(packet, false);
     },
+    sendNewest: (packet) => put(packet, true),
     lease: (action) => postIfOpen({ type: 'lease', action }),
     letGoOn: (forMs) => postIfOpen({ type: 'continue', forMs }),
     halt(hold) {

@@ -13,6 +13,7 @@ export type ClientMessage =
 export type GatewayMessage =
   | WelcomeMessage
   | SentMessage
+  | ReplacedMessage
   | RefusedMessage
   | ReceivedMessage
   | NoiseMessage
@@ -27,6 +28,8 @@ export type GatewayMessage =
 
 /**
  * Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none.
+ * `newest`: a move that a later one like it takes the place of while it waits; each says anew where all
+ * servos shall go that may still wait.
  */
 export interface SendMessage {
   type: 'send';
@@ -39,6 +42,7 @@ export interface SendMessage {
    */
   packet: string;
   nonce: string | null;
+  newest?: boolean;
 }
 /**
  * STOP: drop all that waits, send stop three times, then `hold` (one move to the present pose), and
@@ -240,6 +244,16 @@ export interface JobState {
  */
 export interface SentMessage {
   type: 'sent';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+}
+/**
+ * That `newest` move has not left: a newer one has taken its place.
+ */
+export interface ReplacedMessage {
+  type: 'replaced';
   /**
    * Chosen by the client; comes back in the answer.
    */

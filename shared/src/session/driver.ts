@@ -8,8 +8,9 @@ import type { Core } from './core.ts';
 import { createExchange, encodeOrRefuse } from './exchange.ts';
 import { createGroups, type Groups } from './groups.ts';
 import { createLive, type Live } from './live.ts';
+import type { Outgoing } from './lanes.ts';
 import type { LinkError } from './linkError.ts';
-import { createMoveBuffer } from './moveBuffer.ts';
+import { createMoveBuffer, intervalMs, type Wishes } from './moveBuffer.ts';
 import { createRaw } from './raw.ts';
 import { createReadings, type Readings } from './readings.ts';
 import { release } from './release.ts';
@@ -19,6 +20,7 @@ import type { SlotMemory } from './slotMemory.ts';
 import { setSpeed } from './speed.ts';
 import type { SharedSlots } from './transport.ts';
 import { createTurns } from './turns.ts';
+import { createUnderWay } from './underWay.ts';
 
 export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
   readonly replies: Replies;
@@ -37,8 +39,8 @@ export interface Driver {
   release(servos: readonly number[]): Promise<void>;
   /** A command's last bit left the wire just now. */
   applied(command: Command): void;
-  /** The newest move as a packet, or null when there is nothing to say. */
-  takeMove(): Uint8Array | null;
+  /** The newest move, or null when there is nothing to say. */
+  takeMove(): Outgoing | null;
   /** Ends what is under way here. What the board was asked and did not answer stays unknown. */
   drop(error: LinkError): void;
 }
@@ -51,7 +53,8 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
     exchange: createExchange(family, clock, lanes, replies),
     unsettled: () => moves.servos().length > 0 || groups.isStopping() || isMotion(lanes.unfinished()),
   };
-  const moves = createMoveBuffer(family);
+  const underWay = createUnderWay(clock);
+  const moves = createMoveBuffer(family, underWay.clear);
   const turns = createTurns({ clock, isUnknown: robot.isUnknown, due: lanes.wake, waiting });
   const live = createLive(core, moves, turns);
   const groups = createGroups(core, slotMemory, shared);
@@ -61,6 +64,18 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
 
   function waiting(waitingToStart: readonly number[]): void {
     if (!sameList(waitingToStart, store.state.waitingToStart)) store.update({ waitingToStart });
+  }
+
+  /** What may wait for a newer one has to say all that waits, in one packet; a servo's first move waits for nobody. */
+  function outgoing({ move, isSwift }: Wishes): Outgoing {
+    const softened = robot.softened(move);
+    const targets = underWay.joined(move.targets);
+    if (!isSwift || softened !== move || targets === null || targets.length > family.servosPerMove) {
+      underWay.supersede(move.targets);
+      return { packet: encodeOrRefuse(softened, family) };
+    }
+    const joined = { ...move, targets, durationMs: intervalMs(targets, family) };
+    return { packet: encodeOrRefuse(joined, family), handed: () => underWay.handed(targets) };
   }
 
   return {
@@ -78,7 +93,7 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
     },
     takeMove() {
       const servos = turns.next(moves.servos());
-      return servos.length === 0 ? null : encodeOrRefuse(robot.softened(moves.take(servos)), family);
+      return servos.length === 0 ? null : outgoing(moves.take(servos));
     },
     drop(error) {
       live.drop();

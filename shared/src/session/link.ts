@@ -28,6 +28,8 @@ export interface Link {
   retryNow(): void;
   setAutoReconnect(enabled: boolean): void;
   send(packet: Uint8Array): Promise<void>;
+  /** Where the transport holds one until the wire is free. */
+  readonly sendNewest: ((packet: Uint8Array) => Promise<boolean>) | undefined;
 }
 
 /** Failures that pass by themselves; the others need the person. */
@@ -100,6 +102,18 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
     enter({ status: 'open', isReturn });
   }
 
+  async function whileOpen<Outcome>(send: () => Promise<Outcome>): Promise<Outcome> {
+    const mine = generation;
+    if (!isOpen(mine))
+      throw isDown()
+        ? new LinkError('lost', 'the link is gone')
+        : new LinkError('closed', 'the link is not open');
+    const outcome = await send();
+    // A transport may count the wire's time without looking at the cable.
+    if (!isOpen(mine)) throw new LinkError('lost', 'the link went while the packet left');
+    return outcome;
+  }
+
   return {
     get isOpen() {
       return state.status === 'open';
@@ -120,15 +134,8 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
       if (isDown()) retry();
     },
     setAutoReconnect: reconnect.setEnabled,
-    async send(packet) {
-      const mine = generation;
-      if (!isOpen(mine))
-        throw isDown()
-          ? new LinkError('lost', 'the link is gone')
-          : new LinkError('closed', 'the link is not open');
-      await transport.send(packet);
-      // A transport may count the wire's time without looking at the cable.
-      if (!isOpen(mine)) throw new LinkError('lost', 'the link went while the packet left');
-    },
+    send: (packet) => whileOpen(() => transport.send(packet)),
+    sendNewest:
+      transport.sendNewest && ((packet) => whileOpen(async () => transport.sendNewest?.(packet) ?? false)),
   };
 }

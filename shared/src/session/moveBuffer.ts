@@ -7,17 +7,24 @@ import { wireMs } from '../protocol/packet.ts';
 
 export type MoveCommand = Extract<Command, { kind: 'move' }>;
 
+export interface Wishes {
+  readonly move: MoveCommand;
+  /** As fast as the link allows, all of them: to say them once more changes nothing. */
+  readonly isSwift: boolean;
+}
+
 export interface MoveBuffer {
   /** `durationMs` 0: as fast as the link allows. */
   put(targets: readonly ServoTarget[], durationMs: number): void;
   /** Servos with a wish, in the order they were first asked. */
   servos(): readonly number[];
   /** As many wishes of these servos as one packet takes, in the longest duration of any of them. */
-  take(servos: readonly number[]): MoveCommand;
+  take(servos: readonly number[]): Wishes;
   clear(): void;
 }
 
-export function createMoveBuffer(family: Family): MoveBuffer {
+/** `cleared` hears that nothing that was wished counts any more. */
+export function createMoveBuffer(family: Family, cleared: () => void): MoveBuffer {
   const wishes = new Map<number, { readonly position: number; readonly durationMs: number }>();
 
   return {
@@ -32,15 +39,19 @@ export function createMoveBuffer(family: Family): MoveBuffer {
         .map(([servo, wish]) => ({ servo, ...wish }));
       for (const { servo } of taken) wishes.delete(servo);
       const targets = taken.map(({ servo, position }) => ({ servo, position }));
-      const durationMs = Math.max(...taken.map((wish) => wish.durationMs), intervalMs(targets, family));
-      return { kind: 'move', targets, durationMs };
+      const wishedMs = Math.max(...taken.map((wish) => wish.durationMs));
+      const durationMs = Math.max(wishedMs, intervalMs(targets, family));
+      return { move: { kind: 'move', targets, durationMs }, isSwift: wishedMs === 0 };
     },
-    clear: () => wishes.clear(),
+    clear() {
+      wishes.clear();
+      cleared();
+    },
   };
 }
 
 /** Time until the next packet of this size can take effect: shorter moves would make the servo stop and go. */
-function intervalMs(targets: readonly ServoTarget[], family: Family): number {
+export function intervalMs(targets: readonly ServoTarget[], family: Family): number {
   const packetBytes = 7 + 3 * targets.length;
   return Math.max(family.shortestMoveMs, Math.ceil(wireMs(packetBytes) + family.serviceGapMs));
 }

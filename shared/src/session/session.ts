@@ -122,6 +122,7 @@ export function createSession(options: SessionOptions): Session {
     clock,
     serviceGapMs: UNKNOWN_BOARD.serviceGapMs,
     send: link.send,
+    sendNewest: link.sendNewest,
     takeMove: () => driver.takeMove(),
     leaving: note,
     sent: take,

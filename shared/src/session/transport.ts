@@ -78,6 +78,11 @@ export interface Transport {
   /** Resolves when the packet's last bit has left the wire. One packet at a time: the caller waits for it. */
   send(packet: Uint8Array): Promise<void>;
   /**
+   * Only a shared link that keeps the board's pace by itself: a move that waits there until the wire is free, unless a later one
+   * takes its place. Resolves with whether it has left. Any number may be under way; each says all that may still wait.
+   */
+  sendNewest?(packet: Uint8Array): Promise<boolean>;
+  /**
    * A shared link's own stop lane: purge, stop three times, send `hold`, latch. Where it is absent the session does that
    * itself with `send`.
    */
