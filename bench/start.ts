@@ -11,6 +11,7 @@ import { withBoard } from './station.ts';
 import { median } from './statistics.ts';
 
 const STARTS = 5;
+const IDLE_MS = 60_000;
 const POLL_MS = 2;
 const READY_MS = 15_000;
 const HOST = '127.0.0.1';
@@ -31,7 +32,8 @@ export function measureStart(): Promise<Figure[]> {
     ];
     const empty: CommandOn = (port) => ['bench/empty_app.py', HOST, String(port)];
     const [gateway = [], rival = []] = await startInTurns([serve, empty]);
-    return figuresOf(gateway, rival);
+    const [idle, idleRival] = await Promise.all([serve, empty].map((command) => startOnce(command, IDLE_MS)));
+    return [...figuresOf(gateway, rival), ...figuresOfIdling(idle, idleRival)];
   });
 }
 
@@ -47,6 +49,21 @@ function figuresOf(gateway: readonly Start[], rival: readonly Start[]): Figure[]
   return [time, compared('start.rssMiB', 'MiB', ({ rssMiB }) => rssMiB ?? NaN, memory)];
 }
 
+function figuresOfIdling(gateway: Start | undefined, rival: Start | undefined): Figure[] {
+  if (typeof gateway?.rssMiB !== 'number' || typeof rival?.rssMiB !== 'number') return [];
+  return [
+    {
+      ...{
+        key: 'start.idleRssMiB',
+        value: gateway.rssMiB,
+        unit: 'MiB',
+        note: `after ${IDLE_MS / 1_000} s of idling`,
+      },
+      against: { what: 'empty FastAPI', value: rival.rssMiB },
+    },
+  ];
+}
+
 /** The first start of each only warms the disk's cache and Python's. */
 async function startInTurns(commands: readonly CommandOn[]): Promise<readonly (readonly Start[])[]> {
   const starts = commands.map((): Start[] => []);
@@ -59,7 +76,8 @@ async function startInTurns(commands: readonly CommandOn[]): Promise<readonly (r
   return starts;
 }
 
-async function startOnce(command: CommandOn): Promise<Start> {
+/** Its memory is read when it has idled for so long. */
+async function startOnce(command: CommandOn, idleMs = 0): Promise<Start> {
   const port = await freePort(HOST);
   const lines: string[] = [];
   const startedMs = performance.now();
@@ -70,7 +88,9 @@ async function startOnce(command: CommandOn): Promise<Start> {
         throw new SetupProblem(`It did not start: ${lines.join('\n')}`);
       await new Promise((resolve) => setTimeout(resolve, POLL_MS));
     }
-    return { healthMs: performance.now() - startedMs, rssMiB: residentMiB(child.pid ?? 0) };
+    const healthMs = performance.now() - startedMs;
+    await new Promise((resolve) => setTimeout(resolve, idleMs));
+    return { healthMs, rssMiB: residentMiB(child.pid ?? 0) };
   } finally {
     await endChild(child);
   }
