@@ -87,6 +87,7 @@ PERSON = {
     "pairedAtMs": 1795284000000,
     "lastSeenMs": 1795287600000,
     "here": True,
+    "drives": False,
 }
 QR = "data:image/svg+xml;base64,PHN2Zy8+"
 ON_THE_WIRE: tuple[ErrorCode, ...] = ("closed", "lost", "latched", "notDriving", "outOfRange", "busy")

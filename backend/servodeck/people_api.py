@@ -15,7 +15,6 @@ from servodeck.control import Control
 from servodeck.devices import Device
 from servodeck.entrance import Entrance
 from servodeck.errors import ForbiddenError, MalformedError, StorageError
-from servodeck.hub import Hub
 from servodeck.links import link_base, pair_link, picture_of, stop_link
 from servodeck.motion_api import Scripted
 from servodeck.people_messages import (
@@ -110,12 +109,13 @@ def come_in(wish: PairWish, entrance: Entrance, present: Caller | None) -> tuple
 async def people(entrance: Entered, control: Controlled) -> People:
     """Everybody who may come in, and which invitations are open."""
     return People(
-        people=[person_of(one, control.hub) for one in entrance.devices.all],
+        people=[person_of(one, control) for one in entrance.devices.all],
         open_invites=[invite.id for invite in entrance.pairing.open],
     )
 
 
-def person_of(device: Device, hub: Hub) -> Person:
+def person_of(device: Device, control: Control) -> Person:
+    driver = control.driving.driver
     return Person(
         id=device.id,
         kind=device.kind,
@@ -123,7 +123,8 @@ def person_of(device: Device, hub: Hub) -> Person:
         role=device.role,
         paired_at_ms=device.paired_at_ms,
         last_seen_ms=device.last_seen_ms,
-        here=hub.holds(device.id),
+        here=control.hub.holds(device.id),
+        drives=driver is not None and driver.caller.id == device.id,
     )
 
 
@@ -135,7 +136,7 @@ async def change(
     changed = entrance.devices.change(person, wanted.name, wanted.role)
     send_away(person, "Your name or role is another one now.", control, scripts)
     await entrance.devices.keep()
-    return person_of(changed, control.hub)
+    return person_of(changed, control)
 
 
 @people_api.delete("/people/{person}", status_code=204, dependencies=[OWNER])

@@ -44,7 +44,9 @@ class PairWish(Message):
 
 
 class Person(Message):
-    """A paired device, a script's token or a stop-only link. `here`: it has the page open now."""
+    """A paired device, a script's token or a stop-only link. `here`: it has the page open now,
+    and `drives` where it moves the robot.
+    """
 
     id: str
     kind: Kind
@@ -53,6 +55,7 @@ class Person(Message):
     paired_at_ms: int
     last_seen_ms: int | None
     here: bool
+    drives: bool
 
 
 class People(Message):

@@ -15,6 +15,7 @@ from servodeck import access
 from servodeck.callers import Caller, Role
 from servodeck.control import Control
 from servodeck.entrance import Entrance
+from servodeck.messages import LeaseAction
 from tests.client import Client
 from tests.fake_port import FakePort, FakePorts
 from tests.knocking import NOWHERE
@@ -207,6 +208,18 @@ async def test_over_http_too_only_whoever_drives_or_an_owner_resumes() -> None:
         )
         assert control.latch is True
         assert (await owner.ask("POST", "/api/resume")).json()["latch"] is False
+
+
+@in_virtual_time
+async def test_the_list_says_who_drives() -> None:
+    async with lan_with_control() as (entrance, _, owner, control):
+        ben, _secret = entrance.devices.admit("device", "Ben", "driver")
+        seat = Client(control, ben.caller)
+        actions: list[tuple[LeaseAction, list[str]]] = [("request", ["Ben"]), ("release", [])]
+        for action, drives in actions:
+            control.driving.act(seat, action)
+            listed = (await owner.ask("GET", "/api/people")).json()["people"]
+            assert [one["name"] for one in listed if one["drives"]] == drives
 
 
 @in_virtual_time

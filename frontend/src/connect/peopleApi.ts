@@ -31,6 +31,7 @@ const peopleSchema: z.ZodMiniType<People> = z.object({
       pairedAtMs: z.number(),
       lastSeenMs: z.nullable(z.number()),
       here: z.boolean(),
+      drives: z.boolean(),
     }),
   ),
   openInvites: z.array(z.string()),

@@ -68,7 +68,16 @@ const CASES: readonly { readonly name: string; readonly state: PeopleState }[] =
 ];
 
 function person(id: string, name: string, role: PeopleState['people'][number]['role'], here: boolean) {
-  return { id, kind: 'device', name, role, here, pairedAtMs: AT_MS, lastSeenMs: AT_MS } as const;
+  return {
+    id,
+    kind: 'device',
+    name,
+    role,
+    here,
+    drives: id === 'ben',
+    pairedAtMs: AT_MS,
+    lastSeenMs: AT_MS,
+  } as const;
 }
 
 const PROBLEMS: readonly (PeopleError | null)[] = [

@@ -85,7 +85,8 @@ function PersonRow({ person, isYou, wishes }: PersonRowProps) {
   );
 }
 
-function Presence({ person: { here, lastSeenMs } }: { readonly person: Person }) {
+function Presence({ person: { here, drives, lastSeenMs } }: { readonly person: Person }) {
+  if (drives) return <Chip truth="commanded">{words.people.drives}</Chip>;
   if (here) return <Chip truth="confirmed">{words.people.here}</Chip>;
   return (
     <span className={styles.dim}>

@@ -46,7 +46,8 @@ export interface People {
   openInvites: string[];
 }
 /**
- * A paired device, a script's token or a stop-only link. `here`: it has the page open now.
+ * A paired device, a script's token or a stop-only link. `here`: it has the page open now,
+ * and `drives` where it moves the robot.
  */
 export interface Person {
   id: string;
@@ -56,6 +57,7 @@ export interface Person {
   pairedAtMs: number;
   lastSeenMs: number | null;
   here: boolean;
+  drives: boolean;
 }
 /**
  * `picture` is the link as a QR code: the address of an SVG image that holds itself.

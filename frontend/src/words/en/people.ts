@@ -67,6 +67,7 @@ export const peopleWords = {
   kinds: { device: 'Device', token: 'Script', stopLink: 'Stop-only link' },
   you: 'You',
   here: 'Here now',
+  drives: 'Drives now',
   never: 'Not used yet',
   seen: (atMs: number): string => `Last here ${formatWhen(atMs)}`,
   rename: (name: string): string => `Name of ${name}`,

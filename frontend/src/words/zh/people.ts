@@ -66,6 +66,7 @@ export const peopleWords: typeof english = {
   kinds: { device: '设备', token: '脚本', stopLink: '只停止的链接' },
   you: '你',
   here: '现在在这里',
+  drives: '正在操控',
   never: '还没用过',
   seen: (atMs) => `上次来：${formatWhen(atMs)}`,
   rename: (name) => `${name}的名字`,
