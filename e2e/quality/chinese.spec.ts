@@ -10,7 +10,7 @@ import { expect, test } from '../fixtures/test.ts';
 const NAMES = `
   Servodeck Chrome Edge Firefox Windows macOS Linux ChromeOS Arch Snap Flatpak Python Arduino XML CSV
   LSC OpenArm uHand xArm LeArm TonyPi SpiderPi MasterPi ArmPi AiNex AI ESP PWM CH SER WCH USB TTL COM LPT
-  GND RX TX LEN PC App Esc Ctrl Shift Alt START mV English
+  GND RX TX LEN PC App Esc Ctrl Shift Alt Home End START mV English
   http https Tailscale SSH Caddy Authorization Bearer`.split(/\s+/u);
 /** What people call their own things in the gallery, and what a browser calls a pad. */
 const GIVEN = [
@@ -28,6 +28,7 @@ const GIVEN = [
   ...[
     'Anna',
     'Bert',
+    'Cleo',
     'A robot of somebody else',
     'dev/ttyUSB',
     'dev/ttyACM',
