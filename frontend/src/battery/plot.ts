@@ -116,7 +116,7 @@ function drawMarks(
   const across = (atMs: number): number =>
     Math.min(right, Math.max(bbox.left, plot.valToPos(epochMs + atMs, 'x', true)));
   ctx.save();
-  ctx.fillStyle = colour('--raised');
+  ctx.fillStyle = colour('--well');
   for (const { fromMs, toMs } of runs) {
     const from = across(fromMs);
     ctx.fillRect(from, bbox.top, (toMs === null ? right : across(toMs)) - from, bbox.height);

@@ -6,6 +6,7 @@ import { obstacles } from '../stores/compiled.ts';
 import { useCompiled, useDevice, useSlots, useStores, useView } from '../stores/stores.ts';
 import { SlotsControl } from '../slots/SlotsControl.tsx';
 import { FATE_TRUTH, useFates } from '../slots/useFates.ts';
+import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Panel } from '../ui/Panel.tsx';
@@ -50,8 +51,23 @@ export function BoardPanel() {
           <Absent what={words.board.speed} why={why.speed} />
         )}
         {!canErase && <Absent what={words.board.erase} why={why.erase} />}
+        <TakenFor />
       </div>
     </Panel>
+  );
+}
+
+/** Which board this is taken for, and the way to another one. */
+function TakenFor() {
+  const { view } = useStores();
+  const family = useDevice((state) => state.family);
+  return (
+    <div className={styles.takenFor}>
+      <p>{words.identity.takenFor(words.boardName(family))}</p>
+      <Button tone="quiet" icon="plug" onPress={() => view.setState({ connectOpen: true })}>
+        {words.identity.change}
+      </Button>
+    </div>
   );
 }
 

@@ -10,6 +10,9 @@ import { words } from '../words/words.ts';
 import { Dial } from './Dial.tsx';
 import styles from './Place.module.css';
 
+/** With more servos than this their names lie over each other. */
+const MOST_CALLED = 8;
+
 export interface PlaceProps {
   readonly servo: RobotServo;
   readonly order: readonly number[];
@@ -33,6 +36,11 @@ export function Place({ servo: own, order }: PlaceProps) {
         }
       >
         <PlaceFace servo={servo} isLocked={isLocked} />
+        {order.length <= MOST_CALLED && (
+          <span className={styles.called} aria-hidden="true">
+            {name}
+          </span>
+        )}
       </button>
     </li>
   );

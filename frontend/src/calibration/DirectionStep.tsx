@@ -24,7 +24,8 @@ export function DirectionStep({ at: { robot, servo, accept } }: { readonly at: C
   const isAway = target !== servo.home && !isTurning;
   const isAsked = phase === 'done' && !isAway;
   const { unit } = FAMILIES[robot.board];
-  const sight = words.calibration.sights[sightOf(robot, servo)];
+  const from = sightOf(robot, servo);
+  const sight = words.calibration.sights[from];
   const answer = (isReversed: boolean) => () =>
     accept((all) => changeServo(all, servo.servo, { isReversed }));
   return (
@@ -32,7 +33,7 @@ export function DirectionStep({ at: { robot, servo, accept } }: { readonly at: C
       <p className={styles.ask}>
         {isAway ? words.calibration.homeFirst(target ?? servo.home, servo.home, unit) : sight.about}
       </p>
-      <div className={styles.arrow}>{phase === 'away' && <TurnArrow isClockwise={sideOf(servo) > 0} />}</div>
+      <div className={styles.arrow}>{phase === 'away' && from !== 'gripper' && <TurnArrow isClockwise={sideOf(servo) > 0} />}</div>
       <div className={styles.actions}>
         {isAway ? (
           <Button tone="primary" onPress={() => device.creep(servo.home, GENTLE_MOVE_MS)}>

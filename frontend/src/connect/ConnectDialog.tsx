@@ -2,7 +2,7 @@
 
 import { useEffect } from 'react';
 import { useStore } from 'zustand';
-import { useDevice, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Dialog } from '../ui/Dialog.tsx';
 import { words } from '../words/words.ts';
 import type { Connector } from './connector.ts';
@@ -12,6 +12,7 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
   const { view, notices } = useStores();
   const isOpen = useView((state) => state.connectOpen);
   const way = useDevice((state) => state.way);
+  const isReady = useSnapshot(({ link }) => link.status === 'ready');
   const state = useStore(connector.store);
   const close = (): void => view.setState({ connectOpen: false });
 
@@ -24,6 +25,13 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
     Promise.resolve(work()).then(close, notices.tellError);
   }
 
+  /** What is open already is left alone, and that is said. */
+  function chooseGateway(): void {
+    if (way?.kind !== 'gateway' || !isReady) return choose(connector.useGateway);
+    notices.tell('info', words.connect.isOpen(way.label));
+    close();
+  }
+
   return (
     <Dialog wide title={words.connect.title} closeLabel={words.close} isOpen={isOpen} onClose={close}>
       <ConnectWays
@@ -32,7 +40,7 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
         onLook={() => void connector.look().catch(notices.tellError)}
         onSimulate={(board) => choose(() => connector.simulate(board))}
         onReconnects={connector.setReconnects}
-        onGateway={() => choose(connector.useGateway)}
+        onGateway={chooseGateway}
         onGatewayPort={(device) => choose(() => connector.useGatewayPort(device))}
         onSerialPort={(port) => choose(() => connector.useSerialPort(port))}
         onChooseSerial={() => choose(connector.chooseSerialPort)}

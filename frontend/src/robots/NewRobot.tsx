@@ -7,6 +7,7 @@ import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { freshRobot } from '../stores/robots.ts';
 import { useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
+import { PRODUCTS } from './products.ts';
 import { RobotPicture } from './RobotPicture.tsx';
 import styles from './RobotList.module.css';
 
@@ -23,10 +24,14 @@ export function NewRobot({ board }: { readonly board: FamilyId }) {
             <Button
               className={styles.card ?? ''}
               aria-label={words.robots.add(words.robots.ready[id])}
+              aria-describedby={`${headingId}-${id}`}
               onPress={() => robots.add(() => words.robots.steps.add, freshRobot(id, board))}
             >
               <RobotPicture robot={freshRobot(id, board)} />
               {words.robots.ready[id]}
+              <span id={`${headingId}-${id}`} className={styles.dim}>
+                {PRODUCTS[id]}
+              </span>
             </Button>
           </li>
         ))}

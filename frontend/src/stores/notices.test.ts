@@ -55,8 +55,8 @@ describe('notices', () => {
     notices.tellError(failure);
     await speak('en');
     expect(told()).toEqual([
-      'The board cannot take this value: the position of servo 3 is 2600, allowed is 500 to 2500.',
-      '控制板不接受这个值：3号舵机的位置是 2600，应在 500 到 2500 之间。',
+      'This value is out of range: the position of servo 3 is 2600, allowed is 500 to 2500.',
+      '这个值超出范围：3号舵机的位置是 2600，应在 500 到 2500 之间。',
     ]);
   });
 

@@ -42,7 +42,7 @@ export function LinkChip() {
         )}
       </AriaButton>
       {(way === null || isSimulated || mustChoose) && (
-        <Button tone="primary" icon="plug" onPress={open}>
+        <Button tone={status === 'ready' ? 'plain' : 'primary'} icon="plug" onPress={open}>
           {words.link.connect}
         </Button>
       )}

@@ -67,7 +67,15 @@ function Robot() {
 }
 
 const THEME_ICONS: Readonly<Record<Theme, IconName>> = { system: 'half', light: 'sun', dark: 'moon' };
-const NEXT_THEME: Readonly<Record<Theme, Theme>> = { system: 'light', light: 'dark', dark: 'system' };
+
+/** The first press changes what is seen: away from what the system has, then to it, then back to following it. */
+function nextTheme(theme: Theme): Theme {
+  const system = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+  if (theme === system) return 'system';
+  return theme === 'system' ? OTHER[system] : system;
+}
+
+const OTHER = { light: 'dark', dark: 'light' } as const;
 
 function ThemeButton() {
   const { view } = useStores();
@@ -76,7 +84,7 @@ function ThemeButton() {
     <IconButton
       icon={THEME_ICONS[theme]}
       label={words.theme.now(words.theme[theme])}
-      onPress={() => view.setState({ theme: NEXT_THEME[theme] })}
+      onPress={() => view.setState({ theme: nextTheme(theme) })}
     />
   );
 }

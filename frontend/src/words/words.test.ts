@@ -42,9 +42,9 @@ describe('the words', () => {
 
   test('a detail is part of the sentence, and its absence leaves no gap', () => {
     expect(english.errorSentence('outOfRange', 'slot is 256')).toBe(
-      'The board cannot take this value: slot is 256.',
+      'This value is out of range: slot is 256.',
     );
-    expect(english.errorSentence('outOfRange')).toBe('The board cannot take this value.');
+    expect(english.errorSentence('outOfRange')).toBe('This value is out of range.');
   });
 
   test('nothing shouts, nothing is empty', () => {

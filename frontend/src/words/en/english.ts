@@ -147,7 +147,8 @@ export const english = {
   connect: {
     title: 'Connect a robot',
     intro: 'Connecting moves nothing.',
-    here: 'You are here',
+    here: 'Connected by this',
+    isOpen: (label: string): string => `${label} is open and ready.`,
     reconnects: 'Come back by itself after a lost link',
     webSerial: {
       title: 'This computer’s port',
@@ -215,7 +216,7 @@ export const english = {
       latched: 'Stopped. Resume to move.',
       watching: 'Somebody else drives. Choose “Ask to drive” for a turn.',
       viewing: 'You look on; only a driver moves the robot. Stop works for you too.',
-      busy: 'The board is busy; moving waits.',
+      busy: 'Board busy, moving waits.',
     },
   },
 

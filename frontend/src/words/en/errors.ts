@@ -38,7 +38,7 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
   slotBroken: () => 'This slot is broken: its download did not finish. Download a group to it again.',
   cancelled: () => 'Cancelled.',
   overslept: () => 'This computer or page was asleep. What waited was not sent; ask for it again.',
-  outOfRange: (detail) => withDetail('The board cannot take this value', detail),
+  outOfRange: (detail) => withDetail('This value is out of range', detail),
   internal: (detail) => withDetail('Servodeck made a mistake; please report it', detail),
 };
 

@@ -27,6 +27,7 @@ export const identityWords = {
   nickname: 'Name of this board',
   nicknameHint: 'For example “Desk arm”. Kept in this browser.',
   takenFor: (name: string): string => `Taken for: ${name}`,
+  change: 'Change the board',
   thisBoard: 'The board at hand',
   notThis: 'Ask it again',
   version: (version: number): string => `Firmware version ${formatWhole(version)}`,

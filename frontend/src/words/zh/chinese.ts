@@ -137,7 +137,8 @@ export const chinese: Words = {
   connect: {
     title: '连接机器人',
     intro: '连接时什么都不会动。',
-    here: '您在这里',
+    here: '当前连接',
+    isOpen: (label) => `${label}已打开，可以使用。`,
     reconnects: '断开后自动重连',
     webSerial: {
       title: '这台电脑的串口',

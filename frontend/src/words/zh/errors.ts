@@ -31,7 +31,7 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
   slotBroken: () => '这个槽位已损坏：上次下载没有完成。请重新下载一个动作组。',
   cancelled: () => '已取消。',
   overslept: () => '这台电脑或此页面刚才处于休眠状态。等待中的指令没有发送，请重新操作。',
-  outOfRange: (detail) => withDetail('控制板不接受这个值', inChinese(detail)),
+  outOfRange: (detail) => withDetail('这个值超出范围', inChinese(detail)),
   internal: (detail) => withDetail('Servodeck 出错了，请报告这个问题', detail),
 };
 

@@ -25,6 +25,7 @@ export const identityWords: typeof english = {
   nickname: '这块控制板的名字',
   nicknameHint: '例如“桌上的机械臂”。保存在这个浏览器里。',
   takenFor: (name) => `认作：${name}`,
+  change: '更换控制板',
   thisBoard: '当前控制板',
   notThis: '重新询问',
   version: (version) => `固件版本 ${formatWhole(version)}`,

@@ -33,9 +33,9 @@ export interface RobotNames {
   limb(limb: Limb): string;
 }
 
-/** Base, shoulder, elbow and so on up to the gripper; servo 1 is the gripper. Beside the arm, which moves about. */
+/** Base, shoulder, elbow and so on up to the gripper; servo 1 is the gripper. In a row below the arm, which moves about. */
 const ARM: readonly Joint[] = (['gripper', 'wristRoll', 'wrist', 'elbow', 'shoulder', 'base'] as const).map(
-  (role, index) => ({ role, at: [5, 8 + index * 17] }),
+  (role, index) => ({ role, at: [Math.round(9 + index * 16.4), 84] }),
 );
 
 const HAND: readonly Joint[] = (
