@@ -33,7 +33,9 @@ export function DirectionStep({ at: { robot, servo, accept } }: { readonly at: C
       <p className={styles.ask}>
         {isAway ? words.calibration.homeFirst(target ?? servo.home, servo.home, unit) : sight.about}
       </p>
-      <div className={styles.arrow}>{phase === 'away' && from !== 'gripper' && <TurnArrow isClockwise={sideOf(servo) > 0} />}</div>
+      <div className={styles.arrow}>
+        {phase === 'away' && from !== 'gripper' && <TurnArrow isClockwise={sideOf(servo) > 0} />}
+      </div>
       <div className={styles.actions}>
         {isAway ? (
           <Button tone="primary" onPress={() => device.creep(servo.home, GENTLE_MOVE_MS)}>
