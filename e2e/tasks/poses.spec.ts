@@ -114,6 +114,21 @@ test('a pose is about the servos that were chosen', async ({ dashboard, page, ro
   ]);
 });
 
+test('poses become frames of the action group, one behind the other', async ({ dashboard, page, robot }) => {
+  const poses = posesOf(page);
+  await poses.capture(dashboard, 1800, 'Wave');
+  await poses.capture(dashboard, 1200, 'Bow');
+  const moves = ofKind(await robot.bus(), 'move').length;
+  await dashboard.button('Add to group').click();
+  await poses.card('Wave').click();
+  await dashboard.button('Add to group').click();
+  await expect(dashboard.notices).toContainText('Wave is a frame of the action group now.');
+  await dashboard.notices.getByRole('button', { name: 'Show it' }).last().click();
+  await expect(dashboard.frames).toHaveCount(2);
+  await expect(dashboard.frame(2)).toHaveAccessibleName(/^Frame 2, 1000 ms, moves servo 1/);
+  expect(ofKind(await robot.bus(), 'move')).toHaveLength(moves);
+});
+
 test('poses outlive a reload, and leave and come as a file', async ({ dashboard, page }) => {
   const poses = posesOf(page);
   await poses.capture(dashboard, 1800, 'Wave');

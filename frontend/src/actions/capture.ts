@@ -1,25 +1,36 @@
-// Puts the pose that the robot was asked for into the group, as a frame beside another one. Moves nothing.
+// Puts a pose into the group as a frame beside another one: the one that the robot was asked for, or a kept one. Moves nothing.
 
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { commandedPose } from './pose.ts';
 
 const USUAL_FRAME_MS = 1000;
 
-/** As long as the frame it stands behind. Without a selected frame it comes to the end. */
-export function captureFrame(
-  { device, document, view }: Pick<Stores, 'device' | 'document' | 'view'>,
-  side: 'before' | 'after',
-): void {
+type Side = 'before' | 'after';
+type Group = Pick<Stores, 'document' | 'view'>;
+
+export function captureFrame({ device, ...group }: Group & Pick<Stores, 'device'>, side: Side): void {
   const { targets, family } = device.store.getState();
+  putFrame(group, side, { targets: commandedPose(targets), unit: family.unit }, words.actions.steps.capture);
+}
+
+/** As long as the frame it stands behind. Without a selected frame it comes to the end. */
+export function putFrame(
+  { document, view }: Group,
+  side: Side,
+  { targets, unit }: { readonly targets: readonly ServoTarget[]; readonly unit: ActionGroup['unit'] },
+  step: string,
+): void {
   const { nextId, frames } = document.store.getState().present;
   const selected = frames.findIndex(({ id }) => id === view.getState().selectedFrame);
   const index = selected < 0 ? frames.length : selected + (side === 'after' ? 1 : 0);
   const durationMs = (frames[index - 1] ?? frames[0])?.durationMs ?? USUAL_FRAME_MS;
   document.edit(
-    () => words.actions.steps.capture,
-    (group) => insertFrame(group, index, { durationMs, targets: commandedPose(targets) }, family.unit),
+    () => step,
+    (group) => insertFrame(group, index, { durationMs, targets }, unit),
   );
   view.setState({ selectedFrame: nextId });
 }

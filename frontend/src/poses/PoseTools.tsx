@@ -5,9 +5,10 @@ import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import { duplicatePose, markRest, movePose, removePose, setPose } from '#shared/actions/poses/poseEdits.ts';
 import { flippedTargets, mirroredTargets } from '#shared/actions/poses/poseShapes.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
+import { putFrame } from '../actions/capture.ts';
 import { commandedPose } from '../actions/pose.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
-import { useDevice, usePoses, useRobot, useStores } from '../stores/stores.ts';
+import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
@@ -53,7 +54,7 @@ export function PoseTools({ drawer, onDrawer }: PoseToolsProps) {
 
 /** Its targets: as the robot is commanded now, mirrored, flipped; and where the robot rests. */
 function Shapes() {
-  const { device, poses, notices, macros } = useStores();
+  const { device, poses, notices, macros, document, view } = useStores();
   const pose = useSelectedPose();
   const robot = useRobot();
   const knowsPose = useDevice((state) => Object.keys(state.targets).length > 0);
@@ -61,6 +62,7 @@ function Shapes() {
   const restId = usePoses(({ present }) => present.restId);
   const isRest = restId !== null && restId === pose?.id;
   const mayShape = pose?.unit === unit;
+  const fitsGroup = useDocument(({ present }) => present.frames.length === 0 || present.unit === pose?.unit);
   const hasSides = (pose?.targets ?? []).some(
     ({ servo }) => typeof servoOf(robot, servo)?.mirror === 'number',
   );
@@ -83,6 +85,15 @@ function Shapes() {
     const { targets, held } = shape(robot, pose?.targets ?? []);
     edit(label, (book, id) => setPose(book, id, targets));
     if (held.length > 0) notices.tell('warning', words.poses.held(held.map(({ name }) => name)));
+  };
+
+  const addToGroup = (): void => {
+    if (pose === undefined) return;
+    putFrame({ document, view }, 'after', pose, words.poses.steps.addToGroup(pose.name));
+    notices.tell('info', words.poses.added(pose.name), {
+      label: words.poses.openGroup,
+      act: () => view.setState({ authoring: 'group' }),
+    });
   };
 
   const makeButton = (): void => {
@@ -117,6 +128,15 @@ function Shapes() {
         onPress={reshape((name) => words.poses.steps.flip(name), flippedTargets)}
       >
         {words.poses.flip}
+      </Button>
+      <Button
+        tone="quiet"
+        icon="frames"
+        hint={words.poses.addHint}
+        isDisabled={pose === undefined || !fitsGroup}
+        onPress={addToGroup}
+      >
+        {words.poses.add}
       </Button>
       <Button tone="quiet" icon="buttons" isDisabled={pose === undefined} onPress={makeButton}>
         {words.poses.button}

@@ -1,7 +1,8 @@
 // What goes on, in one place that never moves: the latch with its Resume first, then a lost link with its countdown, then
 // what the board does. Changes are read out.
 
-import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
+import { usePlayedFrame } from '../play/usePlayedFrame.ts';
+import { useDevice, useDocument, useSnapshot, useStores } from '../stores/stores.ts';
 import { mayResume } from '#shared/session/lease.ts';
 import type { LinkErrorCode } from '#shared/session/linkError.ts';
 import type { Activity, Latch, LinkState } from '#shared/session/state.ts';
@@ -23,6 +24,7 @@ export function StatusLine({ onMoveHere }: StatusLineProps) {
   const link = useSnapshot((snapshot) => snapshot.link);
   const latch = useSnapshot((snapshot) => snapshot.latch);
   const activity = useSnapshot((snapshot) => snapshot.activity);
+  const played = usePlayed();
   const isMoving = useDevice((device) => device.isMoving) && activity.kind === 'idle';
   return (
     <div className={cx(styles.line, (link.status === 'lost' || link.status === 'refused') && styles.lost)}>
@@ -37,7 +39,9 @@ export function StatusLine({ onMoveHere }: StatusLineProps) {
       ) : (
         <Said
           truth={isMoving ? 'estimated' : activityTruth(activity)}
-          text={link.status !== 'ready' ? '' : isMoving ? words.activity.moving : activityWords(activity)}
+          text={
+            link.status !== 'ready' ? '' : isMoving ? words.activity.moving : activityWords(activity, played)
+          }
         />
       )}
       <LeaseChip />
@@ -130,7 +134,19 @@ function activityTruth(activity: Activity): Truth {
   return ({ requested: 'commanded', acknowledged: 'confirmed', unknown: 'unknown' } as const)[activity.truth];
 }
 
-function activityWords(activity: Activity): string {
+interface Played {
+  readonly frame: number;
+  readonly count: number;
+}
+
+/** Of the person's group, counted from one: what is sent are more frames, as compile makes them. null: something else is played. */
+function usePlayed(): Played | null {
+  const count = useDocument(({ present }) => present.frames.length);
+  const index = usePlayedFrame();
+  return index === null ? null : { frame: index + 1, count };
+}
+
+function activityWords(activity: Activity, played: Played | null): string {
   switch (activity.kind) {
     case 'idle':
       return words.activity.idle;
@@ -140,7 +156,7 @@ function activityWords(activity: Activity): string {
         words.activity.runTruth[activity.truth],
       );
     case 'playing':
-      return words.activity.playing(activity.frameIndex + 1, activity.frameCount);
+      return played === null ? words.activity.moving : words.activity.playing(played.frame, played.count);
     case 'downloading':
       return words.activity.downloading(activity.slot);
     case 'erasing':

@@ -42,6 +42,10 @@ export const poseWords = {
   later: 'Move pose later',
   duplicate: 'Duplicate pose',
   delete: 'Delete pose',
+  add: 'Add to group',
+  addHint: 'A frame of the open action group, behind the selected one or at the end',
+  added: (name: string): string => `${name} is a frame of the action group now.`,
+  openGroup: 'Show it',
   button: 'Make a button',
   buttonMade: (name: string): string => `${name} is a button now, under Buttons.`,
   moved: (from: number, to: number): string => `Pose ${formatWhole(from)} is now pose ${formatWhole(to)}`,
@@ -81,6 +85,7 @@ export const poseWords = {
     rest: 'place of rest',
     blend: (one: string, other: string): string => `blend ${one} and ${other}`,
     apply: (name: string): string => `go to ${name}`,
+    addToGroup: (name: string): string => `add ${name}`,
     import: 'import poses',
   },
 };

@@ -43,6 +43,10 @@ export const poseWords: typeof english = {
   later: '姿态后移',
   duplicate: '复制姿态',
   delete: '删除姿态',
+  add: '加入动作组',
+  addHint: '成为打开的动作组的一帧，放在选中的帧之后，或放在最后',
+  added: (name) => `${name}现在是动作组的一帧。`,
+  openGroup: '显示',
   button: '做成按钮',
   buttonMade: (name) => `${name}已做成按钮，在“按钮”里。`,
   moved: (from, to) => `第${formatWhole(from)}个姿态现在是第${formatWhole(to)}个`,
@@ -81,6 +85,7 @@ export const poseWords: typeof english = {
     rest: '休息姿态',
     blend: (one, other) => `混合${one}和${other}`,
     apply: (name) => `移到${name}`,
+    addToGroup: (name) => `加入${name}`,
     import: '导入姿态',
   },
 };
