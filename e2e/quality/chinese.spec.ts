@@ -9,7 +9,7 @@ import { expect, test } from '../fixtures/test.ts';
 /** Names, formats, units and keys that are written so in Chinese too. */
 const NAMES = `
   Servodeck Chrome Edge Firefox Windows macOS Linux ChromeOS Arch Snap Flatpak Python Arduino XML CSV
-  LSC OpenArm uHand xArm LeArm TonyPi SpiderPi MasterPi ArmPi AiNex AI ESP PWM CH SER WCH USB TTL COM LPT
+  LSC OpenArm uHand xArm LeArm Tonybot TonyPi SpiderPi MasterPi ArmPi AiNex AI ESP PWM CH SER WCH USB TTL COM LPT
   GND RX TX LEN PC App Esc Ctrl Shift Alt Home End START mV English
   http https Tailscale SSH Caddy Authorization Bearer`.split(/\s+/u);
 /** What people call their own things in the gallery, and what a browser calls a pad. */
@@ -102,6 +102,8 @@ test.describe('in a Chinese browser', () => {
 
   test('the page is Chinese from the start, whatever is opened', async ({ page, servers }) => {
     const button = (name: string) => page.getByRole('button', { name, exact: true });
+    const dialog = page.getByRole('dialog').or(page.getByRole('alertdialog'));
+    const ends = (name: string) => dialog.getByRole('button', { name, exact: true });
     await page.goto((await servers.files()).url);
     await expect(button('停止')).toBeVisible();
     await expect(page.locator('html')).toHaveAttribute('lang', 'zh-CN');
@@ -109,9 +111,9 @@ test.describe('in a Chinese browser', () => {
     await expectChinese(page, 'ready');
     for (const [open, close] of DIALOGS) {
       await button(open).click();
-      await expect(button(close)).toBeVisible();
+      await expect(ends(close)).toBeVisible();
       await expectChinese(page, open);
-      await button(close).click();
+      await ends(close).click();
     }
     for (const part of ['姿态', '键盘和手柄', '按钮']) {
       await page.getByRole('radio', { name: part }).check();

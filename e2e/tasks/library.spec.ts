@@ -74,8 +74,6 @@ test('each group keeps its own undo; versions, tags, copies and the trash work f
 });
 
 test.describe('at a gateway that is slow', () => {
-  test.use({ expectedComplaint: /(me|status) net::ERR_ABORTED/ });
-
   test('what was written meanwhile is kept there once it answers', async ({ dashboard, page }) => {
     const library = libraryOf(page);
     let answer = (): void => undefined;

@@ -14,7 +14,8 @@ type Group = Pick<Stores, 'document' | 'view'>;
 
 export function captureFrame({ device, ...group }: Group & Pick<Stores, 'device'>, side: Side): void {
   const { targets, family } = device.store.getState();
-  putFrame(group, side, { targets: commandedPose(targets), unit: family.unit }, words.actions.steps.capture);
+  const pose = { targets: commandedPose(targets), unit: family.unit };
+  putFrame(group, side, pose, () => words.actions.steps.capture);
 }
 
 /** As long as the frame it stands behind. Without a selected frame it comes to the end. */
@@ -22,15 +23,12 @@ export function putFrame(
   { document, view }: Group,
   side: Side,
   { targets, unit }: { readonly targets: readonly ServoTarget[]; readonly unit: ActionGroup['unit'] },
-  step: string,
+  step: () => string,
 ): void {
   const { nextId, frames } = document.store.getState().present;
   const selected = frames.findIndex(({ id }) => id === view.getState().selectedFrame);
   const index = selected < 0 ? frames.length : selected + (side === 'after' ? 1 : 0);
   const durationMs = (frames[index - 1] ?? frames[0])?.durationMs ?? USUAL_FRAME_MS;
-  document.edit(
-    () => step,
-    (group) => insertFrame(group, index, { durationMs, targets }, unit),
-  );
+  document.edit(step, (group) => insertFrame(group, index, { durationMs, targets }, unit));
   view.setState({ selectedFrame: nextId });
 }

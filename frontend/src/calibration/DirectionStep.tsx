@@ -20,6 +20,9 @@ export function DirectionStep({ at: { robot, servo, accept } }: { readonly at: C
   const { phase, turn } = useTurning(servo);
   const target = useDevice(({ targets }) => targets[servo.servo]);
   const isMoving = useDevice((state) => state.isMoving);
+  // That something moves is known a moment after it was asked to.
+  const { estimated } = device.motion(servo.servo);
+  const isOnItsWay = isMoving || Math.abs((estimated ?? servo.home) - servo.home) > 1;
   const isTurning = phase === 'away' || phase === 'back';
   const isAway = target !== servo.home && !isTurning;
   const isAsked = phase === 'done' && !isAway;
@@ -42,7 +45,7 @@ export function DirectionStep({ at: { robot, servo, accept } }: { readonly at: C
             {words.calibration.goTo(servo.home, unit)}
           </Button>
         ) : (
-          <Button tone={isAsked ? 'plain' : 'primary'} isDisabled={isTurning || isMoving} onPress={turn}>
+          <Button tone={isAsked ? 'plain' : 'primary'} isDisabled={isTurning || isOnItsWay} onPress={turn}>
             {words.calibration.turn}
           </Button>
         )}

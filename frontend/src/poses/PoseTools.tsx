@@ -89,7 +89,7 @@ function Shapes() {
 
   const addToGroup = (): void => {
     if (pose === undefined) return;
-    putFrame({ document, view }, 'after', pose, words.poses.steps.addToGroup(pose.name));
+    putFrame({ document, view }, 'after', pose, () => words.poses.steps.addToGroup(pose.name));
     notices.tell('info', words.poses.added(pose.name), {
       label: words.poses.openGroup,
       act: () => view.setState({ authoring: 'group' }),
