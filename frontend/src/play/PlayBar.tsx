@@ -198,14 +198,8 @@ function boardHint(slot: number, fate: SlotFate): string {
 function Phase({ phase }: { readonly phase: PlaybackPhase | null }) {
   const speedPercent = usePlayback((state) => state.speedPercent);
   const silent = useSilentRows();
-  const hindrance = useSnapshot(motionHindrance);
   const { playing, ...others } = words.play.phase;
-  const rests =
-    hindrance !== null
-      ? words.servos.blocked[hindrance]
-      : silent.length === 0
-        ? ''
-        : words.play.silent(silent);
+  const rests = silent.length === 0 ? '' : words.play.silent(silent);
   return (
     <p className={styles.phase} role="status">
       {phase === null ? rests : phase === 'playing' ? playing(speedPercent / 100) : others[phase]}
