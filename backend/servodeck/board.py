@@ -24,6 +24,7 @@ from servodeck.messages import JobState, PortState
 from servodeck.motion import Motion
 from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command, parse_report
 from servodeck.ports import OpenPort
+from servodeck.silence import Silence
 from servodeck.unattended import Unattended
 from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire
 
@@ -67,7 +68,8 @@ class Board:
         self.answers = Answers()
         self.battery = BatteryWatch(self.answers, self._ask, now)
         self.jobs = Jobs(self, self.answers, now, broken_slots)
-        self.motion = Motion(self.family)
+        self._motion = Motion(self.family)
+        self._silence = Silence()
         self.unattended = Unattended(now, events.time_alone_over, events.board_changed)
         self.halts = 0
         """How often what was under way has been ended."""
@@ -75,6 +77,13 @@ class Board:
     @property
     def family(self) -> Family:
         return FAMILIES[self.taken_for]
+
+    @property
+    def motion(self) -> Motion:
+        """A board that is silent may come back after its servos were turned by hand."""
+        if self._silence.is_silent(self._now()):
+            self._motion.forget()
+        return self._motion
 
     @property
     def port(self) -> PortState:
@@ -166,7 +175,8 @@ class Board:
         return self.link.wire().send(packet, self)
 
     def _forget_motion(self) -> None:
-        self.motion = Motion(self.family)
+        self._motion = Motion(self.family)
+        self._silence = Silence()
         self.unattended.follow(None)
 
     def _make_wire(self, port: OpenPort) -> Wire:
@@ -176,6 +186,8 @@ class Board:
 
     def _leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
         self.motion.left(packet, at_s)
+        if is_harmless(packet) and packet[COMMAND_AT] != STOP:
+            self._silence.asked(packet[COMMAND_AT], at_s)
         self.unattended.follow(self.motion.run)
         self.jobs.left(parse_command(packet), at_s)
         is_told = packet[COMMAND_AT] == STOP or not is_harmless(packet)
@@ -192,6 +204,7 @@ class Board:
             self.link.wire().answered(event.packet.command)
         report = parse_report(event.packet, self.family)
         self.motion.heard(report, self._now())
+        self._silence.heard(event.packet.command)  # behind it: what was forgotten in the silence stays so
         self.unattended.follow(self.motion.run)
         self.battery.heard(report)
         self.jobs.heard(report, self.link.place)

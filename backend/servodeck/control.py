@@ -306,6 +306,7 @@ class Control:
             lease=self.driving.state_for(seat),
             broken_slots=self.board.broken_slots,
             job=self.board.jobs.latest,
+            motion=self.board.motion.told(self.now()),
         )
 
     def _tell_state(self, but: Seat | None = None) -> None:

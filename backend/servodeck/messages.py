@@ -78,6 +78,27 @@ class UnattendedRun(Message):
     ends_in_ms: int
 
 
+class ServoWay(Message):
+    """A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`
+    is null where nobody knows where it began.
+    """
+
+    servo: int
+    start: float | None
+    target: int
+    begun_ms_ago: float
+    duration_ms: float
+
+
+class MotionTold(Message):
+    """Where packets have taken the servos since the port opened; of one that is not named nobody knows the
+    place. `runSlot`: the group that may run.
+    """
+
+    servos: list[ServoWay]
+    run_slot: int | None
+
+
 JobStatus = Literal["running", "done", "failed", "cancelled"]
 
 
@@ -224,6 +245,7 @@ class WelcomeMessage(Message):
     lease: LeaseState
     broken_slots: list[int]
     job: JobState | None
+    motion: MotionTold
 
 
 class SentMessage(Message):

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from math import inf
 
 from servodeck.families import Family
+from servodeck.messages import MotionTold, ServoWay
 from servodeck.packets import Report, encode, parse_command
 from servodeck.values import (
     Command,
@@ -19,6 +20,7 @@ from servodeck.values import (
     Release,
     Run,
     RunFinished,
+    RunStarted,
     RunStopped,
     ServoTarget,
     Stop,
@@ -26,8 +28,8 @@ from servodeck.values import (
 
 SHORTEST_MOVE_MS = 20  # S25, S27
 LONGEST_MOVE_MS = 30_000  # S25, L5
-# Longer than the end of the run before takes to be told: that shall not end this one.
-RUN_END_S = 0.5
+# Longer than the start or the end of a run takes to be told: neither shall be taken for the next one's.
+RUN_TOLD_S = 0.5
 # Any new target re-times every servo of these (S26); the others' servos keep their own time.
 SHARED_TIME = frozenset({"doc", "openarm-old", "openarm-new"})
 # A group that is not heard to end is over that long after its computed end.
@@ -66,6 +68,7 @@ class Motion:
         self._passes_s: dict[int, float] = {}
         self.run: Run | None = None
         """The group that may run: nobody has stopped it, and the board has not said that it ended."""
+        self._asked: Run | None = None
         self._run_s = 0.0
         self._run_end_s = inf
 
@@ -91,19 +94,41 @@ class Motion:
                 self._move(duration_ms, targets, at_s)
             case Run() as run:
                 self._run_end_s = self._end_s(run, at_s)
-                self.run, self._run_s = run, at_s
-                self._tracks.clear()
+                self._asked, self._run_s = run, at_s
+                self._follow(run)
             case Stop():
                 self.run = None
+                self._stop(at_s)
             case Release(servos):
                 for servo in servos:
                     self._tracks.pop(servo, None)
 
     def heard(self, report: Report, at_s: float) -> None:
+        if isinstance(report, RunStarted):
+            self._started(Run(report.slot, report.times), at_s)
         may_chain = isinstance(report, RunFinished) and self.run and self.run.slot >= CHAIN_FROM_SLOT
         is_end = isinstance(report, RunFinished | RunStopped) and not may_chain
-        if is_end and at_s - self._run_s >= RUN_END_S:
+        if is_end and at_s - self._run_s >= RUN_TOLD_S:
             self.run = None
+
+    def forget(self) -> None:
+        """The board may have moved or restarted unseen: where nothing is known nothing is held either."""
+        self._tracks.clear()
+
+    def told(self, now: float) -> MotionTold:
+        """As whoever comes now is told of it."""
+        run = self.run if self.group_may_run(now) else None
+        ways = [
+            ServoWay(
+                servo=servo,
+                start=track.start,
+                target=track.target,
+                begun_ms_ago=round((now - track.begin_s) * 1000, 1),
+                duration_ms=round(track.duration_s * 1000, 1),
+            )
+            for servo, track in self._tracks.items()
+        ]
+        return MotionTold(servos=ways, run_slot=run.slot if run else None)
 
     def is_moving(self, now: float) -> bool:
         """A move is under way; a group is another matter."""
@@ -138,6 +163,23 @@ class Motion:
         if pass_s is None or run.times == 0 or run.slot >= CHAIN_FROM_SLOT or self.group_may_run(at_s):
             return inf
         return at_s + pass_s * run.times + END_GRACE_S
+
+    def _started(self, run: Run, at_s: float) -> None:
+        """By a key or a pad at the board; one that was asked for may have been stopped since."""
+        is_ours = self._asked and self._asked.slot == run.slot and at_s - self._run_s < RUN_TOLD_S
+        if is_ours or (self.run and self.run.slot == run.slot):
+            return
+        self._run_end_s, self._run_s = inf, at_s
+        self._follow(run)
+
+    def _follow(self, run: Run) -> None:
+        self.run = run
+        self._tracks.clear()
+
+    def _stop(self, at_s: float) -> None:
+        """LeArms end moves, too, and not of all servos (L9)."""
+        if self._family.id in POLLED:
+            self._tracks = {servo: track for servo, track in self._tracks.items() if track.end_s <= at_s}
 
     def _hold_ms(self, unknown: list[int], now: float) -> int:
         """Boards of shared time would make a servo in its first move snap to its target (docs/adr/0002)."""

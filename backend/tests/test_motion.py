@@ -13,8 +13,10 @@ from servodeck.values import (
     Run,
     RunAccepted,
     RunFinished,
+    RunStarted,
     RunStopped,
     ServoTarget,
+    Stop,
 )
 from tests.samples import RUN, STOP
 
@@ -91,6 +93,55 @@ def test_a_group_may_move_anything_until_it_is_stopped() -> None:
     assert not motion.group_may_run(6.0)
     motion.left(encode(move(1000, s1=1500), DOC), 7.0)
     assert held(motion, 8.0) == move(20, s1=1500)
+
+
+def told_ways(motion: Motion, now: float) -> list[tuple[int, float | None, int, float, float]]:
+    """As whoever comes now is told of them."""
+    return [
+        (way.servo, way.start, way.target, way.begun_ms_ago, way.duration_ms)
+        for way in motion.told(now).servos
+    ]
+
+
+def test_whoever_comes_is_told_each_way_and_since_when() -> None:
+    motion = told(
+        (0.0, move(0, s1=1000)), (1.0, move(1000, s1=2000)), (1.5, move(1500, s2=500)), family="lsc-6"
+    )
+    assert told_ways(motion, 1.25) == [(1, 1000, 2000, 250, 1000), (2, None, 500, -250, 1500)]
+    assert motion.told(1.25).run_slot is None
+    assert told_ways(motion, 60.0) == [(1, 1000, 2000, 59_000, 1000), (2, None, 500, 58_500, 1500)]
+
+
+def test_while_a_group_may_run_no_place_is_told_but_that_it_may() -> None:
+    motion = running((0.0, Run(8, 1)))
+    assert (told_ways(motion, 1.0), motion.told(1.0).run_slot) == ([], 8)
+    assert motion.told(2.0 + END_GRACE_S).run_slot is None
+
+
+def test_a_group_begun_at_the_board_makes_every_place_unknown_until_its_end() -> None:
+    motion = told((0.0, move(0, s1=1000)), family="lsc-6")
+    motion.heard(RunStarted(3, 1), 5.0)
+    assert (motion.is_unknown(1), motion.told(6.0).run_slot) == (True, 3)
+    motion.heard(RunFinished(3), 9.0)
+    assert not motion.group_may_run(9.0)
+
+
+def test_the_word_that_our_own_group_has_begun_starts_it_no_second_time() -> None:
+    motion = told((1.0, Run(8, 1)), family="lsc-6")
+    ours = motion.run
+    motion.heard(RunStarted(8, 1), 1.1)
+    assert motion.run is ours
+    motion.left(STOP, 1.2)
+    motion.heard(RunStarted(8, 1), 1.3)
+    assert not motion.group_may_run(1.3)
+    motion.heard(RunStarted(8, 1), 60.0)
+    assert motion.group_may_run(60.0)
+
+
+def test_a_stop_ends_the_moves_of_a_learm_who_knows_where() -> None:
+    packets = (0.0, move(0, s1=1000, s2=1000)), (1.0, move(1000, s1=1400)), (1.5, Stop())
+    assert [way[0] for way in told_ways(told(*packets, family="learm-esp32"), 5.0)] == [2]
+    assert [way[0] for way in told_ways(told(*packets, family="lsc-6"), 5.0)] == [1, 2]
 
 
 def running(*runs: tuple[float, Run], stored_ms: int = 500) -> Motion:

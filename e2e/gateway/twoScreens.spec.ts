@@ -9,10 +9,13 @@ test('a STOP on one screen stops the robot for both, and either may resume', asy
   robot,
   context,
 }) => {
+  await dashboard.type(dashboard.target(1), 2000);
   const other = dashboardOf(await context.newPage());
   await robot.open(other.page);
   await expect(other.link).toHaveText(/^Ready/);
-  await dashboard.type(dashboard.target(1), 2000);
+  await expect(other.target(1), 'whoever comes late learns of moves before').toHaveValue('2000');
+  await expect(other.estimate(1)).toHaveText('≈ 2000');
+  await dashboard.type(dashboard.target(1), 1800);
   await other.stop.click();
   await expect(dashboard.status).toContainText('Stopped in another window');
   await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');

@@ -1,10 +1,9 @@
 // A board on the gateway's serial port, through its WebSocket. Knows the messages; what may be sent and when is the
 // gateway's to decide. The socket stays open while the gateway's port is away, to hear of its return.
 
-import { FAMILIES, type BoardId } from '#shared/protocol/families.ts';
-import { isHarmless } from '#shared/protocol/commands.ts';
-import { fromHex, toHex } from '#shared/protocol/hex.ts';
-import { parseCommand } from '#shared/protocol/parse.ts';
+import type { BoardId } from '#shared/protocol/families.ts';
+import type { MotionBefore } from '#shared/motion/before.ts';
+import { fromHex } from '#shared/protocol/hex.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type {
   RobotOnBoard,
@@ -14,6 +13,7 @@ import type {
 } from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
+import { boardNamed, compactHex, isQuestion, LATCHED_BY, motionBefore, portError } from './gatewayWords.ts';
 import type {
   ClientMessage,
   GatewayMessage,
@@ -22,12 +22,6 @@ import type {
   StateMessage,
 } from './messages.generated.ts';
 import { createTurn } from './turn.ts';
-
-const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, SharedLatchReason>> = {
-  person: 'elsewhere',
-  silence: 'unwatched',
-  loss: 'reconnected',
-};
 
 type Settle = { resolve: () => void; reject: (error: LinkError) => void };
 type SettleSent = { resolve: (hasLeft: boolean) => void; reject: (error: LinkError) => void };
@@ -41,6 +35,8 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
   let stoppedBy: string | null = null;
   let robot: RobotOnBoard = { document: null };
   let board: BoardId = 'unknown';
+  /** Until the link is open: from then on it follows by itself. */
+  let before: MotionBefore | null = null;
   let nextId = 1;
   const turn = createTurn(post, () => performance.now());
   const slots = createGatewaySlots(beginTurn, () => events?.slotsChanged?.());
@@ -62,6 +58,7 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
       case 'welcome':
         turn.told(message.lease);
         robotChanged(message.robot);
+        before = motionBefore(message.motion);
         slots.told(message.job);
         stateChanged(message);
         break;
@@ -243,6 +240,8 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
       if (port?.status !== 'open') throw portError(port);
       events = next;
       next.described?.(robot);
+      if (before !== null) next.placed?.(before);
+      before = null;
       if (turn.lease !== null) next.leased?.(turn.lease);
       if (latched !== null) next.latched?.(latched, stoppedBy);
     },
@@ -281,29 +280,8 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
   };
 }
 
-/** A newer gateway may know boards that this page does not. */
-export function boardNamed(text: string): BoardId {
-  return text in FAMILIES ? (text as BoardId) : 'unknown';
-}
-
-/** Needs nobody's leave. */
-function isQuestion(packet: Uint8Array): boolean {
-  const command = parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
-  return command !== null && isHarmless(command);
-}
-
 function settleAll(waiters: Set<Settle>, settle: (waiter: Settle) => void): void {
   const current = [...waiters];
   waiters.clear();
   current.forEach(settle);
-}
-
-function portError(port: PortState | null): LinkError {
-  if (port === null) return new LinkError('gatewayUnreachable', 'the gateway does not answer');
-  return refusal(port.code ?? 'closed', port.detail ?? 'the port of the gateway is closed');
-}
-
-/** The gateway's spelling of bytes: lower case, no spaces. */
-function compactHex(bytes: Uint8Array): string {
-  return toHex(bytes).replaceAll(' ', '').toLowerCase();
 }

@@ -115,6 +115,7 @@ export interface WelcomeMessage {
   lease: LeaseState;
   brokenSlots: number[];
   job: JobState | null;
+  motion: MotionTold;
 }
 /**
  * How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
@@ -238,6 +239,25 @@ export interface JobState {
       )
     | null;
   detail: string | null;
+}
+/**
+ * Where packets have taken the servos since the port opened; of one that is not named nobody knows the
+ * place. `runSlot`: the group that may run.
+ */
+export interface MotionTold {
+  servos: ServoWay[];
+  runSlot: number | null;
+}
+/**
+ * A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`
+ * is null where nobody knows where it began.
+ */
+export interface ServoWay {
+  servo: number;
+  start: number | null;
+  target: number;
+  begunMsAgo: number;
+  durationMs: number;
 }
 /**
  * The packet's last bit has left the wire.

@@ -14,7 +14,15 @@ export type LineState =
 
 export interface LinkOptions extends Pick<
   TransportEvents,
-  'received' | 'latched' | 'resumed' | 'identified' | 'described' | 'leased' | 'slotsChanged' | 'followed'
+  | 'received'
+  | 'latched'
+  | 'resumed'
+  | 'identified'
+  | 'described'
+  | 'placed'
+  | 'leased'
+  | 'slotsChanged'
+  | 'followed'
 > {
   readonly transport: Transport;
   readonly clock: Clock;
@@ -84,6 +92,7 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
         resumed: ifMine(events.resumed),
         identified: ifMine(events.identified),
         described: ifMine(events.described),
+        placed: ifMine(events.placed),
         leased: ifMine(events.leased),
         slotsChanged: ifMine(events.slotsChanged),
         followed: ifMine(events.followed),

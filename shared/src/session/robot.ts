@@ -2,6 +2,7 @@
 // and how slow a servo's first move must be. Knows the clock; no link, no queue.
 
 import type { Clock } from '../clock.ts';
+import { takenOver, type MotionBefore } from '../motion/before.ts';
 import {
   advance,
   afterCommand,
@@ -51,6 +52,8 @@ export interface RobotEstimate {
   groupMs(slot: number): number | null;
   /** Nothing is known any more: the board may have moved or restarted behind our back. */
   forget(): void;
+  /** What others, who saw it move, know of it just now. */
+  placed(before: MotionBefore): void;
 }
 
 export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate {
@@ -105,5 +108,6 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
       memory.forgetSpeeds();
       motion = forgotten(motion, clock.now());
     },
+    placed: (before) => (motion = takenOver(now(), before, clock.now(), family)),
   };
 }

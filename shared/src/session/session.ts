@@ -2,6 +2,7 @@
 // the replies and a driver for the board that is there. Knows no transport by name and no user interface.
 
 import type { Clock } from '../clock.ts';
+import type { MotionBefore } from '../motion/before.ts';
 import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
 import { UNKNOWN_BOARD, type Family } from '../protocol/families.ts';
 import { parseCommand } from '../protocol/parse.ts';
@@ -98,6 +99,8 @@ export function createSession(options: SessionOptions): Session {
   const clock = createWakefulClock(options.clock, overslept);
   const store = createSessionStore(family);
   const replies = createReplies(clock);
+  /** Until it is known which board moves so. */
+  let before: MotionBefore | null = null;
 
   const link = createLink({
     transport,
@@ -106,6 +109,7 @@ export function createSession(options: SessionOptions): Session {
     changed: lineChanged,
     identified: (board) => identification.told(board),
     described: (robotOnBoard) => store.update({ robotOnBoard }),
+    placed: (motion) => (before = motion),
     leased,
     slotsChanged() {
       if (store.state.link.status === 'ready') driver.groups.linked();
@@ -231,13 +235,19 @@ export function createSession(options: SessionOptions): Session {
   }
 
   function entered(next: LinkState): void {
-    const before = store.state.link.status;
-    // Whoever hears that it is ready finds what is known of its slots.
-    if (next.status === 'ready' && next.status !== before) driver.groups.linked();
+    const previous = store.state.link.status;
+    if (next.status === 'ready' && next.status !== previous) becomesReady();
+    if (next.status !== 'opening') before = null;
     store.update({ link: next });
-    if (next.status === before) return;
-    if (before === 'stale' && link.isOpen) halt.stopAfterReturn();
-    if (before === 'ready') unlinked(next);
+    if (next.status === previous) return;
+    if (previous === 'stale' && link.isOpen) halt.stopAfterReturn();
+    if (previous === 'ready') unlinked(next);
+  }
+
+  /** Whoever hears of it finds what is known of its slots and servos. */
+  function becomesReady(): void {
+    driver.groups.linked();
+    if (before !== null) driver.core.robot.placed(before);
   }
 
   /** The board may have moved, restarted or been changed for another before it is ready again. */

@@ -1,6 +1,7 @@
 // The one interface between a session and a way to a board: this computer's serial port, the gateway, or the simulator in
 // the page. A transport carries whole packets out and raw bytes in; it knows no command, keeps no queue and retries nothing.
 
+import type { MotionBefore } from '../motion/before.ts';
 import type { Frame } from '../protocol/commands.ts';
 import type { BoardId } from '../protocol/families.ts';
 import type { Lease, LeaseAction } from './lease.ts';
@@ -24,6 +25,8 @@ export interface TransportEvents {
   described?(robot: RobotOnBoard): void;
   /** Only a shared link: this packet of somebody else has left the wire. */
   followed?(packet: Uint8Array): void;
+  /** Only a shared link: what moves before this end came have made of the robot. Told once it is open. */
+  placed?(motion: MotionBefore): void;
   /** Only a shared link: who drives. Told once it is open, and on each change. */
   leased?(lease: Lease): void;
   /** Only a shared link: something of its `slots` is another now. */

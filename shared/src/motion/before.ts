@@ -1,0 +1,36 @@
+// An estimate taken over from somebody who was there before: whose packets moved the robot, and who says where they have
+// taken it. Knows no link; a servo that is not named is of unknown place.
+
+import type { Family } from '../protocol/families.ts';
+import { runningUnknown, type Motion } from './model.ts';
+import { boardDurationMs, type Track } from './tracks.ts';
+
+/** Begun so long ago (below 0: not yet); `from` is null where nobody knows where it began. */
+export interface WayBefore {
+  readonly servo: number;
+  readonly from: number | null;
+  readonly to: number;
+  readonly begunMsAgo: number;
+  readonly durationMs: number;
+}
+
+/** `runSlot`: the group that may run, whose frames nobody told. */
+export interface MotionBefore {
+  readonly ways: readonly WayBefore[];
+  readonly runSlot: number | null;
+}
+
+/** In place of what was believed of the servos. */
+export function takenOver(motion: Motion, before: MotionBefore, nowMs: number, family: Family): Motion {
+  if (before.runSlot !== null) return runningUnknown(motion, before.runSlot);
+  const tracks = before.ways.map((way) => [way.servo, trackOf(way, nowMs, family)] as const);
+  return { ...motion, tracks: new Map(tracks), run: null };
+}
+
+function trackOf({ from, to, begunMsAgo, durationMs }: WayBefore, nowMs: number, family: Family): Track {
+  const startMs = nowMs - begunMsAgo;
+  return {
+    ...{ from, to, startMs, durationMs: boardDurationMs(durationMs, family) },
+    ...{ fromLeeway: 0, toLeeway: 0 },
+  };
+}
