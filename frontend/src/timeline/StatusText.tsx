@@ -1,7 +1,8 @@
-// One line that says what keys and pointer do right now, and what is selected.
+// One line that says where what is dragged is by now, what keys and pointer do right now, and what is selected.
 
 import { useServoView, useStores, editServoView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
+import { LiveText } from '../ui/LiveText.tsx';
 import { words } from '../words/words.ts';
 import { cellName } from './cellName.ts';
 import type { StatusName } from './gesture.ts';
@@ -12,13 +13,21 @@ import { servoRowId } from './rows.ts';
 import { useDesk, type SeenDesk } from './useDesk.ts';
 import styles from './StatusText.module.css';
 
-export function StatusText({ status }: { readonly status: StatusName | null }) {
+export interface Said {
+  readonly status: StatusName | null;
+  readonly tells: (() => string) | undefined;
+}
+
+export function StatusText({ status, tells }: Said) {
   const desk = useDesk();
   const stores = useStores();
   const hidden = useServoView((view) => view.hidden.length);
   return (
     <div className={styles.line}>
-      <p className={styles.text}>{textOf(desk, status)}</p>
+      <p className={styles.text}>
+        {tells !== undefined && <LiveText className={styles.dragged} text={tells} eachMs={READ_EACH_MS} />}
+        {textOf(desk, status)}
+      </p>
       {hidden > 0 && (
         <Button tone="quiet" onPress={() => editServoView(stores, (view) => ({ ...view, hidden: [] }))}>
           {words.timeline.rows.showHidden(hidden)}
@@ -27,6 +36,9 @@ export function StatusText({ status }: { readonly status: StatusName | null }) {
     </div>
   );
 }
+
+/** No number is read faster. */
+const READ_EACH_MS = 50;
 
 function textOf(desk: SeenDesk, status: StatusName | null): string {
   const { state, family } = desk;

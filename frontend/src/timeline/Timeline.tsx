@@ -18,7 +18,6 @@ import { AskBox } from './AskBox.tsx';
 import { copy, cut, paste } from './changes.ts';
 import { clipFromText, clipToText } from './clipText.ts';
 import { deskOf } from './desk.ts';
-import type { StatusName } from './gesture.ts';
 import { keepInStep } from './inStep.ts';
 import { actionOf } from './keymap.ts';
 import { bringToLife, sizesNow } from './lanes.ts';
@@ -27,7 +26,7 @@ import { cellId, Rows } from './Rows.tsx';
 import { PlayheadLine } from './PlayheadLine.tsx';
 import { heightOf, placedRows } from './rows.ts';
 import { topOfRows } from './sizes.ts';
-import { StatusText } from './StatusText.tsx';
+import { StatusText, type Said } from './StatusText.tsx';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
 import { useRows } from './useRows.ts';
@@ -38,7 +37,7 @@ export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
   const stores = useStores();
   const id = useId();
   const [menu, setMenu] = useState<OpenMenu | null>(null);
-  const [status, setStatus] = useState<StatusName | null>(null);
+  const [said, setSaid] = useState<Said>(SAYS_NOTHING);
   const scroller = useRef<HTMLDivElement>(null);
   const grid = useRef<HTMLDivElement>(null);
   const lanes = useRef<HTMLDivElement>(null);
@@ -93,7 +92,10 @@ export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
         Object.assign(menuSpot.current.style, { left: `${x}px`, top: `${y}px` });
         openMenu('keys', menuSpot.current);
       },
-      say: setStatus,
+      say: (status, tells) =>
+        setSaid((before) =>
+          before.status === status && before.tells === tells ? before : { status, tells },
+        ),
     });
   }, [stores, openMenu]);
 
@@ -168,7 +170,7 @@ export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
         </div>
       </div>
       <Minimap lanes={`${id}lanes`} />
-      <StatusText status={status} />
+      <StatusText {...said} />
       <TimelineMenu
         menu={menu}
         onClose={() => {
@@ -178,6 +180,8 @@ export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
     </section>
   );
 }
+
+const SAYS_NOTHING: Said = { status: null, tells: undefined };
 
 function areThere<Parts extends object>(
   parts: Parts,

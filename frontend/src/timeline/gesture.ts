@@ -34,6 +34,8 @@ export interface Gesture {
   readonly status: StatusName;
   /** Past an end of the lanes these go on below it. */
   readonly leadsOn?: true;
+  /** Where what is dragged is by now. */
+  tells?(): string;
   move(spot: Spot, held: Held): void;
   /** `isClick`: the pointer never left its place. */
   end(isClick: boolean): void;
@@ -51,13 +53,19 @@ export function edits(
   status: StatusName,
   label: Label,
   moved: (spot: Spot, held: Held) => ((group: ActionGroup) => ActionGroup) | null,
-  rest: { shown?(): void; clicked?(): void; ended?(): void; cancelled?(): void } = {},
+  rest: Pick<Gesture, 'tells'> & {
+    shown?(): void;
+    clicked?(): void;
+    ended?(): void;
+    cancelled?(): void;
+  } = {},
 ): Gesture {
   const { document } = press.stores;
   let hasBegun = false;
   return {
     status,
     leadsOn: true,
+    ...(rest.tells === undefined ? {} : { tells: rest.tells }),
     move(spot, held) {
       const edit = moved(spot, held);
       if (edit === null) return;
@@ -76,6 +84,13 @@ export function edits(
       rest.cancelled?.();
     },
   };
+}
+
+/** Where the playhead comes to rest: what is set there shall be where the board can do it. */
+export function onRaster({ stores }: Press, desk: Desk, atMs: number, { alt }: Held): number {
+  const { tickMs } = desk.family.motion;
+  const isFree = alt || !stores.timeline.getState().snaps;
+  return Math.max(0, snapped(atMs, isFree ? null : { placesMs: [], tickMs, reachMs: 0 }));
 }
 
 /** What a thing at `atMs` comes to when it is dragged so far. `own` are the instants that move along. */

@@ -89,7 +89,40 @@ describe('lanes that go on below a drag', () => {
   });
 });
 
+describe('the playhead', () => {
+  test('rests on the raster of the board, unless Alt is held or nothing snaps', async () => {
+    const { press, stores } = await createTimelineDesk();
+    const gesture = press({ x: 100.7, y: 10 });
+    const at = () => stores.timeline.getState().playheadMs;
+    expect(at()).toBe(1000);
+    gesture.by(10.7, 0);
+    expect(at()).toBe(1120);
+    gesture.by(10.7, 0, { alt: true });
+    expect(at()).toBe(1114);
+    stores.timeline.setState({ snaps: false });
+    gesture.by(10.8, 0);
+    expect(at()).toBe(1115);
+  });
+
+  test('and so do the ends of the loop range', async () => {
+    const { drag, stores } = await createTimelineDesk();
+    drag({ x: 100.7, y: 10 }, -50.5, 0, { shift: true });
+    expect(stores.timeline.getState().range).toEqual({ fromMs: 500, toMs: 1000 });
+  });
+});
+
 describe('dragging keys', () => {
+  test('with Ctrl takes all of them along; only a click takes one away', async () => {
+    const { drag, click, spotOf, select, selected, keys } = await createTimelineDesk();
+    select([1, 1], [2, 1]);
+    drag(spotOf(1, 2), 10, 0, { ctrl: true });
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([600, 1100, 1500]);
+    expect(selected()).toHaveLength(2);
+    const [, [frame = 0] = []] = selected();
+    click(spotOf(1, frame), { ctrl: true });
+    expect(selected()).toHaveLength(1);
+  });
+
   test('moves them in time, on the raster of the board, in one step; others keep theirs', async () => {
     const { drag, spotOf, keys, steps, selected, group } = await createTimelineDesk();
     drag(spotOf(1, 2), 12.3, 0);

@@ -6,11 +6,21 @@ import { setDuration, stretch, stretchBack } from '#shared/actions/group/timeEdi
 import { withKeys } from '../stores/keySet.ts';
 import { words } from '../words/words.ts';
 import { deskOf, select, type Desk } from './desk.ts';
-import { draggedTo, edits, modeOf, nothing, type Gesture, type Press } from './gesture.ts';
+import {
+  draggedTo,
+  edits,
+  modeOf,
+  nothing,
+  onRaster,
+  type Gesture,
+  type Held,
+  type Press,
+} from './gesture.ts';
 import { hitAt, keysInBox, type Hit, type Spot } from './hit.ts';
 import { keyGesture } from './keyGesture.ts';
 import { lookAt, selectFrame, setTime } from './looking.ts';
 import { sceneOf } from './scene.ts';
+import { toldOfBox, toldOfFrame, toldOfMarker, toldOfRange } from './told.ts';
 import { msAt, panned, seenSpan, xOf } from '../stores/timeScale.ts';
 
 export function gestureOf(press: Press): Gesture {
@@ -36,12 +46,12 @@ export function gestureOf(press: Press): Gesture {
 }
 
 function scrubGesture(press: Press, desk: Desk, atMs: number): Gesture {
-  lookAt(desk, atMs);
-  const move = ({ x }: Spot): void =>
+  lookAt(desk, onRaster(press, desk, atMs, press.held));
+  const move = ({ x }: Spot, held: Held): void =>
     press.stores.timeline.setState(({ time, widthPx }) => {
       const { fromMs, toMs } = seenSpan(time, widthPx);
-      const inSight = Math.max(Math.ceil(fromMs), Math.min(Math.floor(toMs), Math.round(msAt(time, x))));
-      return { playheadMs: Math.max(0, inSight) };
+      const wanted = onRaster(press, desk, msAt(time, x), held);
+      return { playheadMs: Math.max(0, Math.ceil(fromMs), Math.min(Math.floor(toMs), wanted)) };
     });
   return { status: 'scrub', leadsOn: true, move, end: nothing, cancel: nothing };
 }
@@ -52,10 +62,14 @@ function rangeGesture(press: Press, desk: Desk, fromMs: number): Gesture {
   return {
     status: 'scrub',
     leadsOn: true,
-    move({ x }) {
-      const ends = [fromMs, Math.max(0, msAt(timeline.getState().time, x))].toSorted((a, b) => a - b);
-      timeline.setState({ range: { fromMs: Math.round(ends[0] ?? 0), toMs: Math.round(ends[1] ?? 0) } });
+    move({ x }, held) {
+      const toMs = msAt(timeline.getState().time, x);
+      const [first = 0, last = 0] = [fromMs, toMs]
+        .map((atMs) => onRaster(press, desk, atMs, held))
+        .toSorted((a, b) => a - b);
+      timeline.setState({ range: { fromMs: first, toMs: last } });
     },
+    tells: () => toldOfRange(press.stores),
     end: (isClick) => isClick && timeline.setState({ range: null }),
     cancel: () => timeline.setState({ range: before }),
   };
@@ -74,6 +88,7 @@ function markerGesture(press: Press, desk: Desk, id: number): Gesture {
       const target = to(spot, held);
       return (group) => moveMarker(group, id, target);
     },
+    { tells: () => toldOfMarker(press.stores, id) },
   );
 }
 
@@ -92,6 +107,7 @@ function durationGesture(press: Press, desk: Desk, { frameId, atMs }: Hit & { ki
       return (group) =>
         setDuration(group, frameId, Math.min(longest, Math.max(0, durationMs)), { ripple: ripples });
     },
+    { tells: () => toldOfFrame(press.stores, frameId) },
   );
 }
 
@@ -99,16 +115,18 @@ function stretchGesture(press: Press, desk: Desk, { end, span }: Hit & { kind: '
   const isFirst = end === 'first';
   const [pulledMs, fixedMs] = isFirst ? [span.fromMs, span.toMs] : [span.toMs, span.fromMs];
   const to = draggedTo(press, desk, pulledMs, new Set([pulledMs]));
+  let factor = 1;
   return edits(
     press,
     isFirst ? 'stretchBack' : 'stretch',
     () => words.timeline.steps.stretch,
     (spot, held) => {
-      const factor = Math.max(0, (to(spot, held) - fixedMs) / (pulledMs - fixedMs));
+      factor = Math.max(0, (to(spot, held) - fixedMs) / (pulledMs - fixedMs));
       const { ripples: ripple } = press.stores.timeline.getState();
-      return (group) =>
-        isFirst ? stretchBack(group, span, factor) : stretch(group, span, factor, { ripple });
+      const share = factor;
+      return (group) => (isFirst ? stretchBack(group, span, share) : stretch(group, span, share, { ripple }));
     },
+    { tells: () => words.timeline.draggedStretch(factor, (span.toMs - span.fromMs) * factor) },
   );
 }
 
@@ -118,6 +136,7 @@ function headGesture(press: Press, desk: Desk, frameId: number): Gesture {
   selectFrame(desk, frameId, modeOf(press.held));
   return {
     status: 'box',
+    tells: () => toldOfBox(press.stores),
     move(spot) {
       const now = deskOf(press.stores);
       const hit = hitAt(sceneOf(now, press.sizes), { ...spot, y: press.spot.y });
@@ -137,6 +156,7 @@ function boxGesture(press: Press, desk: Desk, { row }: Hit & { kind: 'empty' }):
   return {
     status: 'box',
     leadsOn: true,
+    tells: () => toldOfBox(stores),
     move(spot) {
       // Where it was begun in time: the lanes may have gone on.
       const corner = { ...from, x: xOf(stores.timeline.getState().time, fromMs) };

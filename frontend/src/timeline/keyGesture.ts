@@ -9,6 +9,7 @@ import { timesOf } from './groupTimes.ts';
 import { hasAll, keysBetween, type Hit, type Spot } from './hit.ts';
 import { cursorAfter, moveOf } from './moving.ts';
 import type { Scene } from './scene.ts';
+import { toldOfKey } from './told.ts';
 
 /** How far the hand has to go before a drag turns a value, so that time alone can be dragged. */
 const VALUE_FROM_PX = 5;
@@ -18,7 +19,7 @@ const RANGE_PX = 200;
 export function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' }): Gesture {
   const { stores, held } = press;
   const wasSelected = hasAll(scene.state.selected, hit.refs);
-  if (!wasSelected || held.ctrl) selectPressed(press, hit);
+  if (!wasSelected) selectPressed(press, hit);
   else stores.timeline.setState({ cursor: { row: hit.row.id, frameId: hit.frameId } });
   const desk = deskOf(stores);
   const before = desk.state.selected;
@@ -46,10 +47,13 @@ export function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' 
       };
     },
     {
+      tells: () => toldOfKey(stores, cursorAfter(desk, refs, moved), hit.atMs),
       shown: () => stores.timeline.setState({ selected: keySet(moved) }),
       clicked() {
-        if (!wasSelected || held.ctrl || held.shift) return;
-        if (before.size === 1) stores.timeline.setState({ asks: 'value' });
+        if (!wasSelected || held.shift) return;
+        // A drag with Ctrl takes all of them along, only a click takes one away.
+        if (held.ctrl) selectPressed(press, hit);
+        else if (before.size === 1) stores.timeline.setState({ asks: 'value' });
         else select(stores, keySet(hit.refs));
       },
       ended: () => select(stores, keySet(moved), cursorAfter(desk, refs, moved)),

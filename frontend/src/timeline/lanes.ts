@@ -25,7 +25,7 @@ export interface LaneParts {
 
 export interface LaneHost {
   openMenu(spot: Spot): void;
-  say(status: StatusName | null): void;
+  say(status: StatusName | null, tells?: () => string): void;
 }
 
 export const sizesNow = ({ isTall }: { readonly isTall: boolean }): Sizes =>

@@ -16,7 +16,8 @@ export interface PointerHost {
   doubleClick(spot: Spot): void;
   /** A mouse is over the lanes and presses nothing; null: no longer. */
   hover(spot: Spot | null): void;
-  say(status: StatusName | null): void;
+  /** `tells`: where what is dragged is by now. */
+  say(status: StatusName | null, tells?: () => string): void;
 }
 
 /** Less is a click. */
@@ -70,7 +71,7 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
     hasRested = false;
     press = host.press(spotOf(event), heldOf(event), isTouch);
     gesture = isPan ? panFrom(press) : gestureOf(press);
-    host.say(gesture.status);
+    host.say(gesture.status, gesture.tells);
     if (isTouch) rest = setTimeout(rested, REST_MS);
   }
 
@@ -100,7 +101,7 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
   function draw(from: Press): void {
     gesture?.cancel();
     gesture = boxFrom(from);
-    host.say(gesture.status);
+    host.say(gesture.status, gesture.tells);
   }
 
   function pinch(id: number, spot: Spot): void {

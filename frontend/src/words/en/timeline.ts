@@ -4,11 +4,21 @@ import type { Colour } from '#shared/actions/colours.ts';
 import type { PasteProblem } from '#shared/actions/group/clip.ts';
 import type { Easing } from '#shared/actions/group/group.ts';
 import { markText, secondsText } from '../instants.ts';
-import { counted, formatCount, formatList, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
+import {
+  counted,
+  formatCount,
+  formatList,
+  formatMs,
+  formatPercent,
+  formatWhole,
+  unitSymbol,
+} from './numbers.ts';
 
 const keysText = (count: number): string => counted(count, 'key');
 
 const formatInstant = (atMs: number): string => `${secondsText(atMs)} s`;
+
+const signedInstant = (byMs: number): string => `${byMs < 0 ? '−' : '+'}${formatInstant(Math.abs(byMs))}`;
 
 const easings: Readonly<Record<Easing, string>> = {
   linear: 'linear',
@@ -152,6 +162,19 @@ export const timelineWords = {
     deleteMarker: 'delete marker',
   },
 
+  /** `count`: with those that come along. */
+  draggedKey: (key: string, byMs: number, count: number): string =>
+    [key, byMs === 0 ? '' : signedInstant(byMs), count < 2 ? '' : keysText(count)]
+      .filter((part) => part !== '')
+      .join('; '),
+  draggedEnd: (frame: number, durationMs: number, atMs: number): string =>
+    `Frame ${formatWhole(frame)}: ${formatMs(durationMs)}, until ${formatInstant(atMs)}`,
+  draggedStretch: (share: number, lengthMs: number): string =>
+    `${formatPercent(share)}, ${formatInstant(Math.round(lengthMs))}`,
+  draggedMarker: (text: string, atMs: number): string => `${text}, ${formatInstant(atMs)}`,
+  draggedRange: (fromMs: number, toMs: number): string =>
+    `${formatInstant(fromMs)} to ${formatInstant(toMs)}, ${formatInstant(toMs - fromMs)} long`,
+
   keys: keysText,
   copied: (count: number): string => `${keysText(count)} copied`,
   allLocked: 'The selected keys are on locked rows.',
@@ -173,7 +196,7 @@ export const timelineWords = {
       `${about}. Type a number, or nudge with arrows by ${formatWhole(tickMs)} ms or ${turn}; Shift: ten times. Ctrl and arrows go to a key.`,
     move: 'Alt suspends snapping. Shift keeps to one direction. Esc calls off, and stops the robot.',
     box: 'Shift or Ctrl adds to the selection.',
-    scrub: 'Shift sets the loop range.',
+    scrub: 'Alt suspends snapping. Shift sets the loop range.',
     duration: 'Alt suspends snapping. Ripple decides about what is behind.',
     stretch: 'Alt suspends snapping. Ripple carries what is behind along.',
     stretchBack: 'Alt suspends snapping. The last key stays.',

@@ -3,10 +3,12 @@
 import type { PasteProblem } from '#shared/actions/group/clip.ts';
 import type { timelineWords as english } from '../en/timeline.ts';
 import { markText, secondsText } from '../instants.ts';
-import { formatCount, formatList, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
+import { formatCount, formatList, formatMs, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
 
 const keysText = (count: number): string => `${formatCount(count)}个关键帧`;
 const formatInstant = (atMs: number): string => `${secondsText(atMs)}秒`;
+
+const signedInstant = (byMs: number): string => `${byMs < 0 ? '−' : '+'}${formatInstant(Math.abs(byMs))}`;
 
 const easings: typeof english.easings = {
   linear: '匀速',
@@ -139,6 +141,17 @@ export const timelineWords: typeof english = {
     deleteMarker: '删除标记',
   },
 
+  draggedKey: (key, byMs, count) =>
+    [key, byMs === 0 ? '' : signedInstant(byMs), count < 2 ? '' : keysText(count)]
+      .filter((part) => part !== '')
+      .join('；'),
+  draggedEnd: (frame, durationMs, atMs) =>
+    `第${formatWhole(frame)}帧：${formatMs(durationMs)}，到${formatInstant(atMs)}`,
+  draggedStretch: (share, lengthMs) => `${formatPercent(share)}，${formatInstant(Math.round(lengthMs))}`,
+  draggedMarker: (text, atMs) => `${text}，${formatInstant(atMs)}`,
+  draggedRange: (fromMs, toMs) =>
+    `${formatInstant(fromMs)}到${formatInstant(toMs)}，长${formatInstant(toMs - fromMs)}`,
+
   keys: keysText,
   copied: (count) => `已复制${keysText(count)}`,
   allLocked: '所选关键帧所在的行已锁定。',
@@ -154,7 +167,7 @@ export const timelineWords: typeof english = {
       `${about}。可直接输入数值，或用方向键微调${formatWhole(tickMs)}毫秒或${turn}；按住Shift为十倍。Ctrl加方向键移到别的关键帧。`,
     move: '按住Alt暂停吸附。按住Shift只沿一个方向。Esc放弃，并停止机器人。',
     box: '按住Shift或Ctrl加选。',
-    scrub: '按住Shift设循环范围。',
+    scrub: '按住Alt暂停吸附。按住Shift设循环范围。',
     duration: '按住Alt暂停吸附。联动决定后面的内容是否移动。',
     stretch: '按住Alt暂停吸附。联动会带着后面的内容移动。',
     stretchBack: '按住Alt暂停吸附。最后一个关键帧不动。',
