@@ -169,6 +169,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ),
     ("DELETE", "/api/library/{document}/versions/{version}"): Example(None, errors=("notFound",)),
     ("GET", "/api/me"): Example({"mode": "lan", "overheard": True, "you": YOU}),
+    ("PATCH", "/api/me"): Example(YOU, {"name": "Anna's tablet"}, ("notFound",)),
     ("POST", "/api/pair"): Example(
         YOU,
         {"secret": None, "code": "12345678", "stop": None, "name": "Anna's tablet"},

@@ -3,6 +3,7 @@
 Knows no request and no invitation. Of a secret only its SHA-256 is kept. Whoever is found waits for no disk.
 """
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal, Protocol
@@ -14,6 +15,7 @@ from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError
 
 Kind = Literal["device", "token", "stopLink"]
 MAX_DEVICES = 500
+MAX_NAME = 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +68,7 @@ class Devices:
         if len(self._devices) >= MAX_DEVICES:
             raise OutOfRangeError(f"{MAX_DEVICES} devices are paired and no more can be. Revoke some.")
         secret = make_secret()
-        device = Device(make_id(), kind, name, role, digest_of(secret), self._now_ms())
+        device = Device(make_id(), kind, self._told_apart(name), role, digest_of(secret), self._now_ms())
         self._put(device)
         return device, f"{device.id}.{secret}"
 
@@ -80,13 +82,17 @@ class Devices:
         self._devices[name] = seen
         return seen
 
+    def role_of(self, device: str) -> Role:
+        return self._get(device).role
+
     def change(self, device: str, name: str | None, role: Role | None) -> Device:
         present = self._get(device)
         if role not in (None, present.role):
             if present.kind == "stopLink":
                 raise ForbiddenError("A stop-only link can only stop.")
             self._keep_an_owner(present)
-        changed = replace(present, name=name or present.name, role=role or present.role)
+        own = self._told_apart(name, present) if name else present.name
+        changed = replace(present, name=own, role=role or present.role)
         self._put(changed)
         return changed
 
@@ -108,6 +114,12 @@ class Devices:
         if found is None:
             raise NotFoundError("No such device is paired.")
         return found
+
+    def _told_apart(self, name: str, but: Device | None = None) -> str:
+        """With a number behind it where somebody else is called so: a class has more than one Android."""
+        taken = {one.name for one in self.all if one is not but}
+        names = (name if count == 1 else f"{name[: MAX_NAME - 4]} {count}" for count in itertools.count(1))
+        return next(one for one in names if one not in taken)
 
     def _put(self, device: Device) -> None:
         # Another dictionary each time: a thread that writes may be going through the one before.

@@ -37,14 +37,17 @@ class Entrance:
 
     def come_in(self, invite: Invite, name: str, present: Caller | None) -> tuple[Caller, str | None]:
         """Uses the invitation up: who they are from now on, and their new credential. Whoever may do as much
-        already stays who they are, and the invitation stays open for somebody else.
+        already stays who they are, and the invitation stays open for somebody else; whoever may less keeps
+        their name.
         """
         if present and present.may(invite.role):
             return present, None
-        device, credential = self.devices.admit("device", invite.name or name or "Somebody", invite.role)
+        before = present if present and present.role != "stopper" else None
+        if before:
+            self.devices.revoke(before.id)
+        called = invite.name or (before.name if before else name) or "Somebody"
+        device, credential = self.devices.admit("device", called, invite.role)
         self.pairing.withdraw(invite.id)
-        if present and present.role != "stopper":
-            self.devices.revoke(present.id)
         return device.caller, credential
 
     def stop_link(self, credential: str) -> Device:

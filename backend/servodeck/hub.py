@@ -6,7 +6,7 @@ Knows seats, who sits there, and text; no socket, no message's meaning, no port.
 
 import asyncio
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from servodeck.callers import THIS_COMPUTER, Caller, Role
 
@@ -83,6 +83,12 @@ class Hub:
 
     def holds(self, caller_id: str) -> bool:
         return any(seat.caller.id == caller_id for seat in self._seats)
+
+    def rename(self, caller_id: str, name: str) -> None:
+        """They stay where they sit."""
+        for seat in self._seats:
+            if seat.caller.id == caller_id:
+                seat.caller = replace(seat.caller, name=name)
 
     def send_away(self, caller_id: str, reason: str) -> None:
         """Ends every seat of theirs; what they still say is not heard."""

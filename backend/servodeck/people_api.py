@@ -21,6 +21,7 @@ from servodeck.people_messages import (
     Invitation,
     InviteWish,
     Me,
+    OwnName,
     PairWish,
     People,
     Person,
@@ -31,7 +32,7 @@ from servodeck.people_messages import (
     TokenWish,
     You,
 )
-from servodeck.roles import ANYBODY, OWNER, entrance_of
+from servodeck.roles import ANYBODY, OWNER, VIEWER, entrance_of
 from servodeck.scripts import Scripts
 
 # As long as browsers keep one: a device stays until it is revoked.
@@ -62,11 +63,28 @@ async def me(entrance: Entered, caller: Annotated[Caller | None, ANYBODY]) -> Me
 
 async def called_by_browser(request: Request) -> None:
     if "origin" not in request.headers:
-        raise ForbiddenError("Only a page pairs: a browser keeps what it gets. Programs take a token.")
+        raise ForbiddenError("Only a page pairs, and says its name. Programs take a token that has one.")
 
 
 def you_of(caller: Caller) -> You:
     return You(id=caller.id, name=caller.name, role=caller.role)
+
+
+@people_api.patch("/me", dependencies=[Depends(called_by_browser)])
+async def rename_me(
+    wanted: OwnName, entrance: Entered, control: Controlled, caller: Annotated[Caller, VIEWER]
+) -> You:
+    """What others call you from now on; a number follows where somebody is called so already."""
+    changed = entrance.devices.change(caller.id, wanted.name, None)
+    spread_name(changed, control)
+    await entrance.devices.keep()
+    return you_of(changed.caller)
+
+
+def spread_name(device: Device, control: Control) -> None:
+    """Nothing of theirs ends by it: whoever drives goes on under the new one."""
+    control.hub.rename(device.id, device.name)
+    control.driving.tell_all()
 
 
 @people_api.post("/pair", dependencies=[Depends(called_by_browser)])
@@ -132,9 +150,13 @@ def person_of(device: Device, control: Control) -> Person:
 async def change(
     person: str, wanted: PersonChange, entrance: Entered, control: Controlled, scripts: Scripted
 ) -> Person:
-    """Another name or role. What was open under the old ones is closed and may come back."""
+    """Another name or role. What was open under the old role is closed and may come back."""
+    before = entrance.devices.role_of(person)
     changed = entrance.devices.change(person, wanted.name, wanted.role)
-    send_away(person, "Your name or role is another one now.", control, scripts)
+    if changed.role == before:
+        spread_name(changed, control)
+    else:
+        send_away(person, "Your role is another one now.", control, scripts)
     await entrance.devices.keep()
     return person_of(changed, control)
 

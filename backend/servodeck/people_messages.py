@@ -43,6 +43,10 @@ class PairWish(Message):
     name: Name = ""
 
 
+class OwnName(Message):
+    name: GivenName
+
+
 class Person(Message):
     """A paired device, a script's token or a stop-only link. `here`: it has the page open now,
     and `drives` where it moves the robot.
@@ -106,7 +110,7 @@ class StopLink(Message):
 
 
 if __name__ == "__main__":
-    said = {"PeopleRequest": PairWish | PersonChange | InviteWish | TokenWish | StopLinkWish}
+    said = {"PeopleRequest": PairWish | OwnName | PersonChange | InviteWish | TokenWish | StopLinkWish}
     answered = {"PeopleAnswer": Me | You | People | Person | Invitation | Token | StopLink}
     json.dump(schema_of("PeopleMessage", said, answered), sys.stdout, indent=2)
     sys.stdout.write("\n")

@@ -177,7 +177,9 @@ class Scripts:
         return self._control.board.family
 
     def _seat_of(self, caller: Caller) -> ScriptSeat:
-        return self._seats.setdefault(caller.id, ScriptSeat(as_script(caller)))
+        seat = self._seats.setdefault(caller.id, ScriptSeat(caller))
+        seat.caller = as_script(caller)  # an owner may call it otherwise by now
+        return seat
 
     @contextlib.contextmanager
     def _asking_the_board(self) -> Iterator[None]:

@@ -104,3 +104,14 @@ def test_a_file_that_cannot_be_read_lets_nobody_in_and_is_left_alone(tmp_path: P
     with pytest.raises(StorageError, match=FILE):
         devices_in(tmp_path)
     assert path.read_bytes() == before
+
+
+def test_whoever_is_called_like_another_gets_a_number() -> None:
+    devices = Devices(NoShelf(), lambda: 7)
+    long = "x" * 64
+    names = [devices.admit("device", name, "viewer")[0].name for name in ("Android", "Android", long, long)]
+    assert names == ["Android", "Android 2", long, "x" * 60 + " 2"]
+    first, second, *_ = devices.all
+    assert devices.change(second.id, "Ben", None).name == "Ben"
+    assert devices.change(second.id, "Ben", None).name == "Ben"
+    assert devices.change(first.id, "Ben", None).name == "Ben 2"

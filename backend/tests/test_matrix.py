@@ -23,6 +23,7 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("GET", "/api/health"): ANYBODY,
     ("GET", "/api/me"): ANYBODY,
     ("POST", "/api/pair"): ANYBODY,
+    ("PATCH", "/api/me"): "viewer",
     ("POST", "/api/stop"): "stopper",
     ("WS", "/ws"): "viewer",
     ("GET", "/metrics"): "viewer",

@@ -154,10 +154,10 @@ async def test_who_may_as_much_already_stays_and_leaves_the_invitation_to_others
         assert (await owner.pair(secret=secret_of(made["link"]))).json() == before
         ben = Browser(client)
         await ben.pair(secret=secret_of(made["link"]))
-        promoted = await owner.invite("driver", "Ben drives")
-        await ben.pair(secret=secret_of(promoted["link"]))
+        promoted = await owner.invite("driver")
+        await ben.pair(secret=secret_of(promoted["link"]), name="Linux")
         assert (await ben.you())["role"] == "driver"
-        assert [device.name for device in entrance.devices.all] == ["Anna", "Ben drives"]
+        assert [device.name for device in entrance.devices.all] == ["Anna", "Ben"]
 
 
 @in_virtual_time
@@ -176,6 +176,40 @@ async def test_owners_rename_promote_and_revoke() -> None:
         assert (await owner.ask("DELETE", path)).status_code == 404
         last = await owner.ask("DELETE", f"/api/people/{(await owner.you())['id']}")
         assert (last.status_code, last.json()["code"]) == (403, "forbidden")
+
+
+@in_virtual_time
+async def test_everybody_says_their_own_name_and_nothing_of_theirs_ends_by_it() -> None:
+    async with lan_with_control() as (entrance, client, owner, control):
+        ben = Browser(client)
+        await ben.pair(secret=secret_of((await owner.invite("driver"))["link"]), name="Android")
+        device = (await ben.you())["id"]
+        entered = next(one for one in entrance.devices.all if one.id == device)
+        seat, other = Client(control, entered.caller), Client(control, Caller("x", "Cleo", "viewer"))
+        control.driving.act(seat, "request")
+        said = await ben.ask("PATCH", "/api/me", json={"name": "Ben"})
+        assert said.json() == await ben.you() == {"id": device, "name": "Ben", "role": "driver"}
+        assert other.lease["driver"] == "Ben"
+        renamed = await owner.ask("PATCH", f"/api/people/{device}", json={"name": "Benno"})
+        assert renamed.json()["name"] == other.lease["driver"] == "Benno"
+        assert not seat.ended.is_set()
+        await owner.ask("PATCH", f"/api/people/{device}", json={"role": "viewer"})
+        assert seat.ended.is_set()
+        for wrong in ({"name": ""}, {"name": "a\nb"}, {"name": "x" * 65}, {"name": "Ben", "role": "owner"}):
+            assert (await ben.ask("PATCH", "/api/me", json=wrong)).status_code == 422
+
+
+@in_virtual_time
+async def test_a_script_and_a_stop_only_link_keep_the_name_that_an_owner_gave_them() -> None:
+    async with lan() as (_, client, owner):
+        made = (await owner.ask("POST", "/api/tokens", json={"name": "Script", "role": "owner"})).json()
+        bearer = {"authorization": f"Bearer {made['token']}"}
+        refused = await client.patch("/api/me", json={"name": "Anna"}, headers=bearer)
+        assert (refused.status_code, refused.json()["code"]) == (403, "forbidden")
+        link = (await owner.ask("POST", "/api/stop-links", json={"name": "On the robot"})).json()["link"]
+        passer = Browser(client)
+        await passer.pair(stop=secret_of(link))
+        assert (await passer.ask("PATCH", "/api/me", json={"name": "Anna"})).status_code == 403
 
 
 @in_virtual_time

@@ -1,7 +1,7 @@
 // A gateway on the network: who comes in and how, what each may do, and that whoever looks can stop the robot.
 
 import { ofKind, type Bus } from '../fixtures/bus.ts';
-import { firstInvitation, newDevice, pairCardOf, peopleOf, ready } from '../fixtures/people.ts';
+import { firstInvitation, guest, newDevice, pairCardOf, peopleOf, ready } from '../fixtures/people.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 const stops = async (bus: Bus): Promise<number> => ofKind(await bus(), 'stop').length;
@@ -13,13 +13,13 @@ test('an owner comes in by the terminal’s link, lets a viewer in, who stops th
 }) => {
   const gateway = await newGateway({ serial: ptyBoard.device, lan: true });
   const { link } = await firstInvitation(gateway);
-  const owner = await ready(await newDevice(browser, link));
+  const owner = await guest(browser, link);
   expect(owner.page.url()).not.toContain('#');
   const people = peopleOf(owner);
   await people.opener.click();
   const invitation = await people.invite('viewer', 'Ben');
 
-  const ben = await ready(await newDevice(browser, invitation.link));
+  const ben = await guest(browser, invitation.link);
   await expect(people.person('Ben')).toContainText('Here now');
   await expect(peopleOf(ben).opener).toBeHidden();
   const before = await stops(ptyBoard.bus);
@@ -79,7 +79,7 @@ test('people come in by the digits, one after the other, until five were wrong',
 
 test('a stop-only link has one button, which stops the robot', async ({ newGateway, ptyBoard, browser }) => {
   const gateway = await newGateway({ serial: ptyBoard.device, lan: true });
-  const owner = await ready(await newDevice(browser, (await firstInvitation(gateway)).link));
+  const owner = await guest(browser, (await firstInvitation(gateway)).link);
   const people = peopleOf(owner);
   await people.opener.click();
   await people.dialog.getByRole('textbox', { name: 'What for' }).fill('On the robot');

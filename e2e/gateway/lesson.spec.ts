@@ -3,19 +3,19 @@
 import type { Browser } from '@playwright/test';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import type { Dashboard } from '../fixtures/dashboard.ts';
-import { firstInvitation, newDevice, peopleOf, PHONE, ready } from '../fixtures/people.ts';
+import { firstInvitation, guest, peopleOf, PHONE } from '../fixtures/people.ts';
 import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
-/** A pupil scans what the teacher's page shows. */
+/** A pupil scans what the teacher's page shows, and says a name. */
 async function joins(
   browser: Browser,
   teacher: Dashboard,
   role: 'viewer' | 'driver',
   name: string,
 ): Promise<Dashboard> {
-  const { link } = await peopleOf(teacher).invite(role, name);
-  return ready(await newDevice(browser, link, PHONE));
+  const { link } = await peopleOf(teacher).invite(role, '');
+  return guest(browser, link, { name, device: PHONE });
 }
 
 test('a class shares a robot, hands it on, and stops it from any phone', async ({
@@ -25,7 +25,7 @@ test('a class shares a robot, hands it on, and stops it from any phone', async (
 }) => {
   test.slow();
   const gateway = await newGateway({ serial: device, lan: true });
-  const teacher = await ready(await newDevice(browser, (await firstInvitation(gateway)).link));
+  const teacher = await guest(browser, (await firstInvitation(gateway)).link);
   const robots = robotDialogOf(teacher);
   await robots.opener.click();
   await robots.button('Edit').click();

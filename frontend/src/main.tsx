@@ -1,37 +1,53 @@
 // The dashboard's entry.
 
-import { StrictMode } from 'react';
+import { StrictMode, type ReactNode } from 'react';
 import { createRoot } from 'react-dom/client';
 import { App } from './App.tsx';
-import { arrive } from './connect/arrival.ts';
+import { arrive, deviceName } from './connect/arrival.ts';
 import { openPage } from './connect/page.ts';
-import { pair, stopRobot } from './connect/peopleApi.ts';
-import { Outside } from './people/Outside.tsx';
+import { pair, sayName, stopRobot } from './connect/peopleApi.ts';
+import { Guest, Outside } from './people/Outside.tsx';
 import { preferredLanguage, speak } from './words/words.ts';
 import './ui/fonts.css';
 import './ui/tokens.css';
 import './ui/base.css';
 
-const root = document.getElementById('page');
-if (root === null) throw new Error('index.html has no #page');
+const element = document.getElementById('page');
+if (element === null) throw new Error('index.html has no #page');
+const root = createRoot(element);
+const show = (content: ReactNode): void => root.render(<StrictMode>{content}</StrictMode>);
+
 const arrival = await arrive(window);
-const role = arrival.me === null ? 'owner' : arrival.me.you?.role;
-if (role === undefined || role === 'stopper') await speak(preferredLanguage(navigator.languages));
-createRoot(root).render(
-  <StrictMode>
-    {role === undefined || role === 'stopper' ? (
-      <Outside
-        mayStop={role === 'stopper'}
-        overheard={arrival.me?.overheard ?? false}
-        problem={arrival.problem}
-        pair={async (wish) => {
-          await pair(wish);
-          location.reload();
-        }}
-        stop={stopRobot}
-      />
-    ) : (
-      <App page={await openPage(arrival)} />
-    )}
-  </StrictMode>,
-);
+const { me, entered } = arrival;
+const role = me === null ? 'owner' : me.you?.role;
+const suggested = deviceName(navigator.userAgent);
+const isOutside = role === undefined || role === 'stopper';
+if (isOutside || entered !== null) await speak(preferredLanguage(navigator.languages));
+
+if (isOutside) {
+  show(
+    <Outside
+      mayStop={role === 'stopper'}
+      overheard={me?.overheard ?? false}
+      suggested={suggested}
+      problem={arrival.problem}
+      pair={async (wish) => {
+        await pair(wish);
+        location.reload();
+      }}
+      stop={stopRobot}
+    />,
+  );
+} else if (entered === null) {
+  show(<App page={await openPage(arrival)} />);
+} else {
+  show(
+    <Guest
+      suggested={entered.name}
+      enter={async (name) => {
+        const you = name === entered.name ? entered : await sayName(name);
+        show(<App page={await openPage({ ...arrival, me: me && { ...me, you } })} />);
+      }}
+    />,
+  );
+}

@@ -10,9 +10,13 @@ import { pair, readMe } from './peopleApi.ts';
 export interface Arrival {
   /** null: no gateway serves this page. */
   readonly me: Me | null;
+  /** Whom the link in the address has let in just now: nobody has asked for a name yet. */
+  readonly entered: You | null;
   /** Why the link in the address did not let in. */
   readonly problem: PeopleError | null;
 }
+
+type Paired = Omit<Arrival, 'me'>;
 
 const LINKS = { pair: 'secret', stop: 'stop' } as const;
 
@@ -29,21 +33,21 @@ export async function arrive(page: Window): Promise<Arrival> {
   page.addEventListener('hashchange', () => {
     if (wishIn(page.location.hash) !== null) page.location.reload();
   });
-  const problem = wish === null ? null : await tryToPair(wish);
-  return { me: await readMe(), problem };
+  const paired = wish === null ? { entered: null, problem: null } : await tryToPair(wish);
+  return { me: await readMe(), ...paired };
 }
 
-async function tryToPair(wish: PairWish): Promise<PeopleError | null> {
+async function tryToPair(wish: PairWish): Promise<Paired> {
   try {
-    await pair({ ...wish, name: deviceName(navigator.userAgent) });
-    return null;
+    const you = await pair({ ...wish, name: deviceName(navigator.userAgent) });
+    return { entered: you.role === 'stopper' ? null : you, problem: null };
   } catch (error) {
-    if (error instanceof PeopleError) return error;
+    if (error instanceof PeopleError) return { entered: null, problem: error };
     throw error;
   }
 }
 
-/** What a device calls itself until an owner calls it otherwise; names of makers, the same in every language. */
+/** What a device calls itself until a person says a name; names of makers, the same in every language. */
 const DEVICES: readonly (readonly [RegExp, string])[] = [
   [/iphone/i, 'iPhone'],
   [/ipad/i, 'iPad'],

@@ -53,12 +53,17 @@ export async function readMe(): Promise<Me | null> {
 
 export const pair = (wish: PairWish): Promise<You> => ask('pair', 'POST', youSchema, wish);
 
+/** What others call this device from now on. */
+export const sayName = (name: string): Promise<You> => ask('me', 'PATCH', youSchema, { name });
+
 /** Resolves when the stops have left the wire, or when there was no port to send them to. */
 export async function stopRobot(): Promise<void> {
   await ask('stop', 'POST', nothing);
 }
 
 export const peopleApi: PeopleApi = {
+  me: readMe,
+  sayName,
   list: () => ask('people', 'GET', peopleSchema),
   invite: (wish) => ask('invites', 'POST', invitationSchema, wish),
   withdraw: async (id) => {

@@ -1,6 +1,8 @@
 // Coming in and letting in, in each state: a stranger's card, the stop-only page, and what an owner sees.
 
 import type { ReactNode } from 'react';
+import { NameCard } from '../people/NameCard.tsx';
+import { OwnView } from '../people/OwnView.tsx';
 import { PairCard } from '../people/PairCard.tsx';
 import { PeopleView } from '../people/PeopleView.tsx';
 import { StopFace, type StopOutcome } from '../people/StopPage.tsx';
@@ -87,9 +89,15 @@ const PROBLEMS: readonly (PeopleError | null)[] = [
 ];
 const OUTCOMES: readonly StopOutcome[] = ['idle', 'sending', 'sent', new PeopleError('notPaired', '')];
 
+const GUEST: PeopleState['me'] = {
+  mode: 'lan',
+  overheard: true,
+  you: { id: 'ben', name: 'Bert', role: 'driver' },
+};
+
 const nothing = (): void => undefined;
 const WISHES = {
-  ...{ invite: nothing, endInvitation: nothing, change: nothing, revoke: nothing },
+  ...{ sayName: nothing, invite: nothing, endInvitation: nothing, change: nothing, revoke: nothing },
   ...{ makeToken: nothing, makeStopLink: nothing, closeShown: nothing },
 };
 
@@ -97,8 +105,17 @@ const inDialog = (name: string, content: ReactNode): Exhibit => ({ name, content
 
 export const PEOPLE: readonly Exhibit[] = [
   ...PROBLEMS.map((problem, index) =>
-    inDialog(`Pair card ${index + 1}`, <PairCard problem={problem} overheard onPair={nothing} />),
+    inDialog(
+      `Pair card ${index + 1}`,
+      <PairCard problem={problem} overheard suggested="iPhone" onPair={nothing} />,
+    ),
   ),
+  inDialog('Name card', <NameCard suggested="iPhone" problem={null} onName={nothing} />),
+  inDialog(
+    'Name card, not heard',
+    <NameCard suggested="iPhone" problem={new PeopleError('unreachable', '')} onName={nothing} />,
+  ),
+  inDialog('Your name', <OwnView me={GUEST} onRename={nothing} />),
   ...OUTCOMES.map((outcome, index) =>
     inDialog(`Stop only ${index + 1}`, <StopFace outcome={outcome} onPress={nothing} />),
   ),

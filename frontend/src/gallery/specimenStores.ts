@@ -31,6 +31,7 @@ import { createView } from '../stores/view.ts';
 
 const none = () => Promise.reject(new PeopleError('unreachable', ''));
 const NOBODY: PeopleApi = {
+  ...{ me: () => Promise.resolve(null), sayName: none },
   ...{ list: none, invite: none, withdraw: none, change: none, revoke: none },
   ...{ makeToken: none, makeStopLink: none },
 };

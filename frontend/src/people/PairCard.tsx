@@ -10,17 +10,19 @@ import styles from './Outside.module.css';
 export interface PairCardProps {
   readonly problem: PeopleError | null;
   readonly overheard: boolean;
+  /** The name of whoever says none. */
+  readonly suggested: string;
   onPair(wish: PairWish): void;
 }
 
-export function PairCard({ problem, overheard, onPair }: PairCardProps) {
+export function PairCard({ problem, overheard, suggested, onPair }: PairCardProps) {
   const title = useId();
   const [name, setName] = useState('');
   const [code, setCode] = useState('');
   const digits = code.replaceAll(/\D/g, '');
   const submit = (event: SyntheticEvent): void => {
     event.preventDefault();
-    if (digits.length === 8) onPair({ code: digits, name: name.trim() });
+    if (digits.length === 8) onPair({ code: digits, name: name.trim() === '' ? suggested : name.trim() });
   };
   return (
     <form className={styles.card} onSubmit={submit} aria-labelledby={title}>
@@ -33,6 +35,7 @@ export function PairCard({ problem, overheard, onPair }: PairCardProps) {
         <input
           className={styles.input}
           value={name}
+          placeholder={suggested}
           maxLength={64}
           autoComplete="nickname"
           onChange={({ target }) => setName(target.value)}

@@ -1,29 +1,34 @@
-// People and devices over the page, for an owner of a gateway that others may reach. Looks again while it is open, because
-// people come in meanwhile.
+// People and devices over the page, for an owner of a gateway that others may reach; for everybody else there, who they are.
+// Looks again while it is open, because people come in meanwhile.
 
 import { useEffect } from 'react';
 import { useStore } from 'zustand';
+import { letsIn } from '../stores/people.ts';
+import type { Me } from '../stores/people.generated.ts';
 import { useStores, useView } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { words } from '../words/words.ts';
+import { OwnView } from './OwnView.tsx';
 import { PeopleView } from './PeopleView.tsx';
 
 const LOOK_EACH_MS = 1500;
 
 export function PeopleButton() {
   const { people, view } = useStores();
-  const letsIn = useStore(people.store, ({ me }) => me?.mode !== 'local' && me?.you?.role === 'owner');
-  if (!letsIn) return null;
+  const me = useStore(people.store, (state) => state.me);
+  if (me === null || me.mode === 'local') return null;
   return (
     <IconButton
       icon="people"
-      label={words.people.button}
+      label={titleFor(me)}
       aria-haspopup="dialog"
       onPress={() => view.setState({ peopleOpen: true })}
     />
   );
 }
+
+const titleFor = (me: Me | null): string => (letsIn(me) ? words.people.title : words.people.own.title);
 
 export function PeopleDialog() {
   const { people, view, device } = useStores();
@@ -41,8 +46,12 @@ export function PeopleDialog() {
     view.setState({ peopleOpen: false });
   };
   return (
-    <Dialog wide title={words.people.title} closeLabel={words.close} isOpen={isOpen} onClose={close}>
-      <PeopleView state={state} wishes={people} now={device.clock.now} />
+    <Dialog wide title={titleFor(state.me)} closeLabel={words.close} isOpen={isOpen} onClose={close}>
+      {letsIn(state.me) ? (
+        <PeopleView state={state} wishes={people} now={device.clock.now} />
+      ) : (
+        <OwnView me={state.me} onRename={people.sayName} />
+      )}
     </Dialog>
   );
 }

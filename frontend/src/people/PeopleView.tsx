@@ -7,6 +7,7 @@ import { Confirm } from '../ui/Confirm.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { Select } from '../ui/Select.tsx';
 import { words } from '../words/words.ts';
+import { AddressNotes } from './AddressNotes.tsx';
 import { InviteCard } from './InviteCard.tsx';
 import { ScriptsCard } from './ScriptsCard.tsx';
 import styles from './People.module.css';
@@ -35,8 +36,7 @@ export function PeopleView({ state, wishes, now }: PeopleViewProps) {
         </ul>
       </section>
       <ScriptsCard shown={state.shown} wishes={wishes} />
-      {state.me?.overheard === true && <p className={styles.dim}>{words.people.overheard}</p>}
-      {!window.isSecureContext && <p className={styles.dim}>{words.people.insecure}</p>}
+      <AddressNotes overheard={state.me?.overheard === true} />
     </div>
   );
 }

@@ -1,7 +1,7 @@
 // Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change backend/servodeck/people_messages.py instead.
 
 export type PeopleMessage = PeopleRequest | PeopleAnswer;
-export type PeopleRequest = PairWish | PersonChange | InviteWish | TokenWish | StopLinkWish;
+export type PeopleRequest = PairWish | OwnName | PersonChange | InviteWish | TokenWish | StopLinkWish;
 export type PeopleAnswer = Me | You | People | Person | Invitation | Token | StopLink;
 
 /**
@@ -12,6 +12,9 @@ export interface PairWish {
   code?: string | null;
   stop?: string | null;
   name?: string;
+}
+export interface OwnName {
+  name: string;
 }
 export interface PersonChange {
   name?: string | null;

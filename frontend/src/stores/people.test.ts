@@ -1,6 +1,9 @@
 import { beforeEach, expect, test } from 'vitest';
 import { createPeople, PeopleError, type PeopleApi, type PeopleStore } from './people.ts';
+import type { Me } from './people.generated.ts';
 
+const BEN = { id: 'ben', name: 'Android', role: 'driver' } as const;
+const ANNA = { mode: 'lan', overheard: true, you: { id: 'anna', name: 'Anna', role: 'owner' } } as const;
 const HOLDS_MS = 120_000;
 
 /** A gateway as far as invitations go: what it was asked, and those it still holds. */
@@ -9,6 +12,8 @@ function gateway() {
   const asked: string[] = [];
   const open = new Set<string>();
   const api: PeopleApi = {
+    me: () => Promise.resolve(ANNA),
+    sayName: (name) => Promise.resolve({ ...BEN, name }),
     list: () => Promise.resolve({ people: [], openInvites: [...open] }),
     invite({ role, name = '' }) {
       const id = String(nextId++);
@@ -47,7 +52,7 @@ beforeEach(() => {
   told = [];
   robot = gateway();
   const notices = { tell: (_tone: string, text: string) => void told.push(text) };
-  people = createPeople({ api: robot.api, me: null, notices, now: () => nowMs });
+  people = createPeople({ api: robot.api, me: ANNA, notices, now: () => nowMs });
 });
 
 test('an invitation that was used is followed by a new one of that role, without the name', async () => {
@@ -97,4 +102,27 @@ test('what the gateway refuses is told with its reason', async () => {
     'The gateway refuses that: This is the last owner',
     'The gateway does not answer. Is this device still on the robot’s network?',
   ]);
+});
+
+test('whoever lets nobody in says their own name, and hears when an owner changes it', async () => {
+  const { api, asked } = gateway();
+  const guest = { ...ANNA, you: BEN };
+  const notices = { tell: (_tone: string, text: string) => void told.push(text) };
+  let now: Me | null = { ...guest, you: { ...BEN, name: 'Ben' } };
+  people = createPeople({
+    api: { ...api, me: () => Promise.resolve(now) },
+    me: guest,
+    notices,
+    now: () => 0,
+  });
+  people.sayName('Ben');
+  await settled();
+  expect(people.store.getState().me).toEqual({ ...guest, you: { ...BEN, name: 'Ben' } });
+  now = { ...guest, you: { ...BEN, name: 'Benno' } };
+  await people.refresh();
+  expect(people.store.getState().me?.you?.name).toBe('Benno');
+  now = null;
+  await people.refresh();
+  expect(people.store.getState().me?.you?.name).toBe('Benno');
+  expect([asked, told]).toEqual([[], []]);
 });

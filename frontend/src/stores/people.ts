@@ -1,4 +1,4 @@
-// Who may come in, as an owner of the gateway sees it: devices, tokens, stop-only links, and the invitation that is open. An
+// Who this page is at the gateway, and who may come in, as an owner sees it: devices, tokens, stop-only links, and the invitation that is open. An
 // invitation that was used is followed by a new one, so that a class comes in one after the other. Knows no request.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
@@ -14,6 +14,7 @@ import type {
   StopLink,
   Token,
   TokenWish,
+  You,
 } from './people.generated.ts';
 
 export type PersonRole = InviteWish['role'];
@@ -21,6 +22,9 @@ export const PERSON_ROLES: readonly PersonRole[] = ['viewer', 'driver', 'owner']
 
 /** Each rejects with a PeopleError. */
 export interface PeopleApi {
+  /** null where no gateway answers. */
+  me(): Promise<Me | null>;
+  sayName(name: string): Promise<You>;
   list(): Promise<People>;
   invite(wish: InviteWish): Promise<Invitation>;
   withdraw(invitation: string): Promise<void>;
@@ -64,6 +68,7 @@ export interface PeopleState {
 export interface PeopleStore {
   readonly store: StoreApi<PeopleState>;
   refresh(): Promise<void>;
+  sayName(name: string): void;
   invite(role: PersonRole, name: string): void;
   endInvitation(): void;
   change(person: string, wanted: PersonChange): void;
@@ -83,6 +88,8 @@ export interface PeopleOptions {
   now(): number;
 }
 
+export const letsIn = (me: Me | null): boolean => me?.mode !== 'local' && me?.you?.role === 'owner';
+
 export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleStore {
   const store = createStore<PeopleState>(() => ({ me, people: [], invitation: null, shown: null }));
 
@@ -91,7 +98,18 @@ export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleSt
     notices.tell('danger', words.people.problem(error.code, error.message));
   };
 
+  function known(you: You): void {
+    const { me: before } = store.getState();
+    if (before !== null) store.setState({ me: { ...before, you } });
+  }
+
+  /** Only owners see more than themselves. */
   async function refresh(): Promise<void> {
+    if (!letsIn(store.getState().me)) {
+      const now = await api.me();
+      if (now?.you) known(now.you);
+      return;
+    }
     const { people, openInvites } = await api.list();
     store.setState({ people });
     const { invitation } = store.getState();
@@ -118,6 +136,7 @@ export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleSt
   return {
     store,
     refresh: () => refresh().catch(tellError),
+    sayName: (name) => act(async () => known(await api.sayName(name))),
     invite: (role, name) =>
       act(async () => {
         await withdraw();

@@ -25,6 +25,16 @@ export const peopleWords = {
     submit: 'Come in',
   },
 
+  named: {
+    title: 'You are in',
+    about: 'What shall the others call you? They see it when you drive, ask to drive or press Stop.',
+    submit: 'Go on',
+  },
+  own: {
+    title: 'Your name',
+    about: 'The others see it when you drive, ask to drive or press Stop.',
+  },
+
   stopOnly: {
     title: 'Stop the robot',
     about: 'This page can stop the robot and do nothing else.',
@@ -34,7 +44,6 @@ export const peopleWords = {
   },
 
   title: 'People and devices',
-  button: 'People and devices',
   overheard:
     'Plain http can be overheard by others on this network, and whoever listens can take a paired device’s place. On a network that is not yours, use Tailscale or an SSH tunnel, or put Caddy with https in front.',
   insecure:

@@ -25,6 +25,16 @@ export const peopleWords: typeof english = {
     submit: '进入',
   },
 
+  named: {
+    title: '你已进入',
+    about: '其他人该怎么称呼你？你操控、请求操控或按下停止时，他们会看到这个名字。',
+    submit: '继续',
+  },
+  own: {
+    title: '你的名字',
+    about: '你操控、请求操控或按下停止时，其他人会看到这个名字。',
+  },
+
   stopOnly: {
     title: '停止机器人',
     about: '这个页面只能停止机器人，不能做别的。',
@@ -34,7 +44,6 @@ export const peopleWords: typeof english = {
   },
 
   title: '人员与设备',
-  button: '人员与设备',
   overheard:
     '普通 http 会被同一网络里的人偷听，偷听者可以冒充已配对的设备。在不属于你的网络里，请使用 Tailscale 或 SSH 隧道，或者在前面放一个带 https 的 Caddy。',
   insecure:
