@@ -35,6 +35,7 @@ describe('what only brushes a servo', () => {
 test.each([
   ['nobody drives and it may', LEASE, null],
   ['somebody else drives', { ...LEASE, driver: 'Anna' }, 'watching'],
+  ['it has asked whoever drives', { ...LEASE, driver: 'Anna', asks: true }, 'asking'],
   ['a viewer, while nobody drives', { ...LEASE, mayDrive: false }, 'viewing'],
   ['a viewer, while somebody drives', { ...LEASE, mayDrive: false, driver: 'Anna' }, 'viewing'],
 ] as const)('what keeps a page from moving: %s', (_, lease, hindrance) => {

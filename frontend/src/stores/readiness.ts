@@ -5,7 +5,8 @@ import { isWatching } from '#shared/session/lease.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import type { SessionState } from '#shared/session/state.ts';
 
-export type Hindrance = 'closed' | 'identifying' | 'stale' | 'latched' | 'watching' | 'viewing' | 'busy';
+export type Hindrance =
+  'closed' | 'identifying' | 'stale' | 'latched' | 'watching' | 'asking' | 'viewing' | 'busy';
 
 /** Where its servos stand can be asked of such a board. */
 export function tellsPositions({ commands }: Family): boolean {
@@ -24,7 +25,7 @@ export function motionHindrance({ link, latch, lease, activity }: SessionState):
   if (link.status !== 'ready') return 'closed';
   if (latch !== null) return 'latched';
   if (lease?.mayDrive === false) return 'viewing';
-  if (isWatching(lease)) return 'watching';
+  if (isWatching(lease)) return lease?.asks === true ? 'asking' : 'watching';
   return activity.kind === 'downloading' || activity.kind === 'erasing' ? 'busy' : null;
 }
 

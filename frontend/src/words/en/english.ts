@@ -215,6 +215,8 @@ export const english = {
       stale: 'The board does not answer.',
       latched: 'Stopped. Resume to move.',
       watching: 'Somebody else drives. Choose “Ask to drive” for a turn.',
+      asking:
+        'You have asked to drive. It is your turn when the driver allows it or says nothing for five seconds.',
       viewing: 'You look on; only a driver moves the robot. Stop works for you too.',
       busy: 'Board busy, moving waits.',
     },
