@@ -66,15 +66,15 @@ class RobotOfBoard:
         self._forget()
 
     async def put(self, document: str, instead_of: str | None) -> None:
-        """For everybody, and remembered. Raises a ConflictError where another one stood there, NotFoundError,
-        or OutOfRangeError for one that is built on another board.
+        """For everybody, and remembered. Raises a ConflictError where a third one stands there,
+        NotFoundError, or OutOfRangeError for one that is built on another board.
         """
         board = self._board
-        self._judge_instead(instead_of)
+        self._judge(document, instead_of)
         facts, revision = await in_thread(lambda: self._read(document), undo=lambda _: None)
         if board is None or self._board != board:
             raise ConflictError("No such board is connected any more.")
-        self._judge_instead(instead_of)
+        self._judge(document, instead_of)
         if facts.board != board[0]:
             raise OutOfRangeError(f"{facts.name} is built on a board {facts.board}, not {board[0]}.")
         self._remembered.remember_robot(self._key(), document)
@@ -124,8 +124,8 @@ class RobotOfBoard:
         self._document, self._revision, self.facts = None, 0, None
         self._limits.clear()
 
-    def _judge_instead(self, instead_of: str | None) -> None:
-        if self._document != instead_of:
+    def _judge(self, document: str, instead_of: str | None) -> None:
+        if self._document not in (document, instead_of):
             raise ConflictError("Another robot was put on this board meanwhile.")
 
     def _key(self) -> str:

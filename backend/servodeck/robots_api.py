@@ -29,7 +29,7 @@ robots_api = APIRouter(
 @robots_api.put("/robot", status_code=204)
 async def put_on_board(choice: RobotChoice, control: Controlled, caller: Annotated[Caller, DRIVER]) -> None:
     """That robot of the library stands on this board, for everybody and from now on. 412 where another one
-    stands there than was said.
+    stands there than either.
     """
     if not control.driving.may_rule(caller):
         raise NotDrivingError("Somebody else drives: which robot it is changes only under their hands.")

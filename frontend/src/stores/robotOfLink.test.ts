@@ -20,26 +20,30 @@ const LEASE: Lease = {
 
 const narrowed = (robot: Robot): Robot => changeServo(robot, 4, { max: 2000 });
 
+const FASTER = 'Another robot was put there meanwhile.';
+
 /** What a gateway does: which robot is on the board, told to every screen. */
 function createGateway(clock: VirtualClock) {
   const screens = new Set<(document: string | null) => void>();
   let document: string | null = null;
   let refusal: LinkError | null = null;
+  let answerMs = 0;
   return {
     asked: [] as string[],
     document: () => document,
     refuseBy: (error: LinkError | null) => (refusal = error),
+    answerAfter: (delayMs: number) => (answerMs = delayMs),
     async put(this: { asked: string[] }, next: string, insteadOf: string | null): Promise<void> {
       this.asked.push(next);
       await Promise.resolve();
       if (refusal !== null) throw refusal;
-      if (insteadOf !== document)
-        throw new LinkError('gatewayRefused', 'Another robot was put there meanwhile.');
+      if (next !== document && insteadOf !== document) throw new LinkError('gatewayRefused', FASTER);
       document = next;
-      // The answer comes before the word to everybody.
+      // The answer may come before the word to everybody.
       clock.after(50, () => {
         for (const tell of screens) tell(next);
       });
+      if (answerMs > 0) await new Promise<void>((resolve) => clock.after(answerMs, resolve));
     },
     join(tell: (document: string | null) => void): void {
       screens.add(tell);
@@ -50,8 +54,14 @@ function createGateway(clock: VirtualClock) {
 
 type Gateway = ReturnType<typeof createGateway>;
 
-function createScreen(gateway: Gateway, keeper: Keeper, clock: VirtualClock, mayWrite = true) {
-  const visit = createVisit(keeper, clock, new Map(), mayWrite);
+function createScreen(
+  gateway: Gateway,
+  keeper: Keeper,
+  clock: VirtualClock,
+  mayWrite = true,
+  texts = new Map<string, string>(),
+) {
+  const visit = createVisit(keeper, clock, texts, mayWrite);
   let state: SessionState = {
     ...INITIAL_STATE,
     ...{ family: FAMILIES.doc, link: { status: 'ready' }, lease: LEASE },
@@ -155,6 +165,92 @@ describe('the robot of a shared board', () => {
     expect(viewer.told()[0]).toContain('Viewers');
     await clock.advance(1000);
     expect(gateway.asked).toHaveLength(asked);
+  });
+
+  test('what was put there stays at hand and is put once, however late the word about it comes', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const one = createScreen(gateway, keeper, clock);
+    const putTimes: number[] = [];
+    for (const wish of [() => undefined, () => one.robots.duplicate()]) {
+      wish();
+      const { id } = one.robots.current();
+      const asked = gateway.asked.length;
+      while (gateway.asked.length === asked) await clock.advance(1);
+      for (const status of ['ready', 'identifying', 'ready'] as const) {
+        one.change({ link: { status } });
+        await clock.advance(5);
+        expect(one.robots.current().id).toBe(id);
+      }
+      await clock.advance(1000);
+      expect(one.isTheBoards()).toBe(true);
+      putTimes.push(gateway.asked.length - asked);
+    }
+    expect(putTimes).toEqual([1, 1]);
+    expect(one.told()).toEqual([]);
+  });
+
+  test('is the one that was put there last, also where the word about it overtakes the answer', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const [one, other] = [createScreen(gateway, keeper, clock), createScreen(gateway, keeper, clock)];
+    await clock.advance(1000);
+    const first = gateway.document() ?? '';
+    gateway.answerAfter(200);
+    one.robots.duplicate();
+    while (gateway.document() === first) await clock.advance(1);
+    gateway.answerAfter(0);
+    await gateway.put(first, gateway.document());
+    await clock.advance(1000);
+    expect(gateway.document()).toBe(first);
+    expect([one.isTheBoards(), other.isTheBoards()]).toEqual([true, true]);
+  });
+
+  test('is put there by whoever was not ready when it was kept, as soon as that is over', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const one = createScreen(gateway, keeper, clock);
+    one.change({ link: { status: 'identifying' } });
+    await clock.advance(1000);
+    expect(gateway.asked).toEqual([]);
+    one.change({ link: { status: 'ready' } });
+    await clock.advance(1000);
+    expect(one.isTheBoards()).toBe(true);
+  });
+
+  test('whoever was slower takes up what was put there, and asks no more', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const described = ['Crane', 'Digger'].map((name) => {
+      const { robots, texts } = createVisit(createMemoryKeeper('browser'), clock);
+      robots.edit(() => 'rename', named(name));
+      return texts;
+    });
+    const screens = described.map((texts) => createScreen(gateway, keeper, clock, true, texts));
+    const refusals = (): number =>
+      screens.flatMap(({ told }) => told()).filter((text) => text.includes(FASTER)).length;
+    for (const told of [0, 1]) {
+      const asked = gateway.asked.length;
+      while (gateway.asked.length < asked + 2) await clock.advance(1);
+      for (const status of ['identifying', 'ready'] as const)
+        for (const { change } of screens) change({ link: { status } });
+      await clock.advance(1000);
+      expect(gateway.asked).toHaveLength(asked + 2);
+      expect(screens.map(({ isTheBoards }) => isTheBoards())).toEqual([true, true]);
+      // A wish that somebody had is not lost without a word.
+      expect(refusals()).toBe(told);
+      for (const { robots } of screens) robots.duplicate();
+    }
+  });
+
+  test('who described one before the word came that somebody was faster asks nothing either', async () => {
+    const { clock, gateway, keeper } = lesson();
+    gateway.refuseBy(new LinkError('gatewayRefused', FASTER));
+    const one = createScreen(gateway, keeper, clock);
+    while (gateway.asked.length === 0) await clock.advance(1);
+    one.robots.duplicate();
+    await clock.advance(1000);
+    expect(gateway.asked).toEqual(['usual-doc']);
+    gateway.refuseBy(null);
+    one.change({ robotOnBoard: { document: null } });
+    await clock.advance(1000);
+    expect(one.isTheBoards()).toBe(true);
   });
 
   test('stays what it is where the gateway refuses another one, which is told once', async () => {

@@ -6,6 +6,7 @@ import type { FamilyId } from '#shared/protocol/families.ts';
 import type { Lease } from '#shared/session/lease.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { SessionState } from '#shared/session/state.ts';
+import type { RobotOnBoard } from '#shared/session/transport.ts';
 import { words } from '../words/words.ts';
 import type { Notices } from './notices.ts';
 import type { RobotKeeping } from './robotKeeping.ts';
@@ -25,12 +26,15 @@ export interface RobotOfLinkOptions {
 export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionState) => void {
   const { robots, keeping, notices, mayWrite } = options;
   let { family, link, lease, robotOnBoard: told } = INITIAL_STATE;
+  let lastWord = told;
   /** The word that was followed; another robot at hand since then is the person's wish. */
   let followed: string | null = null;
   let isOffering = false;
   /** Nothing is asked twice by itself: the answer may be on its way, or have been no. */
   let asked = '';
   let waitsForLibrary = false;
+  /** Counts the words about what was put there from here last. */
+  let echoes = 0;
 
   function settle(): void {
     if (family.id !== 'unknown' && told !== null && link.status === 'ready' && !isOffering)
@@ -60,28 +64,39 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
   const whyNot = (): string =>
     mayWrite ? words.robots.othersHands(lease?.driver ?? '') : words.robots.onlyLooking;
 
+  /** A link that has just opened tells it too, and may be asked anew. */
+  function hear(word: RobotOnBoard | null): void {
+    if (link.status !== 'ready' || word?.document !== told?.document) asked = '';
+    lastWord = told = word;
+    if (word?.document === followed) echoes += 1;
+    if (word !== null) keeping.refresh();
+  }
+
   async function offer(id: number, insteadOf: string | null): Promise<void> {
     isOffering = true;
-    let isOnItsWay = false;
     asked = `${id} ${insteadOf}`;
     try {
       const document = await keeping.keep(id);
       waitsForLibrary = document === null;
       const isWanted = link.status === 'ready' && told?.document === insteadOf;
-      if (document !== null && document !== insteadOf && isWanted) {
+      if (!isWanted) asked = '';
+      else if (document !== null && document !== insteadOf) {
         // Our own word is no news: what was taken up meanwhile is wished for.
         followed = document;
+        const before = echoes;
         await options.putOnBoard(document, insteadOf);
-        isOnItsWay = told?.document !== document;
+        // The word about it may be on its way still; where it has come, whatever came behind it is newer.
+        if (echoes === before) told = { document };
       }
     } catch (error) {
       followed = insteadOf;
       if (insteadOf !== null) notices.tellError(error);
+      // Somebody was faster: nothing is asked in place of none before the word about it comes.
+      else if (told?.document === null) told = null;
     } finally {
       isOffering = false;
     }
-    // Else the word about it calls this.
-    if (!isOnItsWay) settle();
+    settle();
   }
 
   robots.refuseBy((before, next) => {
@@ -96,10 +111,8 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
     settle();
   });
   return (snapshot) => {
-    const before = told;
-    ({ family, link, lease, robotOnBoard: told } = snapshot);
-    if (link.status !== 'ready' || told?.document !== before?.document) asked = '';
-    if (told !== before && told !== null) keeping.refresh();
+    ({ family, link, lease } = snapshot);
+    if (snapshot.robotOnBoard !== lastWord) hear(snapshot.robotOnBoard);
     settle();
   };
 }
