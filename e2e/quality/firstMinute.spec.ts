@@ -12,6 +12,14 @@ test('without a gateway the page starts on the simulated robot, and it moves', a
   await dashboard.type(dashboard.target(6), 1800);
   await expect(dashboard.estimate(6)).toHaveText('≈ 1800');
   await expect(dashboard.estimate(6)).toBeVisible();
+
+  // Move, capture, play, send to the board: without scrolling.
+  await dashboard.capture.click();
+  for (const act of [
+    ...[dashboard.slider(6), dashboard.capture, dashboard.button('Play'), dashboard.slot],
+    ...['Download', 'Run', 'End group'].map((verb) => dashboard.button(verb)),
+  ])
+    await expect(act).toBeInViewport({ ratio: 1 });
 });
 
 test('a way that is not possible here says why', async ({ page, servers }) => {

@@ -23,6 +23,7 @@ function holdsFocus(place: Locator): Promise<boolean> {
 }
 
 test('the main job needs no mouse', async ({ page, servers }) => {
+  test.slow();
   const dashboard = dashboardOf(page);
   const { keyboard } = page;
   await page.goto((await servers.files()).url);
@@ -44,7 +45,7 @@ test('the main job needs no mouse', async ({ page, servers }) => {
   await expect(dashboard.notices).toContainText('Slot 5 is downloaded.');
   await tabTo(page, dashboard.untilStopped);
   await keyboard.press('Space');
-  await tabTo(page, dashboard.button('Run'));
+  await tabTo(page, dashboard.button('Run'), 'Shift+Tab');
   await keyboard.press('Enter');
   await expect(dashboard.status).toContainText('Running slot 5, until stopped');
   await tabTo(page, dashboard.stop);

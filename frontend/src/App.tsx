@@ -98,10 +98,12 @@ function DeskWork() {
         <div className={styles.live}>
           <LivePanel />
         </div>
-        <div className={styles.authoring}>
-          <Authoring />
+        <div className={styles.authoring} data-column>
+          <div className={styles.work}>
+            <Authoring />
+          </div>
           <div className={styles.boardRow}>
-            <BoardPanel />
+            <BoardPanel isSpread />
             <BatteryPanel />
           </div>
         </div>

@@ -1,59 +1,84 @@
-// What lives on the board: slots, downloading to one, running one, erasing all. Boards cannot be read, so a slot is known
-// only as far as this page filled it.
+// What lives on the board: the strip of what is done with it again and again, and below it the details: what the slot holds and
+// the group becomes there, how often it runs, how fast, the map of the slots, erasing all. Boards cannot be read, so a slot is
+// known only as far as this page filled it.
 
+import { useId, useRef, type RefObject } from 'react';
 import { recordOf } from '#shared/actions/slots/slotBook.ts';
-import { obstacles } from '../stores/compiled.ts';
-import { useCompiled, useDevice, useSlots, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useSlots, useStores, useView } from '../stores/stores.ts';
 import { SlotsControl } from '../slots/SlotsControl.tsx';
 import { FATE_TRUTH, useFates } from '../slots/useFates.ts';
 import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
-import { NumberField } from '../ui/NumberField.tsx';
-import { Panel } from '../ui/Panel.tsx';
 import { CompileRow } from '../compile/CompileRow.tsx';
 import { words } from '../words/words.ts';
 import { Absent } from './Absent.tsx';
-import { DownloadControl } from './DownloadControl.tsx';
+import { BoardStrip } from './BoardStrip.tsx';
 import { EraseControl } from './EraseControl.tsx';
 import { PlaceControl } from './PlaceControl.tsx';
-import { RunControl } from './RunControl.tsx';
+import { RunSettings } from './RunSettings.tsx';
 import { SpeedControl } from './SpeedControl.tsx';
-import field from '../ui/Field.module.css';
+import panel from '../ui/Panel.module.css';
 import styles from './BoardPanel.module.css';
 
-export function BoardPanel() {
+export interface BoardPanelProps {
+  /** Its two parts stand in the column around it, as wide as that: the strip stays in sight, the details scroll. */
+  readonly isSpread?: boolean;
+}
+
+export function BoardPanel({ isSpread = false }: BoardPanelProps) {
+  const titleId = useId();
+  const details = useRef<HTMLDivElement>(null);
+  return (
+    <section className={isSpread ? styles.spread : panel.panel} aria-labelledby={titleId}>
+      <header className={styles.strip}>
+        <h2 id={titleId} className={panel.title}>
+          {words.board.title}
+        </h2>
+        <BoardStrip />
+        {isSpread && <DetailsButton details={details} />}
+      </header>
+      <div ref={details} className={styles.rows}>
+        <Details />
+      </div>
+    </section>
+  );
+}
+
+/** There and back again. */
+function DetailsButton({ details }: { readonly details: RefObject<HTMLElement | null> }) {
+  const turn = (): void => {
+    const column = details.current?.closest('[data-column]');
+    const isThere = (column?.scrollTop ?? 0) > 0;
+    if (isThere) column?.scrollTo({ top: 0 });
+    else details.current?.scrollIntoView({ block: 'end' });
+  };
+  return (
+    <span className={styles.turn}>
+      <Button tone="quiet" icon="down" onPress={turn}>
+        {words.board.details}
+      </Button>
+    </span>
+  );
+}
+
+function Details() {
   const { commands, id } = useDevice((state) => state.family);
   const why = id === 'unknown' ? words.board.unsure : words.board.absent;
   const canErase = commands.includes('erase');
   return (
-    <Panel
-      title={words.board.title}
-      note={<AtAGlance />}
-      tools={
-        <>
-          <SlotsControl />
-          {canErase && <EraseControl />}
-        </>
-      }
-    >
-      <div className={styles.rows}>
-        <SlotControl />
-        <CompileRow />
-        {commands.includes('download') ? (
-          <DownloadControl />
-        ) : (
-          <Absent what={words.board.download} why={why.download} />
-        )}
-        {commands.includes('run') ? <RunControl /> : <Absent what={words.board.run} why={why.run} />}
-        {commands.includes('setSpeed') ? (
-          <SpeedControl />
-        ) : (
-          <Absent what={words.board.speed} why={why.speed} />
-        )}
-        {!canErase && <Absent what={words.board.erase} why={why.erase} />}
+    <>
+      <HeldRow />
+      <CompileRow />
+      {!commands.includes('download') && <Absent what={words.board.download} why={why.download} />}
+      {commands.includes('run') ? <RunSettings /> : <Absent what={words.board.run} why={why.run} />}
+      {commands.includes('setSpeed') ? <SpeedControl /> : <Absent what={words.board.speed} why={why.speed} />}
+      {!canErase && <Absent what={words.board.erase} why={why.erase} />}
+      <div className={styles.foot}>
+        <SlotsControl />
+        {canErase && <EraseControl />}
         <TakenFor />
       </div>
-    </Panel>
+    </>
   );
 }
 
@@ -71,50 +96,17 @@ function TakenFor() {
   );
 }
 
-/** What stands below in full, for a window in which only the head of this panel is in sight. */
-function AtAGlance() {
+function HeldRow() {
   const slot = useView((state) => state.slot);
-  const fate = useFates()(slot);
-  const { frames, report } = useCompiled((state) => state.latest);
-  const fits = obstacles(report, 'board').length === 0;
-  return (
-    <span className={styles.glance} aria-hidden="true">
-      <Chip truth={FATE_TRUTH[fate]}>{words.board.glance(slot, words.slots.badge[fate])}</Chip>
-      {frames.length > 0 && (
-        <Chip truth={fits ? 'confirmed' : 'danger'}>{fits ? words.compile.fits : words.compile.fitsNot}</Chip>
-      )}
-    </span>
-  );
-}
-
-function SlotControl() {
-  const { view, notices } = useStores();
-  const slot = useView((state) => state.slot);
-  const { min, max } = useDevice((state) => state.family.slot);
   const fate = useFates()(slot);
   const held = useSlots(({ book }) => recordOf(book, slot)?.name ?? '');
   return (
     <div className={styles.row}>
-      <div className={field.named}>
-        <span className={styles.label} aria-hidden="true">
-          {words.board.slot}
-        </span>
-        <NumberField
-          label={words.board.slot}
-          value={slot}
-          min={min}
-          max={max}
-          onChange={(value) => view.setState({ slot: value })}
-          onRefused={(value) => notices.tell('warning', words.refused(words.board.slot, value, min, max))}
-        />
+      <div className={styles.about} role="status">
+        <Chip truth={FATE_TRUTH[fate]}>{words.board.glance(slot, words.slots.badge[fate])}</Chip>
+        <p>{words.slots.holds(fate, held)}</p>
       </div>
-      <div>
-        <div className={styles.about} role="status">
-          <Chip truth={FATE_TRUTH[fate]}>{words.slots.badge[fate]}</Chip>
-          <p>{words.slots.holds(fate, held)}</p>
-        </div>
-        <PlaceControl />
-      </div>
+      <PlaceControl />
     </div>
   );
 }

@@ -5,8 +5,6 @@ import { startHindrance } from '../stores/readiness.ts';
 import { useCompiled, useDevice, useDocument, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
-import { DownloadProgress } from './DownloadProgress.tsx';
-import styles from './BoardPanel.module.css';
 
 export function DownloadControl() {
   const { compiled, library, notices, slots } = useStores();
@@ -14,14 +12,8 @@ export function DownloadControl() {
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const slot = useView((state) => state.slot);
   const frameCount = useCompiled((state) => state.latest.frames.length);
-  const isDownloading = useSnapshot(({ activity }) => activity.kind === 'downloading');
   const sameUnit = useDevice((state) => state.family.unit === unit);
   const mayStart = useSnapshot((snapshot) => startHindrance(snapshot) === null);
-  const hint = isEmpty
-    ? words.board.nothingToDownload
-    : sameUnit
-      ? words.board.downloadHint(frameCount, slot)
-      : words.actions.otherUnit(unit);
   const download = (): void => {
     const group = compiled.now();
     const { name } = group.source.group;
@@ -31,11 +23,13 @@ export function DownloadControl() {
     else notices.tell('warning', words.compile.problem(problem, group.source.group));
   };
   return (
-    <div className={styles.row}>
-      <Button wide icon="download" isDisabled={!mayStart || !sameUnit || isEmpty} onPress={download}>
-        {words.board.download}
-      </Button>
-      {isDownloading ? <DownloadProgress /> : <p className={styles.hint}>{hint}</p>}
-    </div>
+    <Button
+      icon="download"
+      hint={words.board.downloadHint(frameCount, slot)}
+      isDisabled={!mayStart || !sameUnit || isEmpty}
+      onPress={download}
+    >
+      {words.board.download}
+    </Button>
   );
 }

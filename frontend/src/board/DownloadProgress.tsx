@@ -4,7 +4,7 @@ import { isWatching } from '#shared/session/lease.ts';
 import { useSlots, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
-import styles from './BoardPanel.module.css';
+import styles from './DownloadProgress.module.css';
 
 export function DownloadProgress() {
   const { slots } = useStores();

@@ -270,6 +270,7 @@ export const english = {
   },
 
   board: {
+    details: 'Details',
     title: 'Board',
     slot: 'Slot',
     /** What the group at hand says of itself. */

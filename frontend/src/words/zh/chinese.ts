@@ -257,6 +257,7 @@ export const chinese: Words = {
   },
 
   board: {
+    details: '详情',
     title: '控制板',
     slot: '槽位',
     place: (slot, times) =>

@@ -1,0 +1,88 @@
+// What is done with the board in every round of trying a motion: choose the slot, download to it, run it, end it. Between the
+// two, what is known of the slot, or how far a download or a run has come.
+
+import { obstacles } from '../stores/compiled.ts';
+import { useCompiled, useDevice, useDocument, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { FATE_TRUTH, useFates } from '../slots/useFates.ts';
+import { Chip } from '../ui/Chip.tsx';
+import { NumberField } from '../ui/NumberField.tsx';
+import { words } from '../words/words.ts';
+import type { Activity } from '#shared/session/state.ts';
+import { DownloadControl } from './DownloadControl.tsx';
+import { DownloadProgress } from './DownloadProgress.tsx';
+import { RunControl } from './RunControl.tsx';
+import styles from './BoardStrip.module.css';
+
+export function BoardStrip() {
+  const { commands } = useDevice((state) => state.family);
+  return (
+    <>
+      <SlotField />
+      <div className={styles.now}>
+        <Now />
+      </div>
+      <div className={styles.verbs}>
+        {commands.includes('download') && <DownloadControl />}
+        {commands.includes('run') && <RunControl />}
+      </div>
+    </>
+  );
+}
+
+function SlotField() {
+  const { view, notices } = useStores();
+  const slot = useView((state) => state.slot);
+  const { min, max } = useDevice((state) => state.family.slot);
+  return (
+    <div className={styles.slot}>
+      <span className={styles.label} aria-hidden="true">
+        {words.board.slot}
+      </span>
+      <NumberField
+        label={words.board.slot}
+        value={slot}
+        min={min}
+        max={max}
+        size="small"
+        onChange={(value) => view.setState({ slot: value })}
+        onRefused={(value) => notices.tell('warning', words.refused(words.board.slot, value, min, max))}
+      />
+    </div>
+  );
+}
+
+function Now() {
+  const activity = useSnapshot((snapshot) => snapshot.activity);
+  if (activity.kind === 'downloading') return <DownloadProgress />;
+  if (activity.kind === 'running') return <Running activity={activity} />;
+  return <AtAGlance />;
+}
+
+/** What the details below say in full. */
+function AtAGlance() {
+  const slot = useView((state) => state.slot);
+  const unit = useDocument(({ present }) => present.unit);
+  const isSameUnit = useDevice((state) => state.family.unit === unit);
+  const fate = useFates()(slot);
+  const { frames, report } = useCompiled((state) => state.latest);
+  const fits = obstacles(report, 'board').length === 0;
+  if (frames.length === 0) return <p className={styles.hint}>{words.board.nothingToDownload}</p>;
+  if (!isSameUnit) return <p className={styles.hint}>{words.actions.otherUnit(unit)}</p>;
+  return (
+    <span className={styles.glance} aria-hidden="true">
+      <Chip truth={FATE_TRUTH[fate]}>{words.slots.badge[fate]}</Chip>
+      <Chip truth={fits ? 'confirmed' : 'danger'}>{fits ? words.compile.fits : words.compile.fitsNot}</Chip>
+    </span>
+  );
+}
+
+const TRUTH = { requested: 'commanded', acknowledged: 'confirmed', unknown: 'unknown' } as const;
+
+function Running({ activity }: { readonly activity: Extract<Activity, { kind: 'running' }> }) {
+  return (
+    <div className={styles.run}>
+      <Chip truth={TRUTH[activity.truth]}>{words.activity.running(activity.slot, activity.times)}</Chip>
+      <p>{words.activity.runTruth[activity.truth]}</p>
+    </div>
+  );
+}
