@@ -3,6 +3,7 @@
 import { dashboardOf, type Dashboard } from '../fixtures/dashboard.ts';
 import { filesDialogOf, vector } from '../fixtures/files.ts';
 import { captureGroup } from '../fixtures/group.ts';
+import { libraryOf } from '../fixtures/library.ts';
 import { expect, test } from '../fixtures/test.ts';
 import { timelineOf } from '../fixtures/timeline.ts';
 
@@ -74,6 +75,21 @@ test('several files come at once; a broken one tells where and why, and changes 
   await dashboard.button('Close').click();
   await expect(dashboard.frames).toHaveCount(2);
   await expect(dashboard.button('Files, 2 opened')).toBeVisible();
+});
+
+test('several groups are taken in one go: one is shown, the others are in the library', async ({
+  dashboard,
+  page,
+}) => {
+  const files = filesDialogOf(dashboard);
+  const { content } = vector('nod.xml');
+  await files.open({ name: 'all one.xml', content }, { name: 'all two.xml', content }, vector('secret.rob'));
+  await files.dialog.getByRole('button', { name: 'Open all 2' }).click();
+  await expect(dashboard.field('Name of the group')).toHaveValue('all one');
+  await expect(dashboard.button('Files, 1 opened')).toBeVisible();
+  const library = libraryOf(page);
+  await library.show();
+  await expect(library.card('all two')).toBeVisible();
 });
 
 test('what the board cannot do becomes no program, and says which servo and frame', async ({ dashboard }) => {

@@ -1,16 +1,15 @@
 // A group as it stands in a file: its picture and measures, the unit asked where nobody said, what does not fit. It is taken
 // over as it is, or converted where the person says so.
 
-import { useMemo, useState } from 'react';
+import { useMemo } from 'react';
 import { misfitsOf } from '#shared/actions/files/fit.ts';
-import type { Unit } from '#shared/actions/files/reading.ts';
-import { inUnit, onlyFittingUnit, toSteps } from '#shared/actions/files/units.ts';
 import { poseAt, totalDurationMs, type ActionGroup } from '#shared/actions/group/group.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { useDevice, useRobot } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
+import { convertedOf, takenAs, type Answer } from './answers.ts';
 import { GroupPlot } from './GroupPlot.tsx';
 import { UnitQuestion } from './UnitQuestion.tsx';
 import styles from './FoundGroup.module.css';
@@ -18,16 +17,15 @@ import styles from './FoundGroup.module.css';
 export interface FoundGroupProps {
   readonly found: ActionGroup;
   readonly asksUnit: boolean;
+  readonly answer: Answer;
+  onAnswer(change: Partial<Answer>): void;
   onTake(group: ActionGroup): void;
 }
 
-export function FoundGroup({ found, asksUnit, onTake }: FoundGroupProps) {
+export function FoundGroup({ found, asksUnit, answer, onAnswer, onTake }: FoundGroupProps) {
   const family = useDevice((state) => state.family);
-  const [unit, setUnit] = useState<Unit | null>(asksUnit ? onlyFittingUnit(found) : found.unit);
-  const [converts, setConverts] = useState(false);
-  const named = inUnit(found, unit ?? found.unit);
-  const converted = family.unit === 'steps' ? toSteps(named) : null;
-  const group = converts && converted !== null ? converted : named;
+  const { unit, converts } = answer;
+  const group = takenAs(found, answer, family.unit);
   const { frames } = group;
   return (
     <div className={styles.group}>
@@ -51,9 +49,13 @@ export function FoundGroup({ found, asksUnit, onTake }: FoundGroupProps) {
           {words.files.takeVerb}
         </Button>
       </div>
-      {asksUnit && <UnitQuestion group={found} unit={unit} onUnit={setUnit} />}
-      {unit === 'us' && converted !== null && (
-        <Toggle label={words.files.convert} isOn={converts} onChange={setConverts} />
+      {asksUnit && <UnitQuestion group={found} unit={unit} onUnit={(one) => onAnswer({ unit: one })} />}
+      {unit === 'us' && convertedOf(found, answer, family.unit) !== null && (
+        <Toggle
+          label={words.files.convert}
+          isOn={converts}
+          onChange={(isOn) => onAnswer({ converts: isOn })}
+        />
       )}
       {unit !== null && <Misfits group={group} />}
     </div>

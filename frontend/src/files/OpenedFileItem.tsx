@@ -5,17 +5,20 @@ import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Remark } from '#shared/actions/files/reading.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import type { Answer } from './answers.ts';
 import { FoundGroup } from './FoundGroup.tsx';
 import type { OpenedFile } from './openedFiles.ts';
 import styles from './OpenedFileItem.module.css';
 
 export interface OpenedFileItemProps {
   readonly file: OpenedFile;
-  onTake(groups: readonly ActionGroup[]): void;
+  onAnswer(index: number, change: Partial<Answer>): void;
+  onTake(group: ActionGroup): void;
   onDrop(): void;
 }
 
-export function OpenedFileItem({ file: { name, reading }, onTake, onDrop }: OpenedFileItemProps) {
+export function OpenedFileItem({ file, onAnswer, onTake, onDrop }: OpenedFileItemProps) {
+  const { name, reading, answers } = file;
   return (
     <li className={styles.file} aria-label={name} aria-busy={reading === null}>
       <div className={styles.head}>
@@ -36,7 +39,9 @@ export function OpenedFileItem({ file: { name, reading }, onTake, onDrop }: Open
               key={index}
               found={group}
               asksUnit={reading.asksUnit}
-              onTake={(one) => onTake([one])}
+              answer={answers[index] ?? NOT_ANSWERED}
+              onAnswer={(change) => onAnswer(index, change)}
+              onTake={onTake}
             />
           ))}
           <Remarks remarks={reading.remarks} />
@@ -45,6 +50,8 @@ export function OpenedFileItem({ file: { name, reading }, onTake, onDrop }: Open
     </li>
   );
 }
+
+const NOT_ANSWERED: Answer = { unit: null, converts: false };
 
 /** A file may give the same reason for each of its frames. */
 const SHOWN_REMARKS = 6;

@@ -1,22 +1,24 @@
-// Files that were opened and not yet taken over, read one by one. Knows no document and no dialog.
+// Files that were opened and not yet taken over, read one by one, with what was answered about them. Knows no document and no
+// dialog.
 
 import { useState } from 'react';
 import { MAX_FILE_BYTES, readGroupFile } from '#shared/actions/files/readGroupFile.ts';
 import type { Problem, Reading } from '#shared/actions/files/reading.ts';
+import { firstAnswers, type Answer, type AnsweredFile } from './answers.ts';
 import { fileMeans } from './means.ts';
 import { loadSqlite } from './sqlite.ts';
 
-export interface OpenedFile {
-  readonly id: number;
+/** `reading` is null while it is being read. */
+export interface OpenedFile extends AnsweredFile {
   readonly name: string;
-  /** null while it is being read. */
-  readonly reading: Reading | null;
 }
 
 export interface OpenedFiles {
   readonly list: readonly OpenedFile[];
   open(files: readonly File[]): void;
-  drop(id: number): void;
+  /** About the group at `index` of the file. */
+  answer(id: number, index: number, change: Partial<Answer>): void;
+  drop(...ids: readonly number[]): void;
 }
 
 const means = fileMeans(loadSqlite);
@@ -28,16 +30,29 @@ export function useOpenedFiles(): OpenedFiles {
   function open(files: readonly File[]): void {
     const added = files.map((file) => ({ file, id: nextId++ }));
     setList((before) => [
-      ...added.map(({ file, id }) => ({ id, name: file.name, reading: null })),
+      ...added.map(({ file, id }) => ({ id, name: file.name, reading: null, answers: [] })),
       ...before,
     ]);
     for (const { file, id } of added)
       void readingOf(file).then((reading) =>
-        setList((before) => before.map((one) => (one.id === id ? { ...one, reading } : one))),
+        setList((before) =>
+          before.map((one) => (one.id === id ? { ...one, reading, answers: firstAnswers(reading) } : one)),
+        ),
       );
   }
 
-  return { list, open, drop: (id) => setList((before) => before.filter((one) => one.id !== id)) };
+  function answer(id: number, index: number, change: Partial<Answer>): void {
+    const changed = (before: readonly Answer[]): readonly Answer[] =>
+      before.map((one, place) => (place === index ? { ...one, ...change } : one));
+    setList((before) =>
+      before.map((one) => (one.id === id ? { ...one, answers: changed(one.answers) } : one)),
+    );
+  }
+
+  return {
+    ...{ list, open, answer },
+    drop: (...ids) => setList((before) => before.filter((one) => !ids.includes(one.id))),
+  };
 }
 
 async function readingOf(file: File): Promise<Reading> {

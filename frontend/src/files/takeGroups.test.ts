@@ -12,6 +12,7 @@ const group = (name: string) =>
 test('groups of files become documents; what was being written is still there', async () => {
   const page = createVisit(createMemoryKeeper(), createVirtualClock());
   takeGroups(page, [group('Wave'), group('Bow')]);
+  expect(page.told()).toEqual(['One more group is in the library.']);
   await page.later();
   expect(page.group().name).toBe('Wave');
   takeGroups(page, [group('Nod')]);

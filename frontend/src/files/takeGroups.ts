@@ -6,7 +6,7 @@ import type { Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 
 export function takeGroups(
-  { document, library, view }: Pick<Stores, 'document' | 'library' | 'view'>,
+  { document, library, view, notices }: Pick<Stores, 'document' | 'library' | 'view' | 'notices'>,
   [group, ...others]: readonly ActionGroup[],
 ): void {
   if (group === undefined) return;
@@ -16,6 +16,7 @@ export function takeGroups(
     () => group,
   );
   others.forEach(library.add);
+  if (others.length > 0) notices.tell('info', words.files.inLibrary(others.length));
   const said = words.files.taken(group.name, group.frames.length);
   view.setState({ selectedFrame: null, said });
 }

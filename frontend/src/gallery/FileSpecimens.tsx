@@ -5,6 +5,7 @@ import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { FilesContent } from '../files/FilesDialog.tsx';
+import { firstAnswers } from '../files/answers.ts';
 import type { OpenedFile } from '../files/openedFiles.ts';
 import type { Stores } from '../stores/stores.ts';
 import type { Exhibit } from './exhibit.ts';
@@ -26,8 +27,12 @@ const READINGS: readonly (readonly [name: string, reading: Reading | null])[] = 
 ];
 
 const OPENED = {
-  list: READINGS.map(([name, reading], id): OpenedFile => ({ id, name, reading })),
+  list: READINGS.map(([name, reading], id): OpenedFile => ({
+    ...{ id, name, reading },
+    answers: reading === null ? [] : firstAnswers(reading),
+  })),
   open: () => undefined,
+  answer: () => undefined,
   drop: () => undefined,
 };
 

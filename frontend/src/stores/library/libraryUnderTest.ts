@@ -37,7 +37,7 @@ export function createVisit(
       .map(({ facts }) => facts.name)
       .sort();
   return {
-    ...{ texts, document, library, names, view },
+    ...{ texts, document, library, names, view, notices },
     told: () => notices.store.getState().map(({ text }) => text),
     act: () => notices.store.getState().at(-1)?.action?.act(),
     group: () => document.store.getState().present,

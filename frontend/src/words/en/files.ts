@@ -116,6 +116,12 @@ export const fileWords = {
   from: (file: string): string => `From ${file}`,
   take: (name: string): string => `Open ${name}`,
   takeVerb: 'Open',
+  takeAll: (count: number): string => `Open all ${formatWhole(count)}`,
+  takeAllHint: (name: string): string => `${name} is shown then, the others are in the library.`,
+  inLibrary: (count: number): string =>
+    count === 1
+      ? 'One more group is in the library.'
+      : `${formatWhole(count)} more groups are in the library.`,
   taken: (name: string, frames: number): string => `${name} is open, ${counted(frames, 'frame')}.`,
   step: (name: string): string => `open ${name}`,
   drop: (file: string): string => `Take ${file} off the list`,
