@@ -74,6 +74,8 @@ test('each group keeps its own undo; versions, tags, copies and the trash work f
 });
 
 test.describe('at a gateway that is slow', () => {
+  test.use({ expectedComplaint: /api\/(me|status) net::ERR_ABORTED/ });
+
   test('what was written meanwhile is kept there once it answers', async ({ dashboard, page }) => {
     const library = libraryOf(page);
     let answer = (): void => undefined;
@@ -97,6 +99,16 @@ test.describe('at a gateway that is slow', () => {
     await expect(dashboard.link).not.toContainText('Simulated');
     await expect(dashboard.link).toContainText('Ready');
   });
+});
+
+test('a gateway that has said who is here is waited for', async ({ dashboard, page }) => {
+  await page.route(/\/api\/status$/, async (route) => {
+    await new Promise((resolve) => setTimeout(resolve, 2500));
+    await route.continue();
+  });
+  await page.reload();
+  await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 15_000 });
+  await expect(dashboard.link).not.toContainText('Simulated');
 });
 
 test('a version is deleted alone, and comes back', async ({ dashboard, page }) => {

@@ -27,6 +27,7 @@ import {
   openGatewayPort,
   readGateway,
   readPorts,
+  SURE_WITHIN_MS,
   type GatewayPort,
   type GatewayStatus,
 } from './gatewayApi.ts';
@@ -86,6 +87,8 @@ export interface ConnectorOptions {
   readonly storage: TextStorage;
   /** What whoever opened the page may do at its gateway. */
   readonly role: You['role'];
+  /** It has answered already. */
+  readonly isAtGateway: boolean;
   isWatched(): boolean;
 }
 
@@ -140,9 +143,9 @@ export function createConnector(options: ConnectorOptions): Connector {
     void connect(transport);
   }
 
-  async function look(): Promise<void> {
-    const [gateway, granted] = await Promise.all([readGateway(), grantedPorts()]);
-    const ports = gateway === null || role !== 'owner' ? [] : await readPorts();
+  async function look(withinMs?: number): Promise<void> {
+    const [gateway, granted] = await Promise.all([readGateway(withinMs), grantedPorts()]);
+    const ports = gateway === null || role !== 'owner' ? [] : await readPorts(withinMs);
     store.setState({
       gateway: gateway ?? 'absent',
       gatewayPorts: ports,
@@ -153,7 +156,7 @@ export function createConnector(options: ConnectorOptions): Connector {
   async function start(): Promise<void> {
     const last = recallWay(storage);
     if (last !== null) store.setState({ board: last.board });
-    await look();
+    await look(options.isAtGateway ? SURE_WITHIN_MS : undefined);
     const { gateway, granted, reconnects } = store.getState();
     const [port] = granted;
     if (last?.kind === 'simulated' || (gateway === 'absent' && last === null)) {

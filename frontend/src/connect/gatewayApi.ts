@@ -18,15 +18,17 @@ export interface GatewayPort {
 }
 
 const ANSWER_WITHIN_MS = 2000;
+/** For one that has just said who is here: it is only slow, and nobody is to be given another robot for that. */
+export const SURE_WITHIN_MS = 10_000;
 const PATIENT_MS = 30_000;
 const ASK_AGAIN_MS = 1000;
 /** Statuses of a server that may be in order a moment later. */
 const FROM_HERE_PASSING = 500;
 
 /** null where no gateway answers: the page came from elsewhere, or the gateway is gone. */
-export async function readGateway(): Promise<GatewayStatus | null> {
+export async function readGateway(withinMs = ANSWER_WITHIN_MS): Promise<GatewayStatus | null> {
   try {
-    const status: unknown = await ask('api/status');
+    const status: unknown = await ask('api/status', withinMs);
     if (!isRecord(status) || !isRecord(status.port)) return null;
     const { device, code } = status.port;
     // Whatever has its name now is one to be chosen like any other.
@@ -53,14 +55,14 @@ export async function hasGateway(clock: Clock): Promise<boolean> {
 }
 
 /** Ports of the gateway's machine, the likely ones first. */
-export async function readPorts(): Promise<readonly GatewayPort[]> {
-  const list: unknown = await ask('api/ports');
+export async function readPorts(withinMs = ANSWER_WITHIN_MS): Promise<readonly GatewayPort[]> {
+  const list: unknown = await ask('api/ports', withinMs);
   if (!Array.isArray(list)) throw new LinkError('internal', 'the gateway’s list of ports is no list');
   return list.filter(isPort).map(({ device, description }) => ({ device, description }));
 }
 
 export async function openGatewayPort(device: string, board: BoardId): Promise<void> {
-  await ask('api/port', { device, board });
+  await ask('api/port', ANSWER_WITHIN_MS, { device, board });
 }
 
 /** The gateway's WebSocket beside the page. */
@@ -71,12 +73,8 @@ export function gatewayUrl(): string {
 }
 
 /** Without a body it is a question. */
-function ask(path: string, body?: object): Promise<unknown> {
-  return askGateway(
-    path,
-    body === undefined ? { headers: OWN_PAGE } : withBody('PUT', body),
-    ANSWER_WITHIN_MS,
-  );
+function ask(path: string, withinMs: number, body?: object): Promise<unknown> {
+  return askGateway(path, body === undefined ? { headers: OWN_PAGE } : withBody('PUT', body), withinMs);
 }
 
 function isPort(value: unknown): value is GatewayPort {

@@ -116,6 +116,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     storage,
     isWatched,
     role: me?.you?.role ?? 'owner',
+    isAtGateway: me !== null,
   });
   if (problem !== null) notices.tell('warning', words.people.problem(problem.code, problem.message));
   if (me?.you) beginAnewAsAnother(device.store, me.you, () => location.reload());
