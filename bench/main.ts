@@ -18,7 +18,9 @@ import { measureNetwork } from './network.ts';
 import { measurePageSize } from './pageSize.ts';
 import { measureRelay } from './relay.ts';
 import { measureStart } from './start.ts';
-import { measureStop } from './stop.ts';
+import { measureStopDragging, measureStopIdle } from './stop.ts';
+import { measureStopReconnect } from './stopAfterLoss.ts';
+import { measureStopDownload, measureStopFlood, measureStopRunning } from './stopStates.ts';
 import { toTable } from './table.ts';
 import { measureTimeline } from './timeline.ts';
 
@@ -29,7 +31,12 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   download: measureDownload,
   relay: measureRelay,
   network: measureNetwork,
-  stop: measureStop,
+  'stop.idle': measureStopIdle,
+  'stop.dragging': measureStopDragging,
+  'stop.running': measureStopRunning,
+  'stop.download': measureStopDownload,
+  'stop.flood': measureStopFlood,
+  'stop.reconnect': measureStopReconnect,
   crowd: measureCrowd,
   frames: measureFrames,
   lanes: measureLanes,

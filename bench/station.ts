@@ -14,6 +14,8 @@ import { SetupProblem } from '../scripts/steps.mjs';
 
 const READY_MS = 10_000;
 const POLL_MS = 20;
+const folders: string[] = [];
+let boards = 0;
 
 export interface BoardOnPort {
   readonly device: string;
@@ -30,7 +32,7 @@ export async function withBoard<Result>(
   const busLog = path.join(folder, 'bus.jsonl');
   const lines: string[] = [];
   const cable = await simulatedBoard({
-    link: `build/bench-board-${process.pid}`,
+    link: `build/bench-board-${process.pid}-${(boards += 1)}`,
     simulatorArgs: ['--bus-log', busLog, ...simulatorArgs],
     onLine: (line) => lines.push(line),
     onLost: () => lines.push('it ended'),
@@ -49,8 +51,10 @@ export async function withBoard<Result>(
 
 /** Goes with this process, however that ends. */
 function temporaryFolder(): string {
+  if (folders.length === 0)
+    process.once('exit', () => folders.forEach((folder) => rmSync(folder, { recursive: true, force: true })));
   const folder = mkdtempSync(path.join(tmpdir(), 'servodeck-bench-'));
-  process.once('exit', () => rmSync(folder, { recursive: true, force: true }));
+  folders.push(folder);
   return folder;
 }
 

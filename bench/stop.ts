@@ -1,5 +1,6 @@
 // From the press on STOP in the real page to the first stop byte at the board's pins, over gateway and pty at 9600 baud:
-// what the person's finger meets. In two states: nothing else goes on, and all sliders are dragged at once.
+// what the person's finger meets. In two states: nothing else goes on, and all sliders are dragged at once; others are
+// stopStates.ts.
 //
 // The press is the browser's own time of the pointer event, the byte is in the bus log; both count from the epoch. Beside
 // it stands what the wire alone costs: a packet that has begun to leave cannot be recalled, and the board needs its gap.
@@ -11,7 +12,7 @@ import type { Figure } from './figure.ts';
 import { stopFigures, stopTimes, type StopTimes } from './presses.ts';
 import { openDashboard, withBoard, withPage, type BoardOnPort } from './station.ts';
 
-const PRESSES = 100;
+const PRESSES = 200;
 /** Between Resume and the next press: at any moment of the packet on the wire, whose cycle is about 36 ms. */
 const PAUSE_MS = { shortest: 60, longest: 110 };
 /** A stop goes out at 0, 70 and 140 ms, then the hold. */
@@ -19,17 +20,22 @@ const SEQUENCE_MS = 220;
 const STOPS_PER_PRESS = 3;
 const GAP_MS = family('doc').serviceGapMs;
 
-export function measureStop(): Promise<Figure[]> {
+export function measureStopIdle(): Promise<Figure[]> {
+  return measure('stop.idle', 'in the page; nothing else on the wire', () => Promise.resolve());
+}
+
+export function measureStopDragging(): Promise<Figure[]> {
+  return measure('stop.dragging', 'in the page; all sliders dragged', (page) =>
+    page.getByRole('slider').evaluateAll(dragInPage),
+  );
+}
+
+function measure(name: string, note: string, begin: (page: Page) => Promise<void>): Promise<Figure[]> {
   return withBoard([], (board) =>
     withPage(board.device, async (page, url) => {
       await openDashboard(page, url);
-      const idle = await timesOfPresses(page, board);
-      await page.getByRole('slider').evaluateAll(dragInPage);
-      const dragging = await timesOfPresses(page, board);
-      return [
-        ...stopFigures('stop.idle', idle, 'in the page; nothing else on the wire'),
-        ...stopFigures('stop.dragging', dragging, 'in the page; all sliders dragged'),
-      ];
+      await begin(page);
+      return stopFigures(name, await timesOfPresses(page, board), note);
     }),
   );
 }

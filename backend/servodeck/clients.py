@@ -97,6 +97,8 @@ async def read_all(socket: WebSocket, seat: Seat, control: Control) -> None:
                 await socket.close(UNSUPPORTED_DATA, "Text only.")
                 return
             hear(text, seat, intake)
+            # What has come already is given without a pause: others' turn, a STOP may be among theirs.
+            await asyncio.sleep(0)
     finally:
         intake.close()
 

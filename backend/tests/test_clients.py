@@ -2,15 +2,22 @@
 
 import asyncio
 import json
+import time
 from collections.abc import AsyncIterator
-from typing import Any
+from typing import Any, cast
 
 import pytest
+from starlette.websockets import WebSocket
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
 from servodeck import impatient
+from servodeck.callers import THIS_COMPUTER
+from servodeck.clients import read_all
+from servodeck.control import Control
+from servodeck.errors import PortMissingError
+from servodeck.hub import Seat
 from tests.client import deaf_at
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
@@ -170,3 +177,23 @@ async def test_at_the_end_the_robot_is_stopped_and_clients_are_told(port: FakePo
         await hear_until(client, "nothing")
     assert client.close_code == 1012
     assert port.packets() == [STOP, RUN, STOP, STOP, STOP]
+
+
+class Pouring:
+    """A socket from which messages never end, all of them here already."""
+
+    taken = 0
+
+    async def receive(self) -> dict[str, str]:
+        self.taken += 1
+        return {"type": "websocket.receive", "text": '{"type":"calibrate","servo":null}'}
+
+
+async def test_whoever_has_much_to_say_lets_others_speak_in_between() -> None:
+    pouring, control = Pouring(), Control(FakePorts(PortMissingError("")), time.monotonic, "doc")
+    seat = Seat(THIS_COMPUTER)
+    reading = asyncio.create_task(read_all(cast("WebSocket", pouring), seat, control))
+    for turn in range(5):
+        assert pouring.taken <= turn + 1
+        await asyncio.sleep(0)
+    reading.cancel()

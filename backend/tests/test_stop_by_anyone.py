@@ -6,14 +6,16 @@ import random
 import pytest
 
 from servodeck.callers import THIS_COMPUTER, Caller
-from servodeck.clients import take
-from servodeck.errors import LatchedError
+from servodeck.clients import hear, intake_of, take
+from servodeck.errors import GatewayError, LatchedError, PortLostError
+from servodeck.intake import Intake
 from servodeck.jobs import Group
 from servodeck.messages import StopMessage
 from servodeck.values import Frame, ServoTarget
 from tests.amount import named, seeds
 from tests.client import Client, gateway_on
-from tests.samples import DOWNLOAD, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
+from tests.fake_port import FakePort
+from tests.samples import BATTERY, DOWNLOAD, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
 from tests.test_download import AnsweringPort
 from tests.virtual_time import in_virtual_time, now
 
@@ -28,6 +30,10 @@ STATES = {
 MOTION = {3, 6, 8, 25}
 DOWNLOADING = "download"
 LONG = Group(10, "Wave", [Frame(1000, (ServoTarget(1, 1500),))] * 200)
+FLOODERS = 10
+SAID_EACH = 300
+TRY_S = 0.6
+"""From before a port that was lost is opened again until well behind it."""
 LONGEST_PACKET_S = wire_ms(DOWNLOAD) / 1000
 GAP_S = 0.010
 
@@ -38,6 +44,81 @@ async def test_a_viewer_stops_it(state: str) -> None:
     for seed in seeds(50):
         with named("test_stop_by_anyone.py", seed, state):
             await stop_at_random(STATES.get(state, []), random.Random(seed), state == DOWNLOADING)
+
+
+@in_virtual_time
+async def test_a_viewer_who_floods_with_others_stops_it() -> None:
+    for seed in seeds(50):
+        with named("test_stop_by_anyone.py", seed, "flood"):
+            await stop_in_flood(random.Random(seed))
+
+
+@in_virtual_time
+async def test_a_viewer_stops_it_while_the_port_comes_back() -> None:
+    for seed in seeds(50):
+        with named("test_stop_by_anyone.py", seed, "reconnect"):
+            await stop_at_reconnect(random.Random(seed))
+
+
+async def stop_in_flood(chance: random.Random) -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna, bert = Client(control), Client(control, GUEST)
+        moving = [anna.send(packet) for packet in STATES["drag"]]
+        flooders = [bert, *(Client(control, GUEST) for _ in range(FLOODERS - 1))]
+        intakes = [intake_of(client, control) for client in flooders]
+        shouting = [
+            asyncio.create_task(shout(client, intake, chance.uniform(0, 0.2)))
+            for client, intake in zip(flooders, intakes, strict=True)
+        ]
+        await asyncio.sleep(chance.uniform(0, 0.25))
+        pressed_s, before = now(), len(port.written)
+        hear('{"type":"stop","hold":null}', bert, intakes[0])
+        await asyncio.sleep(0.6)
+        first_s, first = port.written[before]
+        assert first == STOP
+        assert first_s - pressed_s <= LONGEST_PACKET_S + GAP_S + 0.001
+        assert [packet for _, packet in port.written[before:] if packet[3] in MOTION] == []
+        await asyncio.gather(*shouting)
+        for intake in intakes:
+            intake.close()
+        for left in moving:
+            left.exception()
+
+
+async def shout(client: Client, intake: Intake, from_s: float) -> None:
+    """Questions, which anybody may ask, far more than the rate and the wire take."""
+    await asyncio.sleep(from_s)
+    for number in range(SAID_EACH):
+        hear(f'{{"type":"send","id":{number},"packet":"{BATTERY.hex()}","nonce":null}}', client, intake)
+
+
+async def stop_at_reconnect(chance: random.Random) -> None:
+    first, second = FakePort(), FakePort()
+    async with gateway_on(first, second) as control:
+        anna, bert = Client(control), Client(control, GUEST)
+        moving = [anna.send(packet) for packet in STATES["drag"]]
+        await asyncio.sleep(chance.uniform(0, 0.1))
+        first.unplug()
+        await asyncio.sleep(chance.uniform(0, TRY_S))
+        pressed_s, before = now(), len(first.written)
+        take(StopMessage(type="stop", hold=None), bert, control)
+        with pytest.raises((LatchedError, PortLostError)):
+            anna.send(MOVE)
+        await asyncio.sleep(TRY_S)
+        stops_s = [at_s for at_s, packet in second.written if packet == STOP and at_s >= pressed_s]
+        assert second.packets()[0] == STOP
+        assert set(second.packets()) == {STOP}
+        assert not any(packet[3] in MOTION for _, packet in first.written[before:])
+        # Pressed once it was back: three of its own.
+        is_back = second.written[0][0] < pressed_s
+        assert len(stops_s) >= (3 if is_back else 1)
+        assert not is_back or stops_s[0] - pressed_s <= LONGEST_PACKET_S + GAP_S + 0.001
+        control.resume(THIS_COMPUTER)
+        await anna.send(MOVE)
+        assert second.packets()[-1] == MOVE
+        for left in moving:
+            assert isinstance(left.exception(), GatewayError | None)
 
 
 async def stop_at_random(packets: list[bytes], chance: random.Random, is_download: bool) -> None:
