@@ -32,6 +32,9 @@ DRAIN_S = 0.5
 
 
 class BoardEvents(Protocol):
+    def port_opened(self) -> None:
+        """Nothing was sent on it; `board_changed` follows."""
+
     def port_lost(self) -> None:
         """It was open and is gone, unasked; `board_changed` follows."""
 
@@ -142,6 +145,7 @@ class Board:
 
     def port_opened(self, wire: Wire) -> None:
         metrics.port_openings.inc()
+        self._events.port_opened()
         self._forget_motion()
         wire.send(STOP_PACKET, self, urgent=True)
 

@@ -77,7 +77,7 @@ def serve(
     ] = False,
     serial: Annotated[str, typer.Option(help="Serial device, or socket://HOST:PORT.")] = "",
     board: Annotated[
-        str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}. Left out: ask the board.")
+        str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}. Left out: as it was last, else ask it.")
     ] = "",
     simulated: Annotated[
         bool, typer.Option("--simulated", help="Tell everyone that the device is no real board.")
@@ -116,6 +116,7 @@ def serve(
     from servodeck.remembered import Remembered
     from servodeck.server import Server, leave_with_stdin
 
+    recalls_board = not board
     board = board or ("doc" if simulated else UNKNOWN.id)
     if board not in FAMILIES:
         fail(f"There is no board family {board}. Choose one of: {', '.join(FAMILIES)}.", USAGE)
@@ -145,6 +146,7 @@ def serve(
         epoch=first_epoch(folder),
         broken_slots=BrokenSlots(folder),
         remembered=remembered,
+        recalls_board=recalls_board,
         read_robot=robots_in(library),
     )
 

@@ -49,6 +49,7 @@ from servodeck.messages import (
     encode,
 )
 from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command
+from servodeck.recalled_board import RecalledBoard
 from servodeck.relay import Relay
 from servodeck.remembered import Remembered
 from servodeck.robot import RobotLimits
@@ -70,11 +71,13 @@ class Control:
         epoch: int = 0,
         broken_slots: BrokenSlots | None = None,
         remembered: Remembered | None = None,
+        recalls_board: bool = False,
         read_robot: ReadFacts = no_robot,
     ) -> None:
         """`named_device` is the port named at the start: always offered, even where the system does not list
         it. `simulated`: what is behind it is no real board. `epoch`: leases are counted on from there.
         Without `broken_slots` and `remembered` these are forgotten at the end.
+        `recalls_board`: where nobody has said of which family the board is, it is as it was last.
         `read_robot` asks the library.
         """
         self.named_device = named_device
@@ -82,6 +85,7 @@ class Control:
         self._latch = Latch(self._tell_state)
         self.limits = RobotLimits()
         self.remembered = remembered or Remembered()
+        self._recalled_board = RecalledBoard(self.remembered, is_wanted=recalls_board)
         self.robot = RobotOfBoard(self.limits, read_robot, self.remembered, self._robot_changed)
         self.hub = Hub()
         self.driving = Driving(self.hub, now, epoch, self)
@@ -168,6 +172,7 @@ class Control:
             raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
         if board != self.board.taken_for:
             self.board.take_for(board)
+            self._recalled_board.said(self.board)
         self._tell_state()
         self._see_robot()
 
@@ -207,6 +212,8 @@ class Control:
         self.robot.leave()
         self.board.taken_for = board or self.board.taken_for
         await self.board.link.use(device)
+        if board:
+            self._recalled_board.said(self.board)
 
     async def close_port(self) -> None:
         await self.board.quiet()
@@ -220,6 +227,9 @@ class Control:
         self.hub.close()
 
     # What the board tells
+
+    def port_opened(self) -> None:
+        self._recalled_board.port_opened(self.board)
 
     def port_lost(self) -> None:
         self._latch.cause = Cause("loss")  # the change of the port's state follows and tells both

@@ -1,10 +1,10 @@
-"""What the gateway was told and goes by after its next start: which port it opens, and which robot stands on
-which board.
+"""What the gateway was told and goes by after its next start: which port it opens, of which family the
+board at each place is, and which robot stands on which board.
 
-Knows one small file and names; no port and no library. Which family a board is of is not among it: another
-one may be on that cable by then, and a page asks it.
+Knows one small file and names; no port and no library.
 """
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
@@ -18,6 +18,7 @@ FILE = "remembered.json"
 
 class Memory(Message):
     port: Annotated[str, Field(max_length=256)] | None = None
+    boards: dict[str, str] = Field(default_factory=dict)
     robots: dict[str, str] = Field(default_factory=dict)
 
 
@@ -38,18 +39,32 @@ class Remembered:
     def remember_port(self, device: str | None) -> None:
         self._memory = self._memory.model_copy(update={"port": device})
 
+    def board_at(self, place: str) -> str | None:
+        """The family that somebody said."""
+        return self._memory.boards.get(place)
+
+    def remember_board(self, place: str, family: str | None) -> None:
+        self._memory = self._memory.model_copy(
+            update={"boards": with_entry(self._memory.boards, place, family)}
+        )
+
     def robot_on(self, board: str) -> str | None:
         """The document in the library."""
         return self._memory.robots.get(board)
 
     def remember_robot(self, board: str, document: str | None) -> None:
-        robots = {other: robot for other, robot in self._memory.robots.items() if other != board}
-        if document is not None:
-            robots[board] = document
-        self._memory = self._memory.model_copy(update={"robots": robots})
+        self._memory = self._memory.model_copy(
+            update={"robots": with_entry(self._memory.robots, board, document)}
+        )
 
     def _text(self) -> str:
         return self._memory.model_dump_json()
+
+
+def with_entry(entries: Mapping[str, str], key: str, value: str | None) -> dict[str, str]:
+    """None takes it out."""
+    others = {other: there for other, there in entries.items() if other != key}
+    return others if value is None else others | {key: value}
 
 
 def read(file: Path) -> Memory:

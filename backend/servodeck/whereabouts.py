@@ -47,9 +47,10 @@ class Whereabouts:
 
     @property
     def lasting(self) -> str:
-        """The device's own number where the bus tells one, else the name it was chosen by."""
+        """Its own number where the bus tells one, else its socket, else the name it was chosen by."""
         ours = self._ours
-        return f"{ours.vendor:04x}:{ours.product:04x} {ours.serial}" if ours and ours.serial else self._name
+        own = ours and (ours.serial or ours.location)
+        return f"{ours.vendor:04x}:{ours.product:04x} {own}" if ours and own else self._name
 
     def find(self, listed: Iterable[UsbDevice]) -> str:
         """The path to open. Raises a PortError where it is not there, or where only a person can tell."""

@@ -18,6 +18,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from servodeck.cli import app
+from servodeck.remembered import FILE
 from tests.samples import STOP
 from tests.test_ports import Pty
 
@@ -95,6 +96,24 @@ def test_serve_tells_its_real_address_and_opens_the_port(served: Served) -> None
 def port_of(served: Served) -> str | None:
     with urlopen(f"{served.url}/api/status") as answer:
         return str(json.load(answer)["port"]["device"])
+
+
+def board_of(served: Served) -> str:
+    with urlopen(f"{served.url}/api/status") as answer:
+        return str(json.load(answer)["board"])
+
+
+def test_the_board_is_what_it_was_last_unless_an_option_says(tmp_path: Path) -> None:
+    pty, data = Pty(), ("--data", str(tmp_path))
+    memory = {"boards": {pty.device: "lsc-6"}}
+    for options, board in (((), "lsc-6"), (("--board", "unknown"), "unknown")):
+        (tmp_path / FILE).write_text(json.dumps(memory))
+        served = Served(*data, "--serial", pty.device, *options, pty=pty, is_named=False)
+        served.read_until_stops(1)
+        assert board_of(served) == board
+        served.process.kill()
+        served.process.communicate()
+    pty.unplug()
 
 
 def test_the_port_that_was_chosen_is_opened_again_with_a_stop_and_an_option_goes_before_it(

@@ -157,8 +157,12 @@ def test_what_has_no_place_on_the_bus_goes_by_its_name(name: str) -> None:
     assert whereabouts.find([CH340, MOUSE]) == name
 
 
-def test_a_board_is_remembered_by_its_own_number_else_by_the_name_it_was_chosen_by() -> None:
-    for device, lasting in ((FTDI, f"0403:6001 {FTDI.serial}"), (CH340, USB0)):
+def test_a_board_is_remembered_by_its_own_number_else_by_its_socket_else_by_its_name() -> None:
+    for device, lasting in (
+        (FTDI, f"0403:6001 {FTDI.serial}"),
+        (CH340, "1a86:7523 1-1"),
+        (COM3, "COM3"),
+    ):
         whereabouts = Whereabouts(device.path)
         assert whereabouts.lasting == device.path
         whereabouts.opened(whereabouts.find([device]), [device])
