@@ -1,4 +1,4 @@
-// The action group being written: undoable, saved in the browser's storage right after each edit. Text that cannot be read is
+// The action group being written: undoable, saved in the browser's storage soon after each edit. Text that cannot be read is
 // never thrown away: it is set aside under another key and the person is told. Never moves the robot.
 
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';

@@ -26,7 +26,20 @@ export function namedByFile(fileName: string): Named {
 export function fileNameOf(group: Named, extension: string): string {
   const plain = group.name.replaceAll(/[^\p{L}\p{N} ._-]/gu, '').trim();
   const named = plain === '' ? 'group' : plain;
-  return `${group.slot === null ? '' : `${group.slot} `}${named}${extension}`;
+  const stem = `${group.slot === null ? '' : `${group.slot} `}${named}`;
+  return `${extension === '.ino' ? sketchName(stem) : stem}${extension}`;
+}
+
+const LONGEST_SKETCH = 59;
+
+/** Arduino's programs open a sketch by no other name (Arduino sketch specification): basic letters, digits, `_`, `.`, `-`. */
+function sketchName(stem: string): string {
+  const basic = stem
+    .normalize('NFKD')
+    .replaceAll(/\p{M}/gu, '')
+    .replaceAll(/[^A-Za-z0-9_.-]+/g, '_');
+  const name = basic.slice(0, LONGEST_SKETCH).replaceAll(/^[_.-]+|[_.-]+$/g, '');
+  return name === '' ? 'group' : name;
 }
 
 const nameOf = (text: string, otherwise: string): string =>

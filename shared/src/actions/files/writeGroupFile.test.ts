@@ -267,6 +267,16 @@ describe('a name of a file', () => {
     expect(fileNameOf({ name: 'Wave: a/b', slot: 12 }, '.xml')).toBe('12 Wave ab.xml');
     expect(fileNameOf({ name: '?', slot: null }, '.csv')).toBe('group.csv');
   });
+
+  test('of a sketch are such as Arduino’s programs open', () => {
+    const called = (name: string, slot: number | null) => fileNameOf({ name, slot }, '.ino');
+    expect(called('Wave: a/b', 12)).toBe('12_Wave_ab.ino');
+    expect(called('Grüße', null)).toBe('Gru_e.ino');
+    expect(called('挥手', 7)).toBe('7.ino');
+    expect(called('挥手', null)).toBe('group.ino');
+    expect(called('-.a.', null)).toBe('a.ino');
+    expect(called('a'.repeat(64), 255)).toHaveLength(63);
+  });
 });
 
 test('the published schema is the one that groups are read by', () => {
