@@ -45,6 +45,8 @@ LEASE = {
     "answerInMs": None,
     "mayDrive": True,
     "mayTake": False,
+    "givenBy": None,
+    "candidates": [{"id": "5d41402abc4b2a76", "name": "Anna's tablet"}],
 }
 JOB = {
     "id": "8f14e45fceea",
@@ -131,6 +133,11 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ),
     ("POST", "/api/erase"): Example({"erased": True}, {"take": False}, (*ON_THE_WIRE, "noAnswer")),
     ("POST", "/api/lease"): Example(LEASE, {"action": "beat"}, ("busy", "notDriving")),
+    ("PUT", "/api/driver"): Example(
+        LEASE | {"driver": "Anna's tablet", "drives": False, "candidates": []},
+        {"id": "5d41402abc4b2a76"},
+        ("notDriving", "notFound"),
+    ),
     ("GET", "/api/poses"): Example(POSES),
     ("POST", "/api/poses/{pose}/apply"): Example(
         {"packets": 1, "overInMs": 1500, "firstMoves": []},

@@ -26,6 +26,7 @@ from servodeck.messages import (
     BoardMessage,
     CalibrateMessage,
     ContinueMessage,
+    GiveMessage,
     LeaseMessage,
     RefusedMessage,
     ReplacedMessage,
@@ -53,6 +54,7 @@ ROLES: dict[type[AnyClientMessage], Role] = {
     BoardMessage: "driver",
     CalibrateMessage: "driver",
     LeaseMessage: "viewer",
+    GiveMessage: "driver",
     ContinueMessage: "driver",
     BeatMessage: "driver",
 }
@@ -161,7 +163,11 @@ def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
         case CalibrateMessage():
             control.limits.calibrate(seat, message.servo)
         case LeaseMessage():
-            take_lease(message, seat, control)
+            with telling(seat, control):
+                control.driving.act(seat, message.action)
+        case GiveMessage():
+            with telling(seat, control):
+                control.driving.give(seat, message.to)
         case ContinueMessage():
             with contextlib.suppress(
                 GatewayError
@@ -178,11 +184,13 @@ def take_send(message: SendMessage, seat: Seat, control: Control) -> None:
         left.add_done_callback(lambda left: answer(seat, message.id, left))
 
 
-def take_lease(message: LeaseMessage, seat: Seat, control: Control) -> None:
+@contextlib.contextmanager
+def telling(seat: Seat, control: Control) -> Iterator[None]:
+    """How the lease stands says why not; a `refused` without an id is a stop's."""
     try:
-        control.driving.act(seat, message.action)
+        yield
     except GatewayError:
-        control.driving.tell(seat)  # how it stands says why not; a `refused` without an id is a stop's
+        control.driving.tell(seat)
 
 
 def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:

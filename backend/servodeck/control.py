@@ -106,12 +106,14 @@ class Control:
         self.hub.join(seat)
         seat.put(encode(self._welcome(seat)))
         self._tell_state(but=seat)
+        self.driving.seated(seat)
 
     def leave(self, seat: Seat) -> None:
         self._drop(seat, CancelledError("The client has left."))
         self.limits.forget(seat)
         self.hub.leave(seat)
         self.driving.leave(seat)
+        self.driving.seated(seat)
         self._relay.forget(seat)
         self._tell_state()
 

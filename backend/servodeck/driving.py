@@ -7,11 +7,11 @@ import asyncio
 from collections.abc import Callable
 
 from servodeck.callers import Caller
-from servodeck.errors import NotDrivingError
+from servodeck.errors import NotDrivingError, NotFoundError
 from servodeck.hub import Hub, Seat
 from servodeck.intake import SHORTEST_WAIT_S
 from servodeck.lease import BEAT_S, GONE_S, Lease, LeaseEvents, Permit
-from servodeck.messages import LeaseAction, LeaseState, LeaseToldMessage, TickMessage, encode
+from servodeck.messages import Candidate, LeaseAction, LeaseState, LeaseToldMessage, TickMessage, encode
 
 
 class Driving:
@@ -47,9 +47,48 @@ class Driving:
                 self._lease.refuse(seat)
         self._plan()
 
+    def give(self, giver: Seat, to: str) -> None:
+        """Hands it to somebody who is here and may drive. Raises ForbiddenError, NotDrivingError for whoever
+        does not drive and is no owner, or NotFoundError.
+        """
+        giver.caller.require("driver")
+        driver = self._lease.driver
+        if not giver.caller.may("owner") and (driver is None or driver.caller.id != giver.caller.id):
+            raise NotDrivingError("Only who drives, or an owner, hands the robot on.")
+        self._lease.give(giver, self._heir(to), self._now())
+        self._plan()
+
+    def _heir(self, caller_id: str) -> Seat:
+        """Of several windows the one that asks, else the latest."""
+        found = [seat for seat in self._hub.seats if seat.caller.id == caller_id and could_drive(seat)]
+        if not found:
+            raise NotFoundError("Nobody of that id is here who may drive.")
+        asker = self._lease.asker
+        return asker if asker in found else found[-1]
+
     def leave(self, seat: Seat) -> None:
         self._lease.leave(seat, self._now())
         self._plan()
+
+    def seated(self, seat: Seat) -> None:
+        """It came or went: whoever may hand the robot on hears whom to."""
+        if not could_drive(seat):
+            return
+        for one in self._hub.seats:
+            if one.caller.id != seat.caller.id and self._may_give(one):
+                self.tell(one)
+
+    def _may_give(self, seat: Seat) -> bool:
+        return seat is self._lease.driver or seat.caller.may("owner")
+
+    def _candidates(self, giver: Seat) -> list[Candidate]:
+        """Each once, whatever windows they have open."""
+        if not self._may_give(giver):
+            return []
+        driver = self._lease.driver
+        but = {giver.caller.id} | ({driver.caller.id} if driver else set())
+        found = {one.caller.id: one.caller.name for one in self._hub.seats if could_drive(one)}
+        return [Candidate(id=key, name=name) for key, name in found.items() if key not in but]
 
     def beat(self, seat: Seat, nonce: str) -> None:
         self._lease.beat(seat, nonce)
@@ -112,6 +151,8 @@ class Driving:
             answer_in_ms=None if answer_in_s is None else round(answer_in_s * 1000),
             may_drive=seat.caller.may("driver"),
             may_take=seat.caller.may("owner"),
+            given_by=name_of(lease.giver) if lease.driver is seat else None,
+            candidates=self._candidates(seat),
         )
 
     def tell_all(self) -> None:
@@ -142,6 +183,10 @@ class Driving:
         if self._lease.driver and self._now() >= self._tick_s:
             self._tick(self._lease.driver)
         self._plan()
+
+
+def could_drive(seat: Seat) -> bool:
+    return seat.answers and seat.caller.may("driver")
 
 
 def name_of(seat: Seat | None) -> str | None:

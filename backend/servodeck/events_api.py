@@ -38,7 +38,7 @@ class EventStream(Response):
 
     def __init__(self, caller: Caller, control: Control) -> None:
         super().__init__()
-        self._seat = Seat(caller)
+        self._seat = Seat(caller, answers=False)
         self._control = control
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:

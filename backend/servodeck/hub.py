@@ -32,8 +32,10 @@ class Farewell:
 class Seat:
     """One client. Whoever serves it takes texts with `next`, and closes it once it has `ended`."""
 
-    def __init__(self, caller: Caller) -> None:
+    def __init__(self, caller: Caller, *, answers: bool = True) -> None:
+        """`answers` is False for one that only listens."""
         self.caller = caller
+        self.answers = answers
         self._outbox: asyncio.Queue[str | Callable[[], str]] = asyncio.Queue(OUTBOX_MESSAGES)
         self.ended = asyncio.Event()
         self.farewell: Farewell | None = None
@@ -68,14 +70,15 @@ class Seat:
 
 class Hub:
     def __init__(self) -> None:
-        self._seats: set[Seat] = set()
+        # In the order in which they came.
+        self._seats: dict[Seat, None] = {}
 
     def __len__(self) -> int:
         return len(self._seats)
 
     @property
-    def seats(self) -> frozenset[Seat]:
-        return frozenset(self._seats)
+    def seats(self) -> tuple[Seat, ...]:
+        return tuple(self._seats)
 
     def has_room_for(self, caller: Caller) -> bool:
         own = sum(seat.caller.id == caller.id for seat in self._seats)
@@ -102,10 +105,10 @@ class Hub:
             seat.end(GOING_AWAY, "The gateway is ending.")
 
     def join(self, seat: Seat) -> None:
-        self._seats.add(seat)
+        self._seats[seat] = None
 
     def leave(self, seat: Seat) -> None:
-        self._seats.discard(seat)
+        self._seats.pop(seat, None)
 
     def tell_all(self, text: str, but: Seat | None = None) -> None:
         for seat in self._seats:

@@ -54,6 +54,8 @@ class Lease(Generic[H]):
         self.epoch = epoch
         self.driver: H | None = None
         self.asker: H | None = None
+        # Who handed it to the driver; None where nobody did.
+        self.giver: H | None = None
         self.silence: Silence = "none"
         self._events = events
         self._answer_until_s = 0.0
@@ -93,6 +95,11 @@ class Lease(Generic[H]):
         """Without asking."""
         if who is not self.driver:
             self._grant(who, now)
+
+    def give(self, giver: H, to: H, now: float) -> None:
+        """Without asking `to`, and past whoever asks. Who may is not judged here."""
+        if to is not self.driver:
+            self._grant(to, now, giver)
 
     def leave(self, who: H, now: float) -> None:
         """It is not there any more."""
@@ -182,15 +189,15 @@ class Lease(Generic[H]):
         if self.asker is not None:
             self._grant(self.asker, now)
             return
-        self.driver = None
+        self.driver = self.giver = None
         self._issued.clear()
         self._events.driver_changed()
         self._events.lease_changed()
 
-    def _grant(self, who: H, now: float) -> None:
+    def _grant(self, who: H, now: float, giver: H | None = None) -> None:
         before = self.driver
         self.epoch += 1
-        self.driver, self.asker = who, None
+        self.driver, self.asker, self.giver = who, None, giver
         self.silence, self._heard_s = "none", now
         self._patience_s = SILENT_S if who in self._programs else GONE_S
         self._issued.clear()

@@ -42,9 +42,17 @@ LeaseAction = Literal["request", "release", "take", "refuse"]
 Nonce = Annotated[str, Field(max_length=40, description="Of the latest `tick`: shows how old this is.")]
 
 
+class Candidate(Message):
+    """Somebody who is here and may drive."""
+
+    id: str
+    name: str
+
+
 class LeaseState(Message):
     """Who drives and who asks to, by name; `drives` and `asks`: that is this client. `answerInMs`: how long
-    the driver may still refuse.
+    the driver may still refuse. `givenBy`: who handed it to this client, which drives. `candidates`: whom
+    this client may hand it to.
     """
 
     driver: str | None
@@ -54,6 +62,8 @@ class LeaseState(Message):
     answer_in_ms: int | None
     may_drive: bool
     may_take: bool
+    given_by: str | None
+    candidates: list[Candidate]
 
 
 class PortState(Message):
@@ -193,6 +203,16 @@ class LeaseMessage(Message):
     action: LeaseAction
 
 
+PersonId = Annotated[str, Field(min_length=1, max_length=64)]
+
+
+class GiveMessage(Message):
+    """The driver's or an owner's: whoever of that id is here and may drive shall drive now, unasked."""
+
+    type: Literal["give"]
+    to: PersonId
+
+
 ContinueMs = Annotated[
     int, Field(ge=1000, le=3_600_000, description="After that it is stopped, at the latest.")
 ]
@@ -219,6 +239,7 @@ AnyClientMessage = (
     | BoardMessage
     | CalibrateMessage
     | LeaseMessage
+    | GiveMessage
     | ContinueMessage
     | BeatMessage
 )

@@ -11,7 +11,7 @@ from starlette.requests import HTTPConnection
 
 from servodeck.api import Problem, called_by_own_page
 from servodeck.callers import Caller
-from servodeck.messages import ContinueMs, LeaseState, Message
+from servodeck.messages import ContinueMs, LeaseState, Message, PersonId
 from servodeck.roles import DRIVER, OWNER
 from servodeck.scripts import RunOutcome, ScriptAction, Scripts
 
@@ -67,6 +67,12 @@ class LeaseWish(Message):
     """
 
     action: ScriptAction
+
+
+class DriverWish(Message):
+    """As `GET /api/people` and the lease's `candidates` name them."""
+
+    id: PersonId
 
 
 ONCE, POLITELY = RunWish(), EraseWish()
@@ -134,3 +140,11 @@ async def erase(caller: Annotated[Caller, OWNER], scripts: Scripted, wish: Erase
 async def lease(wish: LeaseWish, caller: Driving, scripts: Scripted) -> LeaseState:
     """Who drives. Asked for by itself with each motion, and kept 2 s longer than that lasts."""
     return scripts.act(caller, wish.action)
+
+
+@motion_api.put("/driver")
+async def give(wish: DriverWish, caller: Driving, scripts: Scripted) -> LeaseState:
+    """Hands the robot to somebody who is here with a page and may drive, unasked; what moves is stopped
+    first. Whoever drives may, and owners.
+    """
+    return scripts.give(caller, wish.id)

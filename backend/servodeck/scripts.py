@@ -160,6 +160,12 @@ class Scripts:
         driving.vouch(seat, 0.0)
         return driving.state_for(seat)
 
+    def give(self, caller: Caller, to: str) -> LeaseState:
+        """To somebody who is here with a page."""
+        seat = self._seat_of(caller)
+        self._control.driving.give(seat, to)
+        return self._control.driving.state_for(seat)
+
     def forget(self, caller_id: str) -> None:
         """It may not come in any more, or as somebody else: what it began ends."""
         seat = self._seats.pop(caller_id, None)

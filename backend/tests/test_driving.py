@@ -13,7 +13,8 @@ from servodeck.errors import (
     ForbiddenError,
     NotDrivingError,
 )
-from servodeck.messages import ResumeMessage, StopMessage
+from servodeck.hub import Seat
+from servodeck.messages import GiveMessage, ResumeMessage, StopMessage
 from servodeck.wire import Left
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
@@ -53,6 +54,8 @@ async def test_the_first_who_wants_to_move_drives_and_everybody_hears_it() -> No
             "answerInMs": None,
             "mayDrive": True,
             "mayTake": False,
+            "givenBy": None,
+            "candidates": [{"id": "local", "name": "This computer"}],
         }
         assert (bert.lease["driver"], bert.lease["drives"], bert.lease["mayTake"]) == ("Anna", False, True)
         with pytest.raises(NotDrivingError):
@@ -60,6 +63,74 @@ async def test_the_first_who_wants_to_move_drives_and_everybody_hears_it() -> No
         await bert.send(BATTERY)
         await bert.send(STOP)
         assert port.packets() == [STOP, MOVE, BATTERY, STOP]
+
+
+@in_virtual_time
+async def test_the_driver_hands_it_to_somebody_present_who_reads_from_whom_and_what_moves_stops() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna, carl, bert = Client(control, PUPIL), Client(control, CARL), Client(control, GUEST)
+        await anna.send(MOVE)
+        assert anna.lease["candidates"] == [{"id": "carl", "name": "Carl"}]
+        assert carl.lease["candidates"] == bert.lease["candidates"] == []
+        for nobody in ("bert", "guest", "elsewhere"):
+            take(GiveMessage(type="give", to=nobody), anna, control)
+            assert anna.lease["drives"] is True
+        take(GiveMessage(type="give", to="carl"), anna, control)
+        assert (carl.lease["drives"], carl.lease["givenBy"]) == (True, "Anna")
+        assert (anna.lease["driver"], anna.lease["givenBy"]) == ("Carl", None)
+        assert anna.lease["candidates"] == []
+        await asyncio.sleep(0.5)
+        assert port.packets()[:5] == [STOP, MOVE, *STOPS]
+        assert control.latch is False
+        await carl.send(MOVE_ELSEWHERE)
+        with pytest.raises(NotDrivingError):
+            anna.send(MOVE)
+        control.driving.act(carl, "release")
+        control.driving.act(carl, "request")
+        assert carl.lease["givenBy"] is None
+
+
+@in_virtual_time
+async def test_an_owner_hands_it_over_too_and_nobody_else() -> None:
+    async with gateway_on() as control:
+        anna, carl, owner = Client(control, PUPIL), Client(control, CARL), Client(control)
+        control.driving.act(anna, "request")
+        assert owner.lease["candidates"] == [{"id": "carl", "name": "Carl"}]
+        take(GiveMessage(type="give", to="carl"), carl, control)
+        assert carl.lease["drives"] is False
+        bert = Client(control, GUEST)
+        take(GiveMessage(type="give", to="carl"), bert, control)
+        assert [message["code"] for message in await bert.heard() if message["type"] == "refused"] == [
+            "forbidden"
+        ]
+        control.driving.act(owner, "take")
+        control.driving.act(owner, "release")
+        take(GiveMessage(type="give", to="carl"), owner, control)
+        assert (carl.lease["drives"], carl.lease["givenBy"]) == (True, "This computer")
+
+
+@in_virtual_time
+async def test_whoever_may_hand_it_on_hears_who_comes_and_goes_and_listeners_do_not_count() -> None:
+    async with gateway_on() as control:
+        anna = Client(control, PUPIL)
+        control.driving.act(anna, "request")
+        assert anna.lease["candidates"] == []
+        control.join(Seat(CARL, answers=False))
+        assert anna.lease["candidates"] == []
+        carl, elsewhere = Client(control, CARL), Client(control, CARL)
+        assert anna.lease["candidates"] == [{"id": "carl", "name": "Carl"}]
+        control.driving.act(carl, "request")
+        control.driving.give(anna, "carl")
+        assert carl.lease["drives"] is True  # the window that asks, though another came later
+        control.driving.give(carl, "pupil")
+        control.driving.give(anna, "carl")
+        assert elsewhere.lease["drives"] is True
+        control.leave(carl)
+        control.driving.give(elsewhere, "pupil")
+        assert anna.lease["candidates"] == [{"id": "carl", "name": "Carl"}]
+        control.leave(elsewhere)
+        assert anna.lease["candidates"] == []
 
 
 @in_virtual_time

@@ -275,6 +275,15 @@ class TwoDrivers(RuleBasedStateMachine):
             pass
         self.note_grant(epoch)
 
+    @rule(giver=DRIVERS, to=DRIVERS)
+    def gives(self, giver: str, to: str) -> None:
+        before, epoch = self.lease.driver, self.lease.epoch
+        self.lease.give(giver, to, self.now)
+        assert self.lease.driver == to
+        if before != to:
+            assert (self.lease.epoch, self.lease.giver, self.lease.asker) == (epoch + 1, giver, None)
+        self.note_grant(epoch)
+
     @precondition(lambda self: self.lease.driver is not None)
     @rule()
     def driver_is_told_a_nonce(self) -> None:

@@ -45,6 +45,7 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("POST", "/api/poses/{pose}/apply"): "driver",
     ("POST", "/api/slots/{slot}/run"): "driver",
     ("POST", "/api/lease"): "driver",
+    ("PUT", "/api/driver"): "driver",
     ("POST", "/api/erase"): "owner",
     ("POST", "/api/slots/{slot}/download"): "driver",
     ("GET", "/api/jobs/{job}"): "viewer",

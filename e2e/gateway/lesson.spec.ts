@@ -72,6 +72,14 @@ test('a class shares a robot, hands it on, and stops it from any phone', async (
   await ben.type(ben.target(2), 1500);
   await last(2).toBe(1500);
 
+  await ben.turn.getByRole('button', { name: 'Hand over to …' }).tap();
+  await ben.page.getByRole('menuitem', { name: 'Ada' }).tap();
+  await expect(ada.turn).toContainText('Ben handed the robot to you');
+  await people.opener.click();
+  await people.person('Ben').getByRole('button', { name: 'Hand the robot over to Ben' }).click();
+  await expect(ben.turn).toContainText('handed the robot to you');
+  await people.dialog.getByRole('button', { name: 'Close' }).click();
+
   await teacher.turn.getByRole('button', { name: 'Take over' }).click();
   await expect(ben.turn).toContainText('drives');
   await teacher.type(teacher.target(1), 1500);

@@ -21,6 +21,7 @@ import { createLastPoses } from '../stores/lastPoses.ts';
 import { createMacroRun } from '../stores/macroRun.ts';
 import { createMacros } from '../stores/macros.ts';
 import { createMappings } from '../stores/mappings.ts';
+import { tellHandedOver } from '../stores/handedOver.ts';
 import { lookAfresh } from '../stores/freshLook.ts';
 import { followPlace } from '../stores/groupPlace.ts';
 import { createMotionTape } from '../stores/motionTape.ts';
@@ -133,6 +134,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   watchLeaving(window, { hidden: paused, left });
   applyBatteryPolicy({ device, battery, robots, notices });
   watchInputs(window, pad);
+  tellHandedOver(device.store, notices);
   lookAfresh({ library, view, timeline });
   followPlace({ document: written, library, view });
   stores.view.subscribe(({ tab, kiosk }) => {

@@ -19,6 +19,7 @@ const EMPTY: PeopleState = {
   people: [
     person('anna', 'Anna', 'owner', true),
     person('ben', 'Ben, whose name is rather long for one row', 'driver', true),
+    person('dora', 'Cleo', 'driver', true),
     person('cleo', 'iPhone', 'viewer', false),
   ],
   invitation: null,
@@ -120,6 +121,15 @@ export const PEOPLE: readonly Exhibit[] = [
     inDialog(`Stop only ${index + 1}`, <StopFace outcome={outcome} onPress={nothing} />),
   ),
   ...CASES.map(({ name, state }) =>
-    inDialog(name, <PeopleView state={state} wishes={WISHES} now={() => 0} />),
+    inDialog(
+      name,
+      <PeopleView
+        state={state}
+        wishes={WISHES}
+        candidates={[{ id: 'dora', name: 'Cleo' }]}
+        onHandOver={nothing}
+        now={() => 0}
+      />,
+    ),
   ),
 ];

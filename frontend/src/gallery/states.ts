@@ -30,20 +30,28 @@ export const NO_BATTERY: SessionState = { ...READY, battery: { kind: 'unread' } 
 
 export const LEASE: Lease = {
   ...{ driver: 'Anna', drives: true, asker: null, asks: false, answerInMs: null },
-  ...{ mayDrive: true, mayTake: false, others: 3, unattended: null },
+  ...{ mayDrive: true, mayTake: false, givenBy: null, candidates: [], others: 3, unattended: null },
 };
 
 export const WATCHED: Lease = { ...LEASE, drives: false };
 
 const ALONE: Unattended = { slot: 5, times: 20, by: 'Anna', endsInMs: 245_000 };
 
+const PRESENT: Lease['candidates'] = [
+  { id: 'bert', name: 'Bert' },
+  { id: 'cleo', name: 'Cleo' },
+];
+
 /** Whose turn it is, as each of the people there sees it. */
 export const TURNS: Readonly<Record<string, Lease>> = {
   'You drive': LEASE,
   'You drive, asked': { ...LEASE, asker: 'Bert', answerInMs: 5000 },
+  'You drive, others may': { ...LEASE, candidates: PRESENT },
+  'You drive, handed over': { ...LEASE, driver: 'Bert', givenBy: 'Anna', candidates: PRESENT },
   'Another drives': WATCHED,
   'Another drives, asked': { ...WATCHED, asker: 'Bert', asks: true, answerInMs: 5000 },
-  'Another drives, yours to take': { ...WATCHED, driver: 'This computer', mayTake: true },
+  'Another drives, yours to take': { ...WATCHED, mayTake: true, candidates: PRESENT },
+  'Another window drives, yours to take': { ...WATCHED, driver: 'This computer', mayTake: true },
   'Nobody drives': { ...WATCHED, driver: null },
   'You drive, it may go on': { ...LEASE, unattended: ALONE },
   'It goes on alone': { ...WATCHED, driver: null, others: 0, unattended: ALONE },

@@ -5,7 +5,7 @@ import { useEffect } from 'react';
 import { useStore } from 'zustand';
 import { letsIn } from '../stores/people.ts';
 import type { Me } from '../stores/people.generated.ts';
-import { useStores, useView } from '../stores/stores.ts';
+import { useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { words } from '../words/words.ts';
@@ -34,6 +34,7 @@ export function PeopleDialog() {
   const { people, view, device } = useStores();
   const isOpen = useView((state) => state.peopleOpen);
   const state = useStore(people.store);
+  const candidates = useSnapshot(({ lease }) => lease?.candidates) ?? [];
   useEffect(() => {
     if (!isOpen) return undefined;
     void people.refresh();
@@ -48,7 +49,13 @@ export function PeopleDialog() {
   return (
     <Dialog wide title={titleFor(state.me)} closeLabel={words.close} isOpen={isOpen} onClose={close}>
       {letsIn(state.me) ? (
-        <PeopleView state={state} wishes={people} now={device.clock.now} />
+        <PeopleView
+          state={state}
+          wishes={people}
+          candidates={candidates}
+          onHandOver={(giveTo) => device.lease({ giveTo })}
+          now={device.clock.now}
+        />
       ) : (
         <OwnView me={state.me} onRename={people.sayName} />
       )}

@@ -2,6 +2,8 @@
 
 import type { Person } from '../stores/people.generated.ts';
 import { PERSON_ROLES, type PeopleState, type PeopleWishes, type PersonRole } from '../stores/people.ts';
+import type { Candidate } from '#shared/session/lease.ts';
+import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { Confirm } from '../ui/Confirm.tsx';
 import { NameField } from '../ui/NameField.tsx';
@@ -15,10 +17,13 @@ import styles from './People.module.css';
 export interface PeopleViewProps {
   readonly state: PeopleState;
   readonly wishes: PeopleWishes;
+  /** Whom the robot may be handed to now. */
+  readonly candidates: readonly Candidate[];
+  onHandOver(person: string): void;
   now(): number;
 }
 
-export function PeopleView({ state, wishes, now }: PeopleViewProps) {
+export function PeopleView({ state, wishes, candidates, onHandOver, now }: PeopleViewProps) {
   return (
     <div className={styles.people}>
       <InviteCard invitation={state.invitation} wishes={wishes} now={now} />
@@ -31,6 +36,7 @@ export function PeopleView({ state, wishes, now }: PeopleViewProps) {
               person={person}
               isYou={person.id === state.me?.you?.id}
               wishes={wishes}
+              onHandOver={candidates.some(({ id }) => id === person.id) ? onHandOver : null}
             />
           ))}
         </ul>
@@ -45,9 +51,11 @@ interface PersonRowProps {
   readonly wishes: PeopleWishes;
   readonly person: Person;
   readonly isYou: boolean;
+  /** null: the robot cannot be handed to them now. */
+  readonly onHandOver: ((person: string) => void) | null;
 }
 
-function PersonRow({ person, isYou, wishes }: PersonRowProps) {
+function PersonRow({ person, isYou, wishes, onHandOver }: PersonRowProps) {
   const { id, kind, name, role } = person;
   return (
     <li className={styles.person}>
@@ -69,7 +77,19 @@ function PersonRow({ person, isYou, wishes }: PersonRowProps) {
           onChange={(wanted) => wishes.change(id, { role: wanted })}
         />
       )}
-      <Presence person={person} />
+      <div className={styles.presence}>
+        <Presence person={person} />
+        {onHandOver !== null && (
+          <Button
+            tone="quiet"
+            aria-label={words.people.handOverTo(name)}
+            hint={words.people.handOverHint}
+            onPress={() => onHandOver(id)}
+          >
+            {words.people.handOver}
+          </Button>
+        )}
+      </div>
       <Confirm
         tone="quiet"
         icon="trash"

@@ -12,7 +12,7 @@ import { words } from '../words/words.ts';
 import { colour, ease } from './changes.ts';
 import { deskOf, rowOf } from './desk.ts';
 import { mayRun, VERBS, type VerbName } from './verbs.ts';
-import styles from './TimelineMenu.module.css';
+import styles from '../ui/Menu.module.css';
 
 export interface OpenMenu {
   readonly kind: 'keys' | 'row';

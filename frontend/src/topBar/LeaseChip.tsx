@@ -5,6 +5,7 @@ import { useSnapshot, useStores } from '../stores/stores.ts';
 import { isWatching, type Lease } from '#shared/session/lease.ts';
 import { Button } from '../ui/Button.tsx';
 import { Mark, type Truth } from '../ui/Chip.tsx';
+import { MenuButton } from '../ui/MenuButton.tsx';
 import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/words.ts';
 import styles from './LeaseChip.module.css';
@@ -29,7 +30,8 @@ function Driving({ lease }: { readonly lease: Lease }) {
   if (lease.asker === null) {
     return (
       <>
-        <Said truth="confirmed" text={words.lease.drives} more={words.lease.others(lease.others)} />
+        <Said truth="confirmed" text={words.lease.drives} more={sinceWhen(lease)} />
+        <HandOver lease={lease} />
         <Button tone="quiet" hint={words.lease.releaseHint} onPress={() => device.lease('release')}>
           {words.lease.release}
         </Button>
@@ -45,14 +47,36 @@ function Driving({ lease }: { readonly lease: Lease }) {
   );
 }
 
+const sinceWhen = ({ givenBy, others }: Lease): string =>
+  givenBy === null ? words.lease.others(others) : words.lease.given(givenBy);
+
+/** Without being asked. */
+function HandOver({ lease: { candidates } }: { readonly lease: Lease }) {
+  const { device } = useStores();
+  if (candidates.length === 0) return null;
+  return (
+    <MenuButton
+      tone="quiet"
+      label={words.lease.handOver}
+      choices={candidates}
+      onChoose={(giveTo) => device.lease({ giveTo })}
+    />
+  );
+}
+
 function Watching({ lease }: { readonly lease: Lease }) {
   const { device } = useStores();
   const { driver, asks, mayDrive, mayTake } = lease;
   if (driver === null) {
-    return mayDrive ? (
-      <Said truth="neutral" text={words.lease.nobody} more={words.lease.nobodyMore} />
-    ) : (
-      <Said truth="neutral" text={words.lease.nobody} more={words.lease.watching} />
+    return (
+      <>
+        <Said
+          truth="neutral"
+          text={words.lease.nobody}
+          more={mayDrive ? words.lease.nobodyMore : words.lease.watching}
+        />
+        <HandOver lease={lease} />
+      </>
     );
   }
   return (
@@ -77,6 +101,7 @@ function Watching({ lease }: { readonly lease: Lease }) {
           {words.lease.take}
         </Button>
       )}
+      <HandOver lease={lease} />
     </>
   );
 }

@@ -249,7 +249,10 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
       await put(packet, false);
     },
     sendNewest: (packet) => put(packet, true),
-    lease: (action) => postIfOpen({ type: 'lease', action }),
+    lease: (action) =>
+      postIfOpen(
+        typeof action === 'string' ? { type: 'lease', action } : { type: 'give', to: action.giveTo },
+      ),
     letGoOn: (forMs) => postIfOpen({ type: 'continue', forMs }),
     halt(hold) {
       return new Promise((resolve, reject) => {

@@ -8,6 +8,7 @@ export type ClientMessage =
   | BoardMessage
   | CalibrateMessage
   | LeaseMessage
+  | GiveMessage
   | ContinueMessage
   | BeatMessage;
 export type GatewayMessage =
@@ -80,6 +81,13 @@ export interface CalibrateMessage {
 export interface LeaseMessage {
   type: 'lease';
   action: 'request' | 'release' | 'take' | 'refuse';
+}
+/**
+ * The driver's or an owner's: whoever of that id is here and may drive shall drive now, unasked.
+ */
+export interface GiveMessage {
+  type: 'give';
+  to: string;
 }
 /**
  * The driver's: the run under way may go on without me, for so long at most. `null`: it may not.
@@ -179,7 +187,8 @@ export interface RobotTold {
 }
 /**
  * Who drives and who asks to, by name; `drives` and `asks`: that is this client. `answerInMs`: how long
- * the driver may still refuse.
+ * the driver may still refuse. `givenBy`: who handed it to this client, which drives. `candidates`: whom
+ * this client may hand it to.
  */
 export interface LeaseState {
   driver: string | null;
@@ -189,6 +198,15 @@ export interface LeaseState {
   answerInMs: number | null;
   mayDrive: boolean;
   mayTake: boolean;
+  givenBy: string | null;
+  candidates: Candidate[];
+}
+/**
+ * Somebody who is here and may drive.
+ */
+export interface Candidate {
+  id: string;
+  name: string;
 }
 /**
  * A download and how far it is. `by`: who began it. `code` and `detail` say why it failed or was

@@ -11,6 +11,12 @@ export interface Unattended {
   readonly endsInMs: number;
 }
 
+/** Somebody who is here and may drive. */
+export interface Candidate {
+  readonly id: string;
+  readonly name: string;
+}
+
 export interface Lease {
   /** People's name for whoever drives, null where nobody does: whoever wants to move then gets it by that. */
   readonly driver: string | null;
@@ -24,6 +30,10 @@ export interface Lease {
   readonly mayDrive: boolean;
   /** Without asking. */
   readonly mayTake: boolean;
+  /** Who handed it to this end, which drives; null where nobody did. */
+  readonly givenBy: string | null;
+  /** Whom this end may hand it to. */
+  readonly candidates: readonly Candidate[];
   /** Others who look on or drive. */
   readonly others: number;
   /** What runs without its driver; whoever drives next ends it. */
@@ -32,9 +42,9 @@ export interface Lease {
 
 /**
  * `request` a free one, or ask its driver; `release` it, also to whoever asks, or take the question back; `refuse` whoever
- * asks; `take` it without asking.
+ * asks; `take` it without asking; `giveTo` one of the candidates, by id.
  */
-export type LeaseAction = 'request' | 'release' | 'refuse' | 'take';
+export type LeaseAction = 'request' | 'release' | 'refuse' | 'take' | { readonly giveTo: string };
 
 /** Somebody else drives, or this end never may. On a link of its own there is no lease. */
 export function isWatching(lease: Lease | null): boolean {

@@ -65,7 +65,7 @@ async function sharedSession(known: Pick<SharedSlots, 'broken' | 'download'>) {
     lease: (driver: string, drives: boolean) =>
       heard?.leased?.({
         ...{ driver, drives, asker: null, asks: false, answerInMs: null },
-        ...{ mayDrive: true, mayTake: true, others: 1, unattended: null },
+        ...{ mayDrive: true, mayTake: true, givenBy: null, candidates: [], others: 1, unattended: null },
       }),
     follow: (command: Command) => heard?.followed?.(encodeCommand(command, familyOf('doc'))),
     stored: () => settle.resolve(),

@@ -34,5 +34,7 @@ export const leaseWords = {
   goesOnLabel: 'Goes on alone',
   keep: 'Not without me',
   keepHint: 'It is stopped again when this page closes or is not heard',
+  handOver: 'Hand over to …',
+  given: (name: string): string => `${named(name)} handed the robot to you`,
   releaseHint: 'Somebody else may drive then. What moves is stopped first.',
 };
