@@ -7,7 +7,7 @@ import { endChild, startChild } from '../scripts/children.mjs';
 import { python } from '../scripts/python.mjs';
 import { SetupProblem } from '../scripts/steps.mjs';
 import type { Figure } from './figure.ts';
-import { withBoard } from './station.ts';
+import { temporaryFolder, withBoard } from './station.ts';
 import { median } from './statistics.ts';
 
 const STARTS = 5;
@@ -15,6 +15,10 @@ const IDLE_MS = 60_000;
 const POLL_MS = 2;
 const READY_MS = 15_000;
 const HOST = '127.0.0.1';
+/** A robot whose gateway was killed is stopped by its next start (safety.md section 5, F15). */
+const READY_LIMIT_MS = 3_000;
+/** A fifth of the 512 MiB of the smallest Raspberry Pi that a robot carries. */
+const IDLE_LIMIT_MIB = 100;
 
 interface Start {
   readonly healthMs: number;
@@ -25,10 +29,11 @@ interface Start {
 type CommandOn = (port: number) => readonly string[];
 
 export function measureStart(): Promise<Figure[]> {
+  const folder = temporaryFolder();
   return withBoard([], async ({ device }) => {
     const serve: CommandOn = (port) => [
       ...['-m', 'servodeck', 'serve', '--listen', `${HOST}:${port}`, '--serial', device],
-      ...['--no-open', '--exit-with-stdin'],
+      ...['--data', folder, '--no-open', '--exit-with-stdin'],
     ];
     const empty: CommandOn = (port) => ['bench/empty_app.py', HOST, String(port)];
     const [gateway = [], rival = []] = await startInTurns([serve, empty]);
@@ -43,7 +48,10 @@ function figuresOf(gateway: readonly Start[], rival: readonly Start[]): Figure[]
     against: { what: 'empty FastAPI', value: median(rival.map(pick)) },
   });
   const note = `until /api/health answers; median of ${STARTS} starts`;
-  const time = compared('start.gatewayMs', 'ms', ({ healthMs }) => healthMs, note);
+  const time = {
+    ...compared('start.gatewayMs', 'ms', ({ healthMs }) => healthMs, note),
+    limit: { atMost: READY_LIMIT_MS },
+  };
   if (gateway.some(({ rssMiB }) => rssMiB === null)) return [time];
   const memory = 'resident memory right after that';
   return [time, compared('start.rssMiB', 'MiB', ({ rssMiB }) => rssMiB ?? NaN, memory)];
@@ -60,6 +68,7 @@ function figuresOfIdling(gateway: Start | undefined, rival: Start | undefined): 
         note: `after ${IDLE_MS / 1_000} s of idling`,
       },
       against: { what: 'empty FastAPI', value: rival.rssMiB },
+      limit: { atMost: IDLE_LIMIT_MIB },
     },
   ];
 }

@@ -50,7 +50,7 @@ export async function withBoard<Result>(
 }
 
 /** Goes with this process, however that ends. */
-function temporaryFolder(): string {
+export function temporaryFolder(): string {
   if (folders.length === 0)
     process.once('exit', () => folders.forEach((folder) => rmSync(folder, { recursive: true, force: true })));
   const folder = mkdtempSync(path.join(tmpdir(), 'servodeck-bench-'));
