@@ -21,21 +21,23 @@ export function Dial({ servo, family }: { readonly servo: number; readonly famil
   const { target, estimated } = device.motion(servo);
   const [commanded, needle] = [pathOf(TARGET, target, family), pathOf(NEEDLE, estimated, family)];
   return (
-    <svg
-      ref={dial}
-      className={styles.dial}
-      viewBox="-24 -24 48 48"
-      role="img"
-      aria-label={words.body.gaugeFigure(servo)}
-    >
-      <path className={styles.rim} d={RIM} />
-      <g visibility={visible(estimated === null)}>
-        <Unknown />
-      </g>
-      <path className={styles.target} d={commanded} />
-      <path className={styles.needle} d={needle} />
-      <circle className={styles.hub} visibility={visible(estimated !== null)} r={HUB} />
-    </svg>
+    <span className={styles.place}>
+      <svg
+        ref={dial}
+        className={styles.dial}
+        viewBox="-24 -24 48 48"
+        role="img"
+        aria-label={words.body.gaugeFigure(servo)}
+      >
+        <path className={styles.rim} d={RIM} />
+        <g visibility={visible(estimated === null)}>
+          <Unknown />
+        </g>
+        <path className={styles.target} d={commanded} />
+        <path className={styles.needle} d={needle} />
+        <circle className={styles.hub} visibility={visible(estimated !== null)} r={HUB} />
+      </svg>
+    </span>
   );
 }
 

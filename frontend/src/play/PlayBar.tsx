@@ -3,6 +3,7 @@
 
 import { useShallow } from 'zustand/react/shallow';
 import { recordOf, type SlotFate } from '#shared/actions/slots/slotBook.ts';
+import { chosenPlace } from '../stores/groupPlace.ts';
 import { SPEED_PERCENT, type PlaybackPhase } from '../stores/playback.ts';
 import { useFates } from '../slots/useFates.ts';
 import { motionHindrance, startHindrance } from '../stores/readiness.ts';
@@ -88,19 +89,25 @@ function BeginButtons() {
 /** No number is read faster. */
 const READ_EACH_MS = 100;
 
-/** From where, as the playhead goes, or how often. */
+/** From where, as the playhead goes, or how often. With room for the longest of it: what follows stays in its place. */
 function PlayWords() {
   const { playback } = useStores();
   const loops = usePlayback((state) => state.loops);
+  const times = useView((view) => chosenPlace(view).times);
+  const fromEnd = words.play.playFrom(useDocument(({ present }) => timesOf(present).lengthMs));
+  const whole = words.play.play(loops ? 1 : times);
   return (
-    <LiveText
-      eachMs={READ_EACH_MS}
-      text={() => {
-        const { fromMs, times } = playback.next();
-        if (fromMs !== null) return words.play.playFrom(fromMs);
-        return words.play.play(loops ? 1 : times);
-      }}
-    />
+    <span className={styles.words} data-longest={whole.length > fromEnd.length ? whole : fromEnd}>
+      <LiveText
+        isFixed
+        className={styles.now}
+        eachMs={READ_EACH_MS}
+        text={() => {
+          const { fromMs, times: passes } = playback.next();
+          return fromMs === null ? words.play.play(loops ? 1 : passes) : words.play.playFrom(fromMs);
+        }}
+      />
+    </span>
   );
 }
 

@@ -19,6 +19,7 @@ export function Estimate({ servo, scale }: { readonly servo: number; readonly sc
   return (
     <LiveText
       isSilent
+      isFixed
       text={text}
       eachMs={WRITE_EACH_MS}
       className={styles.estimate}

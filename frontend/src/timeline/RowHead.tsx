@@ -59,6 +59,7 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
           <Marks servo={row.servos[0] ?? -1} />
           <LiveText
             isSilent
+            isFixed
             className={styles.value}
             title={words.timeline.rows.value}
             eachMs={READ_EACH_MS}

@@ -48,8 +48,11 @@ function useIsDense(rows: readonly Row[]): boolean {
   const span = seenSpan(time, widthPx);
   return useDocument(({ present }) => {
     const times = timesOf(present);
-    const counts = rows.map((row) => keysWithin(row, times, span).length);
-    return counts.reduce((sum, count) => sum + count, 0) > MOST_CELLS;
+    const count = rows.reduce((sum, row) => {
+      const [first, end] = within(keysInRow(row, times), span.fromMs, span.toMs);
+      return sum + end - first;
+    }, 0);
+    return count > MOST_CELLS;
   });
 }
 

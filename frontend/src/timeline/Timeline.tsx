@@ -198,7 +198,12 @@ function Corner() {
   return (
     <p className={styles.corner}>
       <span className={styles.cornerName}>{words.timeline.playhead}</span>
-      <LiveText text={() => words.timeline.instant(playhead.at())} eachMs={READ_EACH_MS} />
+      <LiveText
+        isFixed
+        className={styles.instant}
+        text={() => words.timeline.instant(playhead.at())}
+        eachMs={READ_EACH_MS}
+      />
     </p>
   );
 }

@@ -21,7 +21,7 @@ export function moveOf(desk: Desk, group: ActionGroup, refs: readonly KeyRef[], 
   const times = timesOf(group);
   const keys = refs.flatMap((ref) => keyOf(times, ref) ?? []);
   const within = { ...wanted, deltaPosition: withinLimits(desk, keys, wanted.deltaPosition) };
-  const { deltaMs } = boundedMove(group, refs, within);
+  const { deltaMs } = boundedMove(keys, within);
   const { ripples } = desk.state;
   const moved = keys.map(({ servo, atMs }) => ({ servo, atMs: atMs + deltaMs }));
   return {

@@ -2,6 +2,8 @@
 // where it has become another one.
 
 import { useLayoutEffect, useRef } from 'react';
+import { cx } from './cx.ts';
+import styles from './LiveText.module.css';
 import { useFollow } from './useFollow.ts';
 
 export interface LiveTextProps {
@@ -12,16 +14,33 @@ export interface LiveTextProps {
   readonly title?: string;
   /** It changes all the time, and something else says it to screen readers. */
   readonly isSilent?: boolean;
+  /** `className` gives it a width and a height: another text then has nothing around it laid out anew. */
+  readonly isFixed?: boolean;
 }
 
-export function LiveText({ text, eachMs = 0, className, title, isSilent = false }: LiveTextProps) {
+export function LiveText({
+  text,
+  eachMs = 0,
+  className,
+  title,
+  isSilent = false,
+  isFixed = false,
+}: LiveTextProps) {
   const place = useRef<HTMLSpanElement>(null);
   const write = (now: string): void => {
     if (place.current !== null) setText(place.current, now);
   };
   useLayoutEffect(() => write(text()));
   useFollow({ read: text, draw: write, eachMs });
-  return <span ref={place} className={className} title={title} aria-hidden={isSilent ? true : undefined} />;
+  return (
+    <span
+      className={cx(isFixed && styles.fixed, className)}
+      title={title}
+      aria-hidden={isSilent ? true : undefined}
+    >
+      <span ref={place} />
+    </span>
+  );
 }
 
 /** The same piece of text, where there is one: another one would be laid out anew from the ground. */

@@ -14,25 +14,26 @@ export interface Follow<T> {
   readonly eachMs?: number;
 }
 
-/** Longer than a slow drag takes from one value to the next. */
+/** Longer than a slow drag takes from one value to the next; no more often is looked at what is out of sight. */
 const REST_MS = 250;
 
 export function useFollow<T>({ read, isSame = Object.is, draw, eachMs = 0 }: Follow<T>): void {
   const isInSight = use(Sight);
-  const latest = useRef<{ readonly value: T; readonly sinceMs: number } | null>(null);
+  const latest = useRef<{ readonly value: T } | null>(null);
   const drawn = useRef<{ readonly value: T } | null>(null);
   const readIn = useRef(-1);
   useEachFrame((nowMs) => {
-    const beat = beatOf(nowMs, eachMs);
+    const beat = beatOf(nowMs, isInSight.current ? eachMs : REST_MS);
     if (beat === readIn.current) return;
     readIn.current = beat;
-    const value = read();
-    if (latest.current === null || !isSame(latest.current.value, value))
-      latest.current = { value, sinceMs: nowMs };
-    if (drawn.current !== null && isSame(drawn.current.value, value)) return;
-    if (!isInSight.current && nowMs - latest.current.sinceMs < REST_MS) return;
-    drawn.current = { value };
-    draw(value);
+    const before = latest.current;
+    const now = { value: read() };
+    latest.current = now;
+    if (drawn.current !== null && isSame(drawn.current.value, now.value)) return;
+    const isAtRest = before !== null && isSame(before.value, now.value);
+    if (!isInSight.current && !isAtRest) return;
+    drawn.current = now;
+    draw(now.value);
   });
 }
 

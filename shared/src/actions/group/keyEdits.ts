@@ -3,7 +3,7 @@
 
 import type { ActionGroup, GroupFrame } from './group.ts';
 import { momentsOf, newMoment, placed, wholeMs, withMoments, withTargets, type Moment } from './moments.ts';
-import { isVacated, lifted, servosByFrame, type LiftedKeys } from './lifted.ts';
+import { isVacated, lifted, servosByFrame } from './lifted.ts';
 import { setDuration, type Ripple } from './timeEdits.ts';
 import type { KeyRef } from './tracks.ts';
 
@@ -59,19 +59,17 @@ export interface KeyMove {
 }
 
 /** As far as all these keys can go together: not before the beginning, not beyond the numbers a document holds. */
-export function boundedMove(group: ActionGroup, refs: readonly KeyRef[], move: KeyMove): KeyMove {
-  return bounded(lifted(group, refs).keys, move);
-}
-
-function bounded(keys: readonly LiftedKeys[], { deltaMs, deltaPosition }: KeyMove): KeyMove {
-  const [first] = keys;
-  if (first === undefined) return { deltaMs: 0, deltaPosition: 0 };
-  const positions = keys.flatMap(({ targets }) => targets.map(({ position }) => position));
-  const lowest = positions.reduce((least, position) => Math.min(least, position));
-  const highest = positions.reduce((most, position) => Math.max(most, position));
+export function boundedMove(
+  keys: readonly { readonly atMs: number; readonly position: number }[],
+  { deltaMs, deltaPosition }: KeyMove,
+): KeyMove {
+  if (keys.length === 0) return { deltaMs: 0, deltaPosition: 0 };
+  const least = (some: readonly number[]): number => some.reduce((one, other) => Math.min(one, other));
+  const positions = keys.map(({ position }) => position);
+  const room = LARGEST_POSITION + least(positions.map((position) => -position));
   return {
-    deltaMs: Math.max(-first.atMs, Math.round(deltaMs)),
-    deltaPosition: Math.min(LARGEST_POSITION - highest, Math.max(-lowest, Math.round(deltaPosition))),
+    deltaMs: Math.max(-least(keys.map(({ atMs }) => atMs)), Math.round(deltaMs)),
+    deltaPosition: Math.min(room, Math.max(-least(positions), Math.round(deltaPosition))),
   };
 }
 
@@ -87,7 +85,8 @@ export function moveKeys(
   { ripple }: Ripple,
 ): ActionGroup {
   const { kept, keys } = lifted(group, refs);
-  const { deltaMs, deltaPosition } = bounded(keys, move);
+  const meant = keys.flatMap(({ atMs, targets }) => targets.map(({ position }) => ({ atMs, position })));
+  const { deltaMs, deltaPosition } = boundedMove(meant, move);
   if (deltaMs === 0 || ripple) {
     const changed = changePositions(group, refs, (position) => position + deltaPosition);
     return ripple ? rippled(changed, refs, deltaMs) : changed;
