@@ -82,13 +82,18 @@ test('Stop while servos start one after another keeps the others where they are'
   expect(await lastTarget(robot.bus, 6)).toBeUndefined();
 });
 
-test('at the next visit the last pose is a guess, and only a press takes the robot there', async ({
+test('once its power was gone the last pose is a guess, and only a press takes the robot there', async ({
   dashboard,
   robot,
   page,
 }) => {
   await dashboard.type(dashboard.target(2), 1700);
   await expect(dashboard.estimate(2)).toHaveText('≈ 1700');
+  await robot.unplug();
+  await expect(dashboard.link).toHaveText(/^Lost/);
+  await robot.plugIn();
+  await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 8_000 });
+  await dashboard.resume.click();
   await page.reload();
   await expect(dashboard.slider(2)).toHaveValue('1700');
   await expect(dashboard.slider(2)).toHaveAttribute('aria-valuetext', /^Unknown; last known 1700 µs/);
