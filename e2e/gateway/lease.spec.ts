@@ -29,13 +29,28 @@ test('whoever is alone drives without being asked, and never hears of it', async
   await expect(dashboard.turn).toHaveCount(0);
 });
 
+/** How far down the work begins, on a desktop and on a phone. */
+async function topOfWork({ page }: Dashboard): Promise<readonly (number | undefined)[]> {
+  const tops = [];
+  for (const viewport of [
+    { width: 390, height: 844 },
+    { width: 1440, height: 900 },
+  ]) {
+    await page.setViewportSize(viewport);
+    tops.push((await page.getByRole('main').boundingBox())?.y);
+  }
+  return tops;
+}
+
 test('one drives, the other looks on, asks, is refused, asks again and is let', async ({
   dashboard,
   robot,
   context,
 }) => {
+  const before = await topOfWork(dashboard);
   const other = await joins(robot, context);
   await expect(dashboard.turn).toContainText('Nobody drives');
+  expect(await topOfWork(dashboard), 'nothing moves under a finger when somebody joins').toEqual(before);
   await dashboard.type(dashboard.target(1), 1800);
   await expect(dashboard.turn).toContainText('You drive');
   await expect(other.turn).toContainText('Another window drives');
@@ -55,6 +70,7 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');
   await other.type(other.target(2), 1700);
   await poll(() => lastTarget(robot.bus, 2)).toBe(1700);
+  expect(await topOfWork(dashboard)).toEqual(before);
 });
 
 test('a driver who says nothing passes it on; taking over asks nobody and stops what moves', async ({

@@ -1,9 +1,10 @@
-// The battery in the top bar: volts with a small picture of what feeds the robot, or a word where there are none.
+// The battery in the top bar: volts and how old they are, with a small picture of what feeds the robot, or a word where there are none.
 
 import { readingKind } from '#shared/actions/battery/batteryGauge.ts';
 import { percentOf, type Supply } from '#shared/actions/battery/batterySupply.ts';
-import { useBattery, useSnapshot } from '../stores/stores.ts';
+import { useBattery, useSnapshot, useStores } from '../stores/stores.ts';
 import { Mark, type Truth } from '../ui/Chip.tsx';
+import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/words.ts';
 import { lastMv, LEVEL_TRUTH, voltsText } from './readings.ts';
 import styles from './BatteryReadout.module.css';
@@ -23,9 +24,23 @@ export function BatteryReadout() {
     >
       {batteryMv !== null && truth !== 'confirmed' && <Mark truth={truth} />}
       {supply.cells === 0 ? <Plug /> : <Cell restMv={isPlain ? gauge.restMv : null} supply={supply} />}
-      <span className={styles.volts}>{voltsText(batteryMv, supply)}</span>
+      <div className={styles.figures}>
+        <span className={styles.volts}>{voltsText(batteryMv, supply)}</span>
+        <span className={styles.age}>
+          <Age />
+        </span>
+      </div>
     </div>
   );
+}
+
+/** No volts without it. */
+function Age() {
+  const { device } = useStores();
+  const battery = useSnapshot((snapshot) => snapshot.battery);
+  const nowMs = useNow(device.clock.now, 1000);
+  if (battery.kind === 'read') return words.battery.age(nowMs - battery.atMs);
+  return lastMv(battery) === null ? '' : words.battery.noNewer;
 }
 
 /** Nothing that could run out. */

@@ -17,8 +17,9 @@ import { StatusLine, type StatusLineProps } from './StatusLine.tsx';
 import styles from './TopBar.module.css';
 
 export function TopBar({ onMoveHere }: StatusLineProps) {
+  const isShared = useDevice((state) => state.way?.kind === 'gateway');
   return (
-    <header className={styles.bar} aria-label={words.regions.top}>
+    <header className={styles.bar} data-shared={isShared} aria-label={words.regions.top}>
       <h1 className={styles.product}>
         <Sign />
         <span className={styles.productName}>{words.product}</span>

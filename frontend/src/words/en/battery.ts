@@ -28,6 +28,8 @@ export const batteryWords = {
   absentHint: 'It has no command for that. Watch the battery itself.',
   silentHint: 'Three questions stayed unanswered. Refresh asks again.',
   refresh: 'Refresh',
+  /** Of volts that are shown though the board no longer answers. */
+  noNewer: 'none since',
   age: (ms: number): string => formatAge(ms),
   level: {
     pack: { good: 'Good', warning: 'Low', danger: 'Charge now' },

@@ -27,6 +27,7 @@ export const batteryWords: typeof english = {
   absentHint: '它没有这条指令。请自己留意电池。',
   silentHint: '问了三次都没有应答。点“刷新”再问一次。',
   refresh: '刷新',
+  noNewer: '之后没有读数',
   age: (ms) => formatAge(ms),
   level: {
     pack: { good: '良好', warning: '偏低', danger: '请立即充电' },
