@@ -3,6 +3,7 @@
 import type { Locator, Page } from '@playwright/test';
 import { dashboardOf } from '../fixtures/dashboard.ts';
 import { fingersOf, type Point } from '../fixtures/fingers.ts';
+import { walkGallery } from '../fixtures/gallery.ts';
 import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import { expect, test } from '../fixtures/test.ts';
 
@@ -102,4 +103,31 @@ test('the main job needs nothing but fingers', async ({ page, servers }) => {
   await dashboard.connectDialog.getByRole('button', { name: 'Close' }).tap();
   await dashboard.resume.tap();
   await expect(dashboard.status).toHaveText('Idle');
+});
+
+/** What a finger can press, wherever it lies in the state: 44 px one way, 24 px the other, less a hairline. */
+function tooSmall(page: Page): Promise<readonly string[]> {
+  return page.evaluate(() =>
+    [...document.querySelectorAll('article :is(button, input, select, a[href], [role="tab"])')]
+      .filter((element) => element.checkVisibility() && element.closest('[aria-hidden="true"]') === null)
+      .map((element) => {
+        const areas = [element, element.closest('label') ?? element].map((one) =>
+          one.getBoundingClientRect(),
+        );
+        const [width, height] = (['width', 'height'] as const).map((side) =>
+          Math.round(Math.max(...areas.map((area) => area[side]))),
+        );
+        return { element, width: width ?? 0, height: height ?? 0 };
+      })
+      .filter(({ width, height }) => Math.max(width, height) < 42 || Math.min(width, height) < 24)
+      .filter(({ width, height }) => width > 0 && height > 0)
+      .map(({ element, width, height }) => `${width} × ${height}: ${element.outerHTML.slice(0, 160)}`),
+  );
+}
+
+test('whatever is to be pressed is large enough for a finger, in every state', async ({ page, servers }) => {
+  test.slow();
+  await walkGallery({ page, url: (await servers.files()).url }, async (state) =>
+    expect.soft(await tooSmall(page), state).toEqual([]),
+  );
 });

@@ -1,7 +1,7 @@
 // Puts the panels together for the window at hand: side by side on a desktop, stacked on a tablet, one at a time on a
 // phone. STOP stands outside of all of them.
 
-import { useEffect } from 'react';
+import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
 import { I18nProvider } from 'react-aria-components/I18nProvider';
 import { Tab, TabList, TabPanel, Tabs } from 'react-aria-components/Tabs';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
@@ -144,7 +144,7 @@ function PhoneWork() {
         </TabList>
       </nav>
       <Messages />
-      <main className={styles.phone}>
+      <main {...useOwnPlace(tab)} className={styles.phone}>
         <TabPanel id="live" className={styles.tabPanel ?? ''}>
           <LivePanel />
         </TabPanel>
@@ -164,6 +164,18 @@ function PhoneWork() {
       </main>
     </Tabs>
   );
+}
+
+/** Each tab is found as far down as it was left, a new one at its top. */
+function useOwnPlace(tab: TabName) {
+  const ref = useRef<HTMLElement>(null);
+  const places = useRef(new Map<TabName, number>());
+  useLayoutEffect(() => {
+    if (ref.current !== null) ref.current.scrollTop = places.current.get(tab) ?? 0;
+  }, [tab]);
+  const onScroll = (event: UIEvent<HTMLElement>): void =>
+    void places.current.set(tab, event.currentTarget.scrollTop);
+  return { ref, onScroll };
 }
 
 function Said() {

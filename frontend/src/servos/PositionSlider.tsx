@@ -81,7 +81,8 @@ export function PositionSlider({
 
   return (
     <div className={cx(styles.slider, blocked && styles.blocked, !isKnown && styles.unknown)}>
-      <Track servo={servo} range={family.position} scale={scale} />
+      <Track servo={servo} range={family.position} />
+      {isNarrow(servo, family.position) && <Limits servo={servo} range={family.position} scale={scale} />}
       <EstimateMark servo={servo.servo} range={family.position} />
       {guess !== null && <GuessMark share={fraction(guess, family.position)} />}
       <input
@@ -111,26 +112,34 @@ function valueText(scale: Scale, target: number | null, guess: number | null): s
   return guess === null ? words.servos.unknownValue : words.firstMoves.guessedValue(scale.text(guess));
 }
 
-/** The way between the limits; beyond them hatched, with the limits in figures. */
-function Track({ servo, range, scale }: { servo: RobotServo; range: Range; scale: Scale }) {
-  const isNarrow = servo.min > range.min || servo.max < range.max;
+/** The way between the limits; beyond them hatched. */
+function Track({ servo, range }: { readonly servo: RobotServo; readonly range: Range }) {
   return (
     <div
-      className={cx(styles.lane, isNarrow && styles.narrow)}
+      className={cx(styles.lane, isNarrow(servo, range) && styles.narrow)}
       style={between(servo, range)}
       aria-hidden="true"
     >
       <div className={styles.track} />
       <div className={styles.home} style={{ insetInlineStart: percent(fraction(servo.home, servo)) }} />
-      {isNarrow && (
-        <>
-          <span className={styles.lowest}>{scale.digits(servo.min)}</span>
-          <span className={styles.highest}>{scale.digits(servo.max)}</span>
-        </>
-      )}
     </div>
   );
 }
+
+/** The limits in figures, at the ends of the way between them, or as near as they have room beside each other. */
+function Limits({ servo, range, scale }: { servo: RobotServo; range: Range; scale: Scale }) {
+  const ends = [scale.digits(servo.min), scale.digits(servo.max)];
+  const room: CSSProperties = { ['--room' as string]: `${ends.join('  ').length}ch` };
+  return (
+    <div className={styles.limits} style={{ ...between(servo, range), ...room }} aria-hidden="true">
+      {ends.map((end, index) => (
+        <span key={index}>{end}</span>
+      ))}
+    </div>
+  );
+}
+
+const isNarrow = ({ min, max }: Range, range: Range): boolean => min > range.min || max < range.max;
 
 function EstimateMark({ servo, range }: { readonly servo: number; readonly range: Range }) {
   const mark = useRef<SVGRectElement>(null);
