@@ -9,6 +9,15 @@ test('a real port is opened and tells the battery', async ({ openPort, ptyBoard 
   expect(new Set(await kindsAfter(ptyBoard.bus, 0))).toEqual(new Set(['readBattery', 'readPositions']));
 });
 
+test('a port that is open says so, and is not opened once more', async ({ openPort, ptyBoard }) => {
+  const before = (await ptyBoard.bus()).length;
+  await openPort.link.click();
+  await expect(openPort.button('USB serial 1234:5678 is open')).toBeDisabled();
+  await openPort.button('Close').click();
+  await expect(openPort.link).toHaveText(/^Ready/);
+  expect((await kindsAfter(ptyBoard.bus, before)).filter((kind) => kind !== 'readBattery')).toEqual([]);
+});
+
 test('a slider moves the servo behind a real port, and the estimate follows', async ({
   openPort,
   ptyBoard,

@@ -115,7 +115,7 @@ test('an input is bound by pressing it, says what it conflicts with, and is kept
   pad,
 }) => {
   await page.getByRole('radio', { name: 'Keys and pad' }).check();
-  await dashboard.button('Press the input you want').click();
+  await dashboard.button('Add a key or stick').click();
   await pad.hold(RIGHT_TRIGGER);
   const form = page.getByRole('form', { name: 'What does Right trigger do' });
   await form.getByRole('combobox', { name: 'It does' }).selectOption('Run a slot');

@@ -99,7 +99,7 @@ test('several groups of the library go to their slots with one progress', async 
   await captureGroup(dashboard, [1000, 1400], 400);
   await library.call('Wave for six');
   await dashboard.type(dashboard.slot, 6);
-  await dashboard.button('Keep in the group').click();
+  await dashboard.button('Remember slot and times').click();
   await library.show();
   await library.button('New group').click();
   await captureGroup(dashboard, [1300], 400);

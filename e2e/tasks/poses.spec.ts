@@ -59,7 +59,7 @@ test('home takes every servo to its home in the chosen time, rest goes where it 
 }) => {
   const poses = posesOf(page);
   await poses.capture(dashboard, 900, 'Crouch');
-  await page.getByRole('switch', { name: 'Rest here' }).check();
+  await page.getByRole('switch', { name: 'Use as rest pose' }).check();
   await dashboard.type(dashboard.field('Time to reach a pose in milliseconds'), 2000);
   await dashboard.button('Home').click();
   await poll(() => lastTarget(robot.bus, 6)).toBe(1500);

@@ -2,6 +2,7 @@
 
 import { gaugeOf, type Reading } from '#shared/actions/battery/batteryGauge.ts';
 import { fedBy } from '#shared/actions/battery/batterySupply.ts';
+import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { insertFrame, setMeta } from '#shared/actions/group/groupEdits.ts';
 import { FAMILIES, UNKNOWN_BOARD, type Family } from '#shared/protocol/families.ts';
 import { ActionsPanel } from '../actions/ActionsPanel.tsx';
@@ -87,6 +88,7 @@ function storesOf(specimen: Specimen): Stores {
   );
   view.setState({ selectedFrame, ...robot?.view });
   editServoView({ view, robots }, (servos) => ({ ...servos, ...robot?.servos }));
+  if (specimen.state?.activity.kind === 'playing') play(stores, specimen.state.activity.frameIndex);
   return stores;
 }
 
@@ -103,6 +105,13 @@ function connect(
   if (way === null || nickname === undefined) return;
   boards.remember(way, board);
   boards.rename(way, nickname);
+}
+
+/** On the way to that frame of the group. */
+function play({ playback, playhead, document }: Stores, frame: number): void {
+  const frames = document.store.getState().present.frames.slice(0, frame + 1);
+  playback.store.setState({ phase: 'playing' });
+  playhead.go(totalDurationMs(frames) - 50);
 }
 
 const READ_EVERY_MS = 5000;

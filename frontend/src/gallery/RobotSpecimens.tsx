@@ -21,7 +21,7 @@ interface Case {
   readonly state?: SessionState;
   readonly isUnknown?: boolean;
   readonly place?: Keeper['place'];
-  readonly at?: Pick<Calibration, 'servo' | 'step'>;
+  readonly at?: Pick<Calibration, 'servo' | 'step' | 'found'>;
 }
 
 const CASES: readonly Case[] = [
@@ -34,7 +34,12 @@ const CASES: readonly Case[] = [
   { name: 'Calibration, lowest', content: 'calibrate' },
   { name: 'Calibration, unknown position', content: 'calibrate', isUnknown: true },
   { name: 'Calibration, stopped', content: 'calibrate', state: STOPPED },
-  { name: 'Calibration, direction', content: 'calibrate', at: { servo: 3, step: 'direction' } },
+  {
+    ...{ name: 'Calibration, home moved', content: 'calibrate' },
+    at: { servo: 3, step: 'max', found: { servo: 3, end: 'min', at: 1500, home: 1400 } },
+  },
+  { name: 'Calibration, home first', content: 'calibrate', at: { servo: 3, step: 'direction' } },
+  { name: 'Calibration, direction', content: 'calibrate', at: { servo: 2, step: 'direction' } },
   { name: 'Calibration, mirror', content: 'calibrate', at: { servo: 3, step: 'partner' } },
   { name: 'Calibration, trim', content: 'calibrate', at: { servo: 3, step: 'trim' } },
 ];

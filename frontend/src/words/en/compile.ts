@@ -47,7 +47,7 @@ const problems: ProblemWords = {
 
 export const compileWords = {
   label: 'On the board',
-  error: 'Error up to',
+  error: 'May be off by',
   errorField: 'Largest error allowed on the board',
   frames: (count: number, limit: number): string => `${formatCount(count)} of ${counted(limit, 'frame')}`,
   bytes: (bytes: number): string => counted(bytes, 'byte'),

@@ -155,6 +155,7 @@ export const english = {
       about: 'A robot on a USB cable of this computer, opened by the browser.',
       choose: 'Choose a port',
       open: (label: string): string => `Open ${label}`,
+      isOpen: (label: string): string => `${label} is open`,
       secureLink: 'Open on 127.0.0.1',
     },
     gateway: {
@@ -276,7 +277,7 @@ export const english = {
     /** What the group at hand says of itself. */
     place: (slot: number | null, times: number): string =>
       `This group: ${slot === null ? 'no slot of its own' : `slot ${formatWhole(slot)}`}, ${timesWords(times)}`,
-    keepPlace: 'Keep in the group',
+    keepPlace: 'Remember slot and times',
     keepPlaceHint:
       'The slot and the times chosen here become this group’s own, for the next time it is opened',
     steps: { place: 'slot and times' },
@@ -295,7 +296,7 @@ export const english = {
     untilStopped: 'Until stopped',
     untilStoppedHint: 'Repeats without end until you stop it.',
     untilStoppedAbsent: 'This board cannot repeat without end.',
-    goOn: 'Go on without me',
+    goOn: 'Keep running when I leave',
     goOnHint: 'Closing this page does not stop it. Everybody sees it and may.',
     goOnAbsent: 'Only what has a number of times can go on without you.',
     goOnAtMost: 'At most',

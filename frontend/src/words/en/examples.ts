@@ -34,7 +34,7 @@ export const recordWords = {
   record: 'Record',
   recordHint: 'Records what sliders and pad do, until you end it',
   end: (ms: number): string => `End recording, ${formatSeconds(ms)}`,
-  takeThat: 'Take that',
+  takeThat: 'Keep last 2 minutes',
   takeThatHint: 'The motion of the last two minutes becomes a group. Key: T',
   title: 'Recorded motion',
   nothing: 'Nothing moved.',
@@ -42,7 +42,7 @@ export const recordWords = {
     count === all
       ? 'Records every servo'
       : `Records the ${formatCount(count)} selected of ${formatCount(all)} servos`,
-  error: 'Error up to',
+  error: 'May be off by',
   errorField: 'How far the keys may be off what was recorded',
   result: (ms: number, samples: number, keys: number): string =>
     `${formatSeconds(ms)}; ${counted(samples, 'position becomes', 'positions become')} ${counted(keys, 'key')}`,

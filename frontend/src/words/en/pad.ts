@@ -71,8 +71,8 @@ export const padWords = {
   input: inputName,
   chip: chipText,
 
-  add: 'Press the input you want',
-  addHint: 'Then say what it is to do',
+  add: 'Add a key or stick',
+  addHint: 'Press or push it, then say what it is to do',
   listening: 'Waiting for a key, a button or a stick. Esc gives up.',
   giveUp: 'Give up',
   form: (input: string): string => `What does ${input} do`,
@@ -86,13 +86,13 @@ export const padWords = {
   save: 'Bind',
   remove: 'Unbind',
   cancel: 'Cancel',
-  ready: 'Ready mapping',
-  readyHint: 'Replaces every binding by the ready ones. Undo brings yours back.',
+  ready: 'Usual keys and sticks',
+  readyHint: 'Replaces every binding by the usual ones. Undo brings yours back.',
   steps: {
     bind: (input: string): string => `bind ${input}`,
     unbind: (input: string): string => `unbind ${input}`,
     feel: 'feel of the sticks',
-    ready: 'ready mapping',
+    ready: 'usual keys and sticks',
   },
 
   feel: 'Feel',

@@ -37,7 +37,7 @@ export const poseWords = {
   flip: 'Flip',
   flipHint: 'Each servo as far from its home, the other way',
   held: (names: readonly string[]): string => `At its limit now, it cannot turn as far: ${names.join(', ')}.`,
-  makeRest: 'Rest here',
+  makeRest: 'Use as rest pose',
   earlier: 'Move pose earlier',
   later: 'Move pose later',
   duplicate: 'Duplicate pose',

@@ -127,7 +127,7 @@ export const robotWords = {
   },
   everyones: 'On the board, for everyone',
   count: (servos: number): string => counted(servos, 'servo'),
-  atHand: 'At hand',
+  atHand: 'In use',
   use: (name: string): string => `Use ${name}`,
   useVerb: 'Use',
   otherBoard: (board: string): string => `Waits for its board, ${board}`,

@@ -145,6 +145,7 @@ export const chinese: Words = {
       about: '机器人用 USB 线接在这台电脑上，由浏览器打开。',
       choose: '选择串口',
       open: (label) => `打开 ${label}`,
+      isOpen: (label) => `${label}已打开`,
       secureLink: '用 127.0.0.1 打开',
     },
     gateway: {
@@ -262,7 +263,7 @@ export const chinese: Words = {
     slot: '槽位',
     place: (slot, times) =>
       `这个动作组：${slot === null ? '没有自己的槽位' : `槽位${formatWhole(slot)}`}，${timesWords(times)}`,
-    keepPlace: '记在动作组里',
+    keepPlace: '记住槽位和次数',
     keepPlaceHint: '这里选的槽位和次数成为这个动作组自己的，下次打开时使用',
     steps: { place: '槽位和次数' },
     glance: (slot, badge) => `槽位${formatWhole(slot)}：${badge}`,
@@ -278,7 +279,7 @@ export const chinese: Words = {
     untilStopped: '直到停止',
     untilStoppedHint: '一直重复，直到您停止它。',
     untilStoppedAbsent: '这种控制板不能无限重复。',
-    goOn: '离开后继续',
+    goOn: '我离开后继续运行',
     goOnHint: '关闭这个页面不会停止它。所有人都能看到，也能停止。',
     goOnAbsent: '只有设定了次数的运行才能在您离开后继续。',
     goOnAtMost: '最长',

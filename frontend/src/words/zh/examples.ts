@@ -34,13 +34,13 @@ export const recordWords: typeof englishRecord = {
   record: '录制',
   recordHint: '录下滑块和手柄的动作，直到您结束',
   end: (ms) => `结束录制，${formatSeconds(ms)}`,
-  takeThat: '就要这段',
+  takeThat: '保留最近2分钟',
   takeThatHint: '把最近两分钟的动作变成动作组。按键：T',
   title: '录下的动作',
   nothing: '没有动作。',
   armed: (count, all) =>
     count === all ? '录制全部舵机' : `录制选中的${formatCount(count)}/${formatCount(all)}个舵机`,
-  error: '误差上限',
+  error: '允许偏差',
   errorField: '关键帧与录下的动作最多相差多少',
   result: (ms, samples, keys) =>
     `${formatSeconds(ms)}；${formatCount(samples)}个位置变成${formatCount(keys)}个关键帧`,

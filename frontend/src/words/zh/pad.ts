@@ -69,8 +69,8 @@ export const padWords: typeof english = {
   input: inputName,
   chip: chipText,
 
-  add: '请按下要用的按键或摇杆',
-  addHint: '然后说明它做什么',
+  add: '添加按键或摇杆',
+  addHint: '按下按键或推动摇杆，然后说明它做什么',
   listening: '正在等待按键或摇杆。按 Esc 放弃。',
   giveUp: '放弃',
   form: (input) => `${input}做什么`,
@@ -84,13 +84,13 @@ export const padWords: typeof english = {
   save: '绑定',
   remove: '解除绑定',
   cancel: '取消',
-  ready: '预设绑定',
-  readyHint: '用预设绑定替换全部绑定。撤销可以恢复您自己的。',
+  ready: '常用按键和摇杆',
+  readyHint: '用常用按键和摇杆替换全部绑定。撤销可以恢复您自己的。',
   steps: {
     bind: (input) => `绑定${input}`,
     unbind: (input) => `解除${input}的绑定`,
     feel: '摇杆手感',
-    ready: '预设绑定',
+    ready: '常用按键和摇杆',
   },
 
   feel: '手感',

@@ -130,7 +130,7 @@ export const robotWords: typeof english = {
   },
   everyones: '在控制板上，对所有人有效',
   count: (servos) => `${formatWhole(servos)}个舵机`,
-  atHand: '当前',
+  atHand: '使用中',
   use: (name) => `使用${name}`,
   useVerb: '使用',
   otherBoard: (board) => `等待它的控制板：${board}`,
