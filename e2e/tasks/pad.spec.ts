@@ -104,7 +104,7 @@ test('servos that nobody knows are asked for and go home slowly', async ({ dashb
   expect(ofKind(await robot.bus(), 'move')).toEqual([]);
   await pad.hold();
   await dashboard.button('First move, slowly').click();
-  await poll(async () => ofKind(await robot.bus(), 'move').length).toBe(1);
+  await poll(async () => ofKind(await robot.bus(), 'move').length).toBeGreaterThan(0);
   expect(ofKind(await robot.bus(), 'move')[0]?.durationMs).toBeGreaterThanOrEqual(1500);
   await expect(dashboard.button('First move, slowly')).toBeHidden();
 });

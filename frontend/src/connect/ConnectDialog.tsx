@@ -37,6 +37,7 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
       <ConnectWays
         state={state}
         current={way}
+        isReady={isReady}
         onLook={() => void connector.look().catch(notices.tellError)}
         onSimulate={(board) => choose(() => connector.simulate(board))}
         onReconnects={connector.setReconnects}

@@ -17,6 +17,8 @@ import styles from './ConnectWays.module.css';
 export interface ConnectWaysProps {
   readonly state: ConnectState;
   readonly current: Way | null;
+  /** What is open by the current way answers. */
+  readonly isReady: boolean;
   onLook(): void;
   onSimulate(board: FamilyId): void;
   onReconnects(reconnects: boolean): void;
@@ -121,7 +123,7 @@ function SimulatedWay({
   );
 }
 
-function SerialWay({ state, onSerialPort, onChooseSerial }: ConnectWaysProps) {
+function SerialWay({ state, current, isReady, onSerialPort, onChooseSerial }: ConnectWaysProps) {
   if (state.serialObstacle !== null) {
     return (
       <>
@@ -137,14 +139,32 @@ function SerialWay({ state, onSerialPort, onChooseSerial }: ConnectWaysProps) {
   return (
     <>
       {state.granted.map(({ port, label }, index) => (
-        <Button key={index} onPress={() => onSerialPort(port)}>
-          {words.connect.webSerial.open(label)}
-        </Button>
+        <OpenButton
+          key={index}
+          label={label}
+          isOpen={isReady && current?.kind === 'webSerial' && port === state.openPort}
+          onPress={() => onSerialPort(port)}
+        />
       ))}
       <Button tone={state.granted.length === 0 ? 'plain' : 'quiet'} onPress={onChooseSerial}>
         {words.connect.webSerial.choose}
       </Button>
     </>
+  );
+}
+
+interface OpenButtonProps {
+  readonly label: string;
+  readonly isOpen: boolean;
+  onPress(): void;
+}
+
+/** Says of what is open that it is, and leaves it alone. */
+function OpenButton({ label, isOpen, onPress }: OpenButtonProps) {
+  return (
+    <Button isDisabled={isOpen} onPress={onPress}>
+      {isOpen ? words.connect.webSerial.isOpen(label) : words.connect.webSerial.open(label)}
+    </Button>
   );
 }
 

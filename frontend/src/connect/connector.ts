@@ -41,6 +41,8 @@ export interface ConnectState {
   readonly reconnects: boolean;
   readonly serialObstacle: ReturnType<typeof webSerialObstacle>;
   readonly granted: readonly GrantedPort[];
+  /** The one that was opened last. */
+  readonly openPort: SerialPort | null;
   /** `looking` until the page's own address has answered or not. */
   readonly gateway: 'looking' | 'absent' | GatewayStatus;
   readonly gatewayPorts: readonly GatewayPort[];
@@ -99,14 +101,26 @@ export function createConnector(options: ConnectorOptions): Connector {
     reconnects: recallReconnects(storage),
     serialObstacle: webSerialObstacle(),
     granted: [],
+    openPort: null,
     gateway: 'looking',
     gatewayPorts: [],
   }));
 
   let current: { readonly transport: Transport; readonly session: Session } | null = null;
 
-  const serialTransport = (port: SerialPort): Transport =>
-    createWebSerialTransport(port, () => current?.session.halt() ?? Promise.resolve());
+  function openSerial(port: SerialPort): Transport {
+    store.setState({ openPort: port });
+    return createWebSerialTransport(port, () => current?.session.halt() ?? Promise.resolve());
+  }
+
+  /** What is open already is left alone, and that is said: the browser's chooser does not know it. */
+  function openOnce(port: SerialPort): void {
+    const { openPort } = store.getState();
+    const isOpen = current?.transport.kind === 'webSerial' && current.session.state.link.status === 'ready';
+    if (isOpen && port === openPort)
+      notices.tell('info', words.connect.isOpen(current?.transport.label ?? ''));
+    else chosen(openSerial(port));
+  }
 
   /** A board in the page is what it was made as; any other is asked, and taken for what it was the last time. */
   async function connect(transport: Transport): Promise<void> {
@@ -163,7 +177,7 @@ export function createConnector(options: ConnectorOptions): Connector {
       await connect(simulated());
       if (last === null) greet();
     } else if (!reconnects) return;
-    else if (last?.kind === 'webSerial' && port !== undefined) await connect(serialTransport(port.port));
+    else if (last?.kind === 'webSerial' && port !== undefined) await connect(openSerial(port.port));
     else if (typeof gateway === 'object') await connect(gatewayTransport());
     else await connect(simulated());
     if (gateway === 'absent') void offerLateGateway();
@@ -211,9 +225,9 @@ export function createConnector(options: ConnectorOptions): Connector {
       await look();
       chosen(gatewayTransport());
     },
-    useSerialPort: (port) => chosen(serialTransport(port)),
+    useSerialPort: openOnce,
     async chooseSerialPort() {
-      chosen(serialTransport(await choosePort()));
+      openOnce(await choosePort());
     },
     disconnect: () => void device.detach().catch(notices.tellError),
     async moveHere() {

@@ -10,9 +10,14 @@ const BASE: ConnectState = {
   reconnects: true,
   serialObstacle: null,
   granted: [],
+  openPort: null,
   gateway: 'absent',
   gatewayPorts: [],
 };
+
+/** Ports that nobody opens: only which is which counts. */
+const PORT = Object.create(null) as SerialPort;
+const OTHER_PORT = Object.create(null) as SerialPort;
 
 const CASES: readonly {
   readonly name: string;
@@ -23,6 +28,18 @@ const CASES: readonly {
     name: 'Connect, no gateway',
     state: BASE,
     current: { kind: 'simulated', label: 'Simulated board', isSimulated: true },
+  },
+  {
+    name: 'Connect, a port is open',
+    current: { kind: 'webSerial', label: 'USB 1A86:7523', isSimulated: false },
+    state: {
+      ...BASE,
+      openPort: PORT,
+      granted: [
+        { port: PORT, label: 'USB 1A86:7523' },
+        { port: OTHER_PORT, label: 'USB 0403:6001' },
+      ],
+    },
   },
   {
     name: 'Connect, gateway with ports',
@@ -61,6 +78,7 @@ export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current }) 
     <ConnectWays
       state={state}
       current={current}
+      isReady={current !== null}
       onLook={nothing}
       onSimulate={nothing}
       onReconnects={nothing}
