@@ -63,6 +63,14 @@ test('clicks, boxes, rows and frames select, and the strip is in step', async ({
   await expect(timeline.key('All servos, frame 2, 1.00 s, 2 keys')).toHaveAttribute('aria-selected', 'true');
   await timeline.click('All servos, frame 3, 1.50 s, 2 keys');
   await expect(dashboard.frame(3)).toHaveAttribute('aria-pressed', 'true');
+  await dashboard.frame(2).click({ modifiers: ['Shift'] });
+  await expect(dashboard.frame(3)).toHaveAttribute('aria-pressed', 'true');
+  await expect(timeline.key('All servos, frame 2, 1.00 s, 2 keys')).toHaveAttribute('aria-selected', 'true');
+  await page.keyboard.press('Delete');
+  await expect(dashboard.frames).toHaveCount(1);
+  await expect(dashboard.frame(1)).toBeFocused();
+  await dashboard.button('Undo: delete 2 frames').click();
+  await expect(dashboard.frames).toHaveCount(3);
 });
 
 test('a second click on a key opens its number in place', async ({ page, dashboard }) => {

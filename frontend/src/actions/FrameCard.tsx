@@ -8,7 +8,7 @@ import { useDevice, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
-import { showFrame } from '../timeline/inStep.ts';
+import { pressFrame } from '../timeline/inStep.ts';
 import { useWords, words } from '../words/words.ts';
 import { useFrameDrag } from './useFrameDrag.ts';
 import card from '../ui/Card.module.css';
@@ -21,13 +21,15 @@ export interface FrameCardProps {
   /** Servos that it moves. */
   readonly changed: readonly number[];
   readonly isSelected: boolean;
+  /** One of several. */
+  readonly isAmongSelected: boolean;
   readonly isTabStop: boolean;
   readonly isPlaying: boolean;
 }
 
 /** Drawn again only where it is another: a strip has dozens, and an edit concerns one or two. */
 export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
-  const { frame, index, pose, changed, isSelected, isTabStop, isPlaying } = props;
+  const { frame, index, pose, changed, isSelected, isAmongSelected, isTabStop, isPlaying } = props;
   useWords();
   const stores = useStores();
   const family = useDevice((state) => state.family);
@@ -40,6 +42,7 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
       className={cx(
         card.card,
         isSelected && card.selected,
+        isAmongSelected && styles.among,
         frame.colour !== null && styles.coloured,
         isPlaying && styles.playing,
         isDragged && card.dragged,
@@ -52,10 +55,12 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
         aria-label={[words.actions.frameAbout(number, frame.durationMs, changed), frame.note]
           .filter((part) => part !== '')
           .join(words.comma)}
-        aria-pressed={isSelected}
+        aria-pressed={isSelected || isAmongSelected}
         aria-current={isPlaying ? 'step' : undefined}
         tabIndex={isTabStop ? 0 : -1}
-        onClick={() => showFrame(stores, frame.id)}
+        onClick={({ ctrlKey, metaKey, shiftKey }) =>
+          pressFrame(stores, frame.id, { ctrl: ctrlKey || metaKey, shift: shiftKey })
+        }
       >
         <span className={styles.number}>{number}</span>
         {isPlaying ? (
@@ -77,7 +82,7 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
   );
 }, isSame);
 
-const PLAIN = ['frame', 'index', 'isSelected', 'isTabStop', 'isPlaying'] as const;
+const PLAIN = ['frame', 'index', 'isSelected', 'isAmongSelected', 'isTabStop', 'isPlaying'] as const;
 
 function isSame(one: FrameCardProps, other: FrameCardProps): boolean {
   return PLAIN.every((name) => one[name] === other[name]) && sameLook(one, other);

@@ -1,14 +1,16 @@
-// The frames in order, one card each, for people who think in poses. The frame that plays is marked, and those with keys that
-// are selected in the timeline.
+// The frames in order, one card each, for people who think in poses. The frame that plays is marked, and those that are selected
+// in the timeline.
 
 import { useMemo, type CSSProperties } from 'react';
-import { deleteFrame, indexOfFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
+import { indexOfFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { useGroup, useStores, useView } from '../stores/stores.ts';
 import { showFrame } from '../timeline/inStep.ts';
+import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { words } from '../words/words.ts';
 import { FrameCard } from './FrameCard.tsx';
 import { framePoses } from './framePoses.ts';
+import { deleteFrames, together } from './deleteFrames.ts';
 import { useCards } from './useCards.ts';
 import { useStripWindow } from './useStripWindow.ts';
 import styles from './FrameStrip.module.css';
@@ -19,6 +21,7 @@ export function FrameStrip() {
   const group = useGroup();
   const selected = useView((state) => state.selectedFrame);
   const playing = usePlayedFrame();
+  const whole = useWholeFrames();
   const { list, tabStop, key } = useCards<HTMLOListElement>({
     ...{ ids: group.frames.map(({ id }) => id), selected, attribute: 'data-frame' },
     select: (id) => showFrame(stores, id),
@@ -30,11 +33,8 @@ export function FrameStrip() {
       );
       view.setState({ said: words.actions.moved(from + 1, to + 1) });
     },
-    remove: (id) =>
-      document.edit(
-        () => words.actions.steps.delete(indexOfFrame(group, id) + 1),
-        (before) => deleteFrame(before, id),
-      ),
+    goesWith: (id) => together(whole, id),
+    remove: (id) => deleteFrames(document, together(whole, id)),
   });
 
   const { first, end, roomBeforePx, roomBehindPx } = useStripWindow(
@@ -57,6 +57,7 @@ export function FrameStrip() {
           key={frame.id}
           {...{ frame, index: first + index, ...(poses[index] ?? NO_POSE) }}
           isSelected={frame.id === selected}
+          isAmongSelected={whole.length > 1 && whole.includes(frame.id)}
           isTabStop={frame.id === tabStop}
           isPlaying={playing === first + index}
         />

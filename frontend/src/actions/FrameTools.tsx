@@ -1,19 +1,15 @@
 // What can be done with the selected frame, in words. Always in its place, so that nothing jumps when a frame is selected.
 
-import {
-  deleteFrame,
-  duplicateFrame,
-  indexOfFrame,
-  moveFrame,
-  setTargets,
-} from '#shared/actions/group/groupEdits.ts';
+import { duplicateFrame, indexOfFrame, moveFrame, setTargets } from '#shared/actions/group/groupEdits.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { useDevice, useDocument, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { captureFrame } from './capture.ts';
 import { useKnowsPose } from './CaptureButton.tsx';
+import { deleteFrames, together } from './deleteFrames.ts';
 import { commandedPose } from './pose.ts';
 import styles from './FrameTools.module.css';
 
@@ -32,7 +28,11 @@ export function FrameTools() {
   const knowsPose = useKnowsPose();
   const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
   const sameUnit = useDevice((state) => state.family.unit === unit);
+  const whole = together(useWholeFrames(), id);
+  const several = whole.length > 1;
   const none = index < 0;
+  /** These are about one frame. */
+  const notOne = none || several;
 
   const load = (): void => {
     const frame = document.store.getState().present.frames[index];
@@ -52,11 +52,10 @@ export function FrameTools() {
   };
   const remove = (): void => {
     const { frames } = document.store.getState().present;
-    view.setState({ selectedFrame: frames[index + 1]?.id ?? frames[index - 1]?.id ?? null });
-    document.edit(
-      () => words.actions.steps.delete(index + 1),
-      (before) => deleteFrame(before, id),
-    );
+    const stays = (frame: { readonly id: number }): boolean => !whole.includes(frame.id);
+    const next = frames.slice(index).find(stays) ?? frames.slice(0, index).findLast(stays);
+    view.setState({ selectedFrame: next?.id ?? null });
+    deleteFrames(document, whole);
   };
   const duplicate = (): void => {
     view.setState({ selectedFrame: document.store.getState().present.nextId });
@@ -68,11 +67,17 @@ export function FrameTools() {
 
   return (
     <div className={styles.tools} role="group" aria-label={words.actions.tools}>
-      <span className={styles.which}>{none ? words.actions.select : words.actions.frame(index + 1)}</span>
-      <Button tone="quiet" icon="pose" isDisabled={none || !mayMove || !sameUnit} onPress={load}>
+      <span className={styles.which}>
+        {none
+          ? words.actions.select
+          : several
+            ? words.actions.several(whole.length)
+            : words.actions.frame(index + 1)}
+      </span>
+      <Button tone="quiet" icon="pose" isDisabled={notOne || !mayMove || !sameUnit} onPress={load}>
         {words.actions.load}
       </Button>
-      <Button tone="quiet" icon="update" isDisabled={none || !knowsPose || !sameUnit} onPress={update}>
+      <Button tone="quiet" icon="update" isDisabled={notOne || !knowsPose || !sameUnit} onPress={update}>
         {words.actions.update}
       </Button>
       <span className={styles.icons}>
@@ -81,23 +86,23 @@ export function FrameTools() {
             key={side}
             icon={icon}
             label={words.actions.insert[side]}
-            isDisabled={none || !knowsPose || !sameUnit}
+            isDisabled={notOne || !knowsPose || !sameUnit}
             onPress={() => captureFrame(stores, side)}
           />
         ))}
         <IconButton
           icon="earlier"
           label={words.actions.earlier}
-          isDisabled={none || index === 0}
+          isDisabled={notOne || index === 0}
           onPress={move(index - 1)}
         />
         <IconButton
           icon="later"
           label={words.actions.later}
-          isDisabled={none || index === count - 1}
+          isDisabled={notOne || index === count - 1}
           onPress={move(index + 1)}
         />
-        <IconButton icon="copy" label={words.actions.duplicate} isDisabled={none} onPress={duplicate} />
+        <IconButton icon="copy" label={words.actions.duplicate} isDisabled={notOne} onPress={duplicate} />
         <IconButton icon="trash" label={words.actions.delete} isDisabled={none} onPress={remove} />
       </span>
     </div>

@@ -12,6 +12,8 @@ export interface CardsOptions {
   readonly attribute: string;
   select(id: number | null): void;
   move(id: number, to: number): void;
+  /** Those that go when it does, it too; left out: it alone. */
+  goesWith?(id: number): readonly number[];
   remove(id: number): void;
 }
 
@@ -50,7 +52,9 @@ export function useCards<List extends HTMLElement>(options: CardsOptions): Cards
       const index = ids.indexOf(id);
       const to = neighbour(event.key, index, ids.length);
       if (event.key === 'Delete' || event.key === 'Backspace') {
-        select(ids[index + 1] ?? ids[index - 1] ?? null);
+        const gone = new Set(options.goesWith?.(id) ?? [id]);
+        const stays = (one: number): boolean => !gone.has(one);
+        select(ids.slice(index).find(stays) ?? ids.slice(0, index).findLast(stays) ?? null);
         options.remove(id);
       } else if (to === null) return;
       else if (event.altKey && to !== index) {

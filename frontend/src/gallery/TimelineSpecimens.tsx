@@ -7,6 +7,7 @@ import { moveKeys } from '#shared/actions/group/keyEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { ActionsPanel } from '../actions/ActionsPanel.tsx';
 import { select } from '../timeline/desk.ts';
+import { pressFrame } from '../timeline/inStep.ts';
 import { keySet } from '../stores/keySet.ts';
 import { freshRobot } from '../stores/robots.ts';
 import { editServoView, type Stores } from '../stores/stores.ts';
@@ -75,6 +76,14 @@ const CASES: readonly Case[] = [
     name: 'Timeline, keys selected',
     frames: 6,
     prepare: ({ timeline }) => timeline.setState({ selected: keySet(SELECTED), playheadMs: 700 }),
+  },
+  {
+    name: 'Timeline, frames selected',
+    frames: 6,
+    prepare(stores) {
+      pressFrame(stores, 2, { ctrl: false, shift: false });
+      pressFrame(stores, 4, { ctrl: false, shift: true });
+    },
   },
   {
     name: 'Timeline, tall and looped',

@@ -2,12 +2,12 @@
 // selected elsewhere is selected here, all of the group stays in sight until the person looks closer, and so does the
 // playhead.
 
-import { deskOf, type Desk, type DeskStores } from './desk.ts';
+import { deskOf, select, type Desk, type DeskStores } from './desk.ts';
 import { endOfFrame, selectedKeys, timesOf } from './groupTimes.ts';
 import { fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
 import { paged, xOf } from '../stores/timeScale.ts';
-import type { TimelineState } from '../stores/timeline.ts';
-import { keyName, refsOf } from '../stores/keySet.ts';
+import { ALL_ROW, type TimelineState } from '../stores/timeline.ts';
+import { keyName, refsOf, withKeys } from '../stores/keySet.ts';
 
 export function keepInStep(stores: DeskStores): () => void {
   const { document, view, timeline } = stores;
@@ -55,6 +55,26 @@ export function showFrame(stores: DeskStores, frameId: number | null): void {
   if (frameId === null || endMs === null) return stores.view.setState({ selectedFrame: frameId });
   selectFrame(desk, frameId, 'replaces');
   lookAt(desk, endMs);
+}
+
+/** A card is pressed: alone, with Shift all up to it, with Ctrl beside others or taken away from them. */
+export function pressFrame(
+  stores: DeskStores,
+  frameId: number,
+  { ctrl, shift }: { readonly ctrl: boolean; readonly shift: boolean },
+): void {
+  if (!ctrl && !shift) return showFrame(stores, frameId);
+  const desk = deskOf(stores);
+  const anchor = stores.view.getState().selectedFrame;
+  const ids = shift ? framesBetween(desk, anchor ?? frameId, frameId) : [frameId];
+  const keys = ids.flatMap((id) => shownKeys(desk, id));
+  const selected = withKeys(desk.state.selected, keys, shift ? 'adds' : 'toggles');
+  select(stores, selected, { row: ALL_ROW, frameId: shift ? (anchor ?? frameId) : frameId });
+}
+
+function framesBetween({ times: { frames, places } }: Desk, one: number, other: number): readonly number[] {
+  const [first = 0, last = 0] = [one, other].map((id) => places.get(id) ?? 0).toSorted((a, b) => a - b);
+  return frames.slice(first, last + 1).map(({ id }) => id);
 }
 
 function takeUpFrame(stores: DeskStores): void {
