@@ -39,6 +39,7 @@ import { createSlots } from '../stores/slots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createTimeline } from '../stores/timeline.ts';
 import { createView } from '../stores/view.ts';
+import { bringSelectionBack } from '../timeline/selectionBack.ts';
 import { words } from '../words/words.ts';
 import { browserClock } from '../transports/browserClock.ts';
 import { hasGateway } from './gatewayApi.ts';
@@ -136,6 +137,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   watchInputs(window, pad);
   tellHandedOver(device.store, notices);
   lookAfresh({ library, view, timeline });
+  bringSelectionBack({ document: written, timeline, view });
   followPlace({ document: written, library, view });
   stores.view.subscribe(({ tab, kiosk }) => {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(false);

@@ -24,7 +24,7 @@ export const MESSAGES: readonly Exhibit[] = [
   {
     name: 'Message',
     content: <Messages />,
-    stores: () => prepared(({ notices }) => notices.tell('warning', words.timeline.allLocked)),
+    stores: () => prepared(({ notices }) => notices.tell('warning', words.timeline.held.locked)),
   },
   {
     name: 'Message to act on, others waiting',
@@ -32,7 +32,7 @@ export const MESSAGES: readonly Exhibit[] = [
     stores: () =>
       prepared(({ notices }) => {
         notices.tell('danger', words.errorSentence('internal', ''));
-        notices.tell('warning', words.timeline.allLocked);
+        notices.tell('warning', words.timeline.held.locked);
         notices.tell('warning', words.library.removed('Wave'), {
           ...{ label: words.library.undo, act: () => undefined },
         });

@@ -53,6 +53,12 @@ export function changeable({ times, state, servoView }: Desk): readonly KeyRef[]
   return selectedKeys(times, state.selected).filter(({ servo }) => !isHeld(servoView, servo));
 }
 
+/** Of selected keys that nothing changes: a row that alone is played and changed holds all others. */
+export function whyHeld({ times, state, servoView }: Desk): 'locked' | 'beside' {
+  const servos = selectedKeys(times, state.selected).map(({ servo }) => servo);
+  return servos.every((servo) => servoView.locked.includes(servo)) ? 'locked' : 'beside';
+}
+
 /** The frames of the selected keys, in the order of time. */
 export function selectedFrames({ times, state }: Desk): readonly number[] {
   const wanted = new Set(selectedKeys(times, state.selected).map(({ frameId }) => frameId));
@@ -103,6 +109,6 @@ const sameCursor = (before: Cursor, after: Cursor = before): Cursor =>
 /** False where nothing may be changed; then the person is told why. */
 export function hasChangeable(desk: Desk): boolean {
   if (changeable(desk).length > 0) return true;
-  if (desk.state.selected.size > 0) desk.stores.notices.tell('warning', words.timeline.allLocked);
+  if (desk.state.selected.size > 0) desk.stores.notices.tell('warning', words.timeline.held[whyHeld(desk)]);
   return false;
 }

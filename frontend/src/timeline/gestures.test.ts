@@ -2,6 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { addMarker } from '#shared/actions/group/markerEdits.ts';
 import { editServoView } from '../stores/stores.ts';
 import type { Timeline } from '../stores/timeline.ts';
+import { words } from '../words/words.ts';
 import { createTimelineDesk, smallGroup } from './timelineUnderTest.ts';
 
 const HEADS_Y = 33;
@@ -187,12 +188,18 @@ describe('dragging keys', () => {
     expect(steps()).toBe(0);
   });
 
-  test('leaves locked rows alone', async () => {
-    const { drag, spotOf, stores, group } = await createTimelineDesk();
+  test.each([
+    ['locked rows', 'locked', { locked: [1] }],
+    ['rows beside the one that alone plays and changes', 'beside', { solo: [2] }],
+  ] as const)('leaves %s alone, and says why', async (_, status, shown) => {
+    const { drag, key, press, spotOf, stores, group, told } = await createTimelineDesk();
     const before = group();
-    editServoView(stores, (view) => ({ ...view, locked: [1] }));
+    editServoView(stores, (view) => ({ ...view, ...shown }));
     drag(spotOf(1, 2), 30, 30);
     expect(group()).toBe(before);
+    expect(press(spotOf(1, 2)).status).toBe(status);
+    key('Delete');
+    expect(told()).toEqual([words.timeline.held[status]]);
   });
 });
 

@@ -3,7 +3,7 @@
 import type { KeyRef } from '#shared/actions/group/tracks.ts';
 import { keySet, withKeys } from '../stores/keySet.ts';
 import { words } from '../words/words.ts';
-import { changeable, deskOf, select, type Desk } from './desk.ts';
+import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
 import { draggedTo, edits, modeOf, nothing, type Gesture, type Held, type Press } from './gesture.ts';
 import { timesOf } from './groupTimes.ts';
 import { hasAll, keysBetween, type Hit, type Spot } from './hit.ts';
@@ -24,7 +24,7 @@ export function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' 
   const desk = deskOf(stores);
   const before = desk.state.selected;
   const refs = changeable(desk);
-  if (refs.length === 0) return { status: 'locked', move: nothing, end: nothing, cancel: nothing };
+  if (refs.length === 0) return { status: whyHeld(desk), move: nothing, end: nothing, cancel: nothing };
   let moved: readonly KeyRef[] = refs;
   const own = new Set(
     desk.times.ends.filter((_, index) =>

@@ -177,7 +177,10 @@ export const timelineWords = {
 
   keys: keysText,
   copied: (count: number): string => `${keysText(count)} copied`,
-  allLocked: 'The selected keys are on locked rows.',
+  held: {
+    locked: 'The selected keys are on locked rows.',
+    beside: 'The selected keys are beside the row that alone plays and changes.',
+  },
   nothingToSet: 'Nothing is known of these servos yet. Move them first.',
   nothingToPaste: 'Copy some keys first.',
   notPasted: (problem: PasteProblem): string => `Not pasted: ${pasteProblem(problem)}.`,
@@ -202,5 +205,6 @@ export const timelineWords = {
     stretchBack: 'Alt suspends snapping. The last key stays.',
     rested: 'Lift for the menu, or drag to select.',
     locked: 'This row is locked.',
+    beside: 'This row is beside the one that alone plays and changes.',
   },
 };

@@ -154,7 +154,10 @@ export const timelineWords: typeof english = {
 
   keys: keysText,
   copied: (count) => `已复制${keysText(count)}`,
-  allLocked: '所选关键帧所在的行已锁定。',
+  held: {
+    locked: '所选关键帧所在的行已锁定。',
+    beside: '现在只播放和修改别的行，所选关键帧不在其中。',
+  },
   nothingToSet: '这些舵机的位置还未知。请先移动它们。',
   nothingToPaste: '请先复制关键帧。',
   notPasted: (problem) => `没有粘贴：${pasteProblem(problem)}。`,
@@ -173,5 +176,6 @@ export const timelineWords: typeof english = {
     stretchBack: '按住Alt暂停吸附。最后一个关键帧不动。',
     rested: '抬起打开菜单，拖动来选择。',
     locked: '这一行已锁定。',
+    beside: '现在只播放和修改别的行，不含这一行。',
   },
 };

@@ -1,0 +1,32 @@
+// Undo and redo bring back what was selected when the group was left that way, and where the cursor was. Knows what is selected,
+// not what an edit does.
+
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { History } from '#shared/actions/history.ts';
+import { setChanged } from '../stores/setChanged.ts';
+import type { DeskStores } from './desk.ts';
+
+type Selecting = Pick<DeskStores, 'document' | 'timeline' | 'view'>;
+
+export function bringSelectionBack({ document, timeline, view }: Selecting): void {
+  const left = new WeakMap<ActionGroup, ReturnType<typeof looks>>();
+
+  function looks() {
+    const { selected, cursor, marker } = timeline.getState();
+    return { keys: { selected, cursor, marker }, selectedFrame: view.getState().selectedFrame };
+  }
+
+  document.store.subscribe((next, before) => {
+    if (next.present === before.present) return;
+    left.set(before.present, looks());
+    const back = isStep(before, next) ? left.get(next.present) : undefined;
+    if (back === undefined) return;
+    setChanged(timeline, back.keys);
+    setChanged(view, { selectedFrame: back.selectedFrame });
+  });
+}
+
+/** Back or forth in the history, and no edit. */
+function isStep(before: History<ActionGroup>, next: History<ActionGroup>): boolean {
+  return next.future.at(-1)?.value === before.present || before.future.at(-1)?.value === next.present;
+}
