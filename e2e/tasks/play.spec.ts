@@ -38,7 +38,11 @@ test('an example is written out for the board, plays at twice its speed, pauses 
   await expect(dashboard.frames).toHaveCount(0);
 });
 
-test('the board gets a group before it runs it, and not a second time', async ({ dashboard, robot }) => {
+test('the board gets a group before it runs it, not a second time, and in place of another one when told so', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
   await captureGroup(dashboard, [1000, 1400], 400);
   await expect(dashboard.estimate(1)).toHaveText('≈ 1400');
   await dashboard.button('Run on board').click();
@@ -48,6 +52,28 @@ test('the board gets a group before it runs it, and not a second time', async ({
   await dashboard.button('Run on board').click();
   await poll(async () => ofKind(await robot.bus(), 'run').length).toBe(2);
   expect(ofKind(await robot.bus(), 'download')).toHaveLength(2);
+  await expect(dashboard.status).toHaveText('Idle');
+
+  const library = libraryOf(page);
+  await library.show();
+  await library.button('New group').click();
+  await expect(dashboard.frames).toHaveCount(0);
+  await library.call('Instead');
+  await captureGroup(dashboard, [1400], 400);
+  const question = page.getByRole('alertdialog', { name: 'Slot 0 holds another group' });
+  const answers = [
+    { answer: 'Leave it as it is', downloads: 2, runs: 2 },
+    { answer: 'Replace and run', downloads: 3, runs: 3 },
+  ];
+  for (const { answer, downloads, runs } of answers) {
+    await dashboard.button('Run on board').click();
+    await expect(question).toContainText('Instead');
+    expect(ofKind(await robot.bus(), 'download')).toHaveLength(2);
+    await question.getByRole('button', { name: answer }).click();
+    await expect(question).toBeHidden();
+    await poll(async () => ofKind(await robot.bus(), 'run').length).toBe(runs);
+    expect(ofKind(await robot.bus(), 'download')).toHaveLength(downloads);
+  }
 });
 
 test('the map of slots knows an older copy, compares it, and brings back what an erase took', async ({
