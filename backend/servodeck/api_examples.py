@@ -231,5 +231,6 @@ PROBLEMS: dict[ErrorCode, str] = {
     "storageBusy": "The library is busy.",
     "storageFailed": "The library's file cannot be used: disk I/O error.",
     "storageFull": "The disk is full.",
+    "tooMany": "Dance asks too often: come again in 0.4 s.",
     "tooLarge": "The request is larger than 3145728 bytes.",
 }

@@ -111,7 +111,9 @@ def add_docs(app: FastAPI) -> None:
 def add_errors(app: FastAPI) -> None:
     @app.exception_handler(GatewayError)
     async def gateway_error(_connection: HTTPConnection, error: GatewayError) -> JSONResponse:
-        return problem(error.status, error.code, error.detail)
+        answer = problem(error.status, error.code, error.detail)
+        answer.headers.update(error.headers)
+        return answer
 
     @app.exception_handler(RequestValidationError)
     async def validation_error(_request: Request, error: RequestValidationError) -> JSONResponse:

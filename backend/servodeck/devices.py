@@ -82,11 +82,8 @@ class Devices:
         self._devices[name] = seen
         return seen
 
-    def role_of(self, device: str) -> Role:
-        return self._get(device).role
-
     def change(self, device: str, name: str | None, role: Role | None) -> Device:
-        present = self._get(device)
+        present = self.get(device)
         if role not in (None, present.role):
             if present.kind == "stopLink":
                 raise ForbiddenError("A stop-only link can only stop.")
@@ -97,7 +94,7 @@ class Devices:
         return changed
 
     def revoke(self, device: str) -> None:
-        present = self._get(device)
+        present = self.get(device)
         self._keep_an_owner(present)
         self._devices = {one.id: one for one in self.all if one.id != device}
 
@@ -109,7 +106,7 @@ class Devices:
         """Writes when each was last seen. Raises a StorageError."""
         self._shelf.save(lambda: self.all)
 
-    def _get(self, device: str) -> Device:
+    def get(self, device: str) -> Device:
         found = self._devices.get(device)
         if found is None:
             raise NotFoundError("No such device is paired.")

@@ -11,6 +11,7 @@ from servodeck.credentials import credential_of
 from servodeck.devices import Device, Devices
 from servodeck.errors import NotPairedError, PairingError
 from servodeck.pairing import Invite, Pairing
+from servodeck.rates import Rates
 
 
 class Entrance:
@@ -18,6 +19,7 @@ class Entrance:
         self.access = access
         self.devices = devices
         self.pairing = Pairing(now)
+        self._rates = Rates(now)
 
     def find(self, headers: list[tuple[bytes, bytes]]) -> Caller | None:
         """Whoever has proved who they are; None for a stranger."""
@@ -34,6 +36,11 @@ class Entrance:
             raise NotPairedError("This device is not paired with the gateway.")
         caller.require(role)
         return caller
+
+    def count(self, caller: Caller) -> None:
+        """One more request of theirs. Raises TooManyError."""
+        if caller is not THIS_COMPUTER:
+            self._rates.take(self.devices.get(caller.id))
 
     def come_in(self, invite: Invite, name: str, present: Caller | None) -> tuple[Caller, str | None]:
         """Uses the invitation up: who they are from now on, and their new credential. Whoever may do as much

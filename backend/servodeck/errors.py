@@ -3,6 +3,7 @@
 Knows no message and no sentence of its own; whoever raises says what happened and what to do about it.
 """
 
+import math
 from typing import ClassVar, Literal
 
 ErrorCode = Literal[
@@ -31,6 +32,7 @@ ErrorCode = Literal[
     "methodNotAllowed",
     "conflict",
     "tooLarge",
+    "tooMany",
     "storageFull",
     "storageBusy",
     "storageFailed",
@@ -47,6 +49,7 @@ class GatewayError(Exception):
     def __init__(self, detail: str) -> None:
         super().__init__(detail)
         self.detail = detail
+        self.headers: dict[str, str] = {}
 
 
 class PortError(GatewayError):
@@ -111,6 +114,17 @@ class BusyError(GatewayError):
 
     code: ClassVar[ErrorCode] = "busy"
     status: ClassVar[int] = 429
+
+
+class TooManyError(GatewayError):
+    """Asked more often than this caller may."""
+
+    code: ClassVar[ErrorCode] = "tooMany"
+    status: ClassVar[int] = 429
+
+    def __init__(self, detail: str, wait_s: float) -> None:
+        super().__init__(detail)
+        self.headers = {"Retry-After": str(math.ceil(wait_s))}
 
 
 class MovingError(GatewayError):

@@ -32,6 +32,12 @@ SCHEMES = {
 }
 ALL_SCHEMES: list[dict[str, list[str]]] = [{name: []} for name in SCHEMES]
 JSON = "application/json"
+RETRY_AFTER = {
+    "Retry-After": {
+        "description": "With 429 `tooMany`: after so many seconds one more request is taken.",
+        "schema": {"type": "integer", "minimum": 1},
+    }
+}
 
 
 def described(app: FastAPI) -> dict[str, Any]:
@@ -80,6 +86,8 @@ def problems(operation: dict[str, Any], example: Example, role: Role | None) -> 
     codes.append("forbidden")
     if role is not None:
         codes.append("notPaired")
+    if role not in (None, "stopper"):
+        codes.append("tooMany")
     found: dict[str, dict[str, Any]] = {"4XX": {}, "5XX": {}}
     for code in codes:
         value = {"code": code, "detail": PROBLEMS[code]}
@@ -91,6 +99,7 @@ def problems(operation: dict[str, Any], example: Example, role: Role | None) -> 
     return {
         status: {
             "description": "It was not done, and why.",
+            **({"headers": RETRY_AFTER} if "tooMany" in examples else {}),
             "content": {JSON: {"schema": PROBLEM, "examples": examples}},
         }
         for status, examples in found.items()

@@ -151,7 +151,7 @@ async def change(
     person: str, wanted: PersonChange, entrance: Entered, control: Controlled, scripts: Scripted
 ) -> Person:
     """Another name or role. What was open under the old role is closed and may come back."""
-    before = entrance.devices.role_of(person)
+    before = entrance.devices.get(person).role
     changed = entrance.devices.change(person, wanted.name, wanted.role)
     if changed.role == before:
         spread_name(changed, control)

@@ -24,7 +24,12 @@ class Needs:
     async def __call__(self, connection: HTTPConnection) -> Caller | None:
         entrance = await entrance_of(connection)
         headers = connection.scope["headers"]
-        return entrance.find(headers) if self.role is None else entrance.judge(headers, self.role)
+        if self.role is None:
+            return entrance.find(headers)
+        caller = entrance.judge(headers, self.role)
+        if self.role != "stopper" and connection.scope["type"] == "http":
+            entrance.count(caller)  # a stop is never one too many, and messages have their own rates
+        return caller
 
 
 async def entrance_of(connection: HTTPConnection) -> Entrance:
