@@ -45,6 +45,8 @@ test('limits set on one screen hold on the other, while it calibrates too', asyn
     poll(async () => (await lastTarget(robot.bus, 4)) ?? 9999).toBeLessThan(980),
   );
   await other.turn.getByRole('button', { name: 'Take over' }).click();
+  // What is typed before is not sent, and not judged.
+  await expect(other.turn.getByRole('button', { name: 'Let go' })).toBeVisible();
   await other.type(other.target(4), 950);
   await expect(other.notices).toContainText('Elbow: 950 is out of range');
   await other.page.context().close();
