@@ -9,6 +9,7 @@ import random
 import signal
 import threading
 import time
+from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -27,6 +28,7 @@ from tests.test_ports import Pty
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals and ptys need POSIX")
 OLDEST_MOTION_S = 0.5
+LIVES_IN_A_FOLDER = 5  # each saves some hundred documents, and a library takes 5,000
 DOWNLOAD_HEAD = bytes.fromhex("55550b1908")
 
 
@@ -180,14 +182,16 @@ def test_whatever_ends_it_the_next_start_moves_nothing_and_lost_nothing(
     end: str, bus_on: tuple[Pty, Bus], tmp_path: Path
 ) -> None:
     pty, bus = bus_on
-    acknowledged: dict[str, str] = {}
+    acknowledged: defaultdict[Path, dict[str, str]] = defaultdict(dict)
     for seed in seeds(2):
+        folder = tmp_path / str(seed // LIVES_IN_A_FOLDER)
         with named("test_killed.py", seed, end):
-            acknowledged |= live_and_end(end, pty, bus, tmp_path, random.Random(seed))
-    with serving(pty, tmp_path) as served, httpx2.Client() as client:
-        for name, text in acknowledged.items():
-            answer = client.get(f"{served.url}/api/library/{name}")
-            assert (name, answer.json().get("text")) == (name, text)
+            acknowledged[folder] |= live_and_end(end, pty, bus, folder, random.Random(seed))
+    for folder, texts in acknowledged.items():
+        with serving(pty, folder) as served, httpx2.Client() as client:
+            for name, text in texts.items():
+                answer = client.get(f"{served.url}/api/library/{name}")
+                assert (name, answer.json().get("text")) == (name, text)
 
 
 def live_and_end(end: str, pty: Pty, bus: Bus, folder: Path, chance: random.Random) -> dict[str, str]:

@@ -57,6 +57,7 @@ test('a .d6a database is opened and saved by the page alone @everyWay', async ({
 
 test('several files come at once; a broken one tells where and why, and changes nothing', async ({
   dashboard,
+  page,
 }) => {
   await captureGroup(dashboard, [1000, 1200]);
   const files = filesDialogOf(dashboard);
@@ -72,6 +73,9 @@ test('several files come at once; a broken one tells where and why, and changes 
   await expect(files.file('step.rob')).toContainText('It is made for boards that count in another unit.');
   await files.file('broken.xml').getByRole('button', { name: 'Take broken.xml off the list' }).click();
   await expect(files.file('broken.xml')).toBeHidden();
+  // Turned or made smaller, the window has other panels; what was opened stays.
+  await page.setViewportSize({ width: 820, height: 900 });
+  await expect(files.file('secret.rob')).toBeVisible();
   await dashboard.button('Close').click();
   await expect(dashboard.frames).toHaveCount(2);
   await expect(dashboard.button('Files, 2 opened')).toBeVisible();

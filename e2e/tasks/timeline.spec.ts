@@ -262,6 +262,7 @@ test.describe('with fingers', () => {
     await expect(dashboardOf(page).link).toContainText('Ready');
     await page.getByRole('tab', { name: 'Actions' }).click();
     const timeline = timelineOf(page);
+    await expect(timeline.region).toContainText('Rest a finger for more');
     const name = 'Gripper, 1.00 s, 1200 µs, linear';
     await timeline.key(name).scrollIntoViewIfNeeded();
     const at = await timeline.middleOf(timeline.key(name));

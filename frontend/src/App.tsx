@@ -13,6 +13,7 @@ import type { Page } from './connect/page.ts';
 import { LogDrawer } from './console/LogDrawer.tsx';
 import { LogPanel } from './console/LogPanel.tsx';
 import { Messages } from './console/Messages.tsx';
+import { FilesDesk } from './files/FilesArea.tsx';
 import { LibraryDialog } from './library/LibraryDialog.tsx';
 import { PeopleDialog } from './people/PeopleDialog.tsx';
 import { RobotDialog } from './robots/RobotDialog.tsx';
@@ -37,7 +38,9 @@ export function App({ page }: { readonly page: Page }) {
   return (
     <I18nProvider locale={locale}>
       <StoresContext value={page.stores}>
-        <Dashboard page={page} />
+        <FilesDesk>
+          <Dashboard page={page} />
+        </FilesDesk>
       </StoresContext>
     </I18nProvider>
   );

@@ -1,5 +1,5 @@
 // Around a panel that takes files: files are dropped anywhere on it, and its button opens the dialog. A drop beside it does
-// nothing, instead of leaving the page while a robot is connected.
+// nothing, instead of leaving the page while a robot is connected. What was opened waits beyond the panel, which may go.
 
 import { createContext, use, useEffect, useState, type DragEvent, type ReactNode } from 'react';
 import { useStores } from '../stores/stores.ts';
@@ -10,49 +10,66 @@ import { useOpenedFiles } from './openedFiles.ts';
 import { takeGroups } from './takeGroups.ts';
 import styles from './FilesArea.module.css';
 
-const FilesContext = createContext({ waiting: 0, show: (): void => undefined });
+interface FilesDesk {
+  /** Opened and not yet taken over. */
+  readonly waiting: number;
+  show(): void;
+  open(files: readonly File[]): void;
+}
 
-export function FilesArea({ children }: { readonly children: ReactNode }) {
+const nothing = (): void => undefined;
+const FilesContext = createContext<FilesDesk>({ waiting: 0, show: nothing, open: nothing });
+
+/** Around everything that shows files: keeps them, and the dialog, while panels come and go. */
+export function FilesDesk({ children }: { readonly children: ReactNode }) {
   const stores = useStores();
   const files = useOpenedFiles();
   const [isOpen, setOpen] = useState(false);
-  const [isDropping, setDropping] = useState(false);
   useEffect(ignoreStrayDrops, []);
-
   const show = (): void => setOpen(true);
-  const drop = (event: DragEvent): void => {
-    if (!bringsFiles(event)) return;
-    event.preventDefault();
-    setDropping(false);
-    files.open([...event.dataTransfer.files]);
+  const open = (dropped: readonly File[]): void => {
+    files.open(dropped);
     show();
   };
   return (
-    <FilesContext value={{ waiting: files.list.length, show }}>
-      <div
-        className={styles.area}
-        data-dropping={isDropping}
-        onDragOver={(event) => {
-          if (!bringsFiles(event)) return;
-          event.preventDefault();
-          event.dataTransfer.dropEffect = 'copy';
-          setDropping(true);
+    <FilesContext value={{ waiting: files.list.length, show, open }}>
+      {children}
+      <FilesDialog
+        files={files}
+        isOpen={isOpen}
+        onClose={() => setOpen(false)}
+        onTake={(groups) => {
+          takeGroups(stores, groups);
+          setOpen(false);
         }}
-        onDragLeave={() => setDropping(false)}
-        onDrop={drop}
-      >
-        {children}
-        <FilesDialog
-          files={files}
-          isOpen={isOpen}
-          onClose={() => setOpen(false)}
-          onTake={(groups) => {
-            takeGroups(stores, groups);
-            setOpen(false);
-          }}
-        />
-      </div>
+      />
     </FilesContext>
+  );
+}
+
+export function FilesArea({ children }: { readonly children: ReactNode }) {
+  const { open } = use(FilesContext);
+  const [isDropping, setDropping] = useState(false);
+  return (
+    <div
+      className={styles.area}
+      data-dropping={isDropping}
+      onDragOver={(event) => {
+        if (!bringsFiles(event)) return;
+        event.preventDefault();
+        event.dataTransfer.dropEffect = 'copy';
+        setDropping(true);
+      }}
+      onDragLeave={() => setDropping(false)}
+      onDrop={(event) => {
+        if (!bringsFiles(event)) return;
+        event.preventDefault();
+        setDropping(false);
+        open([...event.dataTransfer.files]);
+      }}
+    >
+      {children}
+    </div>
   );
 }
 

@@ -40,16 +40,23 @@ export function StatusText({ status, tells }: Said) {
 /** No number is read faster. */
 const READ_EACH_MS = 50;
 
+/** Fingers hold no keys down. */
+const ABOUT_KEYS = new Set<StatusName>(['move', 'box', 'scrub', 'duration', 'stretch', 'stretchBack']);
+
 function textOf(desk: SeenDesk, status: StatusName | null): string {
   const { state, family } = desk;
-  if (status !== null && status !== 'selected' && status !== 'nothing') return words.timeline.status[status];
+  const isTouch = matchMedia('(pointer: coarse)').matches;
+  if (status !== null && status !== 'selected' && status !== 'nothing')
+    return isTouch && ABOUT_KEYS.has(status) ? '' : words.timeline.status[status];
   const keys = selectedKeys(desk.times, state.selected);
   const servo = servoAtHand(desk, keys);
   const [only] = keys;
-  if (only === undefined || servo === undefined) return words.timeline.status.nothing;
+  if (only === undefined || servo === undefined)
+    return isTouch ? words.timeline.byTouch.nothing : words.timeline.status.nothing;
   const about =
     keys.length === 1
       ? cellName(desk, { row: servoRowId(servo), frameId: only.frameId })
       : words.timeline.keys(keys.length);
+  if (isTouch) return words.timeline.byTouch.selected(about);
   return words.timeline.status.selected(about, family.motion.tickMs, turnText(desk, servo));
 }

@@ -207,4 +207,9 @@ export const timelineWords = {
     locked: 'This row is locked.',
     beside: 'This row is beside the one that alone plays and changes.',
   },
+  byTouch: {
+    nothing:
+      'Touch a key to select it. Rest a finger for more, or drag on to select several. Two fingers zoom.',
+    selected: (about: string): string => `${about}. Drag to move it. Rest a finger for more.`,
+  },
 };

@@ -178,4 +178,8 @@ export const timelineWords: typeof english = {
     locked: '这一行已锁定。',
     beside: '现在只播放和修改别的行，不含这一行。',
   },
+  byTouch: {
+    nothing: '点按关键帧来选择。长按打开菜单，按住再拖动可多选。双指缩放。',
+    selected: (about) => `${about}。拖动来移动。长按打开菜单。`,
+  },
 };
