@@ -133,6 +133,7 @@ function framesDrawn(page: Page, forMs: number): Promise<number> {
 
 /** Runs in the page: the first slider is dragged to another value in every frame, and takes all others along. */
 function dragInEachFrame(slider: HTMLElement | SVGElement): void {
+  slider.dispatchEvent(new PointerEvent('pointerdown', { bubbles: true, pointerType: 'mouse', buttons: 1 }));
   let frame = 0;
   requestAnimationFrame(function drag() {
     frame += 1;

@@ -13,7 +13,7 @@ import { setAttribute } from '../ui/setAttribute.ts';
 import { words } from '../words/words.ts';
 import { stepped, type Scale } from './scale.ts';
 import { useRawDrag } from './useRawDrag.ts';
-import { targetOf, useReadableTarget, useTarget } from './useTarget.ts';
+import { useReadableTarget, useTarget } from './useTarget.ts';
 import styles from './PositionSlider.module.css';
 
 export interface PositionSliderProps {
@@ -28,7 +28,7 @@ export interface PositionSliderProps {
   onMove(position: number): void;
   /** At one stroke, with no hand that leads it there. */
   onLeap(position: number): void;
-  /** Between two frames, more often than the input itself tells. */
+  /** While a pointer holds it, also between two frames: what is shown waits for the next one. */
   onDrag(position: number): void;
   onHome(): void;
 }
@@ -49,12 +49,12 @@ export function PositionSlider({
   const held = useRef(false);
   const { min, max, home } = servo;
   const { device } = useStores();
-  const shown = (): number => targetOf(device, servo.servo) ?? guess ?? home;
+  const shown = (): number => device.targetsNow()[servo.servo] ?? guess ?? home;
 
   useRawDrag(input, (position) => blocked || onDrag(position));
   // Past React: dozens of them may change in each frame.
-  useTarget(servo.servo, () => {
-    if (input.current !== null && !held.current) input.current.value = String(shown());
+  useTarget(servo.servo, (target) => {
+    if (input.current !== null && !held.current) input.current.value = String(target ?? guess ?? home);
   });
   useReadableTarget(servo.servo, (target) => {
     if (input.current !== null) input.current.ariaValueText = valueText(scale, target, guess);
@@ -63,7 +63,7 @@ export function PositionSlider({
   /** Blocked, it keeps the focus and its place, and takes nothing. Without a pointer on it, it was Home or End. */
   function moved(element: HTMLInputElement): void {
     if (blocked) element.value = String(shown());
-    else if (held.current) onMove(element.valueAsNumber);
+    else if (held.current) onDrag(element.valueAsNumber);
     else onLeap(element.valueAsNumber);
   }
 

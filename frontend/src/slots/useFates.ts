@@ -2,7 +2,7 @@
 
 import { fateOf, type SlotFate } from '#shared/actions/slots/slotBook.ts';
 import type { Truth } from '../ui/Chip.tsx';
-import { useCompiled, useLibrary, useSlots, useSnapshot } from '../stores/stores.ts';
+import { useCompiled, useGroup, useLibrary, useSlots, useSnapshot } from '../stores/stores.ts';
 
 export const FATE_TRUTH: Readonly<Record<SlotFate, Truth>> = {
   arriving: 'commanded',
@@ -18,9 +18,11 @@ export function useFates(): (slot: number) => SlotFate {
   const book = useSlots((state) => state.book);
   const broken = useSnapshot((snapshot) => snapshot.brokenSlots);
   const arriving = useSnapshot(({ activity }) => (activity.kind === 'downloading' ? activity.slot : null));
-  const { fingerprint, source } = useCompiled((state) => state.latest);
+  const latest = useCompiled((state) => state.latest);
   const documentId = useLibrary((state) => state.openId);
-  const group = { name: source.group.name, documentId, fingerprint };
-  const onPage = source.group.frames.length === 0 ? null : group;
+  const group = useGroup();
+  // What a group comes to is worked out a little later than it is there: that of another one says nothing about it.
+  const fingerprint = latest.source.group === group ? latest.fingerprint : '';
+  const onPage = group.frames.length === 0 ? null : { name: group.name, documentId, fingerprint };
   return (slot) => fateOf(book, { broken, arriving }, slot, onPage);
 }
