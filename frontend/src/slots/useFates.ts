@@ -2,7 +2,7 @@
 
 import { fateOf, type SlotFate } from '#shared/actions/slots/slotBook.ts';
 import type { Truth } from '../ui/Chip.tsx';
-import { useCompiled, useGroup, useLibrary, useSlots, useSnapshot } from '../stores/stores.ts';
+import { useCompiled, useDocument, useLibrary, useSlots, useSnapshot } from '../stores/stores.ts';
 
 export const FATE_TRUTH: Readonly<Record<SlotFate, Truth>> = {
   arriving: 'commanded',
@@ -20,9 +20,10 @@ export function useFates(): (slot: number) => SlotFate {
   const arriving = useSnapshot(({ activity }) => (activity.kind === 'downloading' ? activity.slot : null));
   const latest = useCompiled((state) => state.latest);
   const documentId = useLibrary((state) => state.openId);
-  const group = useGroup();
+  const name = useDocument(({ present }) => present.name);
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   // What a group comes to is worked out a little later than it is there: that of another one says nothing about it.
-  const fingerprint = latest.source.group === group ? latest.fingerprint : '';
-  const onPage = group.frames.length === 0 ? null : { name: group.name, documentId, fingerprint };
+  const fingerprint = latest.source.group.name === name ? latest.fingerprint : '';
+  const onPage = isEmpty ? null : { name, documentId, fingerprint };
   return (slot) => fateOf(book, { broken, arriving }, slot, onPage);
 }
