@@ -74,14 +74,16 @@ function BeginButtons() {
       <Button icon="play" isDisabled={!mayPlay} onPress={() => playback.play()}>
         <PlayWords />
       </Button>
-      <Button
-        icon="eye"
-        hint={words.play.previewHint}
-        isDisabled={isEmpty}
-        onPress={() => playback.togglePreview()}
-      >
-        {words.play.preview}
-      </Button>
+      <span className={styles.preview}>
+        <Button
+          icon="eye"
+          hint={words.play.previewHint}
+          isDisabled={isEmpty}
+          onPress={() => playback.togglePreview()}
+        >
+          {words.play.preview}
+        </Button>
+      </span>
     </>
   );
 }

@@ -3,7 +3,7 @@
 
 import { useMemo } from 'react';
 import { refsOf, type KeySet } from '../stores/keySet.ts';
-import { useGroup, useTimeline } from '../stores/stores.ts';
+import { useDocument, useTimeline } from '../stores/stores.ts';
 import { timesOf, type GroupTimes } from './groupTimes.ts';
 import { useRows } from './useRows.ts';
 
@@ -26,9 +26,10 @@ export function wholeFrames(
     .toSorted((one, other) => (places.get(one) ?? 0) - (places.get(other) ?? 0));
 }
 
+/** As text in between: an edit that leaves them the same has nothing drawn again. */
 export function useWholeFrames(): readonly number[] {
   const selected = useTimeline((state) => state.selected);
-  const group = useGroup();
   const shown = useRows().find(({ kind }) => kind === 'all')?.servos;
-  return useMemo(() => wholeFrames(timesOf(group), selected, new Set(shown)), [group, selected, shown]);
+  const ids = useDocument(({ present }) => wholeFrames(timesOf(present), selected, new Set(shown)).join());
+  return useMemo(() => (ids === '' ? [] : ids.split(',').map(Number)), [ids]);
 }
