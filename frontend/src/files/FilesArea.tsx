@@ -10,7 +10,7 @@ import { useOpenedFiles } from './openedFiles.ts';
 import { takeGroups } from './takeGroups.ts';
 import styles from './FilesArea.module.css';
 
-interface FilesDesk {
+interface Files {
   /** Opened and not yet taken over. */
   readonly waiting: number;
   show(): void;
@@ -18,7 +18,7 @@ interface FilesDesk {
 }
 
 const nothing = (): void => undefined;
-const FilesContext = createContext<FilesDesk>({ waiting: 0, show: nothing, open: nothing });
+const FilesContext = createContext<Files>({ waiting: 0, show: nothing, open: nothing });
 
 /** Around everything that shows files: keeps them, and the dialog, while panels come and go. */
 export function FilesDesk({ children }: { readonly children: ReactNode }) {
