@@ -117,7 +117,11 @@ export function endToEnd() {
   return {
     name: 'end to end',
     command: node('@playwright/test/cli.js', 'test', '--reporter=dot,json'),
-    env: { PLAYWRIGHT_JSON_OUTPUT_FILE: at(playwrightReport), CHROMIUM_PATH: findBrowser() ?? '' },
+    env: {
+      PLAYWRIGHT_JSON_OUTPUT_FILE: at(playwrightReport),
+      CHROMIUM_PATH: findBrowser() ?? '',
+      NO_COLOR: undefined, // its workers are told to colour, and Node warns of the contradiction
+    },
     limitMs: 15 * 60_000,
     count: countPlaywright,
   };

@@ -62,7 +62,8 @@ async function runTask(task) {
   say(
     `${ok ? 'ok    ' : 'FAILED'}  ${task.name.padEnd(22)} ${seconds.toFixed(1).padStart(6)} s  ${tally(task, counts)}`,
   );
-  for (const failure of counts.failures ?? []) say(`        ${failure}`);
+  for (const name of counts.failures ?? []) say(`        ${name}`);
+  for (const name of counts.flaky ?? []) say(`        (on a second try it passed) ${name}`);
   if (!ok) say(`\n${output.trimEnd() || '(it printed nothing)'}\n${proved ? '' : 'No test ran.\n'}`);
   return { task, ok, counts, seconds };
 }
@@ -96,8 +97,6 @@ export function conclude(results) {
   if (broken.length > 0) say(`failed: ${broken.join(', ')}`);
   for (const reason of new Set(results.flatMap(({ counts }) => counts.reasons ?? [])))
     say(`skipped: ${reason}`);
-  for (const name of results.flatMap(({ counts }) => counts.flaky ?? []))
-    say(`failed once, passed on a second try: ${name}`);
   say(
     `${sum(({ counts }) => counts.passed)} passed, ${failed} failed, ${sum(({ counts }) => counts.skipped)} skipped`,
   );
