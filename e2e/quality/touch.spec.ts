@@ -29,7 +29,7 @@ test('a scroll over the sliders moves no servo, a drag of a thumb does', async (
   const dashboard = dashboardOf(page);
   await page.goto((await servers.files()).url);
   await expect(dashboard.link).toHaveText(/Ready/);
-  await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500', { timeout: 15_000 });
   const { swipe } = await fingersOf(page);
   await dashboard.slider(4).scrollIntoViewIfNeeded();
   const target = await dashboard.target(4).inputValue();
@@ -41,13 +41,15 @@ test('a scroll over the sliders moves no servo, a drag of a thumb does', async (
   }).toPass();
   expect(await dashboard.target(4).inputValue()).toBe(target);
 
-  await dashboard.type(dashboard.target(4), 1500);
-  await expect(dashboard.estimate(4)).toHaveText('≈ 1500');
-  const at = await middleOf(dashboard.slider(4));
+  // The scroll has left it in sight.
+  await dashboard.type(dashboard.target(5), 1500);
+  await expect(dashboard.estimate(5)).toHaveText('≈ 1500');
+  await dashboard.slider(5).scrollIntoViewIfNeeded();
+  const at = await middleOf(dashboard.slider(5));
   await swipe({ x: at.x - 90, y: at.y }, { x: at.x - 150, y: at.y });
-  expect(await dashboard.target(4).inputValue()).toBe('1500');
+  expect(await dashboard.target(5).inputValue()).toBe('1500');
   await swipe(at, { x: at.x + 80, y: at.y });
-  await expect(dashboard.target(4)).not.toHaveValue('1500');
+  await expect(dashboard.target(5)).not.toHaveValue('1500');
 });
 
 test('the main job needs nothing but fingers', async ({ page, servers }) => {
@@ -56,17 +58,18 @@ test('the main job needs nothing but fingers', async ({ page, servers }) => {
   const tab = (name: string) => page.getByRole('tab', { name });
   await page.goto((await servers.files()).url);
   await expect(dashboard.link).toHaveText(/Ready/);
-  await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500', { timeout: 15_000 });
   await expectStopInReach(page, 'live');
 
   await dashboard.type(dashboard.target(6), 1700);
+  await dashboard.capture.tap();
+  await dashboard.type(dashboard.target(6), 1300);
+  await dashboard.capture.tap();
+  await expect(dashboard.notices).toContainText('Frame 2 is captured.');
+  await dashboard.notices.getByRole('button', { name: 'Undo' }).tap();
+  await dashboard.capture.tap();
   await tab('Actions').tap();
   await expectStopInReach(page, 'actions');
-  await dashboard.capture.tap();
-  await tab('Live').tap();
-  await dashboard.type(dashboard.target(6), 1300);
-  await tab('Actions').tap();
-  await dashboard.capture.tap();
   await expect(dashboard.frames).toHaveCount(2);
   for (const [open, title] of [
     ['Files', 'Files'],

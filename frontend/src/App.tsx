@@ -4,6 +4,7 @@
 import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
 import { I18nProvider } from 'react-aria-components/I18nProvider';
 import { Tab, TabList, TabPanel, Tabs } from 'react-aria-components/Tabs';
+import { CaptureStrip } from './actions/CaptureStrip.tsx';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
 import { BatteryPanel } from './battery/BatteryPanel.tsx';
 import { useBatteryTab } from './battery/useBatteryTab.ts';
@@ -146,6 +147,7 @@ function PhoneWork() {
           ))}
         </TabList>
       </nav>
+      {tab === 'live' && <CaptureStrip />}
       <Messages />
       <main {...useOwnPlace(tab)} className={styles.phone}>
         <TabPanel id="live" className={styles.tabPanel ?? ''}>

@@ -1,4 +1,5 @@
-// Puts a pose into the group as a frame beside another one: the one that the robot was asked for, or a kept one. Moves nothing.
+// Puts a pose into the group as a frame beside another one or at the end: the one that the robot was asked for, or a kept one.
+// Moves nothing.
 
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
@@ -9,7 +10,7 @@ import { commandedPose } from './pose.ts';
 
 const USUAL_FRAME_MS = 1000;
 
-type Side = 'before' | 'after';
+type Side = 'before' | 'after' | 'end';
 type Group = Pick<Stores, 'document' | 'view'>;
 
 export function captureFrame({ device, ...group }: Group & Pick<Stores, 'device'>, side: Side): void {
@@ -18,7 +19,7 @@ export function captureFrame({ device, ...group }: Group & Pick<Stores, 'device'
   putFrame(group, side, pose, () => words.actions.steps.capture);
 }
 
-/** As long as the frame it stands behind. Without a selected frame it comes to the end. */
+/** As long as the frame it stands behind. Beside means beside the selected frame; without one it comes to the end. */
 export function putFrame(
   { document, view }: Group,
   side: Side,
@@ -26,7 +27,8 @@ export function putFrame(
   step: () => string,
 ): void {
   const { nextId, frames } = document.store.getState().present;
-  const selected = frames.findIndex(({ id }) => id === view.getState().selectedFrame);
+  const { selectedFrame } = view.getState();
+  const selected = side === 'end' ? -1 : frames.findIndex(({ id }) => id === selectedFrame);
   const index = selected < 0 ? frames.length : selected + (side === 'after' ? 1 : 0);
   const durationMs = (frames[index - 1] ?? frames[0])?.durationMs ?? USUAL_FRAME_MS;
   document.edit(step, (group) => insertFrame(group, index, { durationMs, targets }, unit));

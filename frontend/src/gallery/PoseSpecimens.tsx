@@ -4,6 +4,7 @@ import type { ReactNode } from 'react';
 import { addMacro, changeMacro } from '#shared/actions/macros/macroEdits.ts';
 import { addPose, markApplied, markRest } from '#shared/actions/poses/poseEdits.ts';
 import type { PoseBook } from '#shared/actions/poses/pose.ts';
+import { CaptureStrip } from '../actions/CaptureStrip.tsx';
 import { ButtonsPage } from '../macros/ButtonsPage.tsx';
 import { Kiosk } from '../macros/Kiosk.tsx';
 import { BlendBar } from '../poses/BlendBar.tsx';
@@ -47,10 +48,13 @@ const CASES: readonly {
   readonly panel: ReactNode;
   readonly isEmpty?: boolean;
   readonly edits?: boolean;
+  readonly isUnknown?: boolean;
 }[] = [
   { name: 'Poses, none', panel: <PosesPanel />, isEmpty: true },
   { name: 'Poses', panel: <PosesPanel /> },
   { name: 'Poses, robot follows a blend', panel: <Blend /> },
+  { name: 'Capture beside the sliders', panel: <CaptureStrip /> },
+  { name: 'Capture, nothing known', panel: <CaptureStrip />, isUnknown: true },
   { name: 'Buttons, none', panel: <ButtonsPage />, isEmpty: true },
   { name: 'Buttons', panel: <ButtonsPage /> },
   { name: 'Buttons, being changed', panel: <ButtonsPage />, edits: true },
@@ -70,8 +74,8 @@ export const POSES: readonly Exhibit[] = CASES.map(({ name, panel, ...rest }) =>
 
 type Case = Omit<(typeof CASES)[number], 'name' | 'panel'>;
 
-function storesOf({ isEmpty = false, edits = false }: Case): Stores {
-  const stores = standing({ pose: 'still' });
+function storesOf({ isEmpty = false, edits = false, isUnknown = false }: Case): Stores {
+  const stores = standing({ pose: isUnknown ? 'unknown' : 'still' });
   if (!isEmpty) fill(stores, edits);
   stores.blend.store.setState({ isLive: true, targets: [] });
   return stores;

@@ -1,15 +1,14 @@
 // The foot of the poses: keep the pose at hand, and the ways home and to rest, in the time that holds for every pose.
 
-import { addPose } from '#shared/actions/poses/poseEdits.ts';
 import { POSE_VERBS } from '#shared/actions/poses/pose.ts';
 import { CaptureButton } from '../actions/CaptureButton.tsx';
-import { commandedPose } from '../actions/pose.ts';
 import { poseName } from '../stores/poses.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { words } from '../words/words.ts';
+import { capturePose } from './capturePose.ts';
 import { PoseFiles } from './PoseFiles.tsx';
 import styles from './PosesPanel.module.css';
 
@@ -42,18 +41,14 @@ export function PoseVerbs() {
 }
 
 function Capture() {
-  const { device, poses, view } = useStores();
-  const nextId = usePoses(({ present }) => present.nextId);
-  const capture = (): void => {
-    const { targets, family } = device.store.getState();
-    const pose = { name: words.poses.newName(nextId), unit: family.unit, targets: commandedPose(targets) };
-    poses.book.edit(
-      () => words.poses.steps.capture(pose.name),
-      (book) => addPose(book, pose),
-    );
-    view.setState({ selectedPose: nextId });
-  };
-  return <CaptureButton label={words.poses.capture} hint={words.poses.captureHint} onPress={capture} />;
+  const stores = useStores();
+  return (
+    <CaptureButton
+      label={words.poses.capture}
+      hint={words.poses.captureHint}
+      onPress={() => capturePose(stores)}
+    />
+  );
 }
 
 function PoseTime() {

@@ -232,6 +232,9 @@ export const english = {
     emptyHint: 'Pose the robot with the sliders, then capture the pose. Two or three poses make a motion.',
     capture: 'Capture frame',
     captureHint: 'Adds the commanded pose after the selected frame',
+    captureHere: 'Capture',
+    captureEndHint: 'Adds the commanded pose at the end of the action group',
+    captured: (number: number): string => `Frame ${formatWhole(number)} is captured.`,
     nothingKnown: 'Move a servo first: nothing is known of the pose yet.',
     frame: (number: number): string => `Frame ${formatWhole(number)}`,
     frameAbout: (number: number, durationMs: number, changed: readonly number[]): string => {

@@ -20,6 +20,7 @@ export const poseWords = {
   timeLabel: 'In',
 
   capture: 'Capture pose',
+  captured: (name: string): string => `${name} is captured.`,
   captureHint: 'Keeps the commanded pose under a name',
   newName: (number: number): string => `Pose ${formatWhole(number)}`,
   copyOf: (name: string): string => `${name}, copy`,

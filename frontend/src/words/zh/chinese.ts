@@ -220,6 +220,9 @@ export const chinese: Words = {
     emptyHint: '用滑块摆好机器人，然后记录一帧。两三帧就能组成一个动作。',
     capture: '记录一帧',
     captureHint: '把目标姿态加到所选帧的后面',
+    captureHere: '记录',
+    captureEndHint: '把目标姿态加到动作组的末尾',
+    captured: (number) => `已记录第${formatWhole(number)}帧。`,
     nothingKnown: '请先移动一个舵机：现在还不知道任何姿态。',
     frame: (number) => `第${formatWhole(number)}帧`,
     frameAbout: (number, durationMs, changed) => {

@@ -21,6 +21,7 @@ export const poseWords: typeof english = {
   timeLabel: '用时',
 
   capture: '记录姿态',
+  captured: (name) => `已记录${name}。`,
   captureHint: '把目标姿态起名保存',
   newName: (number) => `姿态${formatWhole(number)}`,
   copyOf: (name) => `${name}（副本）`,
