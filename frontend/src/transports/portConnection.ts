@@ -28,7 +28,11 @@ export interface PortConnection {
  * after it. And a line that stays disturbed (a board without power holds it low) does not keep the page busy.
  */
 const LINE_ERROR_PAUSE_MS = LINE_IDLE_MS + 10;
-const DRAIN_WITHIN_MS = 100;
+/**
+ * What was handed over last is a stop or a hold, and on a busy computer the browser needs tenths of a second to pass it on.
+ * Only a driver that takes nothing at all needs longer.
+ */
+const DRAIN_WITHIN_MS = 1000;
 /** A port that does not let itself be closed is given up, so that another attempt can begin. */
 const CLOSE_WITHIN_MS = 250;
 
@@ -97,14 +101,18 @@ function connect(port: SerialPort, events: ConnectionEvents): PortConnection {
   }
 
   function close(): Promise<void> {
-    closing ??= Promise.race([shut(), sleep(browserClock, CLOSE_WITHIN_MS)]);
+    closing ??= end();
     failSending(gone());
     return closing;
   }
 
-  async function shut(): Promise<void> {
+  async function end(): Promise<void> {
     // Closing a port throws away what its driver still holds; closing the stream first lets it leave.
     await Promise.race([settled(() => writer?.close()), sleep(browserClock, DRAIN_WITHIN_MS)]);
+    await Promise.race([shut(), sleep(browserClock, CLOSE_WITHIN_MS)]);
+  }
+
+  async function shut(): Promise<void> {
     await settled(() => reader?.cancel());
     if (reader !== null) letGo(reader);
     if (writer !== null) letGo(writer);

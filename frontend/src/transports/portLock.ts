@@ -13,10 +13,10 @@ export interface PortLock {
   askForIt(): Promise<void>;
 }
 
-/** A page that is being reloaded, and a port that is being closed, let go a moment after the next one asks. */
-const GRANT_WITHIN_MS = 400;
-/** The other tab stops the robot first: three stops and two holds, each behind a packet of 107 ms at worst. */
-const YIELD_WITHIN_MS = 3000;
+/** A page that is being reloaded or has crashed, and a port that is being closed, let go a moment after the next one asks. */
+const GRANT_WITHIN_MS = 1500;
+/** The other tab stops the robot and closes the port first: 2,000 and 1,250 ms at worst. */
+const YIELD_WITHIN_MS = 3500;
 
 export function createPortLock(name: string): PortLock {
   let release = (): void => undefined;

@@ -1,6 +1,9 @@
 // A browser's serial ports for tests, below the transport: real streams, and at each step an exception that a test asked
 // for, once. Also the locks and channels between the tabs of one browser. Time is the test's.
 
+import { sleep } from '#shared/clock.ts';
+import { browserClock } from './browserClock.ts';
+
 /** Where the browser may throw, or reject. */
 export const STEPS = [
   'requestPort',
@@ -32,6 +35,8 @@ export interface FakePort {
   whenRead: () => void;
   /** From now on its closing never ends. */
   jam(): void;
+  /** From now on what it was given leaves so much later. */
+  dawdle(ms: number): void;
 }
 
 export interface FakeBrowser {
@@ -78,6 +83,7 @@ export function createBrowser(): FakeBrowser {
 function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () => void): FakePort {
   const written: Uint8Array[] = [];
   let isJammed = false;
+  let lateMs = 0;
   let isThere = true;
   let isDrained = true;
   let isAlive = true;
@@ -109,7 +115,10 @@ function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () 
         written.push(bytes);
         isDrained = false;
       },
-      close: () => void (isDrained = true),
+      async close() {
+        if (lateMs > 0) await sleep(browserClock, lateMs);
+        isDrained = true;
+      },
     });
     const getWriter = stream.getWriter.bind(stream);
     return Object.assign(stream, { getWriter: () => guarded(trip, 'getWriter', getWriter) });
@@ -155,6 +164,7 @@ function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () 
       disturbed?.error(error);
     },
     jam: () => void (isJammed = true),
+    dawdle: (ms) => void (lateMs = ms),
     unplug() {
       fake.die();
       isThere = false;

@@ -7,11 +7,14 @@ import type { FakePort } from './serialUnderTest.ts';
 import { expectUse, openReady, openTab, outcome, pass, freshBrowser, type Tab } from './tabUnderTest.ts';
 
 const STOP = Uint8Array.of(0x55, 0x55, 0x02, 0x07);
+/** Whoever holds a port may be about to let go. */
+const TOLD_IN_TURN_MS = 1600;
 const it = freshBrowser();
 
 const packets = ({ written }: FakePort): readonly string[] => written.map(toHex);
+const kind = (packet: string): string => packet.slice(9, 11);
 const count = (port: FakePort, command: string): number =>
-  packets(port).filter((packet) => packet.slice(9, 11) === command).length;
+  packets(port).filter((packet) => kind(packet) === command).length;
 const stops = (port: FakePort): number => count(port, '07');
 const moves = (port: FakePort): number => count(port, '03');
 
@@ -27,7 +30,7 @@ test('a second tab is told who drives, and opens nothing', async () => {
   const port = it.browser.plugIn();
   const first = await openReady(port);
   const second = openTab(port);
-  await pass();
+  await pass(TOLD_IN_TURN_MS);
   expect(outcome(second)).toBe('heldElsewhere');
   expect(second.session.state.link.status).toBe('refused');
   expect(outcome(first)).toBe('ready');
@@ -38,7 +41,7 @@ test('the tab that is asked stops the robot, tells that it was moved, and stays 
   const port = it.browser.plugIn();
   const first = await openReady(port);
   const second = openTab(port);
-  await pass();
+  await pass(TOLD_IN_TURN_MS);
   await drag(first, 5);
   const taking = second.transport.takeOver!();
   await pass(1000);
@@ -57,11 +60,36 @@ test('the tab that is asked stops the robot, tells that it was moved, and stays 
   await expectUse(second, port);
 });
 
+test('the last hold leaves before the port is closed, however busy the computer is', async () => {
+  const port = it.browser.plugIn();
+  const first = await openReady(port);
+  await drag(first, 5);
+  const second = openTab(port);
+  await pass(TOLD_IN_TURN_MS);
+  port.dawdle(800);
+  const taking = second.transport.takeOver!();
+  await pass(2000);
+  await taking;
+  expect(packets(port).slice(-5).map(kind)).toEqual(['07', '03', '07', '07', '03']);
+});
+
+test('a tab that crashed lets go late: the next one waits for it', async () => {
+  const port = it.browser.plugIn();
+  let letGo = (): void => undefined;
+  const held = (): Promise<void> => new Promise((resolve) => (letGo = resolve));
+  void navigator.locks.request('servodeck port USB serial 1A86:7523', {}, held);
+  const next = openTab(port);
+  await pass(1200);
+  letGo();
+  await pass(50);
+  expect(outcome(next)).toBe('ready');
+});
+
 test('and may take the robot back', async () => {
   const port = it.browser.plugIn();
   const first = await openReady(port);
   const second = openTab(port);
-  await pass();
+  await pass(TOLD_IN_TURN_MS);
   for (const [asking, asked] of [
     [second, first],
     [first, second],
@@ -79,7 +107,7 @@ test('a robot that cannot be stopped changes hands all the same, in bounded time
   const port = it.browser.plugIn();
   const first = await openReady(port);
   const second = openTab(port);
-  await pass();
+  await pass(TOLD_IN_TURN_MS);
   first.session.halt = () => new Promise(() => undefined);
   const taking = second.transport.takeOver!();
   await pass(3000);
@@ -91,10 +119,10 @@ test('a tab that does not answer keeps the robot, and the other one is told', as
   const port = it.browser.plugIn();
   void navigator.locks.request('servodeck port USB serial 1A86:7523', {}, () => new Promise(() => undefined));
   const tab = openTab(port);
-  await pass();
+  await pass(TOLD_IN_TURN_MS);
   const taking = tab.transport.takeOver!();
   const told = expect(taking).rejects.toMatchObject({ code: 'heldElsewhere' });
-  await pass(3100);
+  await pass(3600);
   await told;
   expect(port.isOpen()).toBe(false);
 });
