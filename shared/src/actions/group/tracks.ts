@@ -11,10 +11,13 @@ export interface KeyRef {
   readonly servo: number;
 }
 
-export interface Key extends KeyRef {
+interface PlacedKey extends KeyRef {
   /** When the servo is there, counted from the beginning of the group. */
   readonly atMs: number;
   readonly position: number;
+}
+
+export interface Key extends PlacedKey {
   /** How it comes here from its key before. */
   readonly easing: Easing;
 }
@@ -57,16 +60,19 @@ export function repositioned(
   before: { readonly frames: readonly GroupFrame[]; readonly tracks: Tracks },
 ): Tracks | null {
   if (frames.length !== before.frames.length) return null;
-  const moved: (KeyRef & { readonly position: number })[] = [];
+  const moved: PlacedKey[] = [];
+  let atMs = 0;
   for (const [index, frame] of frames.entries()) {
+    atMs += frame.durationMs;
     const was = before.frames[index];
     if (was === frame) continue;
     if (was === undefined || !isPlacedAlike(frame, was) || moved.length > FEW_KEYS) return null;
     for (const [place, target] of frame.targets.entries())
-      if (target.position !== was.targets[place]?.position) moved.push({ ...target, frameId: frame.id });
+      if (target.position !== was.targets[place]?.position)
+        moved.push({ ...target, frameId: frame.id, atMs });
   }
   const tracks = new Map(before.tracks);
-  for (const key of moved) reposition(tracks, key, key.position);
+  for (const key of moved) reposition(tracks, key);
   return tracks;
 }
 
@@ -84,9 +90,10 @@ export function isPlacedAlike(one: GroupFrame, other: GroupFrame): boolean {
   );
 }
 
-function reposition(tracks: Map<number, Track>, { frameId, servo }: KeyRef, position: number): void {
+function reposition(tracks: Map<number, Track>, { frameId, servo, atMs, position }: PlacedKey): void {
   const keys = tracks.get(servo)?.keys ?? [];
-  const index = keys.findIndex((key) => key.frameId === frameId);
+  let index = keysUntil(keys, atMs) - 1;
+  while (index >= 0 && keys[index]?.frameId !== frameId) index -= 1; // several may be at one instant
   const key = keys[index];
   if (key !== undefined) tracks.set(servo, { servo, keys: keys.with(index, { ...key, position }) });
 }
