@@ -33,6 +33,8 @@ const LINE_ERROR_PAUSE_MS = LINE_IDLE_MS + 10;
  * Only a driver that takes nothing at all needs longer.
  */
 const DRAIN_WITHIN_MS = 1000;
+/** Drivers and adapters call a packet sent while they hold it still; what a closed port held is thrown away. */
+const HELD_BACK_MS = 100;
 /** A port that does not let itself be closed is given up, so that another attempt can begin. */
 const CLOSE_WITHIN_MS = 250;
 
@@ -54,6 +56,7 @@ function connect(port: SerialPort, events: ConnectionEvents): PortConnection {
   let reader: ReadableStreamDefaultReader<Uint8Array> | null = null;
   let writer: WritableStreamDefaultWriter<Uint8Array> | null = null;
   let closing: Promise<void> | null = null;
+  let leftAtMs = -Infinity;
   let failSending = (_error: LinkError): void => undefined;
 
   // Whoever asked hears first that the port is open, and then of its loss.
@@ -108,8 +111,14 @@ function connect(port: SerialPort, events: ConnectionEvents): PortConnection {
 
   async function end(): Promise<void> {
     // Closing a port throws away what its driver still holds; closing the stream first lets it leave.
-    await Promise.race([settled(() => writer?.close()), sleep(browserClock, DRAIN_WITHIN_MS)]);
+    await Promise.race([settled(drain), sleep(browserClock, DRAIN_WITHIN_MS)]);
     await Promise.race([shut(), sleep(browserClock, CLOSE_WITHIN_MS)]);
+  }
+
+  /** Rejects at once where the device is gone. */
+  async function drain(): Promise<void> {
+    await writer?.close();
+    await sleep(browserClock, Math.max(0, leftAtMs + HELD_BACK_MS - browserClock.now()));
   }
 
   async function shut(): Promise<void> {
@@ -123,7 +132,8 @@ function connect(port: SerialPort, events: ConnectionEvents): PortConnection {
   async function writeOut(packet: Uint8Array): Promise<void> {
     const startMs = browserClock.now();
     await write(packet);
-    await sleep(browserClock, Math.max(0, startMs + wireMs(packet.length) - browserClock.now()));
+    leftAtMs = Math.max(startMs + wireMs(packet.length), browserClock.now());
+    await sleep(browserClock, leftAtMs - browserClock.now());
   }
 
   return {

@@ -35,8 +35,8 @@ export interface FakePort {
   whenRead: () => void;
   /** From now on its closing never ends. */
   jam(): void;
-  /** From now on what it was given leaves so much later. */
-  dawdle(ms: number): void;
+  /** From now on the browser passes packets on so much later, and the adapter holds them so much longer than it says. */
+  dawdle(late: { readonly browserMs: number; readonly adapterMs: number }): void;
 }
 
 export interface FakeBrowser {
@@ -83,7 +83,8 @@ export function createBrowser(): FakeBrowser {
 function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () => void): FakePort {
   const written: Uint8Array[] = [];
   let isJammed = false;
-  let lateMs = 0;
+  let late = { browserMs: 0, adapterMs: 0 };
+  let heldUntilMs = 0;
   let isThere = true;
   let isDrained = true;
   let isAlive = true;
@@ -113,10 +114,11 @@ function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () 
         trip('write');
         if (!isAlive) throw lost();
         written.push(bytes);
+        heldUntilMs = browserClock.now() + late.adapterMs;
         isDrained = false;
       },
       async close() {
-        if (lateMs > 0) await sleep(browserClock, lateMs);
+        if (late.browserMs > 0) await sleep(browserClock, late.browserMs);
         isDrained = true;
       },
     });
@@ -146,7 +148,7 @@ function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () 
         if (port.readable?.locked || port.writable?.locked) throw new TypeError('A stream is locked.');
         isOpen = false;
         // As the browser does: what the driver still holds is thrown away.
-        if (!isDrained) written.pop();
+        if (!isDrained || browserClock.now() < heldUntilMs) written.pop();
         port.readable = port.writable = source = null;
         return trip('close');
       }),
@@ -164,7 +166,7 @@ function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () 
       disturbed?.error(error);
     },
     jam: () => void (isJammed = true),
-    dawdle: (ms) => void (lateMs = ms),
+    dawdle: (next) => void (late = next),
     unplug() {
       fake.die();
       isThere = false;

@@ -8,6 +8,7 @@ import type { LinkState } from '#shared/session/state.ts';
 import type { Transport } from '#shared/session/transport.ts';
 import { browserClock } from './browserClock.ts';
 import { createBrowser, type FakeBrowser, type FakePort } from './serialUnderTest.ts';
+import type { Alarm } from './timersAsideWorker.ts';
 import { createWebSerialTransport } from './webSerial.ts';
 
 export const TOLD_WITHIN_MS = 500;
@@ -33,6 +34,7 @@ export function freshBrowser(): { readonly browser: FakeBrowser } {
     browser = createBrowser();
     vi.stubGlobal('navigator', browser.navigator);
     vi.stubGlobal('BroadcastChannel', browser.BroadcastChannel);
+    vi.stubGlobal('document', { visibilityState: 'visible' });
   });
   afterEach(() => {
     vi.useRealTimers();
@@ -43,6 +45,16 @@ export function freshBrowser(): { readonly browser: FakeBrowser } {
       return browser;
     },
   };
+}
+
+/** As browsers do it with pages out of sight: a timer waits for the next whole second, in a worker it does not. */
+export function hideTabs(): void {
+  const inTime = setTimeout;
+  const inTurn = (run: () => void, ms: number): unknown =>
+    inTime(run, 1000 * Math.ceil((performance.now() + ms) / 1000) - performance.now());
+  vi.stubGlobal('setTimeout', inTurn);
+  vi.stubGlobal('document', { visibilityState: 'hidden' });
+  vi.stubGlobal('Worker', createTimerWorker(inTime));
 }
 
 export function pass(ms = TOLD_WITHIN_MS): Promise<unknown> {
@@ -81,4 +93,16 @@ export async function expectUse({ session }: Tab, port: FakePort): Promise<void>
   port.deliver(...BATTERY_REPORT);
   await pass(50);
   await expect(answer).resolves.toBe(7500);
+}
+
+function createTimerWorker(after: typeof setTimeout): object {
+  return class {
+    private heard = (_message: { data: number }): void => undefined;
+    addEventListener(_type: 'message', listener: (message: { data: number }) => void): void {
+      this.heard = listener;
+    }
+    postMessage({ id, delayMs }: Alarm): void {
+      after(() => this.heard({ data: id }), delayMs);
+    }
+  };
 }

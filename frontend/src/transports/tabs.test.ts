@@ -4,7 +4,16 @@
 import { expect, test } from 'vitest';
 import { toHex } from '#shared/protocol/hex.ts';
 import type { FakePort } from './serialUnderTest.ts';
-import { expectUse, openReady, openTab, outcome, pass, freshBrowser, type Tab } from './tabUnderTest.ts';
+import {
+  expectUse,
+  freshBrowser,
+  hideTabs,
+  openReady,
+  openTab,
+  outcome,
+  pass,
+  type Tab,
+} from './tabUnderTest.ts';
 
 const STOP = Uint8Array.of(0x55, 0x55, 0x02, 0x07);
 /** Whoever holds a port may be about to let go. */
@@ -60,15 +69,31 @@ test('the tab that is asked stops the robot, tells that it was moved, and stays 
   await expectUse(second, port);
 });
 
-test('the last hold leaves before the port is closed, however busy the computer is', async () => {
+test.each([
+  { browserMs: 800, adapterMs: 0 },
+  { browserMs: 0, adapterMs: 80 },
+])('the last hold leaves before the port is closed, however late: %o', async (late) => {
   const port = it.browser.plugIn();
   const first = await openReady(port);
   await drag(first, 5);
   const second = openTab(port);
   await pass(TOLD_IN_TURN_MS);
-  port.dawdle(800);
+  port.dawdle(late);
   const taking = second.transport.takeOver!();
   await pass(2000);
+  await taking;
+  expect(packets(port).slice(-5).map(kind)).toEqual(['07', '03', '07', '07', '03']);
+});
+
+test('a tab out of sight, where timers are slow, is relieved as fast', async () => {
+  const port = it.browser.plugIn();
+  const first = await openReady(port);
+  await drag(first, 5);
+  const second = openTab(port);
+  await pass(TOLD_IN_TURN_MS);
+  hideTabs();
+  const taking = second.transport.takeOver!();
+  await pass(500);
   await taking;
   expect(packets(port).slice(-5).map(kind)).toEqual(['07', '03', '07', '07', '03']);
 });
@@ -158,7 +183,7 @@ test('a page that is left hands the stop over at once, even behind a packet, and
   tab.session.move([{ servo: 2, position: 900 }], 20);
   tab.transport.leave!(STOP);
   expect(outcome(tab)).toBe('lost');
-  await pass(100);
+  await pass(200);
   expect(packets(port).at(-1)).toBe(toHex(STOP));
   expect(port.isOpen()).toBe(false);
 });
