@@ -29,14 +29,15 @@ test('whoever is alone drives without being asked, and never hears of it', async
   await expect(dashboard.turn).toHaveCount(0);
 });
 
-/** How far down the work begins, on a desktop and on a phone. */
+/** How far down the work begins, on a phone and on a desktop. */
 async function topOfWork({ page }: Dashboard): Promise<readonly (number | undefined)[]> {
   const tops = [];
-  for (const viewport of [
-    { width: 390, height: 844 },
-    { width: 1440, height: 900 },
+  for (const { isPhone, ...viewport } of [
+    { width: 390, height: 844, isPhone: true },
+    { width: 1440, height: 900, isPhone: false },
   ]) {
     await page.setViewportSize(viewport);
+    await expect(page.getByRole('tablist')).toBeVisible({ visible: isPhone });
     tops.push((await page.getByRole('main').boundingBox())?.y);
   }
   return tops;
@@ -51,6 +52,7 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   const other = await joins(robot, context);
   await expect(dashboard.turn).toContainText('Nobody drives');
   expect(await topOfWork(dashboard), 'nothing moves under a finger when somebody joins').toEqual(before);
+  expect(before[0], 'a phone keeps its room for the work').toBeLessThanOrEqual(112);
   await dashboard.type(dashboard.target(1), 1800);
   await expect(dashboard.turn).toContainText('You drive');
   await expect(other.turn).toContainText('Another window drives');

@@ -72,8 +72,8 @@ test('a class shares a robot, hands it on, and stops it from any phone', async (
   await ben.type(ben.target(2), 1500);
   await last(2).toBe(1500);
 
-  await ben.turn.getByRole('button', { name: 'Hand over to …' }).tap();
-  await ben.page.getByRole('menuitem', { name: 'Ada' }).tap();
+  await ben.turn.getByRole('button', { name: 'You drive' }).tap();
+  await ben.page.getByRole('menuitem', { name: 'Hand over to Ada' }).tap();
   await expect(ada.turn).toContainText('Ben handed the robot to you');
   await people.opener.click();
   await people.person('Ben').getByRole('button', { name: 'Hand the robot over to Ben' }).click();

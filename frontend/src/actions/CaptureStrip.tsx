@@ -2,7 +2,7 @@
 // as a pose, in one press. Says what was captured and offers to take it back.
 
 import { capturePose } from '../poses/capturePose.ts';
-import { useStores, type Stores } from '../stores/stores.ts';
+import { useDevice, useStores, type Stores } from '../stores/stores.ts';
 import type { Undoable } from '../stores/undoable.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
@@ -13,6 +13,8 @@ import styles from './CaptureStrip.module.css';
 export function CaptureStrip() {
   const stores = useStores();
   const isKnown = useKnowsPose();
+  const isUnknownBoard = useDevice(({ family }) => family.id === 'unknown');
+  if (isUnknownBoard) return null;
   return (
     <div className={styles.strip} role="group" aria-label={words.actions.captureHere}>
       {isKnown ? <Captures stores={stores} /> : <p className={styles.hint}>{words.actions.nothingKnown}</p>}

@@ -1,21 +1,35 @@
-// Whose turn it is to drive, and the way to the next one's. Whoever is alone on the robot never sees it.
+// Whose turn it is to drive, and the way to the next one's. Whoever is alone on the robot never sees it. A phone has no room for
+// several buttons beside what goes on: there the words themselves open what may be done.
 
 import { useState } from 'react';
 import { useSnapshot, useStores } from '../stores/stores.ts';
 import { isWatching, type Lease } from '#shared/session/lease.ts';
 import { Button } from '../ui/Button.tsx';
-import { Mark, type Truth } from '../ui/Chip.tsx';
+import { Mark } from '../ui/Chip.tsx';
+import { cx } from '../ui/cx.ts';
+import { Icon } from '../ui/Icon.tsx';
 import { MenuButton } from '../ui/MenuButton.tsx';
+import { useLayout } from '../ui/useLayout.ts';
 import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/words.ts';
 import styles from './LeaseChip.module.css';
+import { turnOf, type Turn, type TurnAct } from './turn.ts';
 
 export function LeaseChip() {
   const lease = useSnapshot((snapshot) => snapshot.lease);
+  const isPhone = useLayout() === 'phone';
   if (lease === null || isAlone(lease)) return null;
+  const turn = turnOf(lease);
+  const isAsked = lease.drives && lease.asker !== null;
+  const isFolded = isPhone && !isAsked && !isOneButton(lease, turn);
   return (
-    <div className={styles.lease} data-turn role="group" aria-label={words.lease.label}>
-      {lease.drives ? <Driving lease={lease} /> : <Watching lease={lease} />}
+    <div
+      className={cx(styles.lease, isAsked && styles.asked)}
+      data-turn={isAsked ? 'asked' : 'said'}
+      role="group"
+      aria-label={words.lease.label}
+    >
+      {isFolded ? <Folded lease={lease} turn={turn} /> : <Laid lease={lease} turn={turn} />}
     </div>
   );
 }
@@ -25,104 +39,75 @@ function isAlone(lease: Lease): boolean {
   return lease.others === 0 && lease.mayDrive && !isWatching(lease) && lease.asker === null;
 }
 
-function Driving({ lease }: { readonly lease: Lease }) {
+/** Nothing to do, or the one thing that is worth a button beside the words. */
+const isOneButton = ({ candidates }: Lease, { acts }: Turn): boolean =>
+  candidates.length === 0 && acts.length <= 1 && acts[0]?.tone !== 'quiet';
+
+interface TurnProps {
+  readonly lease: Lease;
+  readonly turn: Turn;
+}
+
+function Laid({ lease, turn }: TurnProps) {
   const { device } = useStores();
-  if (lease.asker === null) {
-    return (
-      <>
-        <Said truth="confirmed" text={words.lease.drives} more={sinceWhen(lease)} />
-        <HandOver lease={lease} />
-        <Button tone="quiet" hint={words.lease.releaseHint} onPress={() => device.lease('release')}>
-          {words.lease.release}
-        </Button>
-      </>
-    );
-  }
   return (
     <>
-      <Said truth="warning" text={words.lease.asker(lease.asker)} more={<PassesIn lease={lease} />} />
-      <Button onPress={() => device.lease('release')}>{words.lease.allow}</Button>
-      <Button onPress={() => device.lease('refuse')}>{words.lease.refuse}</Button>
+      <Said lease={lease} turn={turn} />
+      {turn.acts.map(({ label, wish, ...how }) => (
+        <Button key={label} {...how} onPress={() => device.lease(wish)}>
+          {label}
+        </Button>
+      ))}
+      {lease.asker === null && lease.candidates.length > 0 && (
+        <MenuButton
+          tone="quiet"
+          label={words.lease.handOver}
+          choices={lease.candidates}
+          onChoose={(giveTo) => device.lease({ giveTo })}
+        />
+      )}
     </>
   );
 }
 
-const sinceWhen = ({ givenBy, others }: Lease): string =>
-  givenBy === null ? words.lease.others(others) : words.lease.given(givenBy);
-
-/** Without being asked. */
-function HandOver({ lease: { candidates } }: { readonly lease: Lease }) {
+function Folded({ lease, turn }: TurnProps) {
   const { device } = useStores();
-  if (candidates.length === 0) return null;
+  const acts = [
+    ...turn.acts,
+    ...lease.candidates.map(({ id, name }) => ({
+      label: words.lease.handOverTo(name),
+      wish: { giveTo: id },
+    })),
+  ];
+  const choose = (act?: Pick<TurnAct, 'wish'>): void => {
+    if (act !== undefined) device.lease(act.wish);
+  };
   return (
     <MenuButton
       tone="quiet"
-      label={words.lease.handOver}
-      choices={candidates}
-      onChoose={(giveTo) => device.lease({ giveTo })}
-    />
+      label={words.lease.label}
+      choices={acts.map(({ label }, index) => ({ id: String(index), name: label }))}
+      onChoose={(index) => choose(acts[Number(index)])}
+    >
+      <span className={styles.face}>
+        <Said lease={lease} turn={turn} />
+        <Icon name="down" />
+      </span>
+    </MenuButton>
   );
 }
 
-function Watching({ lease }: { readonly lease: Lease }) {
-  const { device } = useStores();
-  const { driver, asks, mayDrive, mayTake } = lease;
-  if (driver === null) {
-    return (
-      <>
-        <Said
-          truth="neutral"
-          text={words.lease.nobody}
-          more={mayDrive ? words.lease.nobodyMore : words.lease.watching}
-        />
-        <HandOver lease={lease} />
-      </>
-    );
-  }
+function Said({ lease, turn: { truth, text, more } }: TurnProps) {
   return (
-    <>
-      {asks ? (
-        <Said truth="commanded" text={words.lease.asked(driver)} more={<PassesIn lease={lease} />} />
-      ) : (
-        <Said truth="neutral" text={words.lease.driver(driver)} more={words.lease.watching} />
-      )}
-      {mayDrive && !asks && (
-        <Button hint={words.lease.requestHint} onPress={() => device.lease('request')}>
-          {words.lease.request}
-        </Button>
-      )}
-      {asks && (
-        <Button tone="quiet" onPress={() => device.lease('release')}>
-          {words.lease.takeBack}
-        </Button>
-      )}
-      {mayTake && (
-        <Button tone="quiet" hint={words.lease.takeHint} onPress={() => device.lease('take')}>
-          {words.lease.take}
-        </Button>
-      )}
-      <HandOver lease={lease} />
-    </>
-  );
-}
-
-interface SaidProps {
-  readonly truth: Truth;
-  readonly text: string;
-  readonly more: React.ReactNode;
-}
-
-function Said({ truth, text, more }: SaidProps) {
-  return (
-    <div className={styles.said}>
+    <span className={styles.said}>
       <Mark truth={truth} />
-      <div>
-        <p className={styles.text} aria-live="polite">
+      <span className={styles.words} data-words>
+        <span className={styles.text} aria-live="polite">
           {text}
-        </p>
-        <p className={styles.more}>{more}</p>
-      </div>
-    </div>
+        </span>
+        <span className={styles.more}>{more === 'countdown' ? <PassesIn lease={lease} /> : more.said}</span>
+      </span>
+    </span>
   );
 }
 

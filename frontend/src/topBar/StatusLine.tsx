@@ -16,19 +16,31 @@ import { UnattendedChip } from './UnattendedChip.tsx';
 import styles from './StatusLine.module.css';
 
 export interface StatusLineProps {
+  /** Its place in the bar. */
+  readonly className?: string | undefined;
   /** Has another tab let go of the robot. */
   onMoveHere(): void;
 }
 
-export function StatusLine({ onMoveHere }: StatusLineProps) {
+export function StatusLine({ className, onMoveHere }: StatusLineProps) {
   const link = useSnapshot((snapshot) => snapshot.link);
   const latch = useSnapshot((snapshot) => snapshot.latch);
   const activity = useSnapshot((snapshot) => snapshot.activity);
   const played = usePlayed();
+  const isDown = link.status === 'lost' || link.status === 'refused';
+  const isCalm = link.status === 'ready' && latch === null;
   const isMoving = useDevice((device) => device.isMoving) && activity.kind === 'idle';
   return (
-    <div className={cx(styles.line, (link.status === 'lost' || link.status === 'refused') && styles.lost)}>
-      {link.status === 'lost' || link.status === 'refused' ? (
+    <div
+      className={cx(
+        styles.line,
+        className,
+        isDown && styles.lost,
+        latch !== null && styles.held,
+        isCalm && styles.calm,
+      )}
+    >
+      {isDown ? (
         <Down link={link} onMoveHere={onMoveHere} />
       ) : link.status === 'stale' ? (
         <Said truth="warning" text={words.errorSentence('boardSilent')} />

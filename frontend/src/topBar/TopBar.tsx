@@ -16,7 +16,7 @@ import { LinkChip } from './LinkChip.tsx';
 import { StatusLine, type StatusLineProps } from './StatusLine.tsx';
 import styles from './TopBar.module.css';
 
-export function TopBar({ onMoveHere }: StatusLineProps) {
+export function TopBar({ onMoveHere }: Pick<StatusLineProps, 'onMoveHere'>) {
   const isShared = useDevice((state) => state.way?.kind === 'gateway');
   return (
     <header className={styles.bar} data-shared={isShared} aria-label={words.regions.top}>
@@ -25,7 +25,7 @@ export function TopBar({ onMoveHere }: StatusLineProps) {
         <span className={styles.productName}>{words.product}</span>
       </h1>
       <Robot />
-      <StatusLine onMoveHere={onMoveHere} />
+      <StatusLine className={styles.status} onMoveHere={onMoveHere} />
       <div className={styles.pages}>
         <PageSwitch />
       </div>

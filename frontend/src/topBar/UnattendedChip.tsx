@@ -16,10 +16,15 @@ export function UnattendedChip() {
   const isOurs = useSnapshot((snapshot) => snapshot.lease?.drives ?? false);
   if (run === null) return null;
   return (
-    <div className={cx(styles.lease, styles.alone)} role="group" aria-label={words.lease.goesOnLabel}>
+    <div
+      className={cx(styles.lease, styles.alone)}
+      data-alone
+      role="group"
+      aria-label={words.lease.goesOnLabel}
+    >
       <div className={styles.said}>
         <Mark truth="commanded" />
-        <div>
+        <div className={styles.words}>
           <p className={styles.text} aria-live="polite">
             {isOurs ? words.lease.mayGoOn(run.slot) : words.lease.goesOn(run.slot, run.by)}
           </p>

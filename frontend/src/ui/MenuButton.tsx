@@ -1,5 +1,6 @@
 // A button below which a few choices open.
 
+import type { ReactNode } from 'react';
 import { Menu, MenuItem, MenuTrigger } from 'react-aria-components/Menu';
 import { Popover } from 'react-aria-components/Popover';
 import { Button, type ButtonProps } from './Button.tsx';
@@ -7,14 +8,16 @@ import styles from './Menu.module.css';
 
 interface MenuButtonProps extends Pick<ButtonProps, 'tone'> {
   readonly label: string;
+  /** What the button shows in the label's place. */
+  readonly children?: ReactNode;
   readonly choices: readonly { readonly id: string; readonly name: string }[];
   onChoose(id: string): void;
 }
 
-export function MenuButton({ label, choices, onChoose, ...button }: MenuButtonProps) {
+export function MenuButton({ label, children = label, choices, onChoose, ...button }: MenuButtonProps) {
   return (
     <MenuTrigger>
-      <Button {...button}>{label}</Button>
+      <Button {...button}>{children}</Button>
       <Popover className={styles.popover ?? ''} placement="bottom start">
         <Menu className={styles.menu ?? ''} aria-label={label}>
           {choices.map(({ id, name }) => (

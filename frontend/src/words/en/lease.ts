@@ -35,6 +35,7 @@ export const leaseWords = {
   keep: 'Not without me',
   keepHint: 'It is stopped again when this page closes or is not heard',
   handOver: 'Hand over to …',
+  handOverTo: (name: string): string => `Hand over to ${named(name)}`,
   given: (name: string): string => `${named(name)} handed the robot to you`,
   releaseHint: 'Somebody else may drive then. What moves is stopped first.',
 };

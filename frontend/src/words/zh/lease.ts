@@ -39,6 +39,7 @@ export const leaseWords: Words['lease'] = {
   keep: '离开就停止',
   keepHint: '这个页面关闭或失去联系时，它会重新被停止',
   handOver: '转交给……',
+  handOverTo: (name) => `转交给${named(name)}`,
   given: (name) => `${named(name)}把机器人转交给你`,
   releaseHint: '之后别人可以操控。正在进行的动作会先停止。',
 };

@@ -1,0 +1,62 @@
+// What is said of the turn to drive, and what may be done about it, as each of the people there sees it. Pure.
+
+import type { Lease, LeaseAction } from '#shared/session/lease.ts';
+import type { Truth } from '../ui/Chip.tsx';
+import { words } from '../words/words.ts';
+
+export interface TurnAct {
+  readonly label: string;
+  readonly hint?: string;
+  readonly tone: 'plain' | 'quiet';
+  readonly wish: LeaseAction;
+}
+
+export interface Turn {
+  readonly truth: Truth;
+  readonly text: string;
+  /** `countdown`: how long the driver may still refuse. */
+  readonly more: { readonly said: string } | 'countdown';
+  readonly acts: readonly TurnAct[];
+}
+
+export function turnOf(lease: Lease): Turn {
+  if (lease.drives) return lease.asker === null ? driving(lease) : beingAsked(lease.asker);
+  return lease.driver === null ? unclaimed(lease) : watching(lease, lease.driver);
+}
+
+const driving = ({ givenBy, others }: Lease): Turn => ({
+  truth: 'confirmed',
+  text: words.lease.drives,
+  more: { said: givenBy === null ? words.lease.others(others) : words.lease.given(givenBy) },
+  acts: [{ label: words.lease.release, hint: words.lease.releaseHint, tone: 'quiet', wish: 'release' }],
+});
+
+const beingAsked = (asker: string): Turn => ({
+  truth: 'warning',
+  text: words.lease.asker(asker),
+  more: 'countdown',
+  acts: [
+    { label: words.lease.allow, tone: 'plain', wish: 'release' },
+    { label: words.lease.refuse, tone: 'plain', wish: 'refuse' },
+  ],
+});
+
+const unclaimed = ({ mayDrive }: Lease): Turn => ({
+  truth: 'neutral',
+  text: words.lease.nobody,
+  more: { said: mayDrive ? words.lease.nobodyMore : words.lease.watching },
+  acts: [],
+});
+
+function watching({ asks, mayDrive, mayTake }: Lease, driver: string): Turn {
+  const ask: TurnAct = asks
+    ? { label: words.lease.takeBack, tone: 'quiet', wish: 'release' }
+    : { label: words.lease.request, hint: words.lease.requestHint, tone: 'plain', wish: 'request' };
+  const take = { label: words.lease.take, hint: words.lease.takeHint, tone: 'quiet', wish: 'take' } as const;
+  return {
+    truth: asks ? 'commanded' : 'neutral',
+    text: asks ? words.lease.asked(driver) : words.lease.driver(driver),
+    more: asks ? 'countdown' : { said: words.lease.watching },
+    acts: [...(asks || mayDrive ? [ask] : []), ...(mayTake ? [take] : [])],
+  };
+}
