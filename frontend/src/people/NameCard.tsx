@@ -1,10 +1,9 @@
 // What a link's guest sees first: what the others shall call them, filled in, so that one press goes on.
 
-import { useId, useState, type SyntheticEvent } from 'react';
+import { useState } from 'react';
 import type { PeopleError } from '../stores/people.ts';
-import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
-import styles from './Outside.module.css';
+import { EntryCard, EntryField, NAME_INPUT, nameOr } from './EntryCard.tsx';
 
 export interface NameCardProps {
   readonly suggested: string;
@@ -13,38 +12,17 @@ export interface NameCardProps {
 }
 
 export function NameCard({ suggested, problem, onName }: NameCardProps) {
-  const title = useId();
   const [name, setName] = useState(suggested);
-  const submit = (event: SyntheticEvent): void => {
-    event.preventDefault();
-    onName(name.trim() === '' ? suggested : name.trim());
-  };
   return (
-    <form className={styles.card} onSubmit={submit} aria-labelledby={title}>
-      <h1 id={title} className={styles.title}>
-        {words.people.named.title}
-      </h1>
-      <p>{words.people.named.about}</p>
-      <label className={styles.field}>
-        {words.people.pair.name}
-        <input
-          className={styles.input}
-          value={name}
-          maxLength={64}
-          autoComplete="nickname"
-          autoFocus
-          onFocus={({ target }) => target.select()}
-          onChange={({ target }) => setName(target.value)}
-        />
-      </label>
-      {problem !== null && (
-        <p className={styles.problem} role="alert">
-          {words.people.problem(problem.code, problem.message)}
-        </p>
-      )}
-      <Button type="submit" tone="primary" wide>
-        {words.people.named.submit}
-      </Button>
-    </form>
+    <EntryCard text={words.people.named} problem={problem} onGoOn={() => onName(nameOr(suggested, name))}>
+      <EntryField
+        {...NAME_INPUT}
+        label={words.people.pair.name}
+        value={name}
+        autoFocus
+        onFocus={({ target }) => target.select()}
+        onChange={setName}
+      />
+    </EntryCard>
   );
 }
