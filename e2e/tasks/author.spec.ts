@@ -15,6 +15,10 @@ async function frameTimes(dashboard: Dashboard): Promise<readonly string[]> {
 
 async function captureThree(dashboard: Dashboard): Promise<void> {
   await captureGroup(dashboard, [1000, 1200, 1400]);
+  await tellApart(dashboard);
+}
+
+async function tellApart(dashboard: Dashboard): Promise<void> {
   await dashboard.type(dashboard.frameTime(1), 100);
   await dashboard.type(dashboard.frameTime(2), 200);
   await dashboard.type(dashboard.frameTime(3), 300);
@@ -73,17 +77,18 @@ test('frames are retimed, moved, duplicated and deleted, and each step is undone
   await poll(() => frameTimes(dashboard)).toEqual(['200', '100', '300']);
 });
 
-test('a frame is dragged to another place in one step', async ({ dashboard, page }) => {
-  await captureThree(dashboard);
-  const [from, to] = [
-    await dashboard.frames.nth(0).boundingBox(),
-    await dashboard.frames.nth(2).boundingBox(),
-  ];
-  // The grip is at the lower right of a card.
-  await page.mouse.move(from!.x + from!.width - 14, from!.y + from!.height - 14);
+/** By the grip, which is at the lower right of a card. */
+async function dragFrame({ frames, page }: Dashboard, from: number, to: number): Promise<void> {
+  const [start, end] = [await frames.nth(from - 1).boundingBox(), await frames.nth(to - 1).boundingBox()];
+  await page.mouse.move(start!.x + start!.width - 14, start!.y + start!.height - 14);
   await page.mouse.down();
-  await page.mouse.move(to!.x + to!.width / 2, to!.y + to!.height / 2, { steps: 8 });
+  await page.mouse.move(end!.x + end!.width / 2, end!.y + end!.height / 2, { steps: 8 });
   await page.mouse.up();
+}
+
+test('a frame is dragged to another place in one step', async ({ dashboard }) => {
+  await captureThree(dashboard);
+  await dragFrame(dashboard, 1, 3);
   await poll(() => frameTimes(dashboard)).toEqual(['200', '300', '100']);
   await dashboard.button('Undo: move frame 1').click();
   await poll(() => frameTimes(dashboard)).toEqual(['100', '200', '300']);
@@ -114,6 +119,30 @@ test('the group and its name outlive a reload of the page', async ({ dashboard, 
   await page.reload();
   await expect(dashboard.frames).toHaveCount(2);
   await expect(name).toHaveValue('Wave');
+});
+
+test.describe('of several frames', () => {
+  test.beforeEach(({ page }) => keepGroup(page));
+
+  test('all are dragged with the one, and cut and pasted as one', async ({ dashboard, page }) => {
+    await tellApart(dashboard);
+    await dashboard.frame(1).click();
+    await dashboard.frame(3).click({ modifiers: ['Control'] });
+    await dragFrame(dashboard, 1, 2);
+    await poll(() => frameTimes(dashboard)).toEqual(['200', '100', '300']);
+    await expect(dashboard.frame(3)).toHaveAttribute('aria-pressed', 'true');
+    await dashboard.button('Undo: move 2 frames').click();
+    await poll(() => frameTimes(dashboard)).toEqual(['100', '200', '300']);
+
+    await dashboard.frame(1).click();
+    await page.keyboard.press('Shift+ArrowRight');
+    await expect(dashboard.frame(2)).toBeFocused();
+    await page.keyboard.press('Control+x');
+    await poll(() => frameTimes(dashboard)).toEqual(['300']);
+    await page.keyboard.press('Control+v');
+    await poll(() => frameTimes(dashboard)).toEqual(['300', '100', '200']);
+    await expect(dashboard.frame(2)).toBeFocused();
+  });
 });
 
 test.describe('of a long group', () => {

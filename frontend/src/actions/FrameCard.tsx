@@ -33,11 +33,12 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
   useWords();
   const stores = useStores();
   const family = useDevice((state) => state.family);
-  const { isDragged, startDrag } = useFrameDrag(frame.id, index);
+  const { isDragged, startDrag } = useFrameDrag(frame.id);
   const number = index + 1;
   return (
     <li
       data-frame={frame.id}
+      data-dragged={isDragged || undefined}
       style={frame.colour === null ? undefined : { borderBlockStartColor: `var(--${frame.colour})` }}
       className={cx(
         card.card,
@@ -59,7 +60,10 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
         aria-current={isPlaying ? 'step' : undefined}
         tabIndex={isTabStop ? 0 : -1}
         onClick={({ ctrlKey, metaKey, shiftKey }) =>
-          pressFrame(stores, frame.id, { ctrl: ctrlKey || metaKey, shift: shiftKey })
+          pressFrame(stores, frame.id, {
+            ctrl: ctrlKey || metaKey || stores.view.getState().addsFrames,
+            shift: shiftKey,
+          })
         }
       >
         <span className={styles.number}>{number}</span>

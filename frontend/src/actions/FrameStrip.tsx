@@ -1,8 +1,8 @@
 // The frames in order, one card each, for people who think in poses. The frame that plays is marked, and those that are selected
 // in the timeline.
 
-import { useMemo, type CSSProperties } from 'react';
-import { indexOfFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
+import { useMemo, useState, type CSSProperties, type KeyboardEvent } from 'react';
+import { indexOfFrame } from '#shared/actions/group/groupEdits.ts';
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { useGroup, useStores, useView } from '../stores/stores.ts';
 import { showFrame } from '../timeline/inStep.ts';
@@ -10,32 +10,36 @@ import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { words } from '../words/words.ts';
 import { FrameCard } from './FrameCard.tsx';
 import { framePoses } from './framePoses.ts';
-import { deleteFrames, together } from './deleteFrames.ts';
-import { useCards } from './useCards.ts';
+import { moveBy, removeFrames, togetherNow } from './frameVerbs.ts';
+import { createStripKeys } from './stripKeys.ts';
+import { cardOf, useCards } from './useCards.ts';
+import { useStripClipboard } from './useStripClipboard.ts';
 import { useStripWindow } from './useStripWindow.ts';
 import styles from './FrameStrip.module.css';
 
+const ATTRIBUTE = 'data-frame';
+
 export function FrameStrip() {
   const stores = useStores();
-  const { document, view } = stores;
   const group = useGroup();
   const selected = useView((state) => state.selectedFrame);
   const playing = usePlayedFrame();
   const whole = useWholeFrames();
-  const { list, tabStop, key } = useCards<HTMLOListElement>({
-    ...{ ids: group.frames.map(({ id }) => id), selected, attribute: 'data-frame' },
+  const [ownKeys] = useState(() => createStripKeys(stores));
+  const { list, tabStop, key, focusSelected } = useCards<HTMLOListElement>({
+    ...{ ids: group.frames.map(({ id }) => id), selected, attribute: ATTRIBUTE },
     select: (id) => showFrame(stores, id),
-    move(id, to) {
-      const from = indexOfFrame(group, id);
-      document.edit(
-        () => words.actions.steps.move(from + 1),
-        (before) => moveFrame(before, id, to),
-      );
-      view.setState({ said: words.actions.moved(from + 1, to + 1) });
-    },
-    goesWith: (id) => together(whole, id),
-    remove: (id) => deleteFrames(document, together(whole, id)),
+    move: (id, to) => moveBy(stores, id, to - indexOfFrame(group, id)),
+    remove: (id) => removeFrames(stores, togetherNow(stores, id)),
   });
+  useStripClipboard(list, focusSelected);
+
+  function anyKey(event: KeyboardEvent): void {
+    const id = cardOf(event.target, ATTRIBUTE);
+    if (id === null || !ownKeys(event.nativeEvent, id)) return key(event);
+    event.preventDefault();
+    focusSelected();
+  }
 
   const { first, end, roomBeforePx, roomBehindPx } = useStripWindow(
     list,
@@ -49,7 +53,7 @@ export function FrameStrip() {
       ref={list}
       className={styles.strip}
       aria-label={words.actions.frames}
-      onKeyDown={key}
+      onKeyDown={anyKey}
       style={roomOf(roomBeforePx, roomBehindPx)}
     >
       {group.frames.slice(first, end).map((frame, index) => (

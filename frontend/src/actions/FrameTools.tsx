@@ -1,15 +1,16 @@
-// What can be done with the selected frame, in words. Always in its place, so that nothing jumps when a frame is selected.
+// What can be done with the selected frames, in words. Always in its place, so that nothing jumps when a frame is selected.
 
-import { duplicateFrame, indexOfFrame, moveFrame, setTargets } from '#shared/actions/group/groupEdits.ts';
+import { indexOfFrame, setTargets } from '#shared/actions/group/groupEdits.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
-import { useDevice, useDocument, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useDocument, useSnapshot, useStores, useTimeline, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
+import { ToggleButton } from '../ui/ToggleButton.tsx';
 import { words } from '../words/words.ts';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { captureFrame } from './capture.ts';
 import { useKnowsPose } from './CaptureButton.tsx';
-import { deleteFrames, together } from './deleteFrames.ts';
+import { copy, cut, duplicate, moveBy, paste, removeFrames, together, type FrameIds } from './frameVerbs.ts';
 import { commandedPose } from './pose.ts';
 import styles from './FrameTools.module.css';
 
@@ -20,10 +21,9 @@ const INSERTS = [
 
 export function FrameTools() {
   const stores = useStores();
-  const { device, document, view } = stores;
+  const { device, document } = stores;
   const id = useView((state) => state.selectedFrame) ?? -1;
   const index = useDocument(({ present }) => indexOfFrame(present, id));
-  const count = useDocument(({ present }) => present.frames.length);
   const unit = useDocument(({ present }) => present.unit);
   const knowsPose = useKnowsPose();
   const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
@@ -43,28 +43,6 @@ export function FrameTools() {
       () => words.actions.steps.update(index + 1),
       (before) => setTargets(before, id, commandedPose(device.store.getState().targets)),
     );
-  const move = (to: number) => (): void => {
-    document.edit(
-      () => words.actions.steps.move(index + 1),
-      (before) => moveFrame(before, id, to),
-    );
-    view.setState({ said: words.actions.moved(index + 1, to + 1) });
-  };
-  const remove = (): void => {
-    const { frames } = document.store.getState().present;
-    const stays = (frame: { readonly id: number }): boolean => !whole.includes(frame.id);
-    const next = frames.slice(index).find(stays) ?? frames.slice(0, index).findLast(stays);
-    view.setState({ selectedFrame: next?.id ?? null });
-    deleteFrames(document, whole);
-  };
-  const duplicate = (): void => {
-    view.setState({ selectedFrame: document.store.getState().present.nextId });
-    document.edit(
-      () => words.actions.steps.duplicate(index + 1),
-      (before) => duplicateFrame(before, id),
-    );
-  };
-
   return (
     <div className={styles.tools} role="group" aria-label={words.actions.tools}>
       <span className={styles.which}>
@@ -73,6 +51,9 @@ export function FrameTools() {
           : several
             ? words.actions.several(whole.length)
             : words.actions.frame(index + 1)}
+      </span>
+      <span className={styles.adds}>
+        <Adds />
       </span>
       <Button tone="quiet" icon="pose" isDisabled={notOne || !mayMove || !sameUnit} onPress={load}>
         {words.actions.load}
@@ -90,21 +71,92 @@ export function FrameTools() {
             onPress={() => captureFrame(stores, side)}
           />
         ))}
+        <OrderButtons ids={none ? [] : whole} />
+      </span>
+      <span className={styles.icons}>
+        <ClipButtons ids={none ? [] : whole} />
         <IconButton
-          icon="earlier"
-          label={words.actions.earlier}
-          isDisabled={notOne || index === 0}
-          onPress={move(index - 1)}
+          icon="trash"
+          label={words.actions.delete}
+          isDisabled={none}
+          onPress={() => removeFrames(stores, whole)}
         />
-        <IconButton
-          icon="later"
-          label={words.actions.later}
-          isDisabled={notOne || index === count - 1}
-          onPress={move(index + 1)}
-        />
-        <IconButton icon="copy" label={words.actions.duplicate} isDisabled={notOne} onPress={duplicate} />
-        <IconButton icon="trash" label={words.actions.delete} isDisabled={none} onPress={remove} />
       </span>
     </div>
+  );
+}
+
+interface OfFrames {
+  readonly ids: FrameIds;
+}
+
+function OrderButtons({ ids }: OfFrames) {
+  const stores = useStores();
+  const isAtStart = useDocument(({ present }) => ids.includes(present.frames[0]?.id ?? -1));
+  const isAtEnd = useDocument(({ present }) => ids.includes(present.frames.at(-1)?.id ?? -1));
+  const [id] = ids;
+  const move = (places: number) => (): void => {
+    if (id !== undefined) moveBy(stores, id, places);
+  };
+  return (
+    <>
+      <IconButton
+        icon="earlier"
+        label={words.actions.earlier}
+        isDisabled={id === undefined || isAtStart}
+        onPress={move(-1)}
+      />
+      <IconButton
+        icon="later"
+        label={words.actions.later}
+        isDisabled={id === undefined || isAtEnd}
+        onPress={move(1)}
+      />
+      <IconButton
+        icon="duplicate"
+        label={words.actions.duplicate}
+        isDisabled={id === undefined}
+        onPress={() => duplicate(stores, ids)}
+      />
+    </>
+  );
+}
+
+function ClipButtons({ ids }: OfFrames) {
+  const stores = useStores();
+  const hasClip = useTimeline(({ clip }) => clip !== null);
+  const none = ids.length === 0;
+  return (
+    <>
+      <IconButton
+        icon="cut"
+        label={words.actions.cut}
+        isDisabled={none}
+        onPress={() => void cut(stores, ids)}
+      />
+      <IconButton
+        icon="copy"
+        label={words.actions.copy}
+        isDisabled={none}
+        onPress={() => void copy(stores, ids)}
+      />
+      <IconButton
+        icon="paste"
+        label={words.actions.paste}
+        isDisabled={!hasClip}
+        onPress={() => paste(stores, stores.timeline.getState().clip)}
+      />
+    </>
+  );
+}
+
+/** For hands without a Ctrl key. */
+function Adds() {
+  const { view } = useStores();
+  const isOn = useView((state) => state.addsFrames);
+  return (
+    <ToggleButton isOn={isOn} onChange={(addsFrames) => view.setState({ addsFrames })}>
+      {words.actions.adds}
+    </ToggleButton>
   );
 }

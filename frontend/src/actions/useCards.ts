@@ -11,16 +11,18 @@ export interface CardsOptions {
   /** The attribute in which a card carries its id; the part that takes the focus has `data-card-face`. */
   readonly attribute: string;
   select(id: number | null): void;
+  /** Selects what has moved. */
   move(id: number, to: number): void;
-  /** Those that go when it does, it too; left out: it alone. */
-  goesWith?(id: number): readonly number[];
-  remove(id: number): void;
+  /** Selects what comes next. */
+  remove(id: number, next: number | null): void;
 }
 
 export interface Cards<List extends HTMLElement> {
   readonly list: RefObject<List | null>;
   /** The card that Tab leads to. */
   readonly tabStop: number | null;
+  /** The focus follows what was selected by any other key. */
+  focusSelected(): void;
   /** To be heard by the list, so that a card is drawn again only when it is another. */
   key(event: KeyboardEvent): void;
 }
@@ -38,36 +40,30 @@ export function useCards<List extends HTMLElement>(options: CardsOptions): Cards
     if (focusWish > 0) focus();
   }, [focusWish]);
 
-  function select(id: number | null): void {
-    options.select(id);
-    setFocusWish((wish) => wish + 1);
-  }
+  const focusSelected = (): void => setFocusWish((wish) => wish + 1);
 
   return {
     list,
+    focusSelected,
     tabStop: selected !== null && ids.includes(selected) ? selected : (ids[0] ?? null),
     key(event) {
-      const id = idOf(event.target, attribute);
+      const id = cardOf(event.target, attribute);
       if (id === null) return;
       const index = ids.indexOf(id);
       const to = neighbour(event.key, index, ids.length);
-      if (event.key === 'Delete' || event.key === 'Backspace') {
-        const gone = new Set(options.goesWith?.(id) ?? [id]);
-        const stays = (one: number): boolean => !gone.has(one);
-        select(ids.slice(index).find(stays) ?? ids.slice(0, index).findLast(stays) ?? null);
-        options.remove(id);
-      } else if (to === null) return;
-      else if (event.altKey && to !== index) {
-        options.move(id, to);
-        select(id);
-      } else select(ids[to] ?? id);
+      if (event.key === 'Delete' || event.key === 'Backspace')
+        options.remove(id, ids[index + 1] ?? ids[index - 1] ?? null);
+      else if (to === null) return;
+      else if (event.altKey && to !== index) options.move(id, to);
+      else options.select(ids[to] ?? id);
+      focusSelected();
       event.preventDefault();
     },
   };
 }
 
 /** Of the card whose face it is; null for anything else in a card. */
-function idOf(target: EventTarget, attribute: string): number | null {
+export function cardOf(target: EventTarget | null, attribute: string): number | null {
   if (!(target instanceof HTMLElement) || !('cardFace' in target.dataset)) return null;
   return Number(target.closest(`[${attribute}]`)?.getAttribute(attribute));
 }

@@ -1,21 +1,25 @@
-// Reordering frames by drag: one gesture of the document, the frames in between make room at once.
+// Reordering frames by drag: one gesture of the document, the frames in between make room at once. Of several that are selected
+// all go along.
 
-import { indexOfFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
+import { indexOfFrame, moveFrames } from '#shared/actions/group/groupEdits.ts';
 import { useStores } from '../stores/stores.ts';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
 import { words } from '../words/words.ts';
+import { numbersOf, togetherNow } from './frameVerbs.ts';
 
-export function useFrameDrag(id: number, index: number): DragOrder {
-  const { document, view } = useStores();
+export function useFrameDrag(id: number): DragOrder {
+  const stores = useStores();
+  const { document, view } = stores;
   return useDragOrder({
     attribute: 'data-frame',
     begin() {
-      document.begin(() => words.actions.steps.move(index + 1));
+      const numbers = numbersOf(stores, togetherNow(stores, id));
+      document.begin(() => words.actions.steps.move(numbers));
       view.setState({ selectedFrame: id });
     },
     over(other) {
       const to = indexOfFrame(document.store.getState().present, other);
-      if (to >= 0) document.preview((group) => moveFrame(group, id, to));
+      if (to >= 0) document.preview((group) => moveFrames(group, togetherNow(stores, id), id, to));
     },
     commit: () => document.commit(),
     cancel: () => document.cancel(),

@@ -28,13 +28,15 @@ export function EditGrid() {
         () => words.macros.edits.move(nameOf(id)),
         (page) => moveMacro(page, id, to),
       );
-      view.setState({ said: words.macros.moved(ids.indexOf(id) + 1, to + 1) });
+      view.setState({ selectedButton: id, said: words.macros.moved(ids.indexOf(id) + 1, to + 1) });
     },
-    remove: (id) =>
+    remove(id, next) {
       macros.edit(
         () => words.macros.edits.delete(nameOf(id)),
         (page) => removeMacro(page, id),
-      ),
+      );
+      view.setState({ selectedButton: next });
+    },
   });
   const { list: gridRef, tabStop, key } = cards;
 

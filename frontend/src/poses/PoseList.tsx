@@ -22,13 +22,15 @@ export function PoseList() {
         () => words.poses.steps.move(poseName(book, id)),
         (before) => movePose(before, id, to),
       );
-      view.setState({ said: words.poses.moved(ids.indexOf(id) + 1, to + 1) });
+      view.setState({ selectedPose: id, said: words.poses.moved(ids.indexOf(id) + 1, to + 1) });
     },
-    remove: (id) =>
+    remove(id, next) {
       poses.book.edit(
         () => words.poses.steps.delete(poseName(book, id)),
         (before) => removePose(before, id),
-      ),
+      );
+      view.setState({ selectedPose: next });
+    },
   });
 
   const marks = ({ id }: Pose): string =>

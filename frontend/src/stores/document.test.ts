@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { insertFrame, moveFrame } from '#shared/actions/group/groupEdits.ts';
+import { insertFrame, moveFrames } from '#shared/actions/group/groupEdits.ts';
 import { setDuration } from '#shared/actions/group/timeEdits.ts';
 import { groupFromText } from '#shared/actions/group/groupText.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
@@ -96,8 +96,8 @@ describe('the document', () => {
         (before) => insertFrame(before, at, FRAME),
       );
     document.begin(() => 'move');
-    document.preview((before) => moveFrame(before, 1, 1));
-    document.preview((before) => moveFrame(before, 1, 2));
+    document.preview((before) => moveFrames(before, [1], 1, 1));
+    document.preview((before) => moveFrames(before, [1], 1, 2));
     expect(group().frames.map((frame) => frame.id)).toEqual([2, 3, 1]);
     document.commit();
     document.undo();
@@ -114,7 +114,7 @@ describe('the document', () => {
       );
     const before = group();
     document.begin(() => 'move');
-    document.preview((current) => moveFrame(current, 1, 1));
+    document.preview((current) => moveFrames(current, [1], 1, 1));
     document.cancel();
     expect(group()).toBe(before);
   });

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
-import { copyKeys } from '#shared/actions/group/clip.ts';
-import { setEasing } from '#shared/actions/group/frameEdits.ts';
+import { copyFrames, copyKeys } from '#shared/actions/group/clip.ts';
+import { setColour, setEasing, setNote } from '#shared/actions/group/frameEdits.ts';
 import { clipFromText, clipToText } from './clipText.ts';
 import { smallGroup } from './timelineUnderTest.ts';
 
@@ -11,6 +11,15 @@ test('copied keys come back from the text that stands for them', () => {
     { frameId: 3, servo: 3 },
   ];
   const clip = copyKeys(setEasing(smallGroup(), [3], 'hold'), refs);
+  expect(clipFromText(clipToText(clip))).toEqual(clip);
+});
+
+test('so do frames, with what is said of them', () => {
+  const clip = copyFrames(setColour(setNote(smallGroup(), 1, 'Up'), [3], 'plum'), [1, 3]);
+  expect(clip.moments.map(({ note, colour }) => [note, colour])).toEqual([
+    ['Up', null],
+    ['', 'plum'],
+  ]);
   expect(clipFromText(clipToText(clip))).toEqual(clip);
 });
 

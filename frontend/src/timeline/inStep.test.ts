@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { deleteFrame, duplicateFrame, insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { deleteFrames, duplicateFrames, insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { keepInStep } from './inStep.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';
 
@@ -26,7 +26,7 @@ test('a frame may be announced before it is there', async () => {
   stores.view.setState({ selectedFrame: 4 });
   stores.document.edit(
     () => 'duplicate',
-    (group) => duplicateFrame(group, 1),
+    (group) => duplicateFrames(group, [1]),
   );
   expect(selected()).toEqual([
     [4, 1],
@@ -58,7 +58,7 @@ test('what is gone is no longer selected', async () => {
   select([1, 1], [2, 1]);
   stores.document.edit(
     () => 'delete',
-    (group) => deleteFrame(group, 1),
+    (group) => deleteFrames(group, [1]),
   );
   expect(selected()).toEqual([[2, 1]]);
 });
@@ -69,7 +69,7 @@ test('all of the group stays in sight until one looks closer', async () => {
   const { time } = stores.timeline.getState();
   stores.document.edit(
     () => 'duplicate',
-    (group) => duplicateFrame(group, 1),
+    (group) => duplicateFrames(group, [1]),
   );
   expect(stores.timeline.getState().time.msPerPx).toBeGreaterThan(time.msPerPx);
 });

@@ -7,7 +7,7 @@ import { endOfFrame, selectedKeys, timesOf } from './groupTimes.ts';
 import { fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
 import { paged, xOf } from '../stores/timeScale.ts';
 import { ALL_ROW, type TimelineState } from '../stores/timeline.ts';
-import { keyName, refsOf, withKeys } from '../stores/keySet.ts';
+import { keyName, keySet, refsOf, withKeys } from '../stores/keySet.ts';
 
 export function keepInStep(stores: DeskStores): () => void {
   const { document, view, timeline } = stores;
@@ -55,6 +55,19 @@ export function showFrame(stores: DeskStores, frameId: number | null): void {
   if (frameId === null || endMs === null) return stores.view.setState({ selectedFrame: frameId });
   selectFrame(desk, frameId, 'replaces');
   lookAt(desk, endMs);
+}
+
+/** Several, with `lead` as the one that is looked at. */
+export function showFrames(stores: DeskStores, ids: readonly number[], lead: number): void {
+  if (ids.length < 2) return showFrame(stores, lead);
+  const desk = deskOf(stores);
+  select(stores, keySet(ids.flatMap((id) => shownKeys(desk, id))), { row: ALL_ROW, frameId: lead });
+  lookAt(desk, endOfFrame(desk.times, lead) ?? desk.state.playheadMs);
+}
+
+/** Those from one card to another, which is looked at. */
+export function spanFrames(stores: DeskStores, one: number, other: number): void {
+  showFrames(stores, framesBetween(deskOf(stores), one, other), other);
 }
 
 /** A card is pressed: alone, with Shift all up to it, with Ctrl beside others or taken away from them. */

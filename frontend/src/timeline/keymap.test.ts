@@ -198,8 +198,9 @@ describe('keys', () => {
 
   test('nothing is pasted that the robot must not do', async () => {
     const { stores, desk, group, told } = await createTimelineDesk();
-    const moments = [{ atMs: 0, easing: 'linear' as const, targets: [{ servo: 1, position: 2600 }] }];
-    stores.timeline.setState({ clip: { unit: 'us', moments } });
+    const targets = [{ servo: 1, position: 2600 }];
+    const moments = [{ atMs: 0, easing: 'linear', note: '', colour: null, targets }] as const;
+    stores.timeline.setState({ clip: { unit: 'us', leadMs: 0, moments } });
     const before = group();
     VERBS.paste.run(desk());
     expect(group()).toBe(before);

@@ -3,18 +3,8 @@
 
 import type { Family } from '#shared/protocol/families.ts';
 import type { LinkState } from '#shared/session/state.ts';
-import {
-  counted,
-  formatAge,
-  formatCount,
-  formatList,
-  formatMs,
-  formatSeconds,
-  formatWhole,
-  numbers,
-  unitSymbol,
-} from './numbers.ts';
-import type { PositionUnit } from '../numbers.ts';
+import { counted, formatAge, formatCount, formatSeconds, formatWhole, numbers } from './numbers.ts';
+import { actionWords } from './actions.ts';
 import { batteryWords } from './battery.ts';
 import { calibrationWords } from './calibration.ts';
 import { errorSentence } from './errors.ts';
@@ -223,57 +213,7 @@ export const english = {
     },
   },
 
-  actions: {
-    title: 'Action group',
-    name: 'Name of the group',
-    defaultName: 'New group',
-    frames: 'Frames',
-    empty: 'No frames yet',
-    emptyHint: 'Pose the robot with the sliders, then capture the pose. Two or three poses make a motion.',
-    capture: 'Capture frame',
-    captureHint: 'Adds the commanded pose after the selected frame',
-    captureHere: 'Capture',
-    captureEndHint: 'Adds the commanded pose at the end of the action group',
-    captured: (number: number): string => `Frame ${formatWhole(number)} is captured.`,
-    nothingKnown: 'Move a servo first: nothing is known of the pose yet.',
-    frame: (number: number): string => `Frame ${formatWhole(number)}`,
-    frameAbout: (number: number, durationMs: number, changed: readonly number[]): string => {
-      const moved = changed.length === 0 ? 'moves nothing' : `moves servo ${formatList(changed)}`;
-      return `Frame ${formatWhole(number)}, ${formatMs(durationMs)}, ${moved}`;
-    },
-    playingFrame: 'Playing',
-    time: (number: number): string => `Time of frame ${formatWhole(number)} in milliseconds`,
-    tools: 'Change the selected frame',
-    select: 'Select a frame to change it.',
-    several: (count: number): string => `${counted(count, 'frame')} selected`,
-    load: 'Go to pose',
-    update: 'Update pose',
-    duplicate: 'Duplicate',
-    insert: { before: 'Insert the pose before', after: 'Insert the pose after' },
-    delete: 'Delete',
-    earlier: 'Move earlier',
-    later: 'Move later',
-    undo: 'Undo',
-    redo: 'Redo',
-    undoStep: (label: string): string => `Undo: ${label}`,
-    redoStep: (label: string): string => `Redo: ${label}`,
-    total: (count: number, ms: number): string => `${counted(count, 'frame')}, ${formatSeconds(ms)}`,
-    steps: {
-      capture: 'capture a frame',
-      update: (number: number): string => `update frame ${formatWhole(number)}`,
-      duplicate: (number: number): string => `duplicate frame ${formatWhole(number)}`,
-      delete: (number: number): string => `delete frame ${formatWhole(number)}`,
-      deleteSeveral: (count: number): string => `delete ${counted(count, 'frame')}`,
-      move: (number: number): string => `move frame ${formatWhole(number)}`,
-      time: (number: number): string => `time of frame ${formatWhole(number)}`,
-      rename: 'rename group',
-    },
-    moved: (from: number, to: number): string => `Frame ${formatWhole(from)} is now frame ${formatWhole(to)}`,
-    otherUnit: (unit: PositionUnit): string =>
-      `This group is in ${unitSymbol(unit)}; the connected board counts otherwise.`,
-    broken: 'The saved group could not be read. It was set aside unharmed, and a new group begun.',
-    notSaved: 'The browser does not store the group; it is kept until the page is closed.',
-  },
+  actions: actionWords,
 
   board: {
     details: 'Details',

@@ -1,6 +1,7 @@
 // The Chinese words, simplified, as the makers of these boards and their customers say it.
 
 import type { Words } from '../en/english.ts';
+import { actionWords } from './actions.ts';
 import { batteryWords } from './battery.ts';
 import { boardName } from './boards.ts';
 import { calibrationWords } from './calibration.ts';
@@ -15,16 +16,7 @@ import { leaseWords } from './lease.ts';
 import { libraryWords } from './library.ts';
 import { peopleWords } from './people.ts';
 import { macroWords } from './macros.ts';
-import {
-  formatAge,
-  formatCount,
-  formatList,
-  formatMs,
-  formatSeconds,
-  formatWhole,
-  numbers,
-  unitSymbol,
-} from './numbers.ts';
+import { formatAge, formatCount, formatSeconds, formatWhole, numbers } from './numbers.ts';
 import { packetWords, timesWords } from './packets.ts';
 import { padWords } from './pad.ts';
 import { playWords } from './play.ts';
@@ -211,56 +203,7 @@ export const chinese: Words = {
     },
   },
 
-  actions: {
-    title: '动作组',
-    name: '动作组的名字',
-    defaultName: '新动作组',
-    frames: '帧',
-    empty: '还没有帧',
-    emptyHint: '用滑块摆好机器人，然后记录一帧。两三帧就能组成一个动作。',
-    capture: '记录一帧',
-    captureHint: '把目标姿态加到所选帧的后面',
-    captureHere: '记录',
-    captureEndHint: '把目标姿态加到动作组的末尾',
-    captured: (number) => `已记录第${formatWhole(number)}帧。`,
-    nothingKnown: '请先移动一个舵机：现在还不知道任何姿态。',
-    frame: (number) => `第${formatWhole(number)}帧`,
-    frameAbout: (number, durationMs, changed) => {
-      const moved = changed.length === 0 ? '没有舵机移动' : `移动${formatList(changed)}号舵机`;
-      return `第${formatWhole(number)}帧，${formatMs(durationMs)}，${moved}`;
-    },
-    playingFrame: '正在播放',
-    time: (number) => `第${formatWhole(number)}帧的时间，单位毫秒`,
-    tools: '修改所选帧',
-    select: '选择一帧来修改。',
-    several: (count) => `已选中${formatWhole(count)}帧`,
-    load: '移到这个姿态',
-    update: '更新姿态',
-    duplicate: '复制',
-    insert: { before: '把姿态插到前面', after: '把姿态插到后面' },
-    delete: '删除',
-    earlier: '前移',
-    later: '后移',
-    undo: '撤销',
-    redo: '重做',
-    undoStep: (label) => `撤销：${label}`,
-    redoStep: (label) => `重做：${label}`,
-    total: (count, ms) => `${formatCount(count)}帧，${formatSeconds(ms)}`,
-    steps: {
-      capture: '记录一帧',
-      update: (number) => `更新第${formatWhole(number)}帧`,
-      duplicate: (number) => `复制第${formatWhole(number)}帧`,
-      delete: (number) => `删除第${formatWhole(number)}帧`,
-      deleteSeveral: (count) => `删除${formatWhole(count)}帧`,
-      move: (number) => `移动第${formatWhole(number)}帧`,
-      time: (number) => `第${formatWhole(number)}帧的时间`,
-      rename: '重命名动作组',
-    },
-    moved: (from, to) => `第${formatWhole(from)}帧现在是第${formatWhole(to)}帧`,
-    otherUnit: (unit) => `这个动作组的单位是${unitSymbol(unit)}，与当前控制板不同。`,
-    broken: '已保存的动作组无法读取。它已完好地另存，并新建了一个动作组。',
-    notSaved: '浏览器不能保存动作组；关闭页面前它一直在。',
-  },
+  actions: actionWords,
 
   board: {
     details: '详情',

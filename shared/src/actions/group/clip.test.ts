@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { copyKeys, duplicateKeys, pasteKeys } from './clip.ts';
-import { emptyGroup } from './group.ts';
+import { clipGroup, copyFrames, copyKeys, duplicateKeys, pasteFrames, pasteKeys } from './clip.ts';
+import { emptyGroup, type ActionGroup, type GroupFrame } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
 import { refsOf, shapeOf, someGroup, someRefs, withGroup } from './groupsUnderTest.ts';
 import { setKey } from './keyEdits.ts';
@@ -63,5 +63,64 @@ describe('a clip', () => {
     const { group, problems } = pasteKeys(one, clip, 500, { ...STAY, rangeOf });
     expect(group.frames).toHaveLength(2);
     expect(problems).toEqual([{ kind: 'position', servo: 3, position: 2400, min: 600, max: 2000 }]);
+  });
+});
+
+describe('whole frames in a clip', () => {
+  const spaced = someGroup({ durationMs: fc.integer({ min: 1, max: 900 }), least: 1 });
+  const plain = ({ frames }: { frames: readonly GroupFrame[] }) => frames.map(({ id: _, ...frame }) => frame);
+  const someIds = ({ frames }: ActionGroup) => fc.subarray(frames.map(({ id }) => id));
+
+  test('come back one behind the other with all that was said of them, at any place', () => {
+    fc.assert(
+      fc.property(withGroup(spaced, someIds), fc.nat(8), ([group, chosen], at) => {
+        const index = Math.min(at, group.frames.length);
+        const { group: after, problems } = pasteFrames(group, copyFrames(group, chosen), index);
+        const wanted = group.frames.filter(({ id }) => chosen.includes(id));
+        expect(problems).toEqual([]);
+        expect(plain({ frames: after.frames.slice(index, index + chosen.length) })).toEqual(
+          plain({ frames: wanted }),
+        );
+        expect(after.frames.toSpliced(index, chosen.length)).toEqual(group.frames);
+        expect(new Set(after.frames.map(({ id }) => id)).size).toBe(after.frames.length);
+      }),
+    );
+  });
+
+  test('are keys for whoever pastes them at an instant, and keys are frames with the time they took', () => {
+    const pose = (position: number) => ({ durationMs: 500, targets: [{ servo: 1, position }], note: 'Look' });
+    const group = [1000, 2000].reduce((sum, at) => insertFrame(sum, 9, pose(at)), emptyGroup('Wave', 'us'));
+    const frames = copyFrames(group, [2]);
+    expect(pasteKeys(group, frames, 1700, STAY).group.frames[2]).toMatchObject({
+      ...{ durationMs: 700, note: 'Look', targets: [{ servo: 1, position: 2000 }] },
+    });
+    const keys = copyKeys(group, [{ frameId: 2, servo: 1 }]);
+    expect(pasteFrames(group, keys, 0).group.frames[0]).toMatchObject({
+      ...{ durationMs: 500, note: '', targets: [{ servo: 1, position: 2000 }] },
+    });
+  });
+
+  test('are refused where they cannot be, and told where the robot must not go', () => {
+    const one = insertFrame(emptyGroup('Wave', 'us'), 0, {
+      durationMs: 100,
+      targets: [{ servo: 3, position: 2400 }],
+    });
+    const clip = copyFrames(one, [1]);
+    const steps = setKey(emptyGroup('Other', 'steps'), 1, 100, 500);
+    expect(pasteFrames(steps, clip, 0)).toEqual({
+      group: steps,
+      problems: [{ kind: 'unit', clip: 'us', group: 'steps' }],
+    });
+    expect(pasteFrames(emptyGroup('New', 'steps'), clip, 0).group.unit).toBe('us');
+    expect(pasteFrames(one, clip, 0, { rangeOf: () => ({ min: 600, max: 2000 }) }).problems).toEqual([
+      { kind: 'position', servo: 3, position: 2400, min: 600, max: 2000 },
+    ]);
+  });
+
+  test('of nothing change nothing', () => {
+    const group = emptyGroup('Wave', 'steps');
+    const nothing = copyFrames(emptyGroup('', 'us'), []);
+    expect(pasteFrames(group, nothing, 0).group).toBe(group);
+    expect(clipGroup(nothing).frames).toEqual([]);
   });
 });

@@ -1,9 +1,10 @@
-// Keys taken out of a group to be put into it again or into another one. A clip knows servos, positions and how far its keys
-// are apart, not where it comes from. What cannot be pasted is said; nothing is changed to make it fit.
+// Keys or whole frames taken out of a group to be put into it again or into another one. A clip knows servos, positions and how far
+// its keys are apart, not where it comes from. What cannot be pasted is said; nothing is changed to make it fit.
 
 import type { ServoTarget } from '../../protocol/commands.ts';
 import type { Range } from '../../protocol/families.ts';
-import { MAX_FRAMES, type ActionGroup, type Easing } from './group.ts';
+import { emptyGroup, MAX_FRAMES, type ActionGroup, type GroupFrame } from './group.ts';
+import { changed, insertFrames } from './groupEdits.ts';
 import { lifted } from './lifted.ts';
 import { momentsOf, newMoment, placed, wholeMs, withMoments, type Moment } from './moments.ts';
 import { insertTime, type Ripple } from './timeEdits.ts';
@@ -11,15 +12,13 @@ import type { KeyRef } from './tracks.ts';
 
 export interface Clip {
   readonly unit: ActionGroup['unit'];
+  /** How long the way to the first one took. */
+  readonly leadMs: number;
   /** The first one at 0. */
   readonly moments: readonly ClipMoment[];
 }
 
-interface ClipMoment {
-  readonly atMs: number;
-  readonly easing: Easing;
-  readonly targets: readonly ServoTarget[];
-}
+type ClipMoment = Pick<GroupFrame, 'easing' | 'note' | 'colour' | 'targets'> & { readonly atMs: number };
 
 export type PasteProblem =
   /** Nothing was pasted. */
@@ -34,20 +33,36 @@ export interface Pasted {
   readonly problems: readonly PasteProblem[];
 }
 
+/** How far a servo may be turned; null where nobody knows. */
+type RangeOf = (servo: number) => Range | null;
+
 export interface PasteOptions extends Ripple {
-  /** How far a servo may be turned; null where nobody knows. Without it no position is a problem. */
-  readonly rangeOf?: (servo: number) => Range | null;
+  /** Without it no position is a problem. */
+  readonly rangeOf?: RangeOf;
 }
 
+/** What is said of a frame stays with it. */
 export function copyKeys(group: ActionGroup, refs: readonly KeyRef[]): Clip {
   const { keys } = lifted(group, refs);
   const firstMs = keys[0]?.atMs ?? 0;
   const moments = keys.map(({ atMs, frame: { easing }, targets }) => ({
-    atMs: atMs - firstMs,
-    easing,
-    targets,
+    ...{ atMs: atMs - firstMs, easing, targets },
+    ...{ note: '', colour: null },
   }));
-  return { unit: group.unit, moments };
+  return { unit: group.unit, leadMs: keys[0]?.frame.durationMs ?? 0, moments };
+}
+
+/** Whole frames, one behind the other, with what is said of them. */
+export function copyFrames(group: ActionGroup, ids: readonly number[]): Clip {
+  const wanted = new Set(ids);
+  const frames = group.frames.filter(({ id }) => wanted.has(id));
+  const leadMs = frames[0]?.durationMs ?? 0;
+  let atMs = -leadMs;
+  const moments = frames.map(({ durationMs, easing, note, colour, targets }) => ({
+    atMs: (atMs += durationMs),
+    ...{ easing, note, colour, targets },
+  }));
+  return { unit: group.unit, leadMs, moments };
 }
 
 /**
@@ -60,18 +75,43 @@ export function pasteKeys(
   atMs: number,
   { ripple, rangeOf = () => null }: PasteOptions,
 ): Pasted {
-  const isEmpty = group.frames.length === 0;
-  if (clip.unit !== group.unit && !isEmpty)
-    return { group, problems: [{ kind: 'unit', clip: clip.unit, group: group.unit }] };
+  const problem = otherUnit(group, clip);
+  if (problem !== null) return { group, problems: [problem] };
   const at = wholeMs(atMs);
   const room = ripple ? insertTime(group, at, clip.moments.at(-1)?.atMs ?? 0) : group;
   const moments = clip.moments.reduce<readonly Moment[]>(
-    (all, { atMs: afterMs, easing, targets }) =>
-      placed(all, at + afterMs, targets, (own) => newMoment(at, own, easing)),
+    (all, { atMs: afterMs, targets, ...look }) =>
+      placed(all, at + afterMs, targets, (own) => newMoment(at, own, look)),
     momentsOf(room),
   );
   const { markers } = room;
   const pasted = withMoments(group, moments, clip.moments.length === 0 ? {} : { unit: clip.unit, markers });
+  return judged(group, pasted, clip, rangeOf);
+}
+
+/** The clip's frames stand from `index` on then, and everything behind comes later. An empty group takes the clip's unit. */
+export function pasteFrames(
+  group: ActionGroup,
+  clip: Clip,
+  index: number,
+  { rangeOf = () => null }: Pick<PasteOptions, 'rangeOf'> = {},
+): Pasted {
+  const problem = otherUnit(group, clip);
+  if (problem !== null) return { group, problems: [problem] };
+  const { unit, frames } = clipGroup(clip);
+  const pasted = frames.length === 0 ? group : insertFrames(changed(group, { unit }), index, frames);
+  return judged(group, pasted, clip, rangeOf);
+}
+
+/** A group of nothing else. */
+export const clipGroup = (clip: Clip): ActionGroup =>
+  pasteKeys(emptyGroup('', clip.unit), clip, clip.leadMs, { ripple: false }).group;
+
+function otherUnit({ unit, frames }: ActionGroup, clip: Clip): PasteProblem | null {
+  return clip.unit === unit || frames.length === 0 ? null : { kind: 'unit', clip: clip.unit, group: unit };
+}
+
+function judged(group: ActionGroup, pasted: ActionGroup, clip: Clip, rangeOf: RangeOf): Pasted {
   const count = pasted.frames.length;
   return count > MAX_FRAMES
     ? { group, problems: [{ kind: 'tooManyFrames', count, limit: MAX_FRAMES }] }
@@ -89,7 +129,7 @@ export function duplicateKeys(
   return pasteKeys(group, copyKeys(group, refs), firstMs + deltaMs, ripple);
 }
 
-function outside({ moments }: Clip, rangeOf: (servo: number) => Range | null): readonly PasteProblem[] {
+function outside({ moments }: Clip, rangeOf: RangeOf): readonly PasteProblem[] {
   return moments
     .flatMap(({ targets }) => targets)
     .flatMap(({ servo, position }) => {

@@ -1,10 +1,10 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import {
-  deleteFrame,
-  duplicateFrame,
+  deleteFrames,
+  duplicateFrames,
   insertFrame,
-  moveFrame,
+  moveFrames,
   rename,
   setMeta,
   setTargets,
@@ -50,20 +50,35 @@ describe('edits of an action group', () => {
     ]);
   });
 
-  test('a duplicate follows its original with a new id', () => {
-    const group = duplicateFrame(groupOf(1000, 2000), 1);
+  test('a duplicate follows its original with a new id, several follow the last of them in their order', () => {
+    const group = duplicateFrames(groupOf(1000, 2000), [1]);
     expect(ids(group)).toEqual([1, 3, 2]);
     expect(group.frames[1]!.targets).toEqual(group.frames[0]!.targets);
+    const several = duplicateFrames(groupOf(1000, 2000, 1500, 1800), [3, 1]);
+    expect(ids(several)).toEqual([1, 2, 3, 5, 6, 4]);
+    expect(several.frames.slice(3, 5).map(({ targets }) => targets[0]!.position)).toEqual([1000, 1500]);
+  });
+
+  test('several frames go at once', () => {
+    expect(ids(deleteFrames(groupOf(1000, 2000, 1500), [3, 1]))).toEqual([2]);
+  });
+
+  test('several frames come together around the one that leads', () => {
+    const group = groupOf(1000, 2000, 1500, 1800, 1200);
+    expect(ids(moveFrames(group, [2, 5], 2, 2))).toEqual([1, 3, 2, 5, 4]);
+    expect(ids(moveFrames(group, [2, 5], 5, 2))).toEqual([1, 2, 5, 3, 4]);
+    expect(ids(moveFrames(group, [2, 5], 5, 0))).toEqual([2, 5, 1, 3, 4]);
   });
 
   test('an edit that changes nothing returns the same object', () => {
     const group = groupOf(1000, 2000);
-    expect(moveFrame(group, 1, 0)).toBe(group);
-    expect(moveFrame(group, 9, 0)).toBe(group);
+    expect(moveFrames(group, [1, 2], 2, 1)).toBe(group);
+    expect(moveFrames(group, [9], 9, 0)).toBe(group);
+    expect(moveFrames(group, [1], 2, 1)).toBe(group);
     expect(setDuration(group, 1, 500, RIPPLE)).toBe(group);
     expect(setTargets(group, 1, [{ servo: 1, position: 1000 }])).toBe(group);
-    expect(deleteFrame(group, 9)).toBe(group);
-    expect(duplicateFrame(group, 9)).toBe(group);
+    expect(deleteFrames(group, [9])).toBe(group);
+    expect(duplicateFrames(group, [9])).toBe(group);
     expect(rename(group, 'Wave')).toBe(group);
   });
 
@@ -82,23 +97,25 @@ describe('edits of an action group', () => {
     expect(before.frames[1]!.durationMs).toBe(500);
   });
 
-  test('moving a frame keeps every frame and puts that one at its place', () => {
+  test('moved frames stand together in their order, the leading one as near to its place as can be, the others as before', () => {
+    const some = fc.integer({ min: 1, max: 12 }).chain((count) => {
+      const all = Array.from({ length: count }, (_, index) => index + 1);
+      const chosen = fc.subarray(all, { minLength: 1 });
+      return fc.tuple(fc.constant(all), chosen, fc.nat(11), fc.integer({ min: -3, max: 15 }));
+    });
     fc.assert(
-      fc.property(
-        fc.integer({ min: 1, max: 12 }),
-        fc.nat(11),
-        fc.integer({ min: -3, max: 15 }),
-        (count, from, to) => {
-          const group = groupOf(...Array.from({ length: count }, (_, index) => 500 + index));
-          const id = (from % count) + 1;
-          const moved = moveFrame(group, id, to);
-          expect([...ids(moved)].sort((one, other) => one - other)).toEqual(ids(group));
-          expect(ids(moved).indexOf(id)).toBe(Math.max(0, Math.min(to, count - 1)));
-          expect(ids(moved).filter((other) => other !== id)).toEqual(
-            ids(group).filter((other) => other !== id),
-          );
-        },
-      ),
+      fc.property(some, ([all, chosen, lead, to]) => {
+        const group = groupOf(...all.map((id) => 500 + id));
+        const id = chosen[lead % chosen.length]!;
+        const moved = ids(moveFrames(group, chosen.toReversed(), id, to));
+        const first = moved.indexOf(chosen[0]!);
+        expect(moved.slice(first, first + chosen.length)).toEqual(chosen);
+        expect(moved.filter((one) => !chosen.includes(one))).toEqual(
+          all.filter((one) => !chosen.includes(one)),
+        );
+        const start = to - chosen.indexOf(id);
+        expect(first).toBe(Math.max(0, Math.min(start, all.length - chosen.length)));
+      }),
     );
   });
 });

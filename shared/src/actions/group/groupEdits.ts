@@ -55,25 +55,45 @@ export function insertFrame(
   };
 }
 
-export function deleteFrame(group: ActionGroup, id: number): ActionGroup {
-  const frames = group.frames.filter((frame) => frame.id !== id);
-  return frames.length === group.frames.length ? group : { ...group, frames };
+export function deleteFrames(group: ActionGroup, ids: readonly number[]): ActionGroup {
+  const gone = new Set(ids);
+  return changed(group, {
+    frames: sameList(
+      group.frames,
+      group.frames.filter(({ id }) => !gone.has(id)),
+    ),
+  });
 }
 
-/** Puts a copy right behind the frame. */
-export function duplicateFrame(group: ActionGroup, id: number): ActionGroup {
-  const index = indexOfFrame(group, id);
-  const frame = group.frames[index];
-  return frame === undefined ? group : insertFrame(group, index + 1, frame);
+/** Puts new frames at `index`, in their order. */
+export function insertFrames(group: ActionGroup, index: number, frames: readonly NewFrame[]): ActionGroup {
+  return frames.reduce((sum, frame, offset) => insertFrame(sum, index + offset, frame), group);
 }
 
-/** Takes the frame out and puts it back as number `index` of the resulting list (clamped). */
-export function moveFrame(group: ActionGroup, id: number, index: number): ActionGroup {
-  const from = indexOfFrame(group, id);
-  const frame = group.frames[from];
-  const to = Math.max(0, Math.min(index, group.frames.length - 1));
-  if (frame === undefined || from === to) return group;
-  return { ...group, frames: group.frames.toSpliced(from, 1).toSpliced(to, 0, frame) };
+/** Puts copies right behind the last of the frames, in their order. */
+export function duplicateFrames(group: ActionGroup, ids: readonly number[]): ActionGroup {
+  const wanted = new Set(ids);
+  const isWanted = ({ id }: GroupFrame): boolean => wanted.has(id);
+  return insertFrames(group, group.frames.findLastIndex(isWanted) + 1, group.frames.filter(isWanted));
+}
+
+/**
+ * Takes the frames out and puts them back one behind the other, in their order: `lead`, one of them, becomes number `index` of the
+ * resulting list, as far as its ends allow.
+ */
+export function moveFrames(
+  group: ActionGroup,
+  ids: readonly number[],
+  lead: number,
+  index: number,
+): ActionGroup {
+  const meant = new Set(ids);
+  const block = group.frames.filter(({ id }) => meant.has(id));
+  const place = block.findIndex(({ id }) => id === lead);
+  if (place < 0) return group;
+  const others = group.frames.filter(({ id }) => !meant.has(id));
+  const at = Math.max(0, Math.min(index - place, others.length));
+  return changed(group, { frames: sameList(group.frames, others.toSpliced(at, 0, ...block)) });
 }
 
 /** Replaces the frame's pose. */

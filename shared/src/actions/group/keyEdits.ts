@@ -24,7 +24,7 @@ export function setKey(group: ActionGroup, servo: number, atMs: number, position
   const targets = [{ servo, position: wholePosition(position) }];
   return withMoments(
     group,
-    placed(moments, at, targets, (own) => newMoment(at, own, easing)),
+    placed(moments, at, targets, (own) => newMoment(at, own, { easing })),
   );
 }
 
@@ -99,7 +99,7 @@ export function moveKeys(
     return placed(moments, atMs + deltaMs, there, (own) =>
       vacated.has(frame.id)
         ? { atMs, frame: { ...frame, targets: own } }
-        : newMoment(atMs, own, frame.easing),
+        : newMoment(atMs, own, { easing: frame.easing }),
     );
   }, staying);
   return withMoments(group, moved);

@@ -2,7 +2,7 @@
 // one before it. Knows no servo's motion.
 
 import type { ServoTarget } from '../../protocol/commands.ts';
-import { sortedTargets, type ActionGroup, type Easing, type GroupFrame } from './group.ts';
+import { sortedTargets, type ActionGroup, type GroupFrame } from './group.ts';
 import { changed, sameList, samePose } from './groupEdits.ts';
 
 export interface Moment {
@@ -21,11 +21,13 @@ export function momentsOf({ frames }: ActionGroup): readonly Moment[] {
   return frames.map((frame) => ({ atMs: (atMs += frame.durationMs), frame }));
 }
 
-export function newMoment(atMs: number, targets: readonly ServoTarget[], easing: Easing): Moment {
-  return {
-    atMs,
-    frame: { id: UNNUMBERED, durationMs: 0, targets, easing, note: '', colour: null },
-  };
+/** What is not said of its frame is plain: without note and colour. */
+export function newMoment(
+  atMs: number,
+  targets: readonly ServoTarget[],
+  look: Pick<GroupFrame, 'easing'> & Partial<Pick<GroupFrame, 'note' | 'colour'>>,
+): Moment {
+  return { atMs, frame: { id: UNNUMBERED, durationMs: 0, targets, note: '', colour: null, ...look } };
 }
 
 /** No time is before the beginning, and each is a whole millisecond. */
@@ -51,7 +53,7 @@ export function withMoments(
   };
   for (const { atMs, frame } of moments.toSorted((one, other) => one.atMs - other.atMs)) {
     for (; atMs - lastMs > LONGEST_MS; lastMs += LONGEST_MS)
-      add(newMoment(0, [], frame.easing).frame, LONGEST_MS);
+      add(newMoment(0, [], { easing: frame.easing }).frame, LONGEST_MS);
     add(frame, atMs - lastMs);
     lastMs = atMs;
   }

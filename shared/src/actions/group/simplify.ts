@@ -40,7 +40,9 @@ export function simplify(samples: readonly Sample[], options: SimplifyOptions): 
   for (const { servo, places, keys } of gathered(trails, maxErrorUnits))
     for (const { atMs, position } of keys.flatMap((key) => places[key] ?? []))
       targets.set(atMs, [...(targets.get(atMs) ?? []), { servo, position }]);
-  const moments = [...targets].map(([atMs, own]) => newMoment(atMs, sortedTargets(own), 'linear'));
+  const moments = [...targets].map(([atMs, own]) =>
+    newMoment(atMs, sortedTargets(own), { easing: 'linear' }),
+  );
   return withMoments(emptyGroup(name, unit), moments);
 }
 

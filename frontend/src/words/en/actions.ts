@@ -1,0 +1,70 @@
+// Words of the action group being written: its frames, what is done to them, and the steps that come of it.
+
+import type { PositionUnit } from '../numbers.ts';
+import { counted, formatList, formatMs, formatSeconds, formatWhole, unitSymbol } from './numbers.ts';
+
+const theFrames = (numbers: readonly number[]): string =>
+  numbers.length === 1 ? `frame ${formatWhole(numbers[0] ?? 0)}` : counted(numbers.length, 'frame');
+
+export const actionWords = {
+  title: 'Action group',
+  name: 'Name of the group',
+  defaultName: 'New group',
+  frames: 'Frames',
+  empty: 'No frames yet',
+  emptyHint: 'Pose the robot with the sliders, then capture the pose. Two or three poses make a motion.',
+  capture: 'Capture frame',
+  captureHint: 'Adds the commanded pose after the selected frame',
+  captureHere: 'Capture',
+  captureEndHint: 'Adds the commanded pose at the end of the action group',
+  captured: (number: number): string => `Frame ${formatWhole(number)} is captured.`,
+  nothingKnown: 'Move a servo first: nothing is known of the pose yet.',
+  frame: (number: number): string => `Frame ${formatWhole(number)}`,
+  frameAbout: (number: number, durationMs: number, changed: readonly number[]): string => {
+    const moved = changed.length === 0 ? 'moves nothing' : `moves servo ${formatList(changed)}`;
+    return `Frame ${formatWhole(number)}, ${formatMs(durationMs)}, ${moved}`;
+  },
+  playingFrame: 'Playing',
+  time: (number: number): string => `Time of frame ${formatWhole(number)} in milliseconds`,
+  tools: 'Change the selected frame',
+  select: 'Select a frame to change it.',
+  several: (count: number): string => `${counted(count, 'frame')} selected`,
+  load: 'Go to pose',
+  update: 'Update pose',
+  duplicate: 'Duplicate',
+  cut: 'Cut frames',
+  copy: 'Copy frames',
+  paste: 'Paste frames',
+  adds: 'Several',
+  copied: (count: number): string => `${counted(count, 'frame')} copied`,
+  nothingToPaste: 'Copy some frames or keys first.',
+  insert: { before: 'Insert the pose before', after: 'Insert the pose after' },
+  delete: 'Delete',
+  earlier: 'Move earlier',
+  later: 'Move later',
+  undo: 'Undo',
+  redo: 'Redo',
+  undoStep: (label: string): string => `Undo: ${label}`,
+  redoStep: (label: string): string => `Redo: ${label}`,
+  total: (count: number, ms: number): string => `${counted(count, 'frame')}, ${formatSeconds(ms)}`,
+  steps: {
+    capture: 'capture a frame',
+    update: (number: number): string => `update frame ${formatWhole(number)}`,
+    duplicate: (numbers: readonly number[]): string => `duplicate ${theFrames(numbers)}`,
+    delete: (numbers: readonly number[]): string => `delete ${theFrames(numbers)}`,
+    move: (numbers: readonly number[]): string => `move ${theFrames(numbers)}`,
+    cut: (numbers: readonly number[]): string => `cut ${theFrames(numbers)}`,
+    paste: (count: number): string => `paste ${counted(count, 'frame')}`,
+    time: (number: number): string => `time of frame ${formatWhole(number)}`,
+    rename: 'rename group',
+  },
+  /** Numbers of the same frames; several stand together afterwards. */
+  moved: (from: readonly number[], to: readonly number[]): string =>
+    to.length === 1
+      ? `Frame ${formatWhole(from[0] ?? 0)} is now frame ${formatWhole(to[0] ?? 0)}`
+      : `${counted(to.length, 'frame')} are now frames ${formatWhole(to[0] ?? 0)} to ${formatWhole(to.at(-1) ?? 0)}`,
+  otherUnit: (unit: PositionUnit): string =>
+    `This group is in ${unitSymbol(unit)}; the connected board counts otherwise.`,
+  broken: 'The saved group could not be read. It was set aside unharmed, and a new group begun.',
+  notSaved: 'The browser does not store the group; it is kept until the page is closed.',
+};
