@@ -78,9 +78,9 @@ function pressed(
 
 /** Until its frames are on their way, and then any moment more. */
 async function downloads({ presser, url }: Robot): Promise<void> {
-  const body = JSON.stringify({ frames: FRAMES, nonce: presser.nonce });
+  const body = JSON.stringify({ groups: [{ slot: SLOT, frames: FRAMES }], nonce: presser.nonce });
   const headers = { 'content-type': 'application/json' };
-  const answer = await fetch(`${url}/api/slots/${SLOT}/download`, { method: 'POST', headers, body });
+  const answer = await fetch(`${url}/api/download`, { method: 'POST', headers, body });
   const { id, detail } = (await answer.json()) as { id?: string; detail?: string };
   if (id === undefined) throw new Error(`no download: ${detail}`);
   while ((await framesStored(url, id)) === 0) await presser.waitWithin(10, 20);

@@ -50,15 +50,17 @@ LEASE = {
 }
 JOB = {
     "id": "8f14e45fceea",
-    "slot": 5,
-    "name": "Wave",
     "by": "Dance",
     "status": "running",
-    "framesStored": 9,
-    "frameCount": 21,
-    "bytesSent": 264,
-    "bytesTotal": 616,
-    "remainingMs": 4200,
+    "slots": [5, 6],
+    "groupsStored": 0,
+    "slot": 5,
+    "name": "Wave",
+    "framesStored": 1,
+    "frameCount": 3,
+    "bytesSent": 13,
+    "bytesTotal": 39,
+    "remainingMs": 420,
     "code": None,
     "detail": None,
 }
@@ -113,13 +115,19 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         {"times": 2, "continueForMs": 60000, "take": False},
         (*ON_THE_WIRE, "slotBroken"),
     ),
-    ("POST", "/api/slots/{slot}/download"): Example(
+    ("POST", "/api/download"): Example(
         JOB,
         {
-            "name": "Wave",
-            "frames": [
-                {"durationMs": 400, "positions": {"1": 1200}},
-                {"durationMs": 400, "positions": {"1": 1800}},
+            "groups": [
+                {
+                    "slot": 5,
+                    "name": "Wave",
+                    "frames": [
+                        {"durationMs": 400, "positions": {"1": 1200}},
+                        {"durationMs": 400, "positions": {"1": 1800}},
+                    ],
+                },
+                {"slot": 6, "name": "Bow", "frames": [{"durationMs": 900, "positions": {"1": 1500}}]},
             ],
             "nonce": None,
             "take": False,

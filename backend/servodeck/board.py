@@ -18,11 +18,12 @@ from servodeck.errors import CancelledError, ClosedError, GatewayError, PortLost
 from servodeck.families import Family
 from servodeck.gate import STOP, is_harmless, judge_packet
 from servodeck.inbox import Inbox
-from servodeck.jobs import Group, Jobs
+from servodeck.jobs import Jobs
 from servodeck.link import Link, Ports
 from servodeck.messages import JobState, PortState
 from servodeck.motion import Motion
 from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command, parse_report
+from servodeck.parts import Group
 from servodeck.ports import OpenPort
 from servodeck.silence import Silence
 from servodeck.unattended import Unattended
@@ -167,6 +168,9 @@ class Board:
 
     def broken_slots_changed(self) -> None:
         self._events.board_changed()
+
+    def group_begun(self, group: Group) -> None:
+        self.motion.unstored(group.slot)
 
     def group_stored(self, group: Group) -> None:
         self.motion.stored(group.slot, group.frames)

@@ -4,7 +4,7 @@ Knows what is asked and what may be done now. Must not know HTTP, WebSockets or 
 """
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from servodeck import __version__
 from servodeck.board import Board
@@ -26,13 +26,11 @@ from servodeck.gate import (
     STOP,
     is_harmless,
     judge_by_hand,
-    judge_group,
     judge_latch,
     judge_newest,
     judge_packet,
 )
 from servodeck.hub import Hub, Seat
-from servodeck.jobs import Group
 from servodeck.latch import Cause, Latch
 from servodeck.link import Ports
 from servodeck.messages import (
@@ -49,6 +47,7 @@ from servodeck.messages import (
     encode,
 )
 from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command
+from servodeck.parts import Part, judge_parts
 from servodeck.recalled_board import RecalledBoard
 from servodeck.relay import Relay
 from servodeck.remembered import Remembered
@@ -192,22 +191,22 @@ class Control:
             raise OutOfRangeError("times is 0: what goes on without its driver has an end.")
         self.board.unattended.allow(run, seat, for_ms / 1000)
 
-    def download(self, group: Group, by: str, claim: Callable[[], object]) -> JobState:
-        """Begins to store it; raises what keeps it from that before anything is sent. `claim` raises where
+    def download(self, parts: Sequence[Part], by: str, claim: Callable[[], object]) -> JobState:
+        """Begins to store them; raises what keeps it from that before anything is sent. `claim` raises where
         `by` may not.
         """
         board = self.board
-        packets = judge_group(group.slot, group.frames, board.taken_for)
-        for packet in packets:
-            self.limits.judge(packet, None)
+        judge_parts(parts, board.taken_for)
+        for part in parts:
+            for frame in part.group.frames:
+                self.limits.judge_targets(frame.targets)
         wire = board.link.wire()
-        judge_latch(packets[0], self.latch)
+        judge_latch(parts[0].packets[0], self.latch)
         board.jobs.judge_idle()
         if board.may_move() or not wire.is_clear_of(lambda packet: not is_harmless(packet)):
             raise MovingError("The robot is moving, or a group may still run: wait, or stop it first.")
         claim()
-        board.motion.unstored(group.slot)
-        return board.jobs.begin(group, packets, by, board.link.place, wire)
+        return board.jobs.begin(parts, by, board.link.place, wire)
 
     async def use_port(self, device: str, board: str | None = None) -> None:
         await self.board.quiet()

@@ -8,7 +8,6 @@ each other.
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 
 from servodeck.answers import Answers
 from servodeck.errors import CancelledError, NoAnswerError
@@ -24,15 +23,6 @@ RESTARTS = 2
 BABBLE_LIMIT = 12
 
 
-@dataclass(frozen=True, slots=True)
-class Progress:
-    frames_stored: int
-    frame_count: int
-    bytes_sent: int
-    bytes_total: int
-    remaining_s: float
-
-
 class Download:
     def __init__(
         self,
@@ -40,27 +30,26 @@ class Download:
         send: Callable[[bytes], Left],
         answers: Answers,
         now: Callable[[], float],
-        progress: Callable[[Progress], None],
+        is_cancelled: Callable[[], bool],
+        stored: Callable[[int], None],
     ) -> None:
-        """`packets` in the order of their frames."""
+        """`packets` in the order of their frames. `is_cancelled` is asked between two frames; `stored` hears
+        how many the board has, 0 at each beginning.
+        """
         self._packets = packets
         self._send = send
         self._answers = answers
         self._now = now
-        self._progress = progress
-        self._is_cancelled = False
+        self._is_cancelled = is_cancelled
+        self._stored = stored
         # When the oldest packet left whose answer is still owed.
         self._owed_since_s: float | None = None
-
-    def cancel(self) -> None:
-        """Between two frames."""
-        self._is_cancelled = True
 
     async def settle(self, owed_s: float) -> None:
         """Before the first frame: an answer that an earlier download did not wait for would be taken for
         ours.
         """
-        self._tell(0, 0.0)
+        self._stored(0)
         if owed_s > 0:
             await self._silence(owed_s)
         self._refuse_if_cancelled()
@@ -76,12 +65,11 @@ class Download:
         await self._store_all()
 
     async def _store_all(self) -> None:
-        begun_s = self._now()
-        self._tell(0, 0.0)
+        self._stored(0)
         for index in range(len(self._packets)):
             self._refuse_if_cancelled()
             await self._store_frame(index)
-            self._tell(index + 1, self._now() - begun_s)
+            self._stored(index + 1)
 
     async def _store_frame(self, index: int) -> None:
         """A frame written twice with the same bytes is what it was (S36), the last one too: its commit writes
@@ -123,13 +111,5 @@ class Download:
         return EDGE_FRAME_TIMEOUT_S if is_edge else MIDDLE_FRAME_TIMEOUT_S
 
     def _refuse_if_cancelled(self) -> None:
-        if self._is_cancelled:
+        if self._is_cancelled():
             raise CancelledError("The download was cancelled.")
-
-    def _tell(self, stored: int, elapsed_s: float) -> None:
-        """The time left is at least the wire's; what the first frames really took includes the flash."""
-        total = sum(map(len, self._packets))
-        sent = sum(map(len, self._packets[:stored]))
-        measured_s = elapsed_s / sent * (total - sent) if sent else 0.0
-        remaining_s = max(wire_s(total - sent), measured_s)
-        self._progress(Progress(stored, len(self._packets), sent, total, remaining_s))

@@ -4,7 +4,7 @@ Denies by default: only the names of `access` pass, the page served under them, 
 Origin.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from servodeck.access import Access
 from servodeck.callers import Role
@@ -19,7 +19,7 @@ from servodeck.errors import (
     WrongTypeError,
 )
 from servodeck.packets import FAMILIES, PacketError, check_command, encode
-from servodeck.values import Download, Frame
+from servodeck.values import Download
 
 MOVE, RUN, STOP, ERASE, DOWNLOAD = 3, 6, 7, 8, 25
 BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
@@ -116,14 +116,10 @@ def judge_packet(text: str, board: str) -> bytes:
     return packet
 
 
-def judge_group(slot: int, frames: Sequence[Frame], board: str) -> list[bytes]:
-    """The packets that store it. Raises what that board cannot take of it."""
-    count = len(frames)
-    if count == 0:
-        raise OutOfRangeError("An action group needs at least one frame.")
-    commands = [Download(slot, count, index, frame) for index, frame in enumerate(frames)]
+def judge_frame(command: Download, board: str) -> bytes:
+    """The packet that stores it. Raises what that board cannot take of it."""
     try:
-        return [encode(command, FAMILIES[board]) for command in commands]
+        return encode(command, FAMILIES[board])
     except PacketError as error:
         raise refusal_of(error) from error
 
@@ -131,7 +127,7 @@ def judge_group(slot: int, frames: Sequence[Frame], board: str) -> list[bytes]:
 def judge_by_hand(packet: bytes) -> None:
     """A frame alone only breaks the slot it goes to (S33, S35). Raises NotSupportedError."""
     if packet[COMMAND_AT] == DOWNLOAD:
-        raise NotSupportedError("Groups are stored as a whole: POST /api/slots/{slot}/download.")
+        raise NotSupportedError("Groups are stored as a whole: POST /api/download.")
 
 
 def judge_newest(packet: bytes, newest: bool) -> None:

@@ -6,18 +6,18 @@ Knows packets and a wire. Must not know HTTP, nor who may begin one and when.
 
 import asyncio
 import logging
-import secrets
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import Protocol
 
 from servodeck.answers import Answers
 from servodeck.broken_slots import BrokenSlots
-from servodeck.download import EDGE_FRAME_TIMEOUT_S, Download, Progress
+from servodeck.download import EDGE_FRAME_TIMEOUT_S, Download
 from servodeck.errors import GatewayError, MovingError, NotFoundError, SlotBrokenError
+from servodeck.job import Job
 from servodeck.messages import JobState
-from servodeck.values import Command, Erase, Erased, Frame, Report, Run
+from servodeck.parts import Group, Part
+from servodeck.values import Command, Erase, Erased, Report, Run
 from servodeck.wire import Wire
 
 REMEMBERED = 16
@@ -28,62 +28,16 @@ ERASE_TIMEOUT_S = 1.0
 log = logging.getLogger("servodeck.robot")
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
-    slot: int
-    name: str
-    frames: Sequence[Frame]
-
-
 class JobEvents(Protocol):
     def job_changed(self, state: JobState) -> None: ...
 
     def broken_slots_changed(self) -> None: ...
 
+    def group_begun(self, group: Group) -> None:
+        """What its slot held before is gone."""
+
     def group_stored(self, group: Group) -> None:
         """All of it is on the board."""
-
-
-class Job:
-    """One download. The owner of its packets on the wire."""
-
-    def __init__(self, group: Group, packets: Sequence[bytes], by: str, board: str, wire: Wire) -> None:
-        """`board` is what its broken slots are remembered by."""
-        self.group = group
-        self.packets = packets
-        self.board = board
-        self.wire = wire
-        self.has_begun = False
-        # Its slot was whole before: where nothing has left, it still is.
-        self.broke = False
-        self.download: Download
-        self.task: asyncio.Task[None]
-        self.state = JobState(
-            id=secrets.token_hex(6),
-            slot=group.slot,
-            name=group.name,
-            by=by,
-            status="running",
-            frames_stored=0,
-            frame_count=len(packets),
-            bytes_sent=0,
-            bytes_total=sum(map(len, packets)),
-            remaining_ms=0,
-        )
-
-    def note(self, progress: Progress) -> None:
-        self.state = self.state.model_copy(
-            update={
-                "frames_stored": progress.frames_stored,
-                "bytes_sent": progress.bytes_sent,
-                "remaining_ms": round(progress.remaining_s * 1000),
-            }
-        )
-
-    def conclude(self, error: GatewayError | None) -> None:
-        status = "done" if error is None else "cancelled" if error.code == "cancelled" else "failed"
-        reason = {} if error is None else {"code": error.code, "detail": error.detail}
-        self.state = self.state.model_copy(update={"status": status, "remaining_ms": 0, **reason})
 
 
 class Jobs:
@@ -109,29 +63,23 @@ class Jobs:
     def find(self, job_id: str) -> JobState:
         return self._found(job_id).state
 
-    def begin(self, group: Group, packets: Sequence[bytes], by: str, board: str, wire: Wire) -> JobState:
-        """Raises MovingError while another one lasts."""
+    def begin(self, parts: Sequence[Part], by: str, board: str, wire: Wire) -> JobState:
+        """One group after the other, until one fails. Raises MovingError while another job lasts."""
         self.judge_idle()
-        job = Job(group, packets, by, board, wire)
-        job.download = Download(
-            packets,
-            lambda packet: wire.send(packet, job),
-            self._answers,
-            self._now,
-            lambda progress: self._progressed(job, progress),
-        )
+        job = Job(parts, by, board, wire, self._now)
         self._current = self._known[job.state.id] = job
         for old in list(self._known)[:-REMEMBERED]:
             del self._known[old]
-        log.info("download begun", extra={"facts": {"slot": group.slot, "frames": len(packets)}})
+        facts = {"slots": job.state.slots, "frames": job.state.frame_count}
+        log.info("download begun", extra={"facts": facts})
         self._tell(job)
         job.task = asyncio.create_task(self._run(job))
         return job.state
 
     def cancel(self, job_id: str) -> JobState:
-        """It ends after its frame in progress."""
+        """It ends after its frame in progress; the groups behind are not begun."""
         job = self._found(job_id)
-        job.download.cancel()
+        job.is_cancelled = True
         return job.state
 
     def end(self, error: GatewayError) -> None:
@@ -147,7 +95,7 @@ class Jobs:
         """
         if job := self._current:
             raise MovingError(
-                f"A download to slot {job.group.slot} is under way ({job.state.frames_stored} of "
+                f"A download to slot {job.state.slot} is under way ({job.state.frames_stored} of "
                 f"{job.state.frame_count} frames): wait for its end, or cancel it."
             )
         if self._now() < self._erasing_until_s:
@@ -174,35 +122,59 @@ class Jobs:
 
     async def _run(self, job: Job) -> None:
         try:
-            await job.download.settle(self._owed_until_s - self._now())
-            job.broke = job.group.slot not in self._memory.of(job.board)
-            self._memory.add(job.board, job.group.slot)
-            self._events.broken_slots_changed()
-            await self._memory.kept()  # before the first byte leaves: a crash must not forget it
-            job.has_begun = True
-            await job.download.store()
+            for part in job.parts:
+                await self._store(job, part)
             self._finish(job, None)
-            self._events.group_stored(job.group)
         except GatewayError as error:
             self._finish(job, error)
         finally:
             if self._current is job:  # a defect of ours, and the robot is not to wait for it
                 self._finish(job, GatewayError("The download ended by a mistake of the gateway."))
 
+    async def _store(self, job: Job, part: Part) -> None:
+        slot = part.group.slot
+        download = Download(
+            part.packets,
+            lambda packet: job.wire.send(packet, job),
+            self._answers,
+            self._now,
+            lambda: job.is_cancelled,
+            lambda frames: self._progressed(job, frames),
+        )
+        await download.settle(self._owed_until_s - self._now())
+        job.broke = slot not in self._memory.of(job.board)
+        self._memory.add(job.board, slot)
+        self._events.group_begun(part.group)
+        self._events.broken_slots_changed()
+        await self._memory.kept()  # before the first byte leaves: a crash must not forget it
+        job.has_begun = True
+        await download.store()
+        self._owed_until_s = float("-inf")
+        self._mend(job)
+        job.note_whole()
+        self._events.group_stored(part.group)
+        self._events.broken_slots_changed()
+        self._tell(job)
+
     def _finish(self, job: Job, error: GatewayError | None) -> None:
         self._current = None
-        self._owed_until_s = float("-inf") if error is None else self._now() + EDGE_FRAME_TIMEOUT_S
-        if error is None or (job.broke and not job.has_begun):
-            self._memory.remove(job.board, job.group.slot)
-            self._memory.keep_soon()
+        if error:
+            self._owed_until_s = self._now() + EDGE_FRAME_TIMEOUT_S
+        if job.broke and not job.has_begun:
+            self._mend(job)
         job.conclude(error)
-        facts = {"slot": job.group.slot, "code": job.state.code, "detail": job.state.detail}
+        facts = {"slot": job.state.slot, "code": job.state.code, "detail": job.state.detail}
         log.info("download %s", job.state.status, extra={"facts": facts})
         self._events.broken_slots_changed()
         self._tell(job)
 
-    def _progressed(self, job: Job, progress: Progress) -> None:
-        job.note(progress)
+    def _mend(self, job: Job) -> None:
+        """The slot of its present group holds a whole one."""
+        self._memory.remove(job.board, job.group.slot)
+        self._memory.keep_soon()
+
+    def _progressed(self, job: Job, frames: int) -> None:
+        job.note(frames)
         if self._teller is None:
             delay_s = max(0.0, self._told_s + TOLD_EVERY_S - self._now())
             self._teller = asyncio.get_running_loop().call_later(delay_s, self._tell, job)

@@ -2,6 +2,7 @@
 `control`; decides nothing.
 """
 
+import asyncio
 from typing import Annotated
 
 from fastapi import APIRouter, Depends
@@ -9,9 +10,9 @@ from pydantic import Field
 
 from servodeck.api import Controlled, Problem, called_by_own_page
 from servodeck.callers import Caller
-from servodeck.jobs import Group
 from servodeck.messages import JobState, Message, Nonce
 from servodeck.motion_api import Scripted, Servo, Take
+from servodeck.parts import Group, parts_of
 from servodeck.roles import DRIVER, VIEWER
 from servodeck.values import Frame, ServoTarget
 
@@ -28,10 +29,25 @@ class FrameBody(Message):
 
 
 class GroupBody(Message):
-    """`nonce`: of the page that drives. A program needs none; `take` as with every motion."""
-
+    slot: Annotated[int, Field(ge=0, le=255)]
     name: Annotated[str, Field(max_length=64)] = ""
     frames: Annotated[list[FrameBody], Field(min_length=1, max_length=255)]
+
+    async def group(self) -> Group:
+        """As `parts` does: others go on between two frames."""
+        frames = []
+        for body in self.frames:
+            frames.append(body.frame())
+            await asyncio.sleep(0)
+        return Group(self.slot, self.name, frames)
+
+
+class DownloadWish(Message):
+    """`groups` in the order in which they are stored, each to a slot of its own. `nonce`: of the page that
+    drives. A program needs none; `take` as with every motion.
+    """
+
+    groups: Annotated[list[GroupBody], Field(min_length=1, max_length=256)]
     nonce: Nonce | None = None
     take: Take = False
 
@@ -43,22 +59,23 @@ jobs_api = APIRouter(
 )
 
 
-@jobs_api.post("/slots/{slot}/download", status_code=202)
+@jobs_api.post("/download", status_code=202)
 async def download(
-    slot: int,
-    body: GroupBody,
+    wish: DownloadWish,
     caller: Annotated[Caller, DRIVER],
     control: Controlled,
     scripts: Scripted,
 ) -> JobState:
-    """Stores the group in that slot. Goes on when whoever asked has left; STOP ends it, and then the slot is
-    broken: nobody may run it before another download to it has ended well.
+    """Stores groups in slots of the board, one after the other. Goes on when whoever asked has left; STOP
+    ends it, and then the slot of the group in progress is broken: nobody may run it before another download
+    to it has ended well.
     """
-    group = Group(slot, body.name, [frame.frame() for frame in body.frames])
-    nonce = body.nonce
+    groups = [await body.group() for body in wish.groups]
+    parts = await parts_of(groups, control.board.taken_for)
+    nonce = wish.nonce
     if nonce is None:
-        return scripts.download(caller, group, take=body.take)
-    return control.download(group, caller.name, lambda: control.driving.judge_request(caller, nonce))
+        return scripts.download(caller, parts, take=wish.take)
+    return control.download(parts, caller.name, lambda: control.driving.judge_request(caller, nonce))
 
 
 @jobs_api.get("/jobs/{job}", dependencies=[VIEWER])
@@ -69,5 +86,7 @@ async def job_state(job: str, control: Controlled) -> JobState:
 
 @jobs_api.delete("/jobs/{job}", dependencies=[DRIVER])
 async def cancel(job: str, control: Controlled) -> JobState:
-    """Calls it off behind its frame in progress; one that has ended stays what it is."""
+    """Calls it off behind its frame in progress, with the groups behind it; one that has ended stays what it
+    is.
+    """
     return control.board.jobs.cancel(job)

@@ -113,15 +113,18 @@ JobStatus = Literal["running", "done", "failed", "cancelled"]
 
 
 class JobState(Message):
-    """A download and how far it is. `by`: who began it. `code` and `detail` say why it failed or was
-    cancelled.
+    """A download and how far it is. `slots`: where its groups go, in this order; `slot` and `name`: of the
+    one that is being stored, or was last; frames and bytes are of all of them. `by`: who began it. `code` and
+    `detail` say why it failed or was cancelled.
     """
 
     id: str
-    slot: int
-    name: str
     by: str
     status: JobStatus
+    slots: list[int]
+    groups_stored: int
+    slot: int
+    name: str
     frames_stored: int
     frame_count: int
     bytes_sent: int

@@ -4,12 +4,12 @@ Knows packets and who sends them; no port and no client's socket. The page refus
 come here; this holds for every program that moves the robot.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from servodeck.errors import MovingError, OutOfRangeError
 from servodeck.messages import ServoLimits
 from servodeck.packets import parse_command
-from servodeck.values import Command, Download, Move, ServoTarget
+from servodeck.values import Command, Move, ServoTarget
 from servodeck.wire import Owner
 
 
@@ -53,8 +53,10 @@ class RobotLimits:
 
     def judge(self, packet: bytes, owner: Owner) -> None:
         """Raises OutOfRangeError that names the servo and its range, or MovingError."""
-        free = self._calibrating.get(owner)
-        targets = targets_of(parse_command(packet))
+        self.judge_targets(targets_of(parse_command(packet)), self._calibrating.get(owner))
+
+    def judge_targets(self, targets: Sequence[ServoTarget], free: int | None = None) -> None:
+        """As `judge`; that servo is `free` of its limits."""
         if targets and self._are_awaited:
             raise MovingError("The limits of this robot are still being read: try again.")
         for target in targets:
@@ -67,9 +69,4 @@ class RobotLimits:
 
 
 def targets_of(command: Command | None) -> tuple[ServoTarget, ...]:
-    match command:
-        case Move(_, targets):
-            return targets
-        case Download(_, _, _, frame):
-            return frame.targets
-    return ()
+    return command.targets if isinstance(command, Move) else ()

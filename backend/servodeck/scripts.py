@@ -7,7 +7,7 @@ Knows what is asked and in which order it leaves; no HTTP. Who may drive is `dri
 
 import asyncio
 import contextlib
-from collections.abc import Awaitable, Callable, Iterator, Mapping
+from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -17,8 +17,8 @@ from servodeck.errors import CancelledError, MovingError, NoAnswerError, OutOfRa
 from servodeck.families import Family
 from servodeck.gate import judge_latch
 from servodeck.hub import Seat
-from servodeck.jobs import Group
 from servodeck.messages import JobState, LeaseState
+from servodeck.parts import Part
 from servodeck.script_moves import packet_of, plan_move
 from servodeck.values import Erase, Erased, Run, RunAccepted, RunStarted
 from servodeck.wire import Left
@@ -134,10 +134,10 @@ class Scripts:
             self._control.let_go_on(seat, continue_ms)
         return outcome
 
-    def download(self, caller: Caller, group: Group, *, take: bool) -> JobState:
+    def download(self, caller: Caller, parts: Sequence[Part], *, take: bool) -> JobState:
         """Needs the lease to begin with, and nobody from then on."""
         seat, driving = self._seat_of(caller), self._control.driving
-        job = self._control.download(group, seat.caller.name, lambda: driving.speak_for(seat, take=take))
+        job = self._control.download(parts, seat.caller.name, lambda: driving.speak_for(seat, take=take))
         driving.vouch(seat, 0.0)
         return job
 

@@ -12,8 +12,8 @@ import pytest
 from servodeck import download, jobs
 from servodeck.callers import Caller
 from servodeck.control import Control
-from servodeck.jobs import Group
 from servodeck.messages import JobState
+from servodeck.parts import Group, Part, packets_of
 from servodeck.values import Frame, ServoTarget
 from servodeck.wire import wire_s
 from tests.client import Client, gateway_on
@@ -49,12 +49,22 @@ async def ended(control: Control, job: JobState) -> JobState:
     return state
 
 
-def group_of(scenario: dict[str, Any]) -> Group:
-    frames = [
+def begin(control: Control, *groups: Group) -> JobState:
+    """By somebody who may."""
+    board = control.board.taken_for
+    parts = [Part(group, list(packets_of(group, board)), board) for group in groups]
+    return control.download(parts, "Anna", lambda: None)
+
+
+def groups_of(scenario: dict[str, Any]) -> list[Group]:
+    return [Group(one["slot"], "", frames_of(one)) for one in (scenario, *scenario.get("then", ()))]
+
+
+def frames_of(group: dict[str, Any]) -> list[Frame]:
+    return [
         Frame(one["durationMs"], tuple(ServoTarget(*target) for target in one["targets"]))
-        for one in scenario["frames"]
+        for one in group["frames"]
     ]
-    return Group(scenario["slot"], scenario["name"], frames)
 
 
 def test_the_waiting_times_are_those_of_the_page() -> None:
@@ -73,7 +83,7 @@ async def test_a_download_in_which(scenario: dict[str, Any]) -> None:
     port = AnsweringPort(scenario["answersMs"])
     async with gateway_on(port) as control:
         begun_s = now()
-        job = control.download(group_of(scenario), "Anna", lambda: None)
+        job = begin(control, *groups_of(scenario))
         if "cancelAtMs" in scenario:
             at(begun_s + scenario["cancelAtMs"] / 1000, lambda: control.board.jobs.cancel(job.id))
         end = await ended(control, job)
@@ -84,5 +94,5 @@ async def test_a_download_in_which(scenario: dict[str, Any]) -> None:
         assert [(at_s - begun_s) * 1000 for at_s, _ in sent] == pytest.approx(times_ms, abs=0.01)
         assert took_ms == pytest.approx(scenario["tookMs"], abs=0.01)
         assert (end.code or end.status) == scenario["outcome"]
-        is_broken = scenario["outcome"] != "done"
-        assert control.board.jobs.broken(control.board.link.place) == [scenario["slot"]] * is_broken
+        broken = [] if end.status == "done" else scenario.get("broken", [scenario["slot"]])
+        assert control.board.jobs.broken(control.board.link.place) == broken

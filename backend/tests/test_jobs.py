@@ -21,15 +21,14 @@ from servodeck.errors import (
     OutOfRangeError,
     SlotBrokenError,
 )
-from servodeck.jobs import Group
-from servodeck.messages import JobState
 from servodeck.packets import FAMILIES, encode
+from servodeck.parts import Group, Part, packets_of
 from servodeck.values import Frame, Run, ServoTarget
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort, FakePorts
 from tests.running import http_to
 from tests.samples import BATTERY, DOWNLOAD, ERASE, MOVE, RUN, STOP
-from tests.test_download import STORED, AnsweringPort, ended
+from tests.test_download import STORED, AnsweringPort, begin, ended
 from tests.virtual_time import at, in_virtual_time, now
 
 SLOT = 8
@@ -43,10 +42,6 @@ def board_of(*, silent_after: int | None = None) -> AnsweringPort:
     return AnsweringPort(QUICK[:silent_after])
 
 
-def begin(control: Control, group: Group = WAVE) -> JobState:
-    return control.download(group, "Anna", lambda: None)
-
-
 def broken(control: Control) -> list[int]:
     return control.board.jobs.broken(control.board.link.place)
 
@@ -56,7 +51,7 @@ async def test_it_goes_on_when_everybody_has_left() -> None:
     async with gateway_on(board_of()) as control:
         anna = Client(control)
         control.driving.act(anna, "request")
-        job = begin(control)
+        job = begin(control, WAVE)
         await asyncio.sleep(0.1)
         control.leave(anna)
         assert (await ended(control, job)).status == "done"
@@ -71,7 +66,7 @@ async def test_everybody_hears_how_far_it_is_and_whoever_joins_later_too() -> No
     async with gateway_on(board_of()) as control:
         anna = Client(control, PUPIL)
         await anna.heard()
-        job = begin(control)
+        job = begin(control, WAVE)
         await asyncio.sleep(0.19)
         bert = Client(control)
         [welcome] = await bert.heard()
@@ -80,10 +75,12 @@ async def test_everybody_hears_how_far_it_is_and_whoever_joins_later_too() -> No
         jobs = [message["job"] for message in await anna.heard() if message["type"] == "job"]
         assert jobs[0] == {
             "id": job.id,
-            "slot": SLOT,
-            "name": "Wave",
             "by": "Anna",
             "status": "running",
+            "slots": [SLOT],
+            "groupsStored": 0,
+            "slot": SLOT,
+            "name": "Wave",
             "framesStored": 0,
             "frameCount": 3,
             "bytesSent": 0,
@@ -114,13 +111,13 @@ async def test_while_it_lasts_nothing_else_goes_to_the_board_whoever_asks() -> N
     port = board_of()
     async with gateway_on(port) as control:
         anna = Client(control)
-        job = begin(control)
+        job = begin(control, WAVE)
         await asyncio.sleep(0.05)
         for packet in (MOVE, RUN_WAVE, ERASE, BATTERY):
             with pytest.raises((MovingError, SlotBrokenError)):
                 anna.send(packet)
         with pytest.raises(MovingError):
-            begin(control)
+            begin(control, WAVE)
         with pytest.raises(MovingError):
             control.take_for("openarm-new")
         assert (await ended(control, job)).status == "done"
@@ -144,20 +141,20 @@ async def test_it_is_refused_while_something_moves_or_may(what: bytes) -> None:
         anna = Client(control)
         left = anna.send(what)
         with pytest.raises(MovingError):
-            begin(control)
+            begin(control, WAVE)
         await left
         with pytest.raises(MovingError):
-            begin(control)
+            begin(control, WAVE)
         if what == RUN:
             port.say(bytes.fromhex("55550207"))  # too soon to be about this run
             await asyncio.sleep(0)
             with pytest.raises(MovingError):
-                begin(control)
+                begin(control, WAVE)
         await asyncio.sleep(1.1)
         if what == RUN:
             port.say(bytes.fromhex("55550207"))  # finished
             await asyncio.sleep(0.01)
-        begin(control)
+        begin(control, WAVE)
 
 
 @in_virtual_time
@@ -169,14 +166,14 @@ async def test_it_is_refused_between_the_stops_of_a_change_of_driver_and_while_t
         control.driving.act(bert, "take")
         await asyncio.sleep(0.1)
         with pytest.raises(MovingError):
-            begin(control)
+            begin(control, WAVE)
         await asyncio.sleep(0.2)
         await bert.send(ERASE)
         with pytest.raises(MovingError, match="erasing"):
-            begin(control)
+            begin(control, WAVE)
         port.say(bytes.fromhex("55550208"))
         await asyncio.sleep(0.01)
-        begin(control)
+        begin(control, WAVE)
 
 
 @in_virtual_time
@@ -184,13 +181,13 @@ async def test_a_group_of_this_gateway_is_over_after_its_time_where_the_board_sa
     async with gateway_on(AnsweringPort(QUICK * 2)) as control:
         control.take_for("openarm-old")
         anna = Client(control)
-        await ended(control, begin(control))
+        await ended(control, begin(control, WAVE))
         await anna.send(encode(Run(SLOT, 2), FAMILIES["openarm-old"]))
         await asyncio.sleep(3.0)
         with pytest.raises(MovingError):
-            begin(control)
+            begin(control, WAVE)
         await asyncio.sleep(1.6)
-        begin(control)
+        begin(control, WAVE)
 
 
 @in_virtual_time
@@ -224,7 +221,7 @@ async def test_who_may_not_begins_none() -> None:
             raise NotDrivingError("Anna drives.")
 
         with pytest.raises(NotDrivingError):
-            control.download(WAVE, "Bert", refuse)
+            control.download([Part(WAVE, list(packets_of(WAVE, "doc")), "doc")], "Bert", refuse)
         await asyncio.sleep(1)
         assert (control.board.jobs.latest, port.packets()) == (None, [STOP])
 
@@ -235,7 +232,7 @@ async def test_a_change_of_driver_does_not_end_it() -> None:
     async with gateway_on(port) as control:
         anna, bert = Client(control, PUPIL), Client(control)
         control.driving.act(anna, "request")
-        job = begin(control)
+        job = begin(control, WAVE)
         control.driving.act(bert, "take")
         with pytest.raises(MovingError):
             bert.send(MOVE)
@@ -260,7 +257,7 @@ async def test_what_ends_it_is_said_and_leaves_the_slot_broken(end: str) -> None
     port, other = board_of(silent_after=1), FakePort()
     async with gateway_on(port, other) as control:
         anna = Client(control)
-        job = begin(control)
+        job = begin(control, WAVE)
         place = control.board.link.place
         await asyncio.sleep(0.3)
         match end:
@@ -295,7 +292,7 @@ async def test_a_broken_slot_is_run_by_nobody_until_a_download_or_an_erase_has_e
     port = AnsweringPort([[180], [], [], *QUICK])
     async with gateway_on(port) as control:
         anna = Client(control)
-        job = begin(control)
+        job = begin(control, WAVE)
         await asyncio.sleep(0.3)
         control.board.jobs.cancel(job.id)
         assert (await ended(control, job)).status in ("cancelled", "failed")
@@ -303,7 +300,7 @@ async def test_a_broken_slot_is_run_by_nobody_until_a_download_or_an_erase_has_e
         with pytest.raises(SlotBrokenError):
             anna.send(RUN_WAVE)
         await asyncio.sleep(3)
-        assert (await ended(control, begin(control))).status == "done"
+        assert (await ended(control, begin(control, WAVE))).status == "done"
         await anna.send(RUN_WAVE)
 
 
@@ -312,7 +309,7 @@ async def test_an_erase_that_the_board_confirms_mends_every_slot() -> None:
     port = board_of(silent_after=1)
     async with gateway_on(port) as control:
         anna = Client(control)
-        begin(control)
+        begin(control, WAVE)
         await asyncio.sleep(0.3)
         await anna.send(STOP)
         port.say(bytes.fromhex("55550208"))  # nobody has asked for it
@@ -329,12 +326,12 @@ async def test_words_that_an_ended_one_is_still_owed_speak_for_no_other() -> Non
     port = AnsweringPort([[], [180], [4], [46]])
     async with gateway_on(port) as control:
         anna = Client(control)
-        begin(control)
+        begin(control, WAVE)
         await asyncio.sleep(0.1)
         await anna.send(STOP)
         begun_s = now()
         at(begun_s + 1.5, lambda: port.say(STORED))
-        job = begin(control)
+        job = begin(control, WAVE)
         assert (await ended(control, job)).status == "done"
         first_s = next(at_s for at_s, packet in port.written if at_s > begun_s and packet[3] == DOWNLOAD[3])
         assert first_s - begun_s >= 1.5 + 2.3
@@ -344,7 +341,7 @@ async def test_words_that_an_ended_one_is_still_owed_speak_for_no_other() -> Non
 async def test_what_is_stopped_before_its_first_byte_leaves_the_slot_whole() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        begin(control)
+        begin(control, WAVE)
         await control.stop(None)
         await asyncio.sleep(1)
         assert broken(control) == []
@@ -380,7 +377,7 @@ async def test_it_is_on_disk_before_the_first_byte_leaves_and_a_disk_that_takes_
         loop = asyncio.get_running_loop()
         control = Control(FakePorts(port), loop.time, "doc", broken_slots=BrokenSlots(folder))
         await control.use_port("/dev/board")
-        begin(control)
+        begin(control, WAVE)
         await port.until_written(2)
         assert BrokenSlots(folder).of("/dev/board") == kept
         assert broken(control) == [SLOT]
@@ -390,10 +387,14 @@ async def test_it_is_on_disk_before_the_first_byte_leaves_and_a_disk_that_takes_
 FRAMES = [{"durationMs": 500, "positions": {"1": 1500}}]
 
 
+def wish(frames: Any, slot: Any = SLOT) -> dict[str, Any]:
+    return {"groups": [{"slot": slot, "frames": frames}]}
+
+
 @in_virtual_time
 async def test_a_script_begins_one_looks_at_it_and_calls_it_off() -> None:
     async with http_to(FakePorts(AnsweringPort([[180]])), now) as (client, control):
-        begun = await client.post(f"/api/slots/{SLOT}/download", json={"frames": FRAMES * 4})
+        begun = await client.post("/api/download", json=wish(FRAMES * 4))
         assert begun.status_code == 202
         job = begun.json()
         assert (job["slot"], job["status"], job["frameCount"]) == (SLOT, "running", 4)
@@ -411,11 +412,11 @@ async def test_a_script_begins_one_looks_at_it_and_calls_it_off() -> None:
 @in_virtual_time
 async def test_over_http_only_who_drives_begins_one_and_the_job_needs_nobody_from_then_on() -> None:
     async with http_to(FakePorts(AnsweringPort([[1500], [1500]] * 2)), now) as (client, control):
-        path, body = f"/api/slots/{SLOT}/download", {"frames": FRAMES * 2}
+        path, body = "/api/download", wish(FRAMES * 2)
         anna = Client(control, PUPIL)
         control.driving.act(anna, "request")
-        for wish in (body, {**body, "nonce": anna.nonce}):
-            refused = await client.post(path, json=wish)
+        for each in (body, {**body, "nonce": anna.nonce}):
+            refused = await client.post(path, json=each)
             assert (refused.status_code, refused.json()["code"]) == (409, "notDriving")
             assert "Anna drives" in refused.json()["detail"]
         taken = (await client.post(path, json={**body, "take": True})).json()
@@ -434,14 +435,14 @@ async def test_over_http_only_who_drives_begins_one_and_the_job_needs_nobody_fro
 @pytest.mark.parametrize(
     ("slot", "frames", "code"),
     [
-        ("300", FRAMES, "outOfRange"),
-        ("x", FRAMES, "malformed"),
-        ("8", [], "malformed"),
-        ("8", [{"durationMs": 500, "positions": {"0": 1500}}], "malformed"),
-        ("8", [{"durationMs": 500, "positions": {"33": 1500}}], "outOfRange"),
-        ("8", [{"durationMs": 500, "positions": {"1": 2600}}], "outOfRange"),
-        ("8", [{"durationMs": 40_000, "positions": {}}], "outOfRange"),
-        ("8", [{"durationMs": 500, "positions": {}, "more": 1}], "malformed"),
+        (300, FRAMES, "malformed"),
+        ("8", FRAMES, "malformed"),
+        (8, [], "malformed"),
+        (8, [{"durationMs": 500, "positions": {"0": 1500}}], "malformed"),
+        (8, [{"durationMs": 500, "positions": {"33": 1500}}], "outOfRange"),
+        (8, [{"durationMs": 500, "positions": {"1": 2600}}], "outOfRange"),
+        (8, [{"durationMs": 40_000, "positions": {}}], "outOfRange"),
+        (8, [{"durationMs": 500, "positions": {}, "more": 1}], "malformed"),
     ],
 )
 @in_virtual_time
@@ -450,7 +451,7 @@ async def test_what_the_board_cannot_store_is_refused_before_anything_is_sent(
 ) -> None:
     port = FakePort()
     async with http_to(FakePorts(port), now) as (client, control):
-        answer = await client.post(f"/api/slots/{slot}/download", json={"frames": frames})
+        answer = await client.post("/api/download", json=wish(frames, slot))
         assert (answer.status_code, answer.json()["code"]) == (422, code)
         assert (broken(control), set(port.packets()) - {STOP}) == ([], set())
 
@@ -459,21 +460,21 @@ async def test_what_the_board_cannot_store_is_refused_before_anything_is_sent(
 async def test_the_largest_group_there_is_fits_into_one_request() -> None:
     frame = {"durationMs": 30_000, "positions": {str(servo): 2500 for servo in range(1, 33)}}
     async with http_to(FakePorts(FakePort()), now) as (client, _):
-        text = json.dumps({"name": "W" * 64, "frames": [frame] * 255}, indent=1)
+        text = json.dumps(wish([frame] * 255), indent=1)
         headers = {"content-type": "application/json"}
-        assert (await client.post("/api/slots/8/download", content=text, headers=headers)).status_code == 202
-        too_large = await client.post("/api/slots/8/download", content=text * 3, headers=headers)
+        assert (await client.post("/api/download", content=text, headers=headers)).status_code == 202
+        too_large = await client.post("/api/download", content=text * 5, headers=headers)
         assert too_large.status_code == 413
 
 
 async def test_without_a_port_or_while_stopped_there_is_none() -> None:
     control = Control(FakePorts(FakePort()), asyncio.get_running_loop().time, "doc")
     with pytest.raises(GatewayError):
-        begin(control)
+        begin(control, WAVE)
     await control.use_port("/dev/board")
     await control.stop(None)
     with pytest.raises(LatchedError):
-        begin(control)
+        begin(control, WAVE)
     with pytest.raises(OutOfRangeError):
         begin(control, Group(SLOT, "", []))
     await control.shut_down()

@@ -219,10 +219,11 @@ def test_half_a_group_that_a_kill_left_behind_is_run_by_nobody(
 ) -> None:
     pty, bus = bus_on
     frames = [{"durationMs": 500, "positions": {"1": 1500}}] * 3
+    wish = {"groups": [{"slot": 8, "frames": frames}]}
     begun_s = time.monotonic()
     with serving(pty, tmp_path) as served:
         bus.until_stopped(begun_s, served)
-        begun = httpx2.post(f"{served.url}/api/slots/8/download", json={"frames": frames})
+        begun = httpx2.post(f"{served.url}/api/download", json=wish)
         assert begun.status_code == 202
         while DOWNLOAD_HEAD not in bus.since(begun_s):
             assert time.monotonic() - begun_s < PATIENCE_S

@@ -47,7 +47,7 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("POST", "/api/lease"): "driver",
     ("PUT", "/api/driver"): "driver",
     ("POST", "/api/erase"): "owner",
-    ("POST", "/api/slots/{slot}/download"): "driver",
+    ("POST", "/api/download"): "driver",
     ("GET", "/api/jobs/{job}"): "viewer",
     ("DELETE", "/api/jobs/{job}"): "driver",
     ("POST", "/api/library/remove"): "owner",

@@ -9,12 +9,13 @@ from servodeck.clients import hear, intake_of
 from servodeck.control import Control
 from servodeck.errors import OutOfRangeError
 from servodeck.hub import Seat
-from servodeck.jobs import Group
 from servodeck.messages import ServoLimits
+from servodeck.parts import Group
 from servodeck.values import Frame, ServoTarget
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import MOVE, MOVE_ELSEWHERE, RUN, STOP
+from tests.test_download import begin
 from tests.virtual_time import in_virtual_time
 
 # MOVE takes servo 1 to 2000, DOWNLOAD and MOVE_ELSEWHERE to 1500.
@@ -54,10 +55,10 @@ async def test_both_ends_are_within_and_downloads_are_judged_as_moves_are(
         control.limits.set([ServoLimits(servo=1, name="Elbow", min=1400, max=1500)])
         group = Group(10, "Wave", [Frame(1000, (ServoTarget(1, position),))])
         if passes:
-            control.download(group, "Anna", lambda: None)
+            begin(control, group)
         else:
             with pytest.raises(OutOfRangeError, match="Elbow"):
-                control.download(group, "Anna", lambda: None)
+                begin(control, group)
 
 
 @in_virtual_time

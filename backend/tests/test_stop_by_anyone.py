@@ -9,14 +9,14 @@ from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.clients import hear, intake_of, take
 from servodeck.errors import GatewayError, LatchedError, PortLostError
 from servodeck.intake import Intake
-from servodeck.jobs import Group
 from servodeck.messages import StopMessage
+from servodeck.parts import Group
 from servodeck.values import Frame, ServoTarget
 from tests.amount import named, seeds
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, DOWNLOAD, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
-from tests.test_download import AnsweringPort
+from tests.test_download import AnsweringPort, begin
 from tests.virtual_time import in_virtual_time, now
 
 GUEST = Caller("guest", "Bert", "viewer")
@@ -127,7 +127,7 @@ async def stop_at_random(packets: list[bytes], chance: random.Random, is_downloa
         anna, bert = Client(control), Client(control, GUEST)
         waiting = [anna.send(packet) for packet in packets]
         if is_download:
-            control.download(LONG, "Anna", lambda: None)
+            begin(control, LONG)
         await asyncio.sleep(chance.uniform(0, 0.25))
         pressed_s, before = now(), len(port.written)
         take(StopMessage(type="stop", hold=None), bert, control)

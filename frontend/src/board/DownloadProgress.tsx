@@ -1,7 +1,7 @@
 // How far a download has come, in frames, bytes and seconds over all that is being downloaded, and a way to call it off.
 
 import { isWatching } from '#shared/session/lease.ts';
-import { useSlots, useSnapshot, useStores } from '../stores/stores.ts';
+import { useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import styles from './DownloadProgress.module.css';
@@ -9,12 +9,10 @@ import styles from './DownloadProgress.module.css';
 export function DownloadProgress() {
   const { slots } = useStores();
   const activity = useSnapshot((snapshot) => snapshot.activity);
-  const job = useSlots((state) => state.job);
   const watches = useSnapshot(({ lease }) => isWatching(lease));
   if (activity.kind !== 'downloading') return null;
-  const { framesStored, frameCount, bytesSent, bytesTotal, remainingMs } = activity;
-  const all = job ?? { frameCount, framesDone: 0, count: 1, done: 0 };
-  const done = all.frameCount === 0 ? 0 : (all.framesDone + framesStored) / all.frameCount;
+  const { slots: wanted, groupsStored, framesStored, frameCount } = activity;
+  const { bytesSent, bytesTotal, remainingMs } = activity;
   return (
     <div className={styles.progress}>
       <div>
@@ -23,14 +21,14 @@ export function DownloadProgress() {
           role="progressbar"
           aria-label={words.board.progress}
           aria-valuemin={0}
-          aria-valuemax={all.frameCount}
-          aria-valuenow={all.framesDone + framesStored}
-          aria-valuetext={words.board.progressText(all.framesDone + framesStored, all.frameCount)}
+          aria-valuemax={frameCount}
+          aria-valuenow={framesStored}
+          aria-valuetext={words.board.progressText(framesStored, frameCount)}
         >
-          <div className={styles.filled} style={{ transform: `scaleX(${done})` }} />
+          <div className={styles.filled} style={{ transform: `scaleX(${framesStored / frameCount})` }} />
         </div>
         <p className={styles.figures}>
-          {all.count > 1 && <span>{words.slots.job(all.done, all.count)}</span>}
+          {wanted.length > 1 && <span>{words.slots.job(groupsStored, wanted.length)}</span>}
           <span>{words.board.progressText(framesStored, frameCount)}</span>
           <span>{words.board.bytes(bytesSent, bytesTotal)}</span>
           <span>{words.board.left(remainingMs)}</span>

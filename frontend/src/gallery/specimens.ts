@@ -12,6 +12,7 @@ import {
   BATTERY_TOLD,
   codeOf,
   DOWNLOADING,
+  DOWNLOADING_SEVERAL,
   FEEDS,
   lost,
   NO_BATTERY,
@@ -199,6 +200,13 @@ export const SPECIMENS: readonly Specimen[] = [
     state: { ...DOWNLOADING, lease: WATCHED, brokenSlots: [5] },
     frames: 21,
     ...TOLD,
+  },
+  {
+    name: 'Downloading several',
+    way: REMOTE,
+    state: { ...DOWNLOADING_SEVERAL, brokenSlots: [9] },
+    frames: 21,
+    ...STORED,
   },
   ...LINK_ERROR_CODES.map((code): Specimen => ({
     ...{ name: `Error ${code}`, state: refused(code), pose: 'unknown', ...BAR },

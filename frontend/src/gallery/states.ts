@@ -114,11 +114,28 @@ export const DOWNLOADING: SessionState = {
   activity: {
     kind: 'downloading',
     slot: 5,
+    slots: [5],
+    groupsStored: 0,
     framesStored: 9,
     frameCount: 21,
     bytesSent: 264,
     bytesTotal: 616,
     remainingMs: 4200,
+  },
+};
+
+export const DOWNLOADING_SEVERAL: SessionState = {
+  ...READY,
+  activity: {
+    kind: 'downloading',
+    slot: 9,
+    slots: [5, 9, 12],
+    groupsStored: 1,
+    framesStored: 29,
+    frameCount: 58,
+    bytesSent: 812,
+    bytesTotal: 1624,
+    remainingMs: 11_400,
   },
 };
 

@@ -31,7 +31,7 @@ describe('the battery poll', () => {
 
   test('asks nothing while a group runs', async () => {
     const { clock, asked, device } = await createDesk();
-    device.download(1, [{ durationMs: 20_000, targets: [{ servo: 1, position: 1500 }] }]);
+    device.download([{ slot: 1, frames: [{ durationMs: 20_000, targets: [{ servo: 1, position: 1500 }] }] }]);
     await clock.advance(3000);
     device.run(1, 1);
     await clock.advance(500);

@@ -189,7 +189,7 @@ describe('a device with a session', () => {
       const { device, told, draw, heard } = await createElbowDesk();
       const frames = [900, 2400].map((position) => ({ durationMs: 300, targets: [{ servo: 4, position }] }));
       device.play(frames, 1, () => undefined);
-      device.download(3, frames);
+      device.download([{ slot: 3, frames }]);
       await draw(2000);
       expect(told()[0]).toContain('Elbow: 2400 is out of range; it takes 700');
       expect(heard).toEqual([]);
@@ -198,21 +198,21 @@ describe('a device with a session', () => {
 
   test('stores a group and tells when it is done', async () => {
     const { device, state, told, draw, transport } = await createDesk();
-    device.download(5, FRAMES);
+    device.download([{ slot: 5, frames: FRAMES }]);
     await draw(60);
     expect(state().snapshot.activity).toMatchObject({ kind: 'downloading', slot: 5, frameCount: 3 });
     await draw(4000);
     expect(state().snapshot.storedSlots).toEqual([5]);
     expect(transport.board.frameCount(5)).toBe(3);
-    expect(told()).toEqual([words.board.downloaded(5)]);
+    expect(told()).toEqual([words.board.downloaded([5])]);
   });
 
   test('says whether a download came to its end', async () => {
     const { device, draw } = await createDesk();
     const heard: boolean[] = [];
-    device.download(5, FRAMES, (isDone) => void heard.push(isDone));
+    device.download([{ slot: 5, frames: FRAMES }], (isDone) => void heard.push(isDone));
     await draw(4000);
-    device.download(6, FRAMES, (isDone) => void heard.push(isDone));
+    device.download([{ slot: 6, frames: FRAMES }], (isDone) => void heard.push(isDone));
     await draw(100);
     device.cancelDownload();
     await draw(4000);
@@ -221,10 +221,7 @@ describe('a device with a session', () => {
 
   test('a cancelled download leaves a broken slot and says so', async () => {
     const { device, state, told, draw } = await createDesk();
-    device.download(
-      5,
-      Array.from({ length: 60 }, () => FRAMES[0]!),
-    );
+    device.download([{ slot: 5, frames: Array.from({ length: 60 }, () => FRAMES[0]!) }]);
     await draw(400);
     device.cancelDownload();
     await draw(4000);

@@ -12,7 +12,7 @@ import { LinkError } from '#shared/session/linkError.ts';
 import type { Session } from '#shared/session/session.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
-import type { Transport } from '#shared/session/transport.ts';
+import type { SlotGroup, Transport } from '#shared/session/transport.ts';
 import { words } from '../words/words.ts';
 import { limitRefusal } from './limits.ts';
 import { moveDurationMs, type Pace } from './moveTime.ts';
@@ -93,8 +93,8 @@ export interface Device {
   setSpeed(slot: number | null, percent: number): void;
   release(servos: readonly number[]): void;
   sendRaw(packet: Uint8Array): void;
-  /** `settled` hears whether all of it is stored. */
-  download(slot: number, frames: readonly Frame[], settled?: Settled): void;
+  /** One after the other. `settled` hears whether all of them are stored. */
+  download(groups: readonly SlotGroup[], settled?: Settled): void;
   cancelDownload(): void;
   /** `times` 0: until stopped. `settled` hears whether the last frame was played: not after a pause, a stop or a failure. */
   play(frames: readonly Frame[], times: number, settled: Settled): void;
@@ -188,6 +188,16 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     return kept;
   }
 
+  function allowedGroups(groups: readonly SlotGroup[]): readonly SlotGroup[] | null {
+    const kept: SlotGroup[] = [];
+    for (const { slot, frames: asked } of groups) {
+      const frames = allowedFrames(asked);
+      if (frames === null) return null;
+      kept.push({ slot, frames });
+    }
+    return kept;
+  }
+
   function targetsNow(): Targets {
     const { targets, snapshot } = store.getState();
     const servos = robot().servos.map(({ servo }) => servo);
@@ -274,14 +284,16 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   /** False where it was called off. */
-  async function downloadTo(current: Session, slot: number, frames: readonly Frame[]): Promise<boolean> {
+  async function downloadTo(current: Session, groups: readonly SlotGroup[]): Promise<boolean> {
+    const slots = groups.map(({ slot }) => slot);
     try {
-      await current.download(slot, frames);
-      notices.tell('info', words.board.downloaded(slot));
+      await current.download(groups);
+      notices.tell('info', words.board.downloaded(slots));
       return true;
     } catch (error) {
       if (!(error instanceof LinkError && error.code === 'cancelled')) throw error;
-      notices.tell('warning', words.board.downloadCancelled(slot));
+      const broken = slots.find((slot) => current.state.brokenSlots.includes(slot));
+      notices.tell('warning', words.board.downloadCancelled(broken ?? null));
       return false;
     }
   }
@@ -352,10 +364,10 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
           .then(() => notices.tell('info', words.board.speedSent(slot, percent))),
       ),
     release: (servos) => attempt((current) => current.release(servos)),
-    download(slot, frames, settled = () => undefined) {
-      const onIt = allowedFrames(frames);
+    download(groups, settled = () => undefined) {
+      const onIt = allowedGroups(groups);
       if (onIt === null) settled(false);
-      else attempt((current) => downloadTo(current, slot, onIt), settled);
+      else attempt((current) => downloadTo(current, onIt), settled);
     },
     sendRaw(packet) {
       if (keepsLimits(packet)) attempt((current) => current.sendRaw(packet));

@@ -55,9 +55,14 @@ describe('a button', () => {
 
   test('goes on behind a slot once the board says that the group has ended', async () => {
     const { macroRun, greet, positions, step, clock, device, ofKind } = await deskWith(RUN, GO(2));
-    device.download(5, [
-      { durationMs: 2000, targets: [{ servo: 1, position: 1600 }] },
-      { durationMs: 2000, targets: [{ servo: 1, position: 1500 }] },
+    device.download([
+      {
+        slot: 5,
+        frames: [
+          { durationMs: 2000, targets: [{ servo: 1, position: 1600 }] },
+          { durationMs: 2000, targets: [{ servo: 1, position: 1500 }] },
+        ],
+      },
     ]);
     await clock.advance(4000);
     macroRun.start(greet);
@@ -87,9 +92,14 @@ describe('a button', () => {
 
   test('ended during a slot, the group on the board is ended too', async () => {
     const { macroRun, greet, clock, device, ofKind } = await deskWith(RUN, GO(2));
-    device.download(5, [
-      { durationMs: 5000, targets: [{ servo: 1, position: 1600 }] },
-      { durationMs: 5000, targets: [{ servo: 1, position: 1500 }] },
+    device.download([
+      {
+        slot: 5,
+        frames: [
+          { durationMs: 5000, targets: [{ servo: 1, position: 1600 }] },
+          { durationMs: 5000, targets: [{ servo: 1, position: 1500 }] },
+        ],
+      },
     ]);
     await clock.advance(4000);
     macroRun.start(greet);

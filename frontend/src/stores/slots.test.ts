@@ -18,33 +18,35 @@ async function openDesk(...args: Parameters<typeof createDesk>) {
 
 describe('the slots of a board', () => {
   test('several groups are downloaded one after the other with one progress', async () => {
-    const { slots, state, stored, draw, transport } = await openDesk();
+    const { slots, device, stored, draw, told, transport } = await openDesk();
     const heard: boolean[] = [];
+    const activity = () => device.store.getState().snapshot.activity;
     slots.download([WAVE, BOW], (isDone) => void heard.push(isDone));
-    expect(state().job).toEqual({ count: 2, done: 0, frameCount: 3, framesDone: 0 });
     await draw(400);
-    expect(state().job).toEqual({ count: 2, done: 1, frameCount: 3, framesDone: 1 });
+    expect(activity()).toMatchObject({ slots: [5, 9], groupsStored: 1, framesStored: 1, frameCount: 3 });
+    expect(stored()).toEqual(['5 Wave']);
     await draw(4000);
-    expect(state().job).toBeNull();
+    expect(activity()).toEqual({ kind: 'idle' });
+    expect(told()).toEqual([words.board.downloaded([5, 9])]);
     expect(heard).toEqual([true]);
     expect(stored()).toEqual(['5 Wave', '9 Bow']);
     expect(transport.board.frameCount(9)).toBe(2);
   });
 
   test('what is called off ends the others too, and is not in the book', async () => {
-    const { slots, state, stored, draw } = await openDesk();
+    const { slots, stored, draw, told } = await openDesk();
     const heard: boolean[] = [];
     slots.download([BOW, WAVE], (isDone) => void heard.push(isDone));
     await draw(40);
     slots.cancel();
     await draw(4000);
     expect(heard).toEqual([false]);
-    expect(state().job).toBeNull();
+    expect(told()).toEqual([words.board.downloadCancelled(9)]);
     expect(stored()).toEqual([]);
   });
 
   test('called off in its last frame, a group is whole, and the next one is not begun', async () => {
-    const { slots, stored, draw, transport } = await openDesk();
+    const { slots, stored, draw, told, transport } = await openDesk();
     const heard: boolean[] = [];
     slots.download([WAVE, BOW], (isDone) => void heard.push(isDone));
     await draw(40);
@@ -52,16 +54,19 @@ describe('the slots of a board', () => {
     await draw(4000);
     expect(heard).toEqual([false]);
     expect(stored()).toEqual(['5 Wave']);
+    expect(told()).toEqual([words.board.downloadCancelled(null)]);
     expect(transport.board.frameCount(9)).toBe(0);
   });
 
   test('STOP ends them', async () => {
-    const { slots, device, state, draw } = await openDesk();
+    const { slots, device, state, draw, transport } = await openDesk();
     slots.download([WAVE, BOW]);
     await draw(40);
     device.halt();
-    await draw(1000);
-    expect(state().job).toBeNull();
+    await draw(4000);
+    expect(device.store.getState().snapshot.brokenSlots).toEqual([5]);
+    expect(state().book.begun).toEqual([]);
+    expect(transport.board.frameCount(9)).toBe(0);
   });
 
   test('an erase leaves every slot empty, and what it took comes back', async () => {
@@ -127,13 +132,36 @@ describe('the slots of a board', () => {
       const first = await openDesk(texts, { way: USB });
       first.slots.download([BOW]);
       await first.draw(40);
-      expect(first.state().book.begun).toMatchObject({ slot: 9, name: 'Bow' });
+      expect(first.state().book.begun).toMatchObject([{ slot: 9, name: 'Bow' }]);
       const slotMemory = { read: () => (breaks ? [9] : []), write: () => undefined };
       const later = await openDesk(texts, { way: USB, slotMemory });
       expect(later.stored()).toEqual(breaks ? [] : ['9 Bow']);
-      expect(later.told()).toEqual(breaks ? [] : [words.board.downloaded(9)]);
-      expect(later.state().book.begun).toBeNull();
+      expect(later.told()).toEqual(breaks ? [] : [words.board.downloaded([9])]);
+      expect(later.state().book.begun).toEqual([]);
     }
+  });
+
+  test('of several that were on their way, each is noted that had arrived', async () => {
+    const texts = new Map<string, string>();
+    const first = await openDesk(texts, { way: USB });
+    first.slots.download([WAVE, BOW]);
+    await first.draw(400);
+    expect(first.state().book.begun).toMatchObject([{ slot: 9 }]);
+    const later = await openDesk(texts, {
+      way: USB,
+      slotMemory: { read: () => [9], write: () => undefined },
+    });
+    expect(later.stored()).toEqual(['5 Wave']);
+    expect(later.state().book.begun).toEqual([]);
+  });
+
+  test('what somebody else stores in a slot makes it unknown', async () => {
+    const { slots, device, stored, draw } = await openDesk();
+    slots.download([WAVE, BOW]);
+    await draw(4000);
+    device.download([{ slot: 5, frames: at(1700) }]);
+    await draw(4000);
+    expect(stored()).toEqual(['9 Bow']);
   });
 
   test('another trim makes the copy another motion', async () => {

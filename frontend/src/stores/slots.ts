@@ -1,15 +1,16 @@
-// The slots of the board at hand: what is remembered of them, and downloads one after the other with one progress. A board in the
+// The slots of the board at hand: what is remembered of them, and what downloads make of it, whoever began them. A board in the
 // page is new at each link, any other is remembered in the browser's storage. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
+import { isAbout, withBegun, withNews, type DownloadNews } from '#shared/actions/slots/arrivals.ts';
 import {
   EMPTY_SLOT_BOOK,
   slotBookFromText,
   slotBookToText,
-  withBegun,
   withErased,
   withErasing,
   withStored,
+  withUnknown,
   type SlotBook,
   type SlotRecord,
 } from '#shared/actions/slots/slotBook.ts';
@@ -23,19 +24,8 @@ import type { RobotStore } from './robots.ts';
 
 export type SlotDownload = Pick<SlotRecord, 'slot' | 'name' | 'documentId' | 'frames'>;
 
-export interface SlotJob {
-  readonly count: number;
-  readonly done: number;
-  /** Of all of it. */
-  readonly frameCount: number;
-  /** In the groups that are whole. */
-  readonly framesDone: number;
-}
-
 export interface SlotsState {
   readonly book: SlotBook;
-  /** null: nothing is being downloaded. */
-  readonly job: SlotJob | null;
 }
 
 export interface Slots {
@@ -60,12 +50,14 @@ export interface SlotsOptions {
 }
 
 export function createSlots({ device, robots, notices, storage, today }: SlotsOptions): Slots {
-  const store = createStore<SlotsState>(() => ({ book: EMPTY_SLOT_BOOK, job: null }));
+  const store = createStore<SlotsState>(() => ({ book: EMPTY_SLOT_BOOK }));
   let key: string | null = null;
-  let isCancelled = false;
-  let underWay: SlotDownload | null = null;
+  /** Asked for here, and whether its end is still to come. */
+  let wanted: readonly SlotRecord[] = [];
+  let isAsking = false;
 
   function keep(book: SlotBook): void {
+    if (book === store.getState().book) return;
     store.setState({ book });
     if (key === null) return;
     try {
@@ -97,8 +89,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     }
     // From here on nobody knows what is left, whatever the board will say.
     if (isErasing(state) && !isErasing(before)) keep(withErasing(store.getState().book));
-    if (underWay !== null) noteBegun(underWay, state);
-    else noteEnd(state);
+    noteDownload(state);
   });
 
   function recordOf({ slot, name, documentId, frames }: SlotDownload): SlotRecord {
@@ -106,60 +97,56 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     return { slot, name, documentId, frames, fingerprint, storedAtMs: today() };
   }
 
-  /** From its first byte on the slot is broken, until all of it has arrived. */
-  function noteBegun(group: SlotDownload, { snapshot: { activity, brokenSlots } }: DeviceState): void {
+  function noteDownload({ snapshot: { link, activity, brokenSlots, lastDownload } }: DeviceState): void {
+    if (activity.kind === 'downloading') {
+      const news = { ...activity, isOver: false };
+      // From its first byte on the slot is broken, until all of it has arrived.
+      if (brokenSlots.includes(activity.slot)) noteBegun(activity.slot, news);
+      noteNews(news, brokenSlots);
+    } else if (link.status === 'ready') {
+      noteNews(lastDownload && { ...lastDownload, isOver: true }, brokenSlots);
+    }
+  }
+
+  function noteBegun(slot: number, news: DownloadNews): void {
     const { book } = store.getState();
-    const isAtIt = activity.kind === 'downloading' && brokenSlots.includes(group.slot);
-    if (book.begun === null && isAtIt) keep(withBegun(book, recordOf(group)));
+    if (wanted.length > 0 && wanted.map((record) => record.slot).join() === news.slots.join()) {
+      keep(withBegun(book, wanted));
+      wanted = [];
+    } else if (!isAbout(news, book)) {
+      // Another's.
+      keep(withUnknown(book, slot));
+    }
   }
 
   /** It may have gone on without this page. */
-  function noteEnd({ snapshot: { link, activity, brokenSlots } }: DeviceState): void {
+  function noteNews(news: DownloadNews | null, broken: readonly number[]): void {
     const { book } = store.getState();
-    if (book.begun === null || link.status !== 'ready' || activity.kind === 'downloading') return;
-    const { slot } = book.begun;
-    if (brokenSlots.includes(slot)) return keep(withBegun(book, null));
-    keep(withStored(book, book.begun));
-    notices.tell('info', words.board.downloaded(slot));
+    const next = withNews(book, news, broken);
+    if (next === book) return;
+    keep(next);
+    const arrived = book.begun.filter((record) => next.stored.includes(record)).map(({ slot }) => slot);
+    if (arrived.length === 0 || next.begun.length > 0 || isAsking) return;
+    notices.tell('info', words.board.downloaded(news !== null && isAbout(news, book) ? news.slots : arrived));
   }
 
   function download(groups: readonly SlotDownload[], settled: Settled = () => undefined): void {
-    if (store.getState().job !== null) return settled(false);
-    const frameCount = groups.reduce((sum, { frames }) => sum + frames.length, 0);
-    store.setState({ job: { count: groups.length, done: 0, frameCount, framesDone: 0 } });
-    isCancelled = false;
-    next(groups, settled);
-  }
-
-  function next([group, ...rest]: readonly SlotDownload[], settled: Settled): void {
-    const { job } = store.getState();
-    if (group === undefined || job === null) return end(true, settled);
-    const { slot, frames } = group;
-    underWay = group;
-    device.download(slot, frames, (isDone) => {
-      underWay = null;
-      if (isDone) keep(withStored(store.getState().book, recordOf(group)));
-      else noteEnd(device.store.getState());
-      // A group that is called off in its last frame is whole nevertheless.
-      if (!isDone || isCancelled) return end(false, settled);
-      const framesDone = job.framesDone + frames.length;
-      store.setState({ job: { ...job, done: job.done + 1, framesDone } });
-      next(rest, settled);
+    if (isAsking) return settled(false);
+    isAsking = true;
+    wanted = groups.map(recordOf);
+    device.download(groups, (isDone) => {
+      isAsking = false;
+      // Told so late that nobody saw it under way.
+      if (isDone) keep(wanted.reduce(withStored, store.getState().book));
+      wanted = [];
+      settled(isDone);
     });
-  }
-
-  function end(isDone: boolean, settled: Settled): void {
-    store.setState({ job: null });
-    settled(isDone);
   }
 
   return {
     store,
     download,
-    cancel() {
-      isCancelled = true;
-      device.cancelDownload();
-    },
+    cancel: () => device.cancelDownload(),
     erase: () =>
       device.erase((isDone) => {
         if (isDone) keep(withErased(store.getState().book));

@@ -5,7 +5,7 @@ import type { JobState } from './messages.generated.ts';
 
 const FRAMES = [{ durationMs: 200, targets: [{ servo: 1, position: 1500 }] }];
 const RUNNING: JobState = {
-  ...{ id: 'a1', slot: 5, name: '', by: 'Anna', status: 'running' },
+  ...{ id: 'a1', by: 'Anna', status: 'running', slots: [5], groupsStored: 0, slot: 5, name: '' },
   ...{
     framesStored: 0,
     frameCount: 1,
@@ -16,7 +16,7 @@ const RUNNING: JobState = {
     detail: null,
   },
 };
-const DONE: JobState = { ...RUNNING, status: 'done', framesStored: 1 };
+const DONE: JobState = { ...RUNNING, status: 'done', groupsStored: 1, framesStored: 1 };
 
 afterEach(() => void vi.unstubAllGlobals());
 
@@ -44,26 +44,27 @@ function createPage() {
 
 test('a download begins with the nonce of this page’s turn and ends as the gateway tells', async () => {
   const { slots, requests, turns, answer, changes } = createPage();
-  const done = slots.store(5, FRAMES);
+  const done = slots.store([{ slot: 5, frames: FRAMES }]);
   await turns();
   expect(requests).toEqual([
     {
-      url: 'api/slots/5/download',
+      url: 'api/download',
       method: 'POST',
-      body: { frames: [{ durationMs: 200, positions: { '1': 1500 } }], nonce: '7-1' },
+      body: { groups: [{ slot: 5, frames: [{ durationMs: 200, positions: { '1': 1500 } }] }], nonce: '7-1' },
     },
   ]);
   answer(202, RUNNING);
   slots.told(RUNNING);
-  expect(slots.download).toMatchObject({ slot: 5, frameCount: 1 });
+  expect(slots.download).toMatchObject({ slots: [5], frameCount: 1, isOver: false });
   slots.told(DONE);
   await done;
-  expect([slots.download, changes()]).toEqual([null, 2]);
+  expect(slots.download).toMatchObject({ groupsStored: 1, isOver: true });
+  expect(changes()).toBe(2);
 });
 
 test('its end may be told before its beginning is answered', async () => {
   const { slots, turns, answer } = createPage();
-  const failed = slots.store(5, FRAMES).catch((error: unknown) => error);
+  const failed = slots.store([{ slot: 5, frames: FRAMES }]).catch((error: unknown) => error);
   await turns();
   slots.told({ ...RUNNING, status: 'failed', code: 'latched', detail: 'Stopped.' });
   answer(202, RUNNING);
@@ -74,7 +75,7 @@ test('an earlier one, or another’s, says nothing of it', async () => {
   const { slots, turns, answer } = createPage();
   const ends: string[] = [];
   slots.told({ ...DONE, id: 'before' });
-  void slots.store(5, FRAMES).then(() => ends.push('done'));
+  void slots.store([{ slot: 5, frames: FRAMES }]).then(() => ends.push('done'));
   await turns();
   answer(202, RUNNING);
   await turns();
@@ -87,7 +88,7 @@ test('an earlier one, or another’s, says nothing of it', async () => {
 
 test('what the gateway refuses for is the error', async () => {
   const { slots, turns, answer } = createPage();
-  const failed = slots.store(5, FRAMES).catch((error: unknown) => error);
+  const failed = slots.store([{ slot: 5, frames: FRAMES }]).catch((error: unknown) => error);
   await turns();
   answer(409, { code: 'notDriving', detail: 'Bert drives.' });
   expect(await failed).toMatchObject({ code: 'notDriving' });
@@ -95,7 +96,7 @@ test('what the gateway refuses for is the error', async () => {
 
 test('with the gateway gone nobody waits for it, and nothing is shown', async () => {
   const { slots, turns, answer } = createPage();
-  const failed = slots.store(5, FRAMES).catch((error: unknown) => error);
+  const failed = slots.store([{ slot: 5, frames: FRAMES }]).catch((error: unknown) => error);
   await turns();
   answer(202, RUNNING);
   slots.told(RUNNING);

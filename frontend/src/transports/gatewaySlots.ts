@@ -3,11 +3,11 @@
 
 import type { Frame } from '#shared/protocol/commands.ts';
 import { LinkError } from '#shared/session/linkError.ts';
-import type { SharedSlots } from '#shared/session/transport.ts';
+import type { SharedSlots, SlotGroup } from '#shared/session/transport.ts';
 import { askGateway, isRecord, refusal, withBody } from './gatewayHttp.ts';
 import type { JobState } from './messages.generated.ts';
 
-/** The largest group is 100 KB, which a slow network takes a while for. */
+/** As large as half a megabyte, which a slow network takes a while for. */
 const BEGUN_WITHIN_MS = 8_000;
 
 export interface GatewaySlots extends SharedSlots {
@@ -42,12 +42,12 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
       return broken;
     },
     get download() {
-      return job?.status === 'running' ? job : null;
+      return job && { ...job, isOver: job.status !== 'running' };
     },
-    async store(slot, frames) {
+    async store(groups) {
       const nonce = await begin();
-      const body = { frames: frames.map(toBody), nonce };
-      const begun = await askGateway(`api/slots/${slot}/download`, withBody('POST', body), BEGUN_WITHIN_MS);
+      const body = { groups: groups.map(toBody), nonce };
+      const begun = await askGateway('api/download', withBody('POST', body), BEGUN_WITHIN_MS);
       if (!isRecord(begun) || typeof begun.id !== 'string')
         throw new LinkError('internal', 'the gateway’s answer is no job');
       const { id } = begun;
@@ -79,7 +79,11 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
   };
 }
 
-function toBody({ durationMs, targets }: Frame): object {
+function toBody({ slot, frames }: SlotGroup): object {
+  return { slot, frames: frames.map(frameBody) };
+}
+
+function frameBody({ durationMs, targets }: Frame): object {
   return {
     durationMs,
     positions: Object.fromEntries(targets.map(({ servo, position }) => [servo, position])),

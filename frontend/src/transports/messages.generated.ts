@@ -210,15 +210,18 @@ export interface Candidate {
   name: string;
 }
 /**
- * A download and how far it is. `by`: who began it. `code` and `detail` say why it failed or was
- * cancelled.
+ * A download and how far it is. `slots`: where its groups go, in this order; `slot` and `name`: of the
+ * one that is being stored, or was last; frames and bytes are of all of them. `by`: who began it. `code` and
+ * `detail` say why it failed or was cancelled.
  */
 export interface JobState {
   id: string;
-  slot: number;
-  name: string;
   by: string;
   status: 'running' | 'done' | 'failed' | 'cancelled';
+  slots: number[];
+  groupsStored: number;
+  slot: number;
+  name: string;
   framesStored: number;
   frameCount: number;
   bytesSent: number;

@@ -23,7 +23,7 @@ export function createHost(
     erase: () => session.erase(),
     readBattery: () => session.readBattery(),
     raw: ({ bytes }) => session.sendRaw(bytes),
-    download: ({ slot, frames }) => session.download(slot, frames),
+    download: ({ slot, frames }) => session.download([{ slot, frames }]),
     cancelDownload: () => session.cancelDownload(),
   };
 

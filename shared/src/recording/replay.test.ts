@@ -34,7 +34,7 @@ const DEEDS: Readonly<Record<string, (session: Session) => void>> = {
   halt: (session) => void session.halt().catch(nothing),
   resume: (session) => void session.resume().catch(nothing),
   battery: (session) => void session.readBattery().catch(nothing),
-  download: (session) => void session.download(5, frames(3)).catch(nothing),
+  download: (session) => void session.download([{ slot: 5, frames: frames(3) }]).catch(nothing),
   erase: (session) => void session.erase().catch(nothing),
   raw: (session) => void session.sendRaw(Uint8Array.of(0x55, 0x55, 2, 0x63)).catch(nothing),
 };
@@ -101,7 +101,7 @@ describe('replayed to the session', () => {
 
   test('a download that was called off is called off again', async () => {
     const { rig, entries } = await createRecordingRig();
-    rig.session.download(5, frames(20)).catch(nothing);
+    rig.session.download([{ slot: 5, frames: frames(20) }]).catch(nothing);
     await rig.clock.advance(400);
     void rig.session.cancelDownload();
     await rig.clock.advance(3_000);

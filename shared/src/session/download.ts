@@ -1,20 +1,16 @@
 // Stores one action group on the board: stop and wait, frame by frame, because a second packet during flash work
-// overwrites the first one's data (S11). Knows the order, restarts and progress; one frame's answer is frameStore.ts.
+// overwrites the first one's data (S11). Knows the order and restarts; one frame's answer is frameStore.ts.
 
 import type { Clock } from '../clock.ts';
 import type { Command, Frame } from '../protocol/commands.ts';
-import type { Family } from '../protocol/families.ts';
-import { wireMs } from '../protocol/packet.ts';
-import { encodeOrRefuse, isNoAnswer, type Exchange } from './exchange.ts';
+import { isNoAnswer, type Exchange } from './exchange.ts';
 import { createFrameStore } from './frameStore.ts';
 import { LinkError } from './linkError.ts';
 import { DOWNLOAD_RESTARTS } from './timings.ts';
-import type { DownloadProgress } from './transport.ts';
 
 export interface DownloadJob {
   readonly slot: number;
   readonly frames: readonly Frame[];
-  readonly family: Family;
   readonly clock: Clock;
   readonly exchange: Exchange;
   /** How long from now answers to earlier packets may still come; 0 when every one was heard. */
@@ -23,30 +19,30 @@ export interface DownloadJob {
   isCancelled(): boolean;
   /** The first byte is about to leave: from here on the slot's old group is gone (S33, S35). */
   begun(): void;
-  progress(progress: DownloadProgress): void;
+  /** So many frames are on the board; 0 at each beginning. */
+  stored(frameCount: number): void;
 }
 
 type FrameCommand = Extract<Command, { kind: 'download' }>;
 
 /**
- * Rejects with `outOfRange` before anything is sent, `cancelled` between frames, or `noAnswer` when the board stayed
+ * Rejects with `outOfRange` where there is no frame, `cancelled` between frames, or `noAnswer` when the board stayed
  * silent through every restart. A frame that cannot be stored for sure sends the whole group again from frame 0, which
  * erases the slot first (S33): nothing else repairs it, because a frame written over another one is ANDed (S36).
  */
 export async function download(job: DownloadJob): Promise<void> {
   const commands = frameCommands(job);
-  const sizes = commands.map((command) => encodeOrRefuse(command, job.family).length);
   const storeFrame = createFrameStore(job.clock, job.exchange);
 
   refuseIfCancelled(job);
-  job.progress(progressAfter(0, sizes, 0));
+  job.stored(0);
   // An answer that an earlier download did not wait for would be taken for ours.
   if (job.owedForMs > 0) await job.exchange.silence('frameStored', job.owedForMs);
   refuseIfCancelled(job);
   job.begun();
   for (let restarts = 0; ; restarts += 1) {
     try {
-      await storeAll(job, commands, sizes, storeFrame);
+      await storeAll(job, commands, storeFrame);
       return;
     } catch (error) {
       if (!isNoAnswer(error) || restarts === DOWNLOAD_RESTARTS) throw error;
@@ -67,34 +63,16 @@ export function frameCommands({
 async function storeAll(
   job: DownloadJob,
   commands: readonly FrameCommand[],
-  sizes: readonly number[],
   storeFrame: (command: FrameCommand) => Promise<void>,
 ): Promise<void> {
-  const startedMs = job.clock.now();
-  job.progress(progressAfter(0, sizes, 0));
+  job.stored(0);
   for (const [index, command] of commands.entries()) {
     refuseIfCancelled(job);
     await storeFrame(command);
-    job.progress(progressAfter(index + 1, sizes, job.clock.now() - startedMs));
+    job.stored(index + 1);
   }
 }
 
 function refuseIfCancelled(job: DownloadJob): void {
   if (job.isCancelled()) throw new LinkError('cancelled', 'the download was cancelled');
-}
-
-/** The time left is at least the wire's; what the first frames really took includes the flash. */
-function progressAfter(framesStored: number, sizes: readonly number[], elapsedMs: number): DownloadProgress {
-  const sum = (part: readonly number[]): number => part.reduce((total, size) => total + size, 0);
-  const bytesTotal = sum(sizes);
-  const bytesSent = sum(sizes.slice(0, framesStored));
-  const bytesLeft = bytesTotal - bytesSent;
-  const measuredMs = bytesSent === 0 ? 0 : (elapsedMs / bytesSent) * bytesLeft;
-  return {
-    framesStored,
-    frameCount: sizes.length,
-    bytesSent,
-    bytesTotal,
-    remainingMs: Math.max(wireMs(bytesLeft), measuredMs),
-  };
 }

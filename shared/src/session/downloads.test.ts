@@ -14,11 +14,18 @@ import { createSession } from './session.ts';
 import * as timings from './timings.ts';
 import type { Transport, TransportEvents } from './transport.ts';
 
+interface VectorFrame {
+  readonly durationMs: number;
+  readonly targets: readonly (readonly [servo: number, position: number])[];
+}
+
 interface Scenario {
   readonly name: string;
   readonly family: FamilyId;
   readonly slot: number;
-  readonly frames: readonly { durationMs: number; targets: readonly [servo: number, position: number][] }[];
+  readonly frames: readonly VectorFrame[];
+  /** Groups behind the first one. */
+  readonly then?: readonly { readonly slot: number; readonly frames: readonly VectorFrame[] }[];
   /** For each packet that is sent, when the board says "stored": after the packet's last bit. */
   readonly answersMs: readonly (readonly number[])[];
   readonly cancelAtMs?: number;
@@ -26,6 +33,8 @@ interface Scenario {
   /** Begin of each packet, and its place in `packets`. */
   readonly sent: readonly (readonly [atMs: number, frameIndex: number])[];
   readonly outcome: string;
+  /** Where it is not the slot of the first group. */
+  readonly broken?: readonly number[];
   readonly tookMs: number;
 }
 
@@ -40,7 +49,7 @@ const STORED = fromHex('55550219');
 const GIVEN_UP_MS = 60_000;
 const exactly = (ms: number): number => Math.round(ms * 1000) / 1000;
 
-async function play({ family, slot, frames, answersMs, cancelAtMs }: Scenario) {
+async function play({ family, slot, frames, then = [], answersMs, cancelAtMs }: Scenario) {
   const clock = createVirtualClock();
   const sent: { atMs: number; packet: string }[] = [];
   let events: TransportEvents | null = null;
@@ -62,16 +71,18 @@ async function play({ family, slot, frames, answersMs, cancelAtMs }: Scenario) {
   const session = createSession({ transport, clock, family: familyOf(family) });
   await session.open();
   if (cancelAtMs !== undefined) clock.after(cancelAtMs, () => void session.cancelDownload());
-  const group = frames.map(({ durationMs, targets }): Frame => {
-    return { durationMs, targets: targets.map(([servo, position]) => ({ servo, position })) };
-  });
-  const ended = session.download(slot, group).then(
+  const groups = [{ slot, frames }, ...then].map((one) => ({ ...one, frames: one.frames.map(frameOf) }));
+  const ended = session.download(groups).then(
     () => ({ outcome: 'done', tookMs: clock.now() }),
     (error: unknown) => ({ outcome: error instanceof LinkError ? error.code : '', tookMs: clock.now() }),
   );
   await clock.advance(GIVEN_UP_MS);
   const { outcome, tookMs } = await ended;
   return { sent, outcome, tookMs: exactly(tookMs), broken: session.state.brokenSlots };
+}
+
+function frameOf({ durationMs, targets }: VectorFrame): Frame {
+  return { durationMs, targets: targets.map(([servo, position]) => ({ servo, position })) };
 }
 
 test('the waiting times are those of the gateway', () => {
@@ -86,12 +97,12 @@ test('the waiting times are those of the gateway', () => {
 
 describe('a download in which', () => {
   test.each(vectors.scenarios)('$name', async (scenario) => {
-    const { packets, sent, outcome, tookMs, slot } = scenario;
+    const { packets, sent, outcome, tookMs, slot, broken = [slot] } = scenario;
     expect(await play(scenario)).toEqual({
       sent: sent.map(([atMs, frameIndex]) => ({ atMs, packet: packets[frameIndex] })),
       outcome,
       tookMs,
-      broken: outcome === 'done' ? [] : [slot],
+      broken: outcome === 'done' ? [] : broken,
     });
   });
 });

@@ -9,7 +9,7 @@ const WAVE = [
 ];
 
 async function stored(rig: Rig, slot: number): Promise<void> {
-  const done = rig.session.download(slot, WAVE);
+  const done = rig.session.download([{ slot, frames: WAVE }]);
   await rig.clock.advance(3_000);
   await done;
 }
@@ -39,7 +39,7 @@ describe('download', () => {
     const targets = Array.from({ length: group.servoCount }, (_, at) => ({ servo: at + 1, position: 1_500 }));
     const frames = Array.from({ length: group.frameCount }, () => ({ durationMs: 300, targets }));
     const startMs = rig.clock.now();
-    const done = rig.session.download(5, frames).then(() => rig.clock.now() - startMs);
+    const done = rig.session.download([{ slot: 5, frames }]).then(() => rig.clock.now() - startMs);
     await rig.clock.advance(30_000);
     const eraseMs = 4 * 45;
     const countTableMs = 45 + 0.8;
@@ -66,7 +66,7 @@ describe('download', () => {
   test('can be called off between frames and then says that the slot is broken', async () => {
     const rig = await createRig();
     const frames = Array.from({ length: 60 }, () => WAVE[0]!);
-    const done = rig.session.download(5, frames).catch((error: unknown) => error);
+    const done = rig.session.download([{ slot: 5, frames }]).catch((error: unknown) => error);
     await rig.clock.advance(600);
     void rig.session.cancelDownload();
     await rig.clock.advance(600);
@@ -79,7 +79,7 @@ describe('download', () => {
   test('survives the lost acknowledgement of any one frame', async () => {
     for (const nth of [1, 2, 3]) {
       const rig = await createRig({ faults: [{ name: 'lostAck', nth }] });
-      const done = rig.session.download(5, [...WAVE, ...WAVE].slice(0, 3));
+      const done = rig.session.download([{ slot: 5, frames: [...WAVE, ...WAVE].slice(0, 3) }]);
       await rig.clock.advance(15_000);
       await done;
       expect(rig.transport.board.frameCount(5)).toBe(3);
@@ -90,7 +90,7 @@ describe('download', () => {
   test('repeats a later frame once with the same number, and begins again only for frame 0 (S33, S36)', async () => {
     const sent = async (nth: number): Promise<readonly number[]> => {
       const rig = await createRig({ faults: [{ name: 'lostAck', nth }] });
-      void rig.session.download(5, [...WAVE, ...WAVE].slice(0, 3));
+      void rig.session.download([{ slot: 5, frames: [...WAVE, ...WAVE].slice(0, 3) }]);
       await rig.clock.advance(15_000);
       return rig.ofKind('download').map(({ frameIndex }) => frameIndex);
     };
@@ -103,7 +103,7 @@ describe('download', () => {
 
   test('gives up with a named time-out after two restarts', async () => {
     const rig = await createRig({ faults: [{ name: 'lostAck', probability: 1 }] });
-    const done = rig.session.download(5, WAVE).catch((error: unknown) => error);
+    const done = rig.session.download([{ slot: 5, frames: WAVE }]).catch((error: unknown) => error);
     await rig.clock.advance(10_000);
     expect(await done).toMatchObject({ code: 'noAnswer' });
     expect(rig.ofKind('download').map(({ frameIndex }) => frameIndex)).toEqual([0, 0, 0]);
@@ -112,7 +112,7 @@ describe('download', () => {
 
   test('survives the slowest flash the chip can have', async () => {
     const rig = await createRig({ faults: [{ name: 'slowErase', sectorMs: 400 }] });
-    const done = rig.session.download(5, WAVE);
+    const done = rig.session.download([{ slot: 5, frames: WAVE }]);
     await rig.clock.advance(6_000);
     await done;
     expect(rig.transport.board.frameCount(5)).toBe(2);
@@ -126,7 +126,7 @@ describe('download', () => {
     };
     const flash = createFlashChip();
     const before = await createRig({ flash, slotMemory });
-    void before.session.download(5, [...WAVE, ...WAVE]).catch(() => undefined);
+    void before.session.download([{ slot: 5, frames: [...WAVE, ...WAVE] }]).catch(() => undefined);
     await before.clock.advance(250); // the page is closed in the middle
 
     const after = await createRig({ flash, slotMemory });
@@ -148,12 +148,12 @@ describe('download', () => {
     const rig = await createRig();
     rig.session.move([{ servo: 1, position: 1_800 }], 0);
     await rig.clock.advance(100);
-    await expect(rig.session.download(5, WAVE)).rejects.toMatchObject({ code: 'busy' });
+    await expect(rig.session.download([{ slot: 5, frames: WAVE }])).rejects.toMatchObject({ code: 'busy' });
   });
 
   test('refuses motion while it lasts (S41)', async () => {
     const rig = await createRig();
-    void rig.session.download(5, WAVE);
+    void rig.session.download([{ slot: 5, frames: WAVE }]);
     await rig.clock.advance(100);
     expect(() => rig.session.move([{ servo: 1, position: 1_800 }], 0)).toThrow(
       expect.objectContaining({ code: 'busy' }),
@@ -164,7 +164,9 @@ describe('download', () => {
   test('refuses a frame out of range before anything is sent', async () => {
     const rig = await createRig();
     const bad = [...WAVE, { durationMs: 100, targets: [{ servo: 2, position: 400 }] }];
-    await expect(rig.session.download(5, bad)).rejects.toMatchObject({ code: 'outOfRange' });
+    await expect(rig.session.download([{ slot: 5, frames: bad }])).rejects.toMatchObject({
+      code: 'outOfRange',
+    });
     expect(rig.heard).toEqual([]);
     expect(rig.session.state.brokenSlots).toEqual([]);
   });
@@ -177,7 +179,7 @@ describe('flash work', () => {
   test('does not begin while a move is on its way to the board (S29)', async () => {
     const { session, clock } = await createRig();
     session.move([{ servo: 1, position: 1_500 }], 0);
-    await expect(session.download(1, frames)).rejects.toEqual(refused);
+    await expect(session.download([{ slot: 1, frames }])).rejects.toEqual(refused);
     await expect(session.erase()).rejects.toEqual(refused);
     await clock.advance(5);
     await expect(session.erase()).rejects.toEqual(refused);
@@ -187,7 +189,7 @@ describe('flash work', () => {
     const { session, clock } = await createRig();
     void session.readBattery();
     session.move([{ servo: 1, position: 1_500 }], 0);
-    await expect(session.download(1, frames)).rejects.toEqual(refused);
+    await expect(session.download([{ slot: 1, frames }])).rejects.toEqual(refused);
     await clock.advance(5_000);
     expect(session.state.activity.kind).toBe('idle');
   });

@@ -1,17 +1,17 @@
 // Action groups in the board's own memory: run, stop, erase, download, and what the board reports of them. Class C
 // commands are never repeated by themselves (safety.md section 4). Knows slots; the moves of the page are live.ts.
 
-import type { Command, Frame } from '../protocol/commands.ts';
+import type { Command } from '../protocol/commands.ts';
 import type { Report } from '../protocol/reports.ts';
 import { requireReady, requireReleased, requireRest, setActivity, type Core } from './core.ts';
-import { download, frameCommands } from './download.ts';
 import { encodeOrRefuse } from './exchange.ts';
 import { repeatStop, STOP_PACKET } from './halt.ts';
 import { LinkError } from './linkError.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import type { Activity } from './state.ts';
-import type { SharedSlots } from './transport.ts';
-import { EDGE_FRAME_TIMEOUT_MS, ERASE_TIMEOUT_MS, RUN_END_GRACE_MS, RUN_TIMEOUT_MS } from './timings.ts';
+import { createStoring } from './storing.ts';
+import type { SharedSlots, SlotGroup } from './transport.ts';
+import { ERASE_TIMEOUT_MS, RUN_END_GRACE_MS, RUN_TIMEOUT_MS } from './timings.ts';
 
 export interface Groups {
   run(slot: number, times: number): Promise<void>;
@@ -19,7 +19,7 @@ export interface Groups {
   /** Its repeats are still to leave. */
   isStopping(): boolean;
   erase(): Promise<void>;
-  download(slot: number, frames: readonly Frame[]): Promise<void>;
+  download(groups: readonly SlotGroup[]): Promise<void>;
   cancelDownload(): Promise<void>;
   heard(report: Report): void;
   /** The link is about to be ready, or what it shares has changed: what is known of this board's slots. */
@@ -40,40 +40,10 @@ export function createGroups(
   ownMemory: SlotMemory | undefined,
   shared: SharedSlots | undefined,
 ): Groups {
-  const slotMemory = shared === undefined ? ownMemory : undefined;
   const { family, clock, store, robot, lanes, exchange } = core;
-  const broken = new Set<number>();
+  const storing = createStoring(core, ownMemory, shared);
   let stopping = 0;
-  let isCancelled = false;
   let cancelEndTimer = (): void => undefined;
-  /** Until then the board may acknowledge a frame that nobody waits for any more. */
-  let owedUntilMs = 0;
-
-  function publishSlots(): void {
-    const brokenSlots = [...broken].sort((a, b) => a - b);
-    slotMemory?.write(brokenSlots);
-    store.update({ brokenSlots, storedSlots: robot.storedSlots() });
-  }
-
-  /** Which board it is becomes known only now: another one may have taken the name's place. */
-  function linked(): void {
-    const remembered = shared?.broken ?? slotMemory?.read();
-    const work = sharedWork();
-    const isSame = remembered?.length === broken.size && remembered.every((slot) => broken.has(slot));
-    if (remembered !== undefined && !isSame) {
-      broken.clear();
-      for (const slot of remembered) broken.add(slot);
-      publishSlots();
-    }
-    const { kind } = store.state.activity;
-    if (shared !== undefined && (kind === 'idle' || kind === 'downloading')) setActivity(core, work);
-  }
-
-  function sharedWork(): Activity {
-    const under = shared?.download ?? null;
-    if (under !== null) robot.unstored(under.slot);
-    return under === null ? IDLE : { kind: 'downloading', ...under };
-  }
 
   function began(slot: number, times: number, truth: Truth): void {
     setActivity(core, { kind: 'running', slot, times, sinceMs: clock.now(), truth });
@@ -105,7 +75,7 @@ export function createGroups(
     requireReleased(core);
     const command = { kind: 'run', slot, times } as const;
     encodeOrRefuse(command, family);
-    if (broken.has(slot))
+    if (storing.isBroken(slot))
       throw new LinkError('slotBroken', `slot ${slot} holds half a group: download it again`);
     if (store.state.activity.kind === 'playing')
       throw new LinkError('busy', 'the page is playing: stop it first');
@@ -143,44 +113,10 @@ export function createGroups(
     robot.unstored();
     try {
       await exchange.ask(command, 'erased', ERASE_TIMEOUT_MS);
-      broken.clear();
+      storing.emptied();
     } finally {
-      publishSlots();
+      storing.publish();
       setActivity(core, IDLE);
-    }
-  }
-
-  async function storeGroup(slot: number, frames: readonly Frame[]): Promise<void> {
-    requireRest(core);
-    if (shared !== undefined) {
-      for (const command of frameCommands({ slot, frames })) encodeOrRefuse(command, family);
-      await shared.store(slot, frames);
-      robot.stored(slot, frames);
-      publishSlots();
-      return;
-    }
-    isCancelled = false;
-    const owedForMs = Math.max(0, owedUntilMs - clock.now());
-    try {
-      await download({
-        ...{ slot, frames, family, clock, exchange, owedForMs },
-        isCancelled: () => isCancelled,
-        begun() {
-          robot.unstored(slot);
-          broken.add(slot);
-          publishSlots();
-        },
-        progress: (progress) => setActivity(core, { kind: 'downloading', slot, ...progress }),
-      });
-      robot.stored(slot, frames);
-      broken.delete(slot);
-      owedUntilMs = 0;
-    } catch (error) {
-      owedUntilMs = clock.now() + EDGE_FRAME_TIMEOUT_MS;
-      throw error;
-    } finally {
-      publishSlots();
-      if (store.state.activity.kind === 'downloading') setActivity(core, IDLE);
     }
   }
 
@@ -189,25 +125,22 @@ export function createGroups(
     stop,
     isStopping: () => stopping > 0,
     erase,
-    download: storeGroup,
-    async cancelDownload() {
-      isCancelled = true;
-      await shared?.cancel();
-    },
+    download: storing.store,
+    cancelDownload: storing.cancel,
     heard(report) {
       robot.heard(report);
       if (report.kind === 'runStarted') began(report.slot, report.times, 'acknowledged');
       if (report.kind === 'runFinished') ended(report.slot);
       if (report.kind === 'runStopped') ended(null);
     },
-    linked,
+    linked: storing.linked,
     unlinked() {
       robot.unstored();
-      publishSlots();
+      storing.publish();
     },
     drop() {
       cancelEndTimer();
-      return sharedWork();
+      return storing.work();
     },
   };
 }

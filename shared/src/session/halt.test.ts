@@ -72,9 +72,14 @@ describe('STOP', () => {
 
   test('ends a group that the board plays, and the frame in progress with it', async () => {
     const rig = await createRig();
-    const stored = rig.session.download(3, [
-      { durationMs: 1_000, targets: [{ servo: 1, position: 1_000 }] },
-      { durationMs: 4_000, targets: [{ servo: 1, position: 2_000 }] },
+    const stored = rig.session.download([
+      {
+        slot: 3,
+        frames: [
+          { durationMs: 1_000, targets: [{ servo: 1, position: 1_000 }] },
+          { durationMs: 4_000, targets: [{ servo: 1, position: 2_000 }] },
+        ],
+      },
     ]);
     await rig.clock.advance(3_000);
     await stored;
@@ -95,7 +100,7 @@ describe('STOP', () => {
       durationMs: 100,
       targets: [{ servo: 1, position: 1_500 }],
     }));
-    const stored = rig.session.download(7, frames).catch((error: unknown) => error);
+    const stored = rig.session.download([{ slot: 7, frames }]).catch((error: unknown) => error);
     await rig.clock.advance(400);
     void rig.session.halt();
     await rig.clock.advance(3_000);

@@ -49,7 +49,9 @@ describe('a board nobody knows', () => {
       expect(() => session.move([{ servo: 1, position: 1500 }], 0)).toThrow();
       await expect(session.run(1, 1)).rejects.toThrow();
       await expect(session.erase()).rejects.toThrow();
-      await expect(session.download(1, [{ durationMs: 100, targets: [] }])).rejects.toThrow();
+      await expect(
+        session.download([{ slot: 1, frames: [{ durationMs: 100, targets: [] }] }]),
+      ).rejects.toThrow();
     };
     await pressAll();
     await clock.advance(3_000);
@@ -181,7 +183,7 @@ describe('the heartbeat', () => {
   test('asks nothing while a group runs: on a LeArm the question would end it (L8)', async () => {
     const rig = await watched('learm-esp32', 'learm-esp32');
     const frames = [{ durationMs: 4_000, targets: [{ servo: 2, position: 1_500 }] }];
-    const stored = rig.session.download(1, frames);
+    const stored = rig.session.download([{ slot: 1, frames }]);
     await rig.clock.advance(3_000);
     await stored;
     void rig.session.run(1, 5);

@@ -58,7 +58,9 @@ describe('a lost link', () => {
 
   test('leaves no slot called stored: another board may be at the other end', async () => {
     const { session, transport, clock } = await createRig();
-    const stored = session.download(5, [{ durationMs: 100, targets: [{ servo: 1, position: 1_500 }] }]);
+    const stored = session.download([
+      { slot: 5, frames: [{ durationMs: 100, targets: [{ servo: 1, position: 1_500 }] }] },
+    ]);
     await clock.advance(2_000);
     await stored;
     expect(session.state.storedSlots).toEqual([5]);

@@ -67,7 +67,9 @@ test('a servo that others moved is known as soon as it is ready, and its first m
 
 test('while a group of others may run nothing may begin that needs a robot at rest', async () => {
   const { session } = await joined({ ways: [], runSlot: 4 });
-  await expect(session.download(3, [{ durationMs: 100, targets: [] }])).rejects.toMatchObject({
+  await expect(
+    session.download([{ slot: 3, frames: [{ durationMs: 100, targets: [] }] }]),
+  ).rejects.toMatchObject({
     code: 'busy',
   });
 });

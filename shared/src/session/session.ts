@@ -21,7 +21,7 @@ import { createResync } from './resync.ts';
 import type { LinkState, ServoMotion, SessionEvents, SessionState } from './state.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { createSessionStore, NOTHING_READ } from './store.ts';
-import type { Transport } from './transport.ts';
+import type { SlotGroup, Transport } from './transport.ts';
 import { createWakefulClock } from './wakefulClock.ts';
 
 export interface SessionOptions {
@@ -83,9 +83,9 @@ export interface Session {
   setSpeed(slot: number | null, percent: number): Promise<void>;
   /** Takes the torque off: what these servos carry drops. Only after a person was warned. */
   release(servos: readonly number[]): Promise<void>;
-  /** Stores `frames` in `slot`; progress is in `state.activity`. */
-  download(slot: number, frames: readonly Frame[]): Promise<void>;
-  /** Behind its frame in progress; on a shared link, whoever began it. */
+  /** Stores them one after the other, until one fails; progress is in `state.activity`, the end in `state.lastDownload`. */
+  download(groups: readonly SlotGroup[]): Promise<void>;
+  /** Behind its frame in progress, with the groups behind it; on a shared link, whoever began it. */
   cancelDownload(): Promise<void>;
   /** Plays from the page. Resolves at the end or after `stopPlaying`. */
   play(frames: readonly Frame[], options?: { readonly times?: number }): Promise<void>;
@@ -168,7 +168,7 @@ export function createSession(options: SessionOptions): Session {
     driver.drop(new LinkError('cancelled', 'the board is taken for another one now'));
     driver = driverFor(next);
     store.update({
-      ...{ family: next, battery: { kind: 'unread' }, brokenSlots: [], storedSlots: [] },
+      ...{ family: next, battery: { kind: 'unread' }, brokenSlots: [], storedSlots: [], lastDownload: null },
       ...NOTHING_READ,
     });
   }
@@ -294,7 +294,7 @@ export function createSession(options: SessionOptions): Session {
     readOffsets: () => driver.readings.readOffsets(),
     setSpeed: (slot, percent) => driver.setSpeed(slot, percent),
     release: (servos) => driver.release(servos),
-    download: (slot, frames) => driver.groups.download(slot, frames),
+    download: (groups) => driver.groups.download(groups),
     cancelDownload: () => driver.groups.cancelDownload(),
     play: (frames, playing) => driver.live.play(frames, playing?.times ?? 1),
     stopPlaying: () => driver.live.stopPlaying(),

@@ -12,9 +12,11 @@ import type { SharedSlots, Transport, TransportEvents } from './transport.ts';
 
 const WAVE = [{ durationMs: 200, targets: [{ servo: 1, position: 1_600 }] }];
 const UNDER_WAY = {
-  ...{ slot: 5, framesStored: 1, frameCount: 3 },
-  ...{ bytesSent: 13, bytesTotal: 39, remainingMs: 700 },
+  ...{ slots: [5], groupsStored: 0, framesStored: 1, frameCount: 3 },
+  ...{ bytesSent: 13, bytesTotal: 39, remainingMs: 700, isOver: false },
 };
+const DONE = { ...UNDER_WAY, groupsStored: 1, framesStored: 3, isOver: true };
+const FAILED = { ...UNDER_WAY, isOver: true };
 
 async function sharedSession(known: Pick<SharedSlots, 'broken' | 'download'>) {
   const clock = createVirtualClock();
@@ -33,8 +35,8 @@ async function sharedSession(known: Pick<SharedSlots, 'broken' | 'download'>) {
       get download() {
         return told.download;
       },
-      store(slot, frames) {
-        asked.push(`store ${slot} ${frames.length}`);
+      store(groups) {
+        asked.push(`store ${groups.map(({ slot, frames }) => `${slot}:${frames.length}`).join(' ')}`);
         return new Promise((resolve, reject) => (settle = { resolve, reject }));
       },
       cancel() {
@@ -75,24 +77,27 @@ async function sharedSession(known: Pick<SharedSlots, 'broken' | 'download'>) {
 
 test('a download is asked for, followed and noted, and no frame of it is sent from here', async () => {
   const { session, sent, asked, tell, stored, clock } = await sharedSession({ broken: [], download: null });
-  const done = session.download(5, WAVE);
-  expect(asked).toEqual(['store 5 1']);
+  const done = session.download([{ slot: 5, frames: WAVE }]);
+  expect(asked).toEqual(['store 5:1']);
   tell({ broken: [5], download: UNDER_WAY });
   expect(session.state).toMatchObject({
-    activity: { kind: 'downloading', ...UNDER_WAY },
+    activity: { kind: 'downloading', slot: 5, framesStored: 1, remainingMs: 700 },
     brokenSlots: [5],
+    lastDownload: null,
   });
-  tell({ broken: [], download: null });
+  tell({ broken: [], download: DONE });
   stored();
   await done;
   await clock.advance(1_000);
   expect(session.state).toMatchObject({ activity: { kind: 'idle' }, brokenSlots: [], storedSlots: [5] });
+  expect(session.state.lastDownload).toEqual({ slots: [5], groupsStored: 1 });
   expect(sent).toEqual([]);
 });
 
 test('what is told of its frames after its end does not make the board deaf', async () => {
-  const { session, follow, stored, clock } = await sharedSession({ broken: [], download: null });
-  const done = session.download(5, WAVE);
+  const { session, follow, tell, stored, clock } = await sharedSession({ broken: [], download: null });
+  const done = session.download([{ slot: 5, frames: WAVE }]);
+  tell({ broken: [], download: DONE });
   stored();
   await done;
   follow({ kind: 'download', slot: 5, frameCount: 1, frameIndex: 0, frame: WAVE[0]! });
@@ -107,7 +112,7 @@ test('one that somebody else began is shown, refuses motion, and can be called o
   expect(() => session.move([{ servo: 1, position: 1_500 }], 100)).toThrow(
     expect.objectContaining({ code: 'busy' }),
   );
-  await expect(session.download(6, WAVE)).rejects.toMatchObject({ code: 'busy' });
+  await expect(session.download([{ slot: 6, frames: WAVE }])).rejects.toMatchObject({ code: 'busy' });
   await session.cancelDownload();
   expect(asked).toEqual(['cancel']);
 });
@@ -115,21 +120,22 @@ test('one that somebody else began is shown, refuses motion, and can be called o
 test('it outlives this end’s turn to drive, and what it left in the slot before is not known any more', async () => {
   const { session, lease, tell, stored } = await sharedSession({ broken: [], download: null });
   lease('Anna', true);
-  const done = session.download(5, WAVE);
+  const done = session.download([{ slot: 5, frames: WAVE }]);
+  tell({ broken: [], download: DONE });
   stored();
   await done;
   expect(session.state.storedSlots).toEqual([5]);
   tell({ broken: [5], download: UNDER_WAY });
   lease('Bert', false);
   expect(session.state).toMatchObject({ activity: { kind: 'downloading', slot: 5 }, storedSlots: [] });
-  tell({ broken: [5], download: null });
+  tell({ broken: [5], download: FAILED });
   expect(session.state.activity).toEqual({ kind: 'idle' });
 });
 
 test('what ends it is its error, and a broken slot is not run', async () => {
   const { session, failed, tell } = await sharedSession({ broken: [], download: null });
-  const done = session.download(5, WAVE).catch((error: unknown) => error);
-  tell({ broken: [5], download: null });
+  const done = session.download([{ slot: 5, frames: WAVE }]).catch((error: unknown) => error);
+  tell({ broken: [5], download: FAILED });
   failed(new LinkError('latched', 'stopped'));
   expect(await done).toMatchObject({ code: 'latched' });
   await expect(session.run(5, 1)).rejects.toMatchObject({ code: 'slotBroken' });
@@ -138,6 +144,23 @@ test('what ends it is its error, and a broken slot is not run', async () => {
 test('what the board cannot take is refused before anything is asked for', async () => {
   const { session, asked } = await sharedSession({ broken: [], download: null });
   for (const frames of [[], [{ durationMs: 200, targets: [{ servo: 1, position: 9_000 }] }]])
-    await expect(session.download(5, frames)).rejects.toMatchObject({ code: 'outOfRange' });
+    await expect(session.download([{ slot: 5, frames }])).rejects.toMatchObject({ code: 'outOfRange' });
   expect(asked).toEqual([]);
+});
+
+test('of several that end early, those that were stored are noted and the one in progress is broken', async () => {
+  const { session, asked, tell, failed } = await sharedSession({ broken: [], download: null });
+  const groups = [5, 9, 12].map((slot) => ({ slot, frames: WAVE }));
+  const done = session.download(groups).catch((error: unknown) => error);
+  expect(asked).toEqual(['store 5:1 9:1 12:1']);
+  const underWay = { ...UNDER_WAY, slots: [5, 9, 12], groupsStored: 1 };
+  tell({ broken: [9], download: underWay });
+  expect(session.state.activity).toMatchObject({ kind: 'downloading', slot: 9, groupsStored: 1 });
+  tell({ broken: [9], download: { ...underWay, isOver: true } });
+  failed(new LinkError('latched', 'stopped'));
+  expect(await done).toMatchObject({ code: 'latched' });
+  expect(session.state).toMatchObject({
+    ...{ activity: { kind: 'idle' }, brokenSlots: [9], storedSlots: [5] },
+    lastDownload: { slots: [5, 9, 12], groupsStored: 1 },
+  });
 });

@@ -7,7 +7,7 @@ import type { Family } from '../protocol/families.ts';
 import type { Lease } from './lease.ts';
 import type { Identity } from './identity.ts';
 import type { LinkError } from './linkError.ts';
-import type { RobotOnBoard, SharedLatchReason } from './transport.ts';
+import type { DownloadProgress, RobotOnBoard, SharedLatchReason } from './transport.ts';
 
 export type LinkState =
   | { readonly status: 'closed' }
@@ -48,15 +48,8 @@ export type Activity =
       readonly truth: 'requested' | 'acknowledged' | 'unknown';
     }
   | { readonly kind: 'playing'; readonly frameIndex: number; readonly frameCount: number }
-  | {
-      readonly kind: 'downloading';
-      readonly slot: number;
-      readonly framesStored: number;
-      readonly frameCount: number;
-      readonly bytesSent: number;
-      readonly bytesTotal: number;
-      readonly remainingMs: number;
-    }
+  /** `slot` is being filled now. */
+  | ({ readonly kind: 'downloading'; readonly slot: number } & DownloadProgress)
   | { readonly kind: 'erasing' };
 
 export type Battery =
@@ -91,6 +84,8 @@ export interface SessionState {
   readonly offsets: readonly ServoOffset[] | null;
   /** Slots whose download was begun and not finished, here or in an earlier visit: broken on the board (S35). */
   readonly brokenSlots: readonly number[];
+  /** How far the download before this moment came, by whomever; null where nobody knows of one. */
+  readonly lastDownload: Pick<DownloadProgress, 'slots' | 'groupsStored'> | null;
   /** What this session stored, by slot. */
   readonly storedSlots: readonly number[];
   /** Which robot it is, by the word of a shared link; null on one's own. Another object whenever it was told. */

@@ -30,6 +30,7 @@ export const INITIAL_STATE: SessionState = {
   ...NOTHING_READ,
   brokenSlots: [],
   storedSlots: [],
+  lastDownload: null,
   robotOnBoard: null,
 };
 

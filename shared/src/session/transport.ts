@@ -33,7 +33,17 @@ export interface TransportEvents {
   slotsChanged?(): void;
 }
 
+/** A group and the slot that shall hold it. */
+export interface SlotGroup {
+  readonly slot: number;
+  readonly frames: readonly Frame[];
+}
+
+/** Of several groups together. */
 export interface DownloadProgress {
+  /** Where they go, in this order. */
+  readonly slots: readonly number[];
+  readonly groupsStored: number;
   readonly framesStored: number;
   readonly frameCount: number;
   readonly bytesSent: number;
@@ -41,14 +51,18 @@ export interface DownloadProgress {
   readonly remainingMs: number;
 }
 
+export interface SharedDownload extends DownloadProgress {
+  readonly isOver: boolean;
+}
+
 /** How a shared link stores groups: by itself, so that it goes on when this end is gone. Known once the link is open. */
 export interface SharedSlots {
   /** Slots that hold half a group. */
   readonly broken: readonly number[];
-  /** The download under way, whoever began it. */
-  readonly download: (DownloadProgress & { readonly slot: number }) | null;
-  /** Resolves when the board has all of it; rejects with what ended it. */
-  store(slot: number, frames: readonly Frame[]): Promise<void>;
+  /** The latest download, whoever began it; null where there was none. */
+  readonly download: SharedDownload | null;
+  /** Resolves when the board has all of them; rejects with what ended it. */
+  store(groups: readonly SlotGroup[]): Promise<void>;
   /** Calls off the one under way. */
   cancel(): Promise<void>;
 }

@@ -258,9 +258,15 @@ export const english = {
     eraseConfirm: 'Erase every slot',
     eraseKeep: 'Keep them',
     erased: 'Every slot is empty.',
-    downloaded: (slot: number): string => `Slot ${formatWhole(slot)} is downloaded.`,
-    downloadCancelled: (slot: number): string =>
-      `Download cancelled. Slot ${formatWhole(slot)} is broken until a whole group is downloaded.`,
+    downloaded: ([first = 0, ...others]: readonly number[]): string =>
+      others.length === 0
+        ? `Slot ${formatWhole(first)} is downloaded.`
+        : `${counted(others.length + 1, 'group')} are downloaded.`,
+    /** null: it was called off between two groups. */
+    downloadCancelled: (broken: number | null): string =>
+      broken === null
+        ? 'Download cancelled. No slot is broken.'
+        : `Download cancelled. Slot ${formatWhole(broken)} is broken until a whole group is downloaded.`,
     speed: 'Speed',
     speedField: 'Group speed in percent',
     percent: '%',

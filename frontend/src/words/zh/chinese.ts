@@ -244,8 +244,14 @@ export const chinese: Words = {
     eraseConfirm: '擦除全部槽位',
     eraseKeep: '保留',
     erased: '全部槽位已清空。',
-    downloaded: (slot) => `槽位${formatWhole(slot)}已下载完成。`,
-    downloadCancelled: (slot) => `下载已取消。在完整下载一个动作组之前，槽位${formatWhole(slot)}是损坏的。`,
+    downloaded: ([first = 0, ...others]) =>
+      others.length === 0
+        ? `槽位${formatWhole(first)}已下载完成。`
+        : `${formatCount(others.length + 1)}个动作组已下载完成。`,
+    downloadCancelled: (broken) =>
+      broken === null
+        ? '下载已取消。没有槽位损坏。'
+        : `下载已取消。在完整下载一个动作组之前，槽位${formatWhole(broken)}是损坏的。`,
     speed: '速度',
     speedField: '动作组速度，百分比',
     percent: '%',

@@ -27,8 +27,8 @@ const bookSchema = z.strictObject({
   erased: z.array(recordSchema),
   /** Every other slot was empty then. */
   isEmptied: z.boolean(),
-  /** Books of earlier versions name none. */
-  begun: z.optional(recordSchema),
+  /** Books of earlier versions name one, or none. */
+  begun: z.optional(z.union([recordSchema, z.array(recordSchema)])),
 });
 
 const FORMAT = 'servodeck-slots';
@@ -54,11 +54,11 @@ export interface SlotBook {
   /** What the last erase took and nobody has brought back. */
   readonly erased: readonly SlotRecord[];
   readonly isEmptied: boolean;
-  /** What is on its way to the board: it may arrive when nobody is here any more. */
-  readonly begun: SlotRecord | null;
+  /** What is on its way to the board, in this order: it may arrive when nobody is here any more. */
+  readonly begun: readonly SlotRecord[];
 }
 
-export const EMPTY_SLOT_BOOK: SlotBook = { stored: [], erased: [], isEmptied: false, begun: null };
+export const EMPTY_SLOT_BOOK: SlotBook = { stored: [], erased: [], isEmptied: false, begun: [] };
 
 export const recordOf = ({ stored }: SlotBook, slot: number): SlotRecord | undefined =>
   stored.find((record) => record.slot === slot);
@@ -68,16 +68,19 @@ const without = (records: readonly SlotRecord[], slot: number): readonly SlotRec
 
 const bySlot = (one: SlotRecord, other: SlotRecord): number => one.slot - other.slot;
 
-/** Its first byte has left; null: it did not arrive. */
-export const withBegun = (book: SlotBook, begun: SlotRecord | null): SlotBook => ({ ...book, begun });
-
 export function withStored(book: SlotBook, record: SlotRecord): SlotBook {
   return {
     ...book,
     stored: [...without(book.stored, record.slot), record].sort(bySlot),
     erased: without(book.erased, record.slot),
-    begun: null,
+    begun: without(book.begun, record.slot),
   };
+}
+
+/** Something was stored there that nobody here knows. */
+export function withUnknown(book: SlotBook, slot: number): SlotBook {
+  if (recordOf(book, slot) === undefined && !book.isEmptied) return book;
+  return { ...book, stored: without(book.stored, slot), isEmptied: false };
 }
 
 /** An erase has begun: nobody knows what is left. */
@@ -127,7 +130,7 @@ export function slotBookToText({ stored, erased, isEmptied, begun }: SlotBook): 
   });
   const content = {
     ...{ stored: stored.map(packed), erased: erased.map(packed), isEmptied },
-    ...(begun !== null && { begun: packed(begun) }),
+    ...(begun.length > 0 && { begun: begun.map(packed) }),
   };
   return JSON.stringify({ format: FORMAT, version: 1, content });
 }
@@ -135,9 +138,9 @@ export function slotBookToText({ stored, erased, isEmptied, begun }: SlotBook): 
 export function slotBookFromText(text: string): Read<SlotBook> {
   const read = readVersioned(text, 'slot', fileSchema, () => null);
   if ('problem' in read) return read;
-  const { stored, erased, isEmptied, begun } = read.value;
+  const { stored, erased, isEmptied, begun = [] } = read.value;
   const lists = { stored: stored.map(unpacked), erased: erased.map(unpacked) };
-  return { value: { ...lists, isEmptied, begun: begun === undefined ? null : unpacked(begun) } };
+  return { value: { ...lists, isEmptied, begun: [begun].flat().map(unpacked) } };
 }
 
 function unpacked(record: z.infer<typeof recordSchema>): SlotRecord {

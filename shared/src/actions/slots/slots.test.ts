@@ -1,5 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { withBegun } from './arrivals.ts';
 import { compareFrames } from './compareFrames.ts';
 import { fingerprintOf } from './fingerprint.ts';
 import {
@@ -7,10 +8,10 @@ import {
   fateOf,
   slotBookFromText,
   slotBookToText,
-  withBegun,
   withErased,
   withErasing,
   withStored,
+  withUnknown,
   type SlotRecord,
 } from './slotBook.ts';
 
@@ -92,6 +93,19 @@ describe('the book of slots', () => {
     expect(JSON.parse(slotBookToText(read.value))).toEqual(JSON.parse(text));
   });
 
+  test('of an earlier version may have one group on its way', () => {
+    const text = slotBookToText(withBegun(EMPTY_SLOT_BOOK, [record(5)]));
+    const { content, ...file } = JSON.parse(text) as { content: { begun: unknown[] } };
+    const earlier = { ...file, content: { ...content, begun: content.begun[0] } };
+    expect(slotBookFromText(JSON.stringify(earlier))).toEqual(slotBookFromText(text));
+  });
+
+  test('does not know what somebody else has stored', () => {
+    const book = withErased(withErasing(withStored(EMPTY_SLOT_BOOK, record(5))));
+    expect(fateOf(withUnknown(book, 9), NOW, 9, group)).toBe('unknown');
+    expect(fateOf(withUnknown(withStored(book, record(5)), 5), NOW, 5, group)).toBe('unknown');
+  });
+
   test('a copy of the very same motion is up to date under any name', () => {
     const book = withStored(EMPTY_SLOT_BOOK, record(5, 'Greeting'));
     expect(fateOf(book, NOW, 5, group)).toBe('same');
@@ -115,7 +129,7 @@ describe('the book of slots', () => {
       fc.property(someFrames, (frames) => {
         const book = withErased(withErasing(withStored(EMPTY_SLOT_BOOK, record(3, 'Wave', frames))));
         const both = withStored(book, record(9, 'Bow', frames));
-        const begun = withBegun(both, record(10, 'Nod', frames));
+        const begun = withBegun(both, [record(10, 'Nod', frames), record(2, 'Nod', frames)]);
         for (const each of [both, begun])
           expect(slotBookFromText(slotBookToText(each))).toEqual({ value: each });
       }),

@@ -97,7 +97,7 @@ async function storeUnder(fates: readonly Fate[], circumstances: Circumstances):
   let outcome: unknown = 'hangs';
   /** What the board had committed when the session said so, not some time later. */
   let countWhenTold = 0;
-  session.download(slot, frames).then(
+  session.download([{ slot, frames }]).then(
     () => {
       outcome = 'stored';
       countWhenTold = simulated.board.frameCount(slot);

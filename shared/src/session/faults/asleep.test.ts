@@ -77,7 +77,7 @@ describe('F23: after a sleep at any instant nothing moves that was asked before'
 describe('and what does not depend on the computer goes on', () => {
   test('a group on the board is still known to run, and its end is heard', async () => {
     const rig = await atRest();
-    const running = rig.session.download(1, FRAMES).then(() => rig.session.run(1, 0));
+    const running = rig.session.download([{ slot: 1, frames: FRAMES }]).then(() => rig.session.run(1, 0));
     await rig.clock.advance(10_000);
     await running;
     await rig.asleep(NIGHT_MS);
@@ -90,7 +90,7 @@ describe('and what does not depend on the computer goes on', () => {
 
   test('a download is finished', async () => {
     const rig = await atRest();
-    const stored = rig.session.download(1, FRAMES);
+    const stored = rig.session.download([{ slot: 1, frames: FRAMES }]);
     await rig.clock.advance(50);
     await rig.asleep(2_000);
     await rig.clock.advance(10_000);

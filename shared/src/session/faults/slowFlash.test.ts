@@ -48,7 +48,7 @@ async function erase(sectorMs: number): Promise<void> {
 async function store(sectorMs: number): Promise<void> {
   const { session, clock, transport } = await slow(sectorMs);
   let outcome: unknown = 'hangs';
-  session.download(SLOT, FRAMES).then(
+  session.download([{ slot: SLOT, frames: FRAMES }]).then(
     () => (outcome = 'stored'),
     (error: unknown) => (outcome = codeOf(error)),
   );
@@ -62,7 +62,7 @@ async function store(sectorMs: number): Promise<void> {
 
 async function stopWhileStoring(sectorMs: number): Promise<void> {
   const rig = await slow(sectorMs);
-  const outcome = rig.session.download(SLOT, FRAMES).catch((error: unknown) => error);
+  const outcome = rig.session.download([{ slot: SLOT, frames: FRAMES }]).catch((error: unknown) => error);
   await rig.clock.advance(35);
   const halted = rig.session.halt();
   await rig.clock.advance(300);
@@ -78,11 +78,11 @@ test('STOP is served while the chip is at work', () => eachPace(stopWhileStoring
 
 test('a download after an interrupted one does not take its late answer for its own', async () => {
   const { session, clock, transport } = await slow(400);
-  session.download(SLOT, FRAMES).catch(() => undefined);
+  session.download([{ slot: SLOT, frames: FRAMES }]).catch(() => undefined);
   await clock.advance(35);
   await Promise.all([session.halt(), clock.advance(200)]);
   await session.resume();
-  const again = session.download(SLOT, FRAMES);
+  const again = session.download([{ slot: SLOT, frames: FRAMES }]);
   await clock.advance(30_000);
   await again;
   expect(FRAMES.map((_, at) => transport.board.storedFrame(SLOT, at))).toEqual(FRAMES);

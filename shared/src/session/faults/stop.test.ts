@@ -24,7 +24,7 @@ const LONG_GROUP = Array.from({ length: 40 }, (_, at) => pose(1_000 + at));
 const ignore = (): undefined => undefined;
 
 async function download(rig: Rig): Promise<void> {
-  const stored = rig.session.download(SLOT, WAVE);
+  const stored = rig.session.download([{ slot: SLOT, frames: WAVE }]);
   await rig.clock.advance(1_000);
   await stored;
 }
@@ -51,7 +51,7 @@ const STATES: Readonly<Record<string, (rig: Rig) => Promise<number>>> = {
     return 800;
   },
   download({ session }) {
-    session.download(SLOT, LONG_GROUP).catch(ignore);
+    session.download([{ slot: SLOT, frames: LONG_GROUP }]).catch(ignore);
     return Promise.resolve(1_000);
   },
   erase({ session }) {
@@ -92,7 +92,7 @@ async function tryToMove({ session, clock }: Rig): Promise<void> {
   expect(() => session.move([{ servo: 1, position: 900 }], 0)).toThrow();
   await expect(session.run(SLOT, 1)).rejects.toThrow();
   await expect(session.play(WAVE)).rejects.toThrow();
-  await expect(session.download(SLOT, WAVE)).rejects.toThrow();
+  await expect(session.download([{ slot: SLOT, frames: WAVE }])).rejects.toThrow();
   await expect(session.erase()).rejects.toThrow();
   await clock.advance(2_000);
 }

@@ -26,7 +26,9 @@ async function runningRig(): Promise<Rig> {
     0,
   );
   await clock.advance(500);
-  const stored = session.download(5, [{ durationMs: 5_000, targets: [{ servo: SERVOS, position: REST }] }]);
+  const stored = session.download([
+    { slot: 5, frames: [{ durationMs: 5_000, targets: [{ servo: SERVOS, position: REST }] }] },
+  ]);
   await clock.advance(2_000);
   await stored;
   void session.run(5, 0);

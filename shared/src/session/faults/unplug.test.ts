@@ -73,7 +73,7 @@ async function pullAt({ slot, frames, packetMs }: Group, frameIndex: number, aft
     traffic: (entry) => (acknowledged += Number(entry.direction === 'in' && 'report' in entry)),
   });
   let outcome: unknown = 'hangs';
-  session.download(slot, frames).then(
+  session.download([{ slot, frames }]).then(
     () => (outcome = 'stored'),
     (error: unknown) => (outcome = error instanceof LinkError ? error.code : error),
   );

@@ -1,0 +1,62 @@
+"""Groups as the packets that store them, judged for one family of boards.
+
+Knows frames and packets; no job and no time. A large group takes a while, and a stop must not wait for it:
+whoever waits for the packets lets others go on between two frames.
+"""
+
+import asyncio
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from servodeck.errors import CancelledError, OutOfRangeError
+from servodeck.gate import judge_frame
+from servodeck.values import Download, Frame
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    slot: int
+    name: str
+    frames: Sequence[Frame]
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One group of a download; `packets` in the order of its frames, for boards of the family `board`."""
+
+    group: Group
+    packets: Sequence[bytes]
+    board: str
+
+
+def judge_parts(parts: Sequence[Part], board: str) -> None:
+    """Raises OutOfRangeError where a slot is wanted twice, CancelledError where they were made for another
+    family.
+    """
+    slots = [part.group.slot for part in parts]
+    twice = next((slot for at, slot in enumerate(slots) if slot in slots[:at]), None)
+    if twice is not None:
+        raise OutOfRangeError(f"Slot {twice} is wanted twice.")
+    if any(part.board != board for part in parts):
+        raise CancelledError("The board is taken for another one now.")
+
+
+async def parts_of(groups: Sequence[Group], board: str) -> list[Part]:
+    """Raises what such a board cannot take of them."""
+    return [await part_of(group, board) for group in groups]
+
+
+async def part_of(group: Group, board: str) -> Part:
+    packets = []
+    for packet in packets_of(group, board):
+        packets.append(packet)
+        await asyncio.sleep(0)
+    return Part(group, packets, board)
+
+
+def packets_of(group: Group, board: str) -> Iterator[bytes]:
+    count = len(group.frames)
+    if count == 0:
+        raise OutOfRangeError("An action group needs at least one frame.")
+    for index, frame in enumerate(group.frames):
+        yield judge_frame(Download(group.slot, count, index, frame), board)
