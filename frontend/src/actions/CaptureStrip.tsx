@@ -16,9 +16,9 @@ export function CaptureStrip() {
   const isUnknownBoard = useDevice(({ family }) => family.id === 'unknown');
   if (isUnknownBoard) return null;
   return (
-    <div className={styles.strip} role="group" aria-label={words.actions.captureHere}>
+    <section className={styles.strip} aria-label={words.actions.captureHere}>
       {isKnown ? <Captures stores={stores} /> : <p className={styles.hint}>{words.actions.nothingKnown}</p>}
-    </div>
+    </section>
   );
 }
 
