@@ -6,6 +6,7 @@ event loop: every call here may block for a moment.
 
 import errno
 import os
+import re
 import socket
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ import serial
 from serial.tools import list_ports
 
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
-from servodeck.whereabouts import UsbDevice
+from servodeck.whereabouts import SHARED_NUMBERS, UsbDevice
 
 BAUD = 9600
 POSIX = os.name == "posix"
@@ -29,8 +30,8 @@ READ_BYTES = 4096
 LIKELY_VENDORS = frozenset({0x1A86, 0x10C4, 0x0403})
 URL_SCHEME = "socket://"
 LASTING = Path("/dev/serial")
-# None, and what adapters bear as they come from the factory.
-SHARED_NUMBERS = frozenset({"", "0", "0001"})
+# Ports of one interface share its place on the bus; only the system's name for their socket counts them.
+FURTHER_PORT = re.compile(r"-(port[1-9][0-9]*)$")
 
 
 class OpenPort(Protocol):
@@ -182,9 +183,11 @@ def list_usb() -> list[UsbDevice]:
 
 def usb_device(port: Any) -> UsbDevice:
     """`port` as in `describe`."""
-    return UsbDevice(
-        str(port.device), port.vid, port.pid, serial=port.serial_number or "", location=port.location or ""
-    )
+    device, location = str(port.device), port.location or ""
+    further = FURTHER_PORT.search(lasting_name(device, has_number=False) or "")
+    if location and further:
+        location = f"{location}:{further[1]}"
+    return UsbDevice(device, port.vid, port.pid, serial=port.serial_number or "", location=location)
 
 
 def describe(port: Any) -> PortInfo:

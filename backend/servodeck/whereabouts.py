@@ -10,6 +10,9 @@ from dataclasses import dataclass
 
 from servodeck.errors import OtherDeviceError, PortMissingError
 
+# None, and what adapters bear as they come from the factory.
+SHARED_NUMBERS = frozenset({"", "0", "0001"})
+
 
 @dataclass(frozen=True, slots=True)
 class UsbDevice:
@@ -24,7 +27,17 @@ class UsbDevice:
     @property
     def kind(self) -> tuple[int, int, str, str]:
         """All that it says of itself; one adapter may carry several ports, told apart behind the colon."""
-        return self.vendor, self.product, self.serial, self.location.partition(":")[2]
+        return self.vendor, self.product, self.serial, self.interface
+
+    @property
+    def interface(self) -> str:
+        """Which port of the device it is; empty where that has one alone."""
+        return self.location.partition(":")[2]
+
+    @property
+    def number(self) -> str:
+        """No other port has it; empty where there is none."""
+        return "" if self.serial in SHARED_NUMBERS else f"{self.serial} {self.interface}".rstrip()
 
     @property
     def place(self) -> tuple[int, int, str, str]:
@@ -49,7 +62,7 @@ class Whereabouts:
     def lasting(self) -> str:
         """Its own number where the bus tells one, else its socket, else the name it was chosen by."""
         ours = self._ours
-        own = ours and (ours.serial or ours.location)
+        own = ours and (ours.number or ours.location)
         return f"{ours.vendor:04x}:{ours.product:04x} {own}" if ours and own else self._name
 
     def find(self, listed: Iterable[UsbDevice]) -> str:

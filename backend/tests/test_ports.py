@@ -18,7 +18,8 @@ from typer.testing import CliRunner
 
 from servodeck.cli import app
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
-from servodeck.ports import explain, list_devices, open_port
+from servodeck.ports import explain, list_devices, list_usb, open_port
+from servodeck.whereabouts import Whereabouts
 
 NOBODY = 65534
 
@@ -178,7 +179,9 @@ class FakeDev:
         monkeypatch.setattr("servodeck.ports.LASTING", folder / "serial")
         monkeypatch.setattr(list_ports, "comports", lambda: self._ports)
 
-    def plug(self, name: str, by_id: str, by_path: str, number: str | None = None) -> str:
+    def plug(
+        self, name: str, by_id: str, by_path: str, number: str | None = None, location: str | None = None
+    ) -> str:
         """Later links of the same name win, as with udev. The device's path."""
         device = self.folder / name
         device.touch()
@@ -188,7 +191,14 @@ class FakeDev:
             path.unlink(missing_ok=True)
             path.symlink_to(device)
         self._ports.append(
-            SimpleNamespace(device=str(device), description=by_id, vid=0x1A86, serial_number=number)
+            SimpleNamespace(
+                device=str(device),
+                description=by_id,
+                vid=0x1A86,
+                pid=0x7523,
+                serial_number=number,
+                location=location,
+            )
         )
         return str(device)
 
@@ -230,6 +240,35 @@ def test_adapters_that_cannot_be_told_apart_go_by_their_socket(dev: FakeDev, num
     dev.pull_all()
     assert right == shown(device := dev.plug("ttyUSB0", TWIN, RIGHT, number))
     assert os.path.realpath(str(right)) == device
+
+
+@pytest.mark.parametrize(
+    ("ends", "locations"),
+    [(("if00-port0", "if01-port0"), ("1-1:1.0", "1-1:1.1")), (("if00-port0", "if00-port1"), ("1-1", "1-1"))],
+    ids=["an interface each", "one interface"],
+)
+def test_two_ports_of_one_adapter_with_a_number_are_told_apart(
+    dev: FakeDev, ends: tuple[str, str], locations: tuple[str, str]
+) -> None:
+    rows = [
+        (f"usb-Two_A1-{end}", f"pci-usb-0:1:{end}", "A1", location)
+        for end, location in zip(ends, locations, strict=True)
+    ]
+
+    def plug(*names: str) -> list[str]:
+        return [dev.plug(name, *row) for name, row in zip(names, rows, strict=True)]
+
+    first, second = plug("ttyUSB0", "ttyUSB1")
+    assert [shown(first), shown(second)] == [str(dev.folder / "serial" / "by-id" / row[0]) for row in rows]
+    ours = Whereabouts(second)
+    ours.opened(second, list_usb())
+    other = Whereabouts(first)
+    other.opened(first, list_usb())
+    assert ours.lasting != other.lasting
+    ours.note_others([])
+    dev.pull_all()
+    swapped = plug("ttyUSB1", "ttyUSB0")
+    assert [other.find(list_usb()), ours.find(list_usb())] == swapped
 
 
 def test_where_the_system_keeps_no_lasting_names_none_is_told(dev: FakeDev) -> None:

@@ -160,6 +160,11 @@ def test_what_has_no_place_on_the_bus_goes_by_its_name(name: str) -> None:
 def test_a_board_is_remembered_by_its_own_number_else_by_its_socket_else_by_its_name() -> None:
     for device, lasting in (
         (FTDI, f"0403:6001 {FTDI.serial}"),
+        (in_socket(FTDI, "1-3", USB0), f"0403:6001 {FTDI.serial}"),
+        (FIRST_OF_TWO, "0403:6010 FT4V 1.0"),
+        (SECOND_OF_TWO, "0403:6010 FT4V 1.1"),
+        (in_socket(SECOND_OF_TWO, "2-1:1.1"), "0403:6010 FT4V 1.1"),
+        (CP2102, "10c4:ea60 1-1"),
         (CH340, "1a86:7523 1-1"),
         (COM3, "COM3"),
     ):
