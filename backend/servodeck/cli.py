@@ -19,6 +19,7 @@ import typer
 
 from servodeck.config import PREFIX, commands_of, settings_of, take_file, toml_line
 from servodeck.describe import describe
+from servodeck.download_cli import download
 from servodeck.families import UNKNOWN
 from servodeck.logs import Form, Level
 from servodeck.packets import FAMILIES, PacketError
@@ -42,7 +43,7 @@ app = typer.Typer(
 )
 
 
-for command in COMMANDS:
+for command in (*COMMANDS, download):
     app.command()(command)
 
 
