@@ -70,6 +70,7 @@ async def test_each_piece_of_the_tutorial_runs(board: Board, gateway: Running, t
             text=True,
             capture_output=True,
             env=environment,
+            cwd=tmp_path,
             timeout=30,
         )
         assert done.returncode == 0, f"{text}\n{done.stdout}\n{done.stderr}"
