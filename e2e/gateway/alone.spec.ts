@@ -1,7 +1,7 @@
 // What drives without a page: a run that goes on after its page has gone, and a script. Both are seen and can be stopped.
 
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
-import { dashboardOf } from '../fixtures/dashboard.ts';
+import { dashboardOf, READY } from '../fixtures/dashboard.ts';
 import { captureGroup, downloadGroup } from '../fixtures/group.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
@@ -23,7 +23,7 @@ test('a run that may go on outlives its page; the next page sees it, and stops i
   const before = (await robot.bus()).length;
   const next = dashboardOf(await context.newPage());
   await robot.open(next.page);
-  await expect(next.link).toHaveText(/^Ready/);
+  await expect(next.link).toHaveText(READY);
   await expect(next.alone).toContainText('Slot 6 goes on without another window');
   // Longer than anybody's silence is waited for.
   await expect(next.alone).toContainText(/4:5[0-5]/, { timeout: 15_000 });
@@ -82,5 +82,5 @@ test('a script drives under its name, and the page that is alone beside it sees 
   await expect(dashboard.turn).toContainText('A script on this computer drives');
   await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
   await expect(dashboard.target(1)).toHaveValue('1800');
-  await expect(dashboard.turn).toHaveCount(0, { timeout: 10_000 });
+  await expect(dashboard.turn).toHaveCount(0);
 });

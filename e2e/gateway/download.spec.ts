@@ -2,7 +2,7 @@
 
 import type { BrowserContext } from '@playwright/test';
 import { ofKind } from '../fixtures/bus.ts';
-import { dashboardOf, type Dashboard } from '../fixtures/dashboard.ts';
+import { dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
 import { SLOW_FLASH, type Robot } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
@@ -21,7 +21,7 @@ async function begins(dashboard: Dashboard, slot: number): Promise<void> {
 async function joins(robot: Robot, context: BrowserContext): Promise<Dashboard> {
   const other = dashboardOf(await context.newPage());
   await robot.open(other.page);
-  await expect(other.link).toHaveText(/^Ready/);
+  await expect(other.link).toHaveText(READY);
   return other;
 }
 

@@ -2,7 +2,7 @@
 // serial devices; the oracle is what the board heard.
 
 import { ofKind } from '../fixtures/bus.ts';
-import { dashboardOf } from '../fixtures/dashboard.ts';
+import { dashboardOf, READY } from '../fixtures/dashboard.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 const SIX = [1, 2, 3, 4, 5, 6];
@@ -57,7 +57,7 @@ test.describe('an LSC-6', () => {
     const { url } = await newGateway({ serial: ptyBoard.device, board: 'lsc-6' });
     const dashboard = dashboardOf(page);
     await page.goto(url);
-    await expect(dashboard.link).toHaveText(/^Ready/u);
+    await expect(dashboard.link).toHaveText(READY);
     await expect(dashboard.button('Read positions')).toHaveCount(0);
     await dashboard.type(dashboard.slot, 8);
     await dashboard.type(dashboard.field('Group speed in percent'), 50);

@@ -3,7 +3,7 @@
 
 import type { BoardSettings } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
-import { dashboardOf } from '../fixtures/dashboard.ts';
+import { dashboardOf, READY } from '../fixtures/dashboard.ts';
 
 const HARMLESS = ['stop', 'readBattery', 'readVersion', 'readPositions'];
 
@@ -102,7 +102,7 @@ test.describe('a board that falls silent', () => {
     await page.goto(url);
     await expect(dashboard.link).toHaveText(/^No answer/, { timeout: 20_000 });
     await expect(dashboard.status).toContainText('Switch it on');
-    await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 20_000 });
+    await expect(dashboard.link).toHaveText(READY, { timeout: 20_000 });
     await expect(dashboard.resume).toBeVisible();
   });
 });

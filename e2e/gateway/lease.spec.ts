@@ -2,7 +2,7 @@
 
 import type { BrowserContext } from '@playwright/test';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
-import { dashboardOf, type Dashboard } from '../fixtures/dashboard.ts';
+import { dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
 import type { Robot } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
@@ -19,7 +19,7 @@ async function movesSlowly(who: Dashboard, servo: number, position: number): Pro
 async function joins(robot: Robot, context: BrowserContext): Promise<Dashboard> {
   const other = dashboardOf(await context.newPage());
   await robot.open(other.page);
-  await expect(other.link).toHaveText(/^Ready/);
+  await expect(other.link).toHaveText(READY);
   return other;
 }
 
@@ -51,7 +51,8 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   const before = await topOfWork(dashboard);
   const other = await joins(robot, context);
   await expect(dashboard.turn).toContainText('Nobody drives');
-  expect(await topOfWork(dashboard), 'nothing moves under a finger when somebody joins').toEqual(before);
+  // Nothing moves under a finger when somebody joins.
+  await poll(() => topOfWork(dashboard)).toEqual(before);
   expect(before[0], 'a phone keeps its room for the work').toBeLessThanOrEqual(112);
   await dashboard.type(dashboard.target(1), 1800);
   await expect(dashboard.turn).toContainText('You drive');
@@ -72,7 +73,7 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');
   await other.type(other.target(2), 1700);
   await poll(() => lastTarget(robot.bus, 2)).toBe(1700);
-  expect(await topOfWork(dashboard)).toEqual(before);
+  await poll(() => topOfWork(dashboard)).toEqual(before);
 });
 
 test('a driver who says nothing passes it on; taking over asks nobody and stops what moves', async ({
@@ -84,7 +85,7 @@ test('a driver who says nothing passes it on; taking over asks nobody and stops 
   await dashboard.type(dashboard.target(1), 1800);
   await expect(other.turn).toContainText('drives');
   await act(other, 'Ask to drive');
-  await expect(other.turn).toContainText('You drive', { timeout: 10_000 });
+  await expect(other.turn).toContainText('You drive');
 
   await movesSlowly(other, 1, 900);
   await poll(() => lastTarget(robot.bus, 1)).toBe(900);

@@ -3,7 +3,7 @@
 
 import type { Browser } from '@playwright/test';
 import { lastTarget } from '../fixtures/bus.ts';
-import { dashboardOf, type Dashboard } from '../fixtures/dashboard.ts';
+import { dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
 import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import type { Robot } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
@@ -13,7 +13,7 @@ async function otherScreen(browser: Browser, robot: Robot): Promise<Dashboard> {
   const page = await (await browser.newContext()).newPage();
   const dashboard = dashboardOf(page);
   await robot.open(page);
-  await expect(dashboard.link).toHaveText(/^Ready/);
+  await expect(dashboard.link).toHaveText(READY);
   return dashboard;
 }
 

@@ -2,6 +2,7 @@
 // Where umockdev is missing these are skipped, and the reason is told.
 
 import { kindsAfter, lastTarget, ofKind } from '../fixtures/bus.ts';
+import { READY } from '../fixtures/dashboard.ts';
 import { expect, poll, test } from '../fixtures/realPort.ts';
 
 test('a real port is opened and tells the battery', async ({ openPort, ptyBoard }) => {
@@ -14,7 +15,7 @@ test('a port that is open says so, and is not opened once more', async ({ openPo
   await openPort.link.click();
   await expect(openPort.button('USB serial 1234:5678 is open')).toBeDisabled();
   await openPort.button('Close').click();
-  await expect(openPort.link).toHaveText(/^Ready/);
+  await expect(openPort.link).toHaveText(READY);
   expect((await kindsAfter(ptyBoard.bus, before)).filter((kind) => kind !== 'readBattery')).toEqual([]);
 });
 

@@ -3,7 +3,7 @@
 
 import type { Page } from '@playwright/test';
 import { ofKind, type Bus } from '../fixtures/bus.ts';
-import type { Dashboard } from '../fixtures/dashboard.ts';
+import { READY, type Dashboard } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
 import { expect, poll, test } from '../fixtures/realPort.ts';
 
@@ -46,7 +46,7 @@ test('a hidden tab pauses; the next one is told who drives, moves the robot here
   expect(movesSoFar).toBeLessThan(2 + FRAMES);
 
   await other.button('Move it here').click();
-  await expect(other.link).toHaveText(/^Ready/);
+  await expect(other.link).toHaveText(READY);
   await expect(openPort.status).toContainText('Another tab has taken this robot over.');
   await poll(async () => ofKind(await ptyBoard.bus(), 'stop').length).toBe(3);
   // A hold behind the first stop, and one behind the last.
@@ -54,7 +54,7 @@ test('a hidden tab pauses; the next one is told who drives, moves the robot here
 
   await openPort.page.bringToFront();
   await openPort.button('Move it here').click();
-  await expect(openPort.link).toHaveText(/^Ready/);
+  await expect(openPort.link).toHaveText(READY);
   await expect(other.status).toContainText('Another tab has taken this robot over.');
 });
 
@@ -86,7 +86,7 @@ for (const { name, stops, end } of ENDINGS) {
     await end(openPort.page);
     if (stops) await poll(async () => ofKind(await ptyBoard.bus(), 'stop').length).toBe(1);
     const movesSoFar = await moveCount(ptyBoard.bus);
-    await expect((await open(next)).link).toHaveText(/^Ready/);
+    await expect((await open(next)).link).toHaveText(READY);
     expect(await moveCount(ptyBoard.bus)).toBe(movesSoFar);
   });
 }

@@ -3,7 +3,7 @@
 import { readFile } from 'node:fs/promises';
 import { bundle } from '../fixtures/robotInPage.ts';
 import { captureGroup } from '../fixtures/group.ts';
-import { dashboardOf } from '../fixtures/dashboard.ts';
+import { dashboardOf, READY } from '../fixtures/dashboard.ts';
 import { libraryOf } from '../fixtures/library.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
@@ -107,7 +107,7 @@ test('a gateway that has said who is here is waited for', async ({ dashboard, pa
     await route.continue();
   });
   await page.reload();
-  await expect(dashboard.link).toHaveText(/^Ready/, { timeout: 15_000 });
+  await expect(dashboard.link).toHaveText(READY, { timeout: 15_000 });
   await expect(dashboard.link).not.toContainText('Simulated');
 });
 
@@ -147,7 +147,7 @@ test.describe('two browsers at one gateway', () => {
     const other = dashboardOf(await context.newPage());
     const theirs = libraryOf(other.page);
     await robot.open(other.page);
-    await expect(other.link).toHaveText(/^Ready/);
+    await expect(other.link).toHaveText(READY);
     await theirs.show();
     await theirs.open('Duet');
 

@@ -2,7 +2,7 @@
 // press, hold or drag counts as one act; more of them than now is a step backwards.
 
 import type { Locator } from '@playwright/test';
-import { dashboardOf } from '../fixtures/dashboard.ts';
+import { dashboardOf, READY } from '../fixtures/dashboard.ts';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { plugInPad } from '../fixtures/padInPage.ts';
 import { createPtyBoard } from '../fixtures/ptyBoard.ts';
@@ -32,7 +32,7 @@ test('an arm is set up in 24 acts, and nothing moves that was not asked to', asy
   const dashboard = dashboardOf(page);
   await page.goto(gateway.url);
   await press(dashboard.takeFor('uHand 2.0 / OpenArm'));
-  await expect(dashboard.link).toHaveText(/^Ready/);
+  await expect(dashboard.link).toHaveText(READY);
   expect(ofKind(await board.bus(), 'move')).toEqual([]);
 
   const robots = robotDialogOf(dashboard);
