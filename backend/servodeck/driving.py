@@ -13,6 +13,11 @@ from servodeck.intake import SHORTEST_WAIT_S
 from servodeck.lease import BEAT_S, GONE_S, Lease, LeaseEvents, Permit
 from servodeck.messages import Candidate, LeaseAction, LeaseState, LeaseToldMessage, TickMessage, encode
 
+# A timer so late means that this process was held up. What the driver said meanwhile waits to be read, and a
+# tick that was not sent could not be answered: before a silence is judged, one is sent, and so long waited.
+HELD_UP_S = 0.1
+CATCH_UP_S = 0.1
+
 
 class Driving:
     def __init__(self, hub: Hub, now: Callable[[], float], epoch: int, events: LeaseEvents) -> None:
@@ -21,6 +26,8 @@ class Driving:
         self._lease: Lease[Seat] = Lease(epoch, events)
         self._timer: asyncio.TimerHandle | None = None
         self._tick_s = 0.0
+        self._wake_s = 0.0
+        self._catches_up = False
 
     @property
     def driver(self) -> Seat | None:
@@ -171,14 +178,28 @@ class Driving:
         driver.put(encode(TickMessage(nonce=self._lease.issue(now))))
 
     def _plan(self) -> None:
+        if self._catches_up:
+            return
         if self._timer:
             self._timer.cancel()
         due_s = self._lease.due_s()
         if due_s is not None:
-            delay_s = min(due_s, self._tick_s) - self._now()
-            self._timer = asyncio.get_running_loop().call_later(max(SHORTEST_WAIT_S, delay_s), self._wake)
+            self._wake_in(min(due_s, self._tick_s) - self._now())
+
+    def _wake_in(self, delay_s: float) -> None:
+        delay_s = max(SHORTEST_WAIT_S, delay_s)
+        self._wake_s = self._now() + delay_s
+        self._timer = asyncio.get_running_loop().call_later(delay_s, self._wake)
 
     def _wake(self) -> None:
+        is_late = self._now() - self._wake_s > HELD_UP_S
+        # Once, however late the next timer is: a driver who is gone must not be waited for longer.
+        self._catches_up = is_late and not self._catches_up
+        if self._catches_up and self._lease.driver:
+            self._tick(self._lease.driver)
+            self._wake_in(CATCH_UP_S)
+            return
+        self._catches_up = False
         self._lease.advance(self._now())
         if self._lease.driver and self._now() >= self._tick_s:
             self._tick(self._lease.driver)

@@ -19,7 +19,7 @@ from servodeck.wire import Left
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, RUN, STOP
-from tests.virtual_time import in_virtual_time, now
+from tests.virtual_time import hold_up, in_virtual_time, now
 
 STOPS = [STOP, STOP, STOP]
 # MOVE takes servo 1 to 2000 and MOVE_ELSEWHERE to 1500, in a second each.
@@ -244,6 +244,35 @@ async def test_a_driver_who_falls_silent_in_a_move_is_stopped_and_held_in_time()
         assert (state["latch"], state["latchedBy"]) == (True, "silence")
         await asyncio.sleep(0.3)
         assert [packet for _, packet in port.written[3:]].count(STOP) == 3
+
+
+@in_virtual_time
+async def test_a_gateway_that_was_held_up_itself_asks_whether_its_driver_is_there() -> None:
+    for is_there in (True, False):
+        port = FakePort()
+        async with gateway_on(port) as control:
+            anna = Client(control)
+            await anna.send(RUN)
+            anna.beats = is_there
+            hold_up(2.5)
+            await asyncio.sleep(0.4)
+            assert control.latch is not is_there
+            assert port.packets() == [STOP, RUN, *([] if is_there else STOPS)]
+
+
+@in_virtual_time
+async def test_a_gateway_that_is_held_up_again_and_again_stops_for_a_lost_driver_all_the_same() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = Client(control)
+        await anna.send(RUN)
+        anna.beats = False
+        hold_up(2.5)
+        for _ in range(3):
+            await asyncio.sleep(0.01)
+            hold_up(0.3)
+        await asyncio.sleep(0.01)
+        assert control.latch is True
 
 
 @in_virtual_time

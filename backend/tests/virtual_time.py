@@ -54,3 +54,10 @@ def now() -> float:
 def at(seconds: float, call: Callable[[], object]) -> None:
     """Calls it at that time of the test."""
     asyncio.get_running_loop().call_at(seconds, call)
+
+
+def hold_up(seconds: float) -> None:
+    """Nothing runs for so long, as on a computer that is too busy; then everything is late."""
+    loop = asyncio.get_running_loop()
+    assert isinstance(loop, VirtualTimeLoop)
+    loop.jumping.now_s += seconds
