@@ -25,8 +25,9 @@ export default defineConfig<object, { way: Way }>({
   testDir: 'e2e',
   outputDir: 'test-results',
   fullyParallel: true,
-  // One more than the cores of a small machine: most of a test is waiting for a servo to get where it is going.
-  workers: 3,
+  // As many as the cores of a small machine. A third saves a tenth of the time, and then pages wait for each other so long
+  // that a driver in one of them is taken for gone.
+  workers: 2,
   forbidOnly: Boolean(process.env.CI),
   // Patience with a busy computer, and no bound: what has to be fast is measured from the press to the wire.
   timeout: 60_000,
