@@ -91,6 +91,44 @@ function runPython(...args: readonly string[]): Promise<{ code: number | null; s
   });
 }
 
+/** Runs a program on a clock of its own, with a port that needs 0.4 s until the first packet leaves. */
+const SLOW_PORT = `
+import runpy, sys, time
+import serial
+
+now = 0.0
+packets = 0
+
+
+def sleep(seconds):
+    global now
+    now += seconds
+
+
+class Port:
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def write(self, packet):
+        pass
+
+    def flush(self):
+        global packets
+        sleep(0.4 if packets == 0 else 0)
+        packets += 1
+        print(f"left at {round(now * 1000)}")
+
+
+time.sleep = sleep
+time.monotonic = lambda: now
+serial.serial_for_url = lambda *_: Port()
+sys.argv = [sys.argv[1], "PORT"]
+runpy.run_path(sys.argv[0], run_name="__main__")
+`;
+
 describe('the Python program', () => {
   const family = FAMILIES['openarm-new'];
   const robot = robotOn('arm', 'openarm-new', 25);
@@ -112,6 +150,14 @@ describe('the Python program', () => {
         [20, 1600, 1625],
       ]),
     );
+  });
+
+  test('has the first frame take its whole time, however long its packet took to leave', async () => {
+    writeFileSync(join(folder, 'slow.py'), await textOf('python', groupOf(2, 1), family, robot));
+    const harness = join(folder, 'clock.py');
+    writeFileSync(harness, SLOW_PORT);
+    const { said } = await runPython(harness, join(folder, 'slow.py'));
+    expect(said.match(/left at \d+/g)).toEqual(['left at 400', 'left at 1910', 'left at 1940']);
   });
 
   test('says what is missing when no port is named', async () => {

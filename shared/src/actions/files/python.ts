@@ -51,7 +51,7 @@ def send(port, packet):
 
 def play(port):
     begun = 0
-    deadline = time.monotonic()
+    deadline = 0
     while TIMES == 0 or begun < TIMES * len(FRAMES):
         duration_ms, positions = FRAMES[begun % len(FRAMES)]
         if begun == 0:
@@ -59,6 +59,8 @@ def play(port):
         targets = list(positions.items())
         for start in range(0, len(targets), SERVOS_PER_PACKET):
             send(port, move_packet(duration_ms, targets[start : start + SERVOS_PER_PACKET]))
+        if begun == 0:
+            deadline = time.monotonic()  # a port may take a while to let the first packet go
         begun += 1
         deadline += max(duration_ms, 1) / 1000
         time.sleep(max(0, deadline - time.monotonic()))
