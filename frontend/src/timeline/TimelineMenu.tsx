@@ -23,9 +23,17 @@ export interface OpenMenu {
 const SECTIONS: readonly (readonly VerbName[])[] = [
   ['setKey', 'editValue', 'marker'],
   ['cut', 'copy', 'paste', 'duplicate', 'remove', 'removeTime'],
-  ['reverse', 'mirror', 'scaleTime', 'scaleAmplitude', 'insertTime', 'note'],
-  ['selectAll', 'fitSelection', 'range'],
 ];
+/** Behind a word of their own: all in one list are higher than a small window. */
+const CHANGES: readonly VerbName[] = [
+  'reverse',
+  'mirror',
+  'scaleTime',
+  'scaleAmplitude',
+  'insertTime',
+  'note',
+];
+const LOOKS: readonly VerbName[] = ['selectAll', 'fitSelection', 'range'];
 
 export function TimelineMenu({ menu, onClose }: { readonly menu: OpenMenu | null; onClose(): void }) {
   return (
@@ -44,25 +52,19 @@ export function TimelineMenu({ menu, onClose }: { readonly menu: OpenMenu | null
 function KeysMenu({ onClose }: { onClose(): void }) {
   const stores = useStores();
   const desk = deskOf(stores);
+  const items = (verbs: readonly VerbName[]): React.ReactElement[] =>
+    verbs.map((verb) => <VerbItem key={verb} verb={verb} />);
   return (
     <Menu className={styles.menu ?? ''} aria-label={words.timeline.menu} autoFocus="first" onClose={onClose}>
-      {SECTIONS.map((verbs, index) => (
+      {SECTIONS.map((verbs) => (
         <MenuSection key={verbs[0]} className={styles.section ?? ''} aria-label={words.timeline.menu}>
-          {index > 0 && <Separator className={styles.separator ?? ''} />}
-          {verbs.map((verb) => (
-            <MenuItem
-              key={verb}
-              className={styles.item ?? ''}
-              isDisabled={!mayRun(desk, VERBS[verb])}
-              onAction={() => VERBS[verb].run(deskOf(stores))}
-            >
-              <Icon name={VERBS[verb].icon} />
-              {words.timeline.verbs[verb]}
-              <kbd className={styles.keys}>{VERBS[verb].keys}</kbd>
-            </MenuItem>
-          ))}
+          {items(verbs)}
+          <Separator className={styles.separator ?? ''} />
         </MenuSection>
       ))}
+      <Submenu label={words.timeline.change} isDisabled={false}>
+        {items(CHANGES)}
+      </Submenu>
       <Submenu label={words.timeline.easing} isDisabled={desk.state.selected.size === 0}>
         {EASINGS.map((easing) => (
           <MenuItem key={easing} className={styles.item ?? ''} onAction={() => ease(deskOf(stores), easing)}>
@@ -86,7 +88,26 @@ function KeysMenu({ onClose }: { onClose(): void }) {
           editServoView(stores, change),
         )}
       </Submenu>
+      <Submenu label={words.timeline.look} isDisabled={false}>
+        {items(LOOKS)}
+      </Submenu>
     </Menu>
+  );
+}
+
+function VerbItem({ verb }: { readonly verb: VerbName }) {
+  const stores = useStores();
+  const { icon, keys, run } = VERBS[verb];
+  return (
+    <MenuItem
+      className={styles.item ?? ''}
+      isDisabled={!mayRun(deskOf(stores), VERBS[verb])}
+      onAction={() => run(deskOf(stores))}
+    >
+      <Icon name={icon} />
+      {words.timeline.verbs[verb]}
+      <kbd className={styles.keys}>{keys}</kbd>
+    </MenuItem>
   );
 }
 

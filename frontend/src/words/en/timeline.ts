@@ -102,6 +102,8 @@ export const timelineWords = {
     keyAfter: 'Key after',
   },
   more: 'More',
+  change: 'Change',
+  look: 'Select and look',
   switches: { snaps: 'Snap', ripples: 'Ripple', showsPreview: 'Outline', isTall: 'Tall rows' },
   snapsHint: 'To frames, keys, markers, playhead and the board’s raster; hold Alt to suspend',
   ripplesHint: 'What is behind a change moves along',

@@ -81,6 +81,8 @@ export const timelineWords: typeof english = {
     keyAfter: '下一个关键帧',
   },
   more: '更多',
+  change: '修改',
+  look: '选择和查看',
   switches: { snaps: '吸附', ripples: '联动', showsPreview: '轮廓', isTall: '高行' },
   snapsHint: '吸附到帧、关键帧、标记、播放头和控制板的时间步；按住Alt暂停',
   ripplesHint: '改动后面的内容跟着移动',
