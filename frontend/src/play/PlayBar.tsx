@@ -2,7 +2,7 @@
 // this. What goes on is said in a line that is always there.
 
 import { useShallow } from 'zustand/react/shallow';
-import { recordOf, type SlotFate } from '#shared/actions/slots/slotBook.ts';
+import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
 import { chosenPlace } from '../stores/groupPlace.ts';
 import { SPEED_PERCENT, type PlaybackPhase } from '../stores/playback.ts';
 import { useFates } from '../slots/useFates.ts';
@@ -14,14 +14,13 @@ import {
   usePlayback,
   useRobot,
   useServoView,
-  useSlots,
   useSnapshot,
   useStores,
   useView,
 } from '../stores/stores.ts';
 import { timesOf } from '../timeline/groupTimes.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
-import { Confirm } from '../ui/Confirm.tsx';
+import { ConfirmDialog } from '../ui/Confirm.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
@@ -174,28 +173,39 @@ function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
   const commands = useDevice((state) => state.family.commands);
   const slot = useView((state) => state.slot);
   const fate = useFates()(slot);
-  const held = useSlots(({ book }) => recordOf(book, slot)?.name ?? '');
-  const name = useDocument(({ present }) => present.name);
   if (!commands.includes('run') || !commands.includes('download')) return null;
-  const looks = { icon: 'board', isDisabled, hint: boardHint(slot, fate) } as const;
-  const run = (): void => playback.runOnBoard();
-  if (fate === 'other')
-    return (
-      <Confirm
-        {...looks}
-        label={words.play.onBoard}
-        title={words.play.replaceTitle(slot)}
-        text={words.play.replaceText(slot, held, name)}
-        keepLabel={words.play.replaceKeep}
-        confirmLabel={words.play.replace}
-        closeLabel={words.close}
-        onConfirm={run}
-      />
-    );
   return (
-    <Button {...looks} onPress={run}>
-      {words.play.onBoard}
-    </Button>
+    <>
+      <Button
+        icon="board"
+        isDisabled={isDisabled}
+        hint={boardHint(slot, fate)}
+        onPress={() => playback.runOnBoard()}
+      >
+        {words.play.onBoard}
+      </Button>
+      <ReplaceQuestion isDisabled={isDisabled} />
+    </>
+  );
+}
+
+function ReplaceQuestion({ isDisabled }: { readonly isDisabled: boolean }) {
+  const { playback } = useStores();
+  const replacing = usePlayback((state) => state.replacing);
+  const { slot, name: held } = replacing?.record ?? { slot: 0, name: '' };
+  return (
+    <ConfirmDialog
+      icon="board"
+      isDisabled={isDisabled}
+      isOpen={replacing !== null}
+      title={words.play.replaceTitle(slot)}
+      text={words.play.replaceText(slot, held, replacing?.name ?? '')}
+      keepLabel={words.play.replaceKeep}
+      confirmLabel={words.play.replace}
+      closeLabel={words.close}
+      onClose={() => playback.answer(false)}
+      onConfirm={() => playback.answer(true)}
+    />
   );
 }
 

@@ -1,5 +1,6 @@
 // What each slot of the board at hand holds, against the group at hand, and whether one is being filled.
 
+import { holds } from '#shared/actions/history.ts';
 import { fateOf, type SlotFate } from '#shared/actions/slots/slotBook.ts';
 import type { Truth } from '../ui/Chip.tsx';
 import { useCompiled, useDocument, useLibrary, useSlots, useSnapshot } from '../stores/stores.ts';
@@ -23,7 +24,8 @@ export function useFates(): (slot: number) => SlotFate {
   const name = useDocument(({ present }) => present.name);
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   // What a group comes to is worked out a little later than it is there: that of another one says nothing about it.
-  const fingerprint = latest.source.group.name === name ? latest.fingerprint : '';
+  const isOfThis = useDocument((history) => holds(history, latest.source.group));
+  const fingerprint = isOfThis ? latest.fingerprint : '';
   const onPage = isEmpty ? null : { name, documentId, fingerprint };
   return (slot) => fateOf(book, { broken, arriving }, slot, onPage);
 }

@@ -40,9 +40,11 @@ export async function createDesk(
   const slots = createSlots({ device, robots, notices, storage, today: () => clock.now() });
   const timeline = createTimeline();
   const playhead = createPlayhead(timeline);
+  /** Of the group at hand, in the library. */
+  const shelf = { openId: 'at hand' };
   const playback = createPlayback({
     ...{ device, document, compiled, slots, notices, view, playhead, robots },
-    documentId: () => 'at hand',
+    documentId: () => shelf.openId,
   });
   device.attach(rig.session, way);
   const tape = createMotionTape({ device, robots, clock });
@@ -58,7 +60,7 @@ export async function createDesk(
     }
   }
   return {
-    ...{ document, view, timeline, compiled, slots, playhead, playback, tape, draw },
+    ...{ document, shelf, view, timeline, compiled, slots, playhead, playback, tape, draw },
     ...{ ...rig, texts, notices, robots, device, poses, macros, macroRun },
     blend: createBlend(device),
     book: () => poses.book.store.getState().present,

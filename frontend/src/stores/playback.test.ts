@@ -1,6 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { insertFrame, type NewFrame } from '#shared/actions/group/groupEdits.ts';
+import { startHistory } from '#shared/actions/history.ts';
 import { positionAt, tracksOf } from '#shared/actions/group/tracks.ts';
 import { words } from '../words/words.ts';
 import { createDesk } from './deskUnderTest.ts';
@@ -395,5 +396,60 @@ describe('playing on the board', () => {
     expect(phase()).toBeNull();
     expect(ofKind('run')).toEqual([]);
     expect(told()).toEqual([words.board.downloadCancelled(0)]);
+  });
+
+  describe('where the slot holds another group', () => {
+    /** The first group is in slot 0, and the second one at hand. */
+    async function deskWithAnother(name: string) {
+      const desk = await deskWith(WAVE);
+      const { playback, document, shelf, ofKind, draw } = desk;
+      playback.runOnBoard();
+      await draw(3000);
+      shelf.openId = 'another';
+      document.take(startHistory({ ...groupOf(frame(400, 1200)), name }));
+      const counts = () => [ofKind('download').length, ofKind('run').length];
+      const asked = () => playback.store.getState().replacing;
+      return { ...desk, counts, asked };
+    }
+
+    for (const name of ['Bow', 'Wave'])
+      test(`asks before “${name}” takes the place of “Wave”`, async () => {
+        const { playback, draw, counts, asked } = await deskWithAnother(name);
+        playback.runOnBoard();
+        await draw(1000);
+        expect(asked()).toMatchObject({ name, record: { slot: 0, name: 'Wave' } });
+        expect(counts()).toEqual([3, 1]);
+        playback.answer(false);
+        await draw(1000);
+        expect([asked(), counts()]).toEqual([null, [3, 1]]);
+        playback.runOnBoard();
+        playback.answer(true);
+        await draw(2000);
+        expect([asked(), counts()]).toEqual([null, [4, 2]]);
+        playback.runOnBoard();
+        await draw(1000);
+        expect([asked(), counts()]).toEqual([null, [4, 3]]);
+      });
+
+    test('asks again where the slot got still another one meanwhile', async () => {
+      const { playback, slots, draw, counts, asked } = await deskWithAnother('Bow');
+      playback.runOnBoard();
+      slots.download([{ slot: 0, name: 'Third', documentId: 'third', frames: [frame(500, 1300)] }]);
+      await draw(2000);
+      playback.answer(true);
+      await draw(1000);
+      expect(asked()).toMatchObject({ record: { name: 'Third' } });
+      expect(counts()).toEqual([4, 1]);
+    });
+
+    test('of which an earlier version noted the name alone, it asks too', async () => {
+      const { playback, slots, draw, asked } = await deskWithAnother('Wave');
+      slots.store.setState(({ book }) => ({
+        book: { ...book, stored: book.stored.map((record) => ({ ...record, documentId: null })) },
+      }));
+      playback.runOnBoard();
+      await draw(1000);
+      expect(asked()).not.toBeNull();
+    });
   });
 });

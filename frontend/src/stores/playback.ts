@@ -5,19 +5,17 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import { passageOf, type Passage } from '#shared/actions/group/passage.ts';
 import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { frameEnds, poseAtMs, tracksOf } from '#shared/actions/group/tracks.ts';
-import { passMs } from '#shared/motion/motion.ts';
-import { fateOf, recordOf } from '#shared/actions/slots/slotBook.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Activity } from '#shared/session/state.ts';
 import { words } from '../words/words.ts';
+import { createBoardRun, type Replacing } from './boardRun.ts';
 import { obstacles, type CompiledGroup, type CompiledStore } from './compiled.ts';
 import type { Device } from './device.ts';
-import { runAsChosen } from './goOn.ts';
 import type { Document } from './document.ts';
 import { chosenPlace } from './groupPlace.ts';
 import { createFollower, type FollowedPose } from './follower.ts';
 import type { Notices } from './notices.ts';
-import { boardAt, pageAt, previewAt, type PagePlay, type PreviewPlay } from './playedAt.ts';
+import { pageAt, previewAt, type PagePlay, type PreviewPlay } from './playedAt.ts';
 import { startHindrance } from './readiness.ts';
 import type { RobotStore } from './robots.ts';
 import { isSilent, servoViewFor } from './servoView.ts';
@@ -34,6 +32,8 @@ export interface PlaybackState {
   readonly isLive: boolean;
   /** null: nothing is played by this. */
   readonly phase: PlaybackPhase | null;
+  /** What would go from the board, while the person is asked. */
+  readonly replacing: Replacing | null;
 }
 
 /** The instant that is looked at, and the part of the group that is meant; null: all of it. */
@@ -62,8 +62,9 @@ export interface Playback {
   toggle(): void;
   /** Plays on the drawing alone, or pauses what plays. Needs no robot and moves none. */
   togglePreview(): void;
-  /** Downloads first where the board has not just this. */
+  /** Downloads first where the board has not just this, and asks before another group goes for it. */
   runOnBoard(): void;
+  answer(mayReplace: boolean): void;
   /** Where it is; a group on the board ends after its frame in progress. */
   pause(): void;
   /** To the end of the next frame of the group, or of the one before; the robot goes along where it follows. */
@@ -95,7 +96,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
   const { device, document, compiled, slots, notices, view, playhead, robots } = options;
   const { clock } = device;
   const store = createStore<PlaybackState>(() => ({
-    ...{ speedPercent: 100, loops: false, isLive: false, phase: null },
+    ...{ speedPercent: 100, loops: false, isLive: false, phase: null, replacing: null },
   }));
   const follower = createFollower(device);
   let following: PagePlay | null = null;
@@ -207,30 +208,27 @@ export function createPlayback(options: PlaybackOptions): Playback {
     phase(null);
   }
 
-  function runOnBoard(): void {
-    const group = playable('board');
-    if (group === null) return;
-    const { slot } = view.getState();
-    const { brokenSlots } = device.store.getState().snapshot;
-    const own = { name: group.source.group.name, documentId: options.documentId() };
-    const now = { broken: brokenSlots, arriving: null };
-    const fate = fateOf(slots.store.getState().book, now, slot, { ...group, ...own });
-    if (fate === 'same') return run(slot);
-    phase('storing');
-    slots.download([{ slot, ...own, frames: group.frames }], (isDone) => {
-      if (isDone) run(slot);
-      else phase(null);
-    });
-  }
+  const board = createBoardRun({
+    ...{ device, compiled, slots, view },
+    documentId: () => options.documentId(),
+    ask: (replacing) => store.setState({ replacing }),
+    phase(next) {
+      phase(next);
+      if (next === 'running') playhead.show(0);
+    },
+  });
 
-  function run(slot: number): void {
-    phase('running');
-    playhead.show(0);
+  function runOnBoard(allowed: Replacing | null): void {
+    const group = playable('board');
     const { times, untilStopped } = view.getState();
     const isEndless = untilStopped || store.getState().loops;
-    runAsChosen({ device, view }, slot, isEndless ? 0 : times, (isTaken) => {
-      if (!isTaken) phase(null);
-    });
+    if (group !== null) board.begin(group, isEndless ? 0 : times, allowed);
+  }
+
+  function answer(mayReplace: boolean): void {
+    const { replacing } = store.getState();
+    store.setState({ replacing: null });
+    if (mayReplace) runOnBoard(replacing);
   }
 
   function pause(): void {
@@ -270,19 +268,9 @@ export function createPlayback(options: PlaybackOptions): Playback {
     if (atMs === null) endPreview();
   }
 
-  /** By the clock since the board took it, as long as it is this group that runs. */
   function showBoard(): void {
-    const now = activity();
-    if (now.kind !== 'running') return;
-    const { latest } = compiled.store.getState();
-    const record = recordOf(slots.store.getState().book, now.slot);
-    if (record?.fingerprint !== latest.fingerprint) return;
-    const play = {
-      ...{ beganMs: now.sinceMs, times: now.times },
-      passMs: passMs(record.frames, { family: latest.source.family, playedFrames: () => null }),
-      lengthMs: frameEnds(record.frames).at(-1) ?? 0,
-    };
-    playhead.go(Math.round(boardAt(play, clock.now())));
+    const atMs = board.at();
+    if (atMs !== null) playhead.go(atMs);
   }
 
   function step(direction: 1 | -1): void {
@@ -305,7 +293,8 @@ export function createPlayback(options: PlaybackOptions): Playback {
     play,
     toggle: () => (store.getState().phase === null ? play() : pause()),
     togglePreview: () => (store.getState().phase === null ? preview() : pause()),
-    runOnBoard,
+    runOnBoard: () => runOnBoard(null),
+    answer,
     pause,
     step,
     frame() {

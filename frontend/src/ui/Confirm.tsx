@@ -1,12 +1,14 @@
-// A button whose deed cannot be taken back: a dialog names what happens before it is done, and the way out is at hand.
+// A deed that cannot be taken back: a dialog names what happens before it is done, and the way out is at hand. With the button that
+// asks, or alone for whoever knows when.
 
 import { useState } from 'react';
 import { Button, type ButtonProps } from './Button.tsx';
 import { Dialog } from './Dialog.tsx';
 import styles from './Confirm.module.css';
 
-export interface ConfirmProps extends Pick<ButtonProps, 'tone' | 'icon' | 'hint' | 'isDisabled'> {
-  readonly label: string;
+type Looks = Pick<ButtonProps, 'icon' | 'isDisabled'>;
+
+interface Question {
   readonly title: string;
   readonly text: string;
   readonly keepLabel: string;
@@ -15,33 +17,53 @@ export interface ConfirmProps extends Pick<ButtonProps, 'tone' | 'icon' | 'hint'
   onConfirm(): void;
 }
 
-export function Confirm({ label, title, text, keepLabel, confirmLabel, onConfirm, ...rest }: ConfirmProps) {
-  const { closeLabel, hint, ...looks } = rest;
+export interface ConfirmProps extends Question, Looks, Pick<ButtonProps, 'tone' | 'hint'> {
+  readonly label: string;
+}
+
+export function Confirm({ label, tone, hint, ...question }: ConfirmProps) {
+  const { icon, isDisabled = false } = question;
   const [isAsking, setAsking] = useState(false);
-  const close = (): void => setAsking(false);
   return (
     <>
-      <Button {...looks} {...(hint !== undefined && { hint })} onPress={() => setAsking(true)}>
+      <Button
+        {...{ isDisabled, ...(tone && { tone }), ...(icon && { icon }), ...(hint !== undefined && { hint }) }}
+        onPress={() => setAsking(true)}
+      >
         {label}
       </Button>
-      <Dialog role="alertdialog" title={title} closeLabel={closeLabel} isOpen={isAsking} onClose={close}>
-        <p className={styles.text}>{text}</p>
-        <div className={styles.actions}>
-          <Button autoFocus onPress={close}>
-            {keepLabel}
-          </Button>
-          <Button
-            {...looks}
-            tone="danger"
-            onPress={() => {
-              close();
-              onConfirm();
-            }}
-          >
-            {confirmLabel}
-          </Button>
-        </div>
-      </Dialog>
+      <ConfirmDialog
+        {...question}
+        isOpen={isAsking}
+        onClose={() => setAsking(false)}
+        onConfirm={() => {
+          setAsking(false);
+          question.onConfirm();
+        }}
+      />
     </>
+  );
+}
+
+export interface ConfirmDialogProps extends Question, Looks {
+  readonly isOpen: boolean;
+  /** It stays as it is. */
+  onClose(): void;
+}
+
+export function ConfirmDialog(props: ConfirmDialogProps) {
+  const { title, text, keepLabel, confirmLabel, closeLabel, isOpen, onClose, onConfirm, ...looks } = props;
+  return (
+    <Dialog role="alertdialog" title={title} closeLabel={closeLabel} isOpen={isOpen} onClose={onClose}>
+      <p className={styles.text}>{text}</p>
+      <div className={styles.actions}>
+        <Button autoFocus onPress={onClose}>
+          {keepLabel}
+        </Button>
+        <Button {...looks} tone="danger" onPress={onConfirm}>
+          {confirmLabel}
+        </Button>
+      </div>
+    </Dialog>
   );
 }

@@ -4,6 +4,7 @@ import {
   begin,
   cancel,
   commit,
+  holds,
   preview,
   record,
   redo,
@@ -29,6 +30,17 @@ describe('history', () => {
     history = redo(history);
     expect(history.present).toBe(2);
     expect(redoLabel(history)).toBeNull();
+  });
+
+  test('holds what led here and what leads on from here, and nothing else', () => {
+    const one = record(startHistory(0), () => 'Set one', 1);
+    expect([0, 1, 2].map((value) => holds(one, value))).toEqual([true, true, false]);
+    expect([0, 1, 2].map((value) => holds(undo(one), value))).toEqual([true, true, false]);
+    const dragged = preview(
+      begin(one, () => 'Drag'),
+      5,
+    );
+    expect([0, 1, 5, 2].map((value) => holds(dragged, value))).toEqual([true, true, true, false]);
   });
 
   test('a value recorded after an undo forgets the redo', () => {

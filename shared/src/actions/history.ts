@@ -109,3 +109,11 @@ function step<T>(history: History<T>, label: Label, before: T, present: T): Hist
   const past = [...history.past, { label, value: before }].slice(-MAX_STEPS);
   return { present, past, future: [], gesture: null };
 }
+
+/** It is one of the states that lead here or on from here. The newest are looked at first. */
+export function holds<T>({ present, past, future, gesture }: History<T>, value: T): boolean {
+  const isIt = (step: Step<T>): boolean => step.value === value;
+  return (
+    present === value || gesture?.value === value || past.findLast(isIt) !== undefined || future.some(isIt)
+  );
+}
