@@ -7,10 +7,11 @@ knows more, and this one nothing but its end until the next moves have ended.
 
 import math
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 
 from servodeck.families import Family
+from servodeck.hearing import Hearing
 from servodeck.messages import MotionTold, ServoWay
 from servodeck.packets import Report, encode, parse_command
 from servodeck.values import (
@@ -71,6 +72,9 @@ class Motion:
         self._asked: Run | None = None
         self._run_s = 0.0
         self._run_end_s = inf
+        self._hearing = Hearing(family)
+        self._restless_until_s = -inf
+        """A move that the board may take up late has ended by then."""
 
     def stored(self, slot: int, frames: Sequence[Frame]) -> None:
         """What that slot holds now, for sure."""
@@ -89,7 +93,14 @@ class Motion:
 
     def left(self, packet: bytes, at_s: float) -> None:
         """The last bit of that packet leaves then."""
-        match parse_command(packet):
+        command = parse_command(packet)
+        was_deaf_until_s = self._hearing.deaf_until_s
+        if command and not self._hearing.left(command, at_s):
+            self._unheard(command, at_s)
+            return
+        if self._hearing.deaf_until_s != was_deaf_until_s:
+            self._deafened(at_s)
+        match command:
             case Move(duration_ms, targets) if not self.group_may_run(at_s):
                 self._move(duration_ms, targets, at_s)
             case Run() as run:
@@ -104,6 +115,7 @@ class Motion:
                     self._tracks.pop(servo, None)
 
     def heard(self, report: Report, at_s: float) -> None:
+        self._hearing.heard(report, at_s)
         if isinstance(report, RunStarted):
             self._started(Run(report.slot, report.times), at_s)
         may_chain = isinstance(report, RunFinished) and self.run and self.run.slot >= CHAIN_FROM_SLOT
@@ -114,6 +126,7 @@ class Motion:
     def forget(self) -> None:
         """The board may have moved or restarted unseen: where nothing is known nothing is held either."""
         self._tracks.clear()
+        self._restless_until_s = -inf
 
     def told(self, now: float) -> MotionTold:
         """As whoever comes now is told of it."""
@@ -132,7 +145,7 @@ class Motion:
 
     def is_moving(self, now: float) -> bool:
         """A move is under way; a group is another matter."""
-        return any(now < track.end_s for track in self._tracks.values())
+        return now < self._restless_until_s or any(now < track.end_s for track in self._tracks.values())
 
     def is_unknown(self, servo: int) -> bool:
         """Nobody has said where it shall go, so nobody knows where it stands."""
@@ -156,6 +169,39 @@ class Motion:
             self._hold_ms([servo for servo in known if known[servo] is None], now), targets
         )
         return encode(command, self._family)
+
+    def _deafened(self, at_s: float) -> None:
+        """Servos at rest stay; those under way freeze and jump (S29), but they arrive."""
+        if self.run:
+            self._run_end_s = inf
+        until_s = self._hearing.deaf_until_s
+        self._tracks = {
+            servo: track
+            if track.end_s <= at_s
+            else replace(track, start=None, duration_s=max(track.end_s, until_s) - track.begin_s)
+            for servo, track in self._tracks.items()
+        }
+
+    def _unheard(self, command: Command, at_s: float) -> None:
+        """It is dropped or comes late: where it may move to is not known, and of what moved already only its
+        end was. Whether a stop was heard nobody knows either.
+        """
+        if isinstance(command, Run):
+            self._run_end_s, self._asked, self._run_s = inf, command, at_s
+            self._follow(command)
+            return
+        aims = (
+            {target.servo: target.position for target in command.targets} if isinstance(command, Move) else {}
+        )
+        freed = command.servos if isinstance(command, Release) else ()
+        self._tracks = {
+            servo: track
+            for servo, track in self._tracks.items()
+            if track.end_s <= at_s and aims.get(servo, track.target) == track.target and servo not in freed
+        }
+        if isinstance(command, Move):
+            duration_s = max(command.duration_ms, SHORTEST_MOVE_MS) / 1000
+            self._restless_until_s = self._hearing.deaf_until_s + duration_s
 
     def _end_s(self, run: Run, at_s: float) -> float:
         """Unknown behind another group, which goes on in its place (S46)."""

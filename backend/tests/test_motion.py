@@ -9,6 +9,9 @@ from servodeck.values import (
     Command,
     Frame,
     Move,
+    Positions,
+    ReadBattery,
+    ReadPositions,
     Release,
     Run,
     RunAccepted,
@@ -210,3 +213,59 @@ def test_a_hold_is_a_move_that_the_board_can_take_and_freezes_what_rests(
         assert isinstance(hold, Move)
         assert 20 <= hold.duration_ms <= 3000
         assert all(500 <= target.position <= 2500 for target in hold.targets)
+
+
+ASK, ANSWER = ReadPositions((1,)), Positions((ServoTarget(1, 400),))
+STAND = (0.0, move(20, s1=400, s2=400))
+
+
+def bus_board(*packets: tuple[float, Command]) -> Motion:
+    return told(STAND, *packets, family="bus-ctrl")
+
+
+def test_a_move_that_a_bus_board_may_not_have_heard_leaves_its_servos_unknown() -> None:
+    motion = bus_board((10.0, ASK), (10.1, move(500, s1=600)))
+    assert motion.is_unknown(1)
+    assert not motion.is_unknown(2)
+    assert held(motion, 11.0) == move(20, s2=400)
+    assert motion.is_moving(12.9)
+    assert not motion.is_moving(13.1)
+
+
+def test_behind_its_answer_a_bus_board_hears_again() -> None:
+    motion = bus_board((10.0, ASK))
+    motion.heard(ANSWER, 10.4)
+    motion.left(encode(move(500, s1=600), FAMILIES["bus-ctrl"]), 10.41)
+    assert held(motion, 11.0) == move(20, s1=600, s2=400)
+
+
+def test_behind_what_it_may_hold_the_next_one_may_be_dropped_for_a_gap() -> None:
+    motion = bus_board((10.0, ASK), (10.1, move(500, s1=400)))
+    motion.heard(ANSWER, 10.4)
+    family = FAMILIES["bus-ctrl"]
+    motion.left(encode(move(20, s2=700), family), 10.4 + family.service_gap_ms / 2000)
+    assert motion.is_unknown(2)
+    motion.left(encode(move(20, s1=700), family), 11.0)
+    assert held(motion, 12.0) == move(20, s1=700)
+
+
+def test_without_an_answer_it_hears_again_after_a_while() -> None:
+    assert held(bus_board((10.0, ASK), (12.6, move(20, s1=600))), 14.0) == move(20, s1=600, s2=400)
+
+
+def test_what_moves_while_it_becomes_deaf_is_held_only_once_it_has_arrived() -> None:
+    motion = bus_board((10.0, move(1000, s1=600)), (10.5, ASK))
+    assert held(motion, 10.6) == move(20, s2=400)
+    assert motion.is_moving(12.9)
+    assert held(motion, 13.1) == move(20, s1=600, s2=400)
+
+
+def test_a_stop_or_a_run_that_it_may_not_have_heard_may_have_been_heard() -> None:
+    running = bus_board((10.0, Run(3, 1)), (10.5, ASK), (10.6, Stop()))
+    assert running.group_may_run(11.0)
+    assert bus_board((10.0, ASK), (10.1, Run(3, 1))).group_may_run(11.0)
+    assert not bus_board((10.0, Run(3, 1)), (10.5, ASK), (13.1, Stop())).group_may_run(14.0)
+
+
+def test_the_battery_is_told_at_once_and_makes_nobody_deaf() -> None:
+    assert held(bus_board((10.0, ReadBattery()), (10.1, move(20, s1=600))), 11.0) == move(20, s1=600, s2=400)
