@@ -13,7 +13,7 @@ import {
   unitSymbol,
 } from './numbers.ts';
 
-const servoNumber = (servo: number): string => `舵机${formatWhole(servo)}`;
+const servoNumber = (servo: number): string => `${formatWhole(servo)}号舵机`;
 
 type ProblemWords = {
   readonly [K in CompileProblem['kind']]: (
@@ -28,7 +28,7 @@ const frameNumber = ({ frames }: ActionGroup, id: number): string =>
 const problems: ProblemWords = {
   unit: ({ group, board }) => `动作组的单位是${unitSymbol(group)}，控制板用${unitSymbol(board)}。`,
   servo: ({ servo, min, max }) =>
-    `${servoNumber(servo)}：控制板只接受舵机${formatWhole(min)}到${formatWhole(max)}。`,
+    `${servoNumber(servo)}：控制板只接受${formatWhole(min)}到${formatWhole(max)}号舵机。`,
   position: ({ servo, frameId, position, min, max }, group) =>
     `${servoNumber(servo)}，${frameNumber(group, frameId)}：${formatWhole(position)}超出范围；允许${formatWhole(min)}到${formatWhole(max)}。`,
   tooManyServos: ({ frame, count, limit }) =>

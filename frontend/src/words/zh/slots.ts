@@ -76,7 +76,7 @@ export const slotWords: typeof english = {
     `控制板上${frameCount(counts[0])}，${formatSeconds(durationsMs[0])}；这里${frameCount(counts[1])}，${formatSeconds(durationsMs[1])}。`,
   firstDifferent: (frame) => `从第${formatWhole(frame)}帧开始不同。`,
   differs: (servo, onBoard, here) =>
-    `舵机${formatWhole(servo)}：控制板上${place(onBoard)}，这里${place(here)}`,
+    `${formatWhole(servo)}号舵机：控制板上${place(onBoard)}，这里${place(here)}`,
   willGo: (groups) =>
     `从这里下载的内容之后可以恢复：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}。`,
   restoreAll: (count) => `全部恢复（${formatCount(count)}）`,

@@ -25,7 +25,7 @@ const pasteProblem = (problem: PasteProblem): string => {
     case 'tooManyFrames':
       return `${formatCount(problem.count)}帧超过了动作组的上限${formatCount(problem.limit)}帧`;
     case 'position':
-      return `舵机${formatWhole(problem.servo)}的${formatWhole(problem.position)}超出范围，可用${formatWhole(problem.min)}到${formatWhole(problem.max)}`;
+      return `${formatWhole(problem.servo)}号舵机的${formatWhole(problem.position)}超出范围，可用${formatWhole(problem.min)}到${formatWhole(problem.max)}`;
   }
 };
 
@@ -35,7 +35,7 @@ export const timelineWords: typeof english = {
   toolbar: '修改时间轴',
   menu: '可做的操作',
   rowAll: '所有舵机',
-  noName: (servo) => `舵机${formatWhole(servo)}`,
+  noName: (servo) => `${formatWhole(servo)}号舵机`,
   mark: markText,
   instant: formatInstant,
   playhead: '播放头',
@@ -163,8 +163,8 @@ export const timelineWords: typeof english = {
   nothingToSet: '这些舵机的位置还未知。请先移动它们。',
   nothingToPaste: '请先复制关键帧。',
   notPasted: (problem) => `没有粘贴：${pasteProblem(problem)}。`,
-  swingsTooFar: (servo) => `没有缩放：舵机${formatWhole(servo)}会超出限位。`,
-  heldAtLimit: (servos) => `舵机${formatList(servos)}会超出限位，停在限位处。`,
+  swingsTooFar: (servo) => `没有缩放：${formatWhole(servo)}号舵机会超出限位。`,
+  heldAtLimit: (servos) => `${formatList(servos)}号舵机会超出限位，停在限位处。`,
 
   status: {
     nothing: '方向键在关键帧之间移动。回车设关键帧。在空白处拖动来选择。',
