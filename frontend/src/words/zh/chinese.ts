@@ -316,5 +316,5 @@ export const chinese: Words = {
   refused: (name, value, min, max) =>
     `${name}：${formatWhole(value)} 超出范围，应在 ${formatWhole(min)} 到 ${formatWhole(max)} 之间。`,
   dismiss: '关闭',
-  moreNotices: (count) => `另有 ${formatWhole(count)} 条`,
+  moreNotices: (count) => `另有${formatWhole(count)}条`,
 };

@@ -62,7 +62,7 @@ const MISFITS: Readonly<Record<MisfitCode, (misfit: Misfit) => string>> = {
   slot: ({ values, allowed }) => `控制板的槽位是 ${span(allowed)}，没有 ${formatWhole(values.max)}。`,
   duration: ({ values, allowed }) => `时间是 ${span(values)} 毫秒，控制板接受 ${span(allowed)} 毫秒。`,
   servoCount: ({ values, allowed }) =>
-    `同时有 ${span(values)} 个舵机，控制板最多接受${formatWhole(allowed.max)}个。`,
+    `同时有${span(values)}个舵机，控制板最多接受${formatWhole(allowed.max)}个。`,
   servo: ({ servo, allowed }) => `${formatWhole(servo ?? 0)}号舵机不存在，舵机编号是 ${span(allowed)}。`,
   position: ({ servo, values, allowed }) =>
     `${formatWhole(servo ?? 0)}号舵机要到 ${span(values)}，它只能在 ${span(allowed)} 之间。`,

@@ -10,12 +10,12 @@ const NAMES: Readonly<Record<string, string>> = {
 };
 export const named = (name: string): string => NAMES[name] ?? name;
 
-const secondsLeft = (ms: number): string => `${formatWhole(Math.max(0, Math.ceil(ms / 1000)))} 秒`;
+const secondsLeft = (ms: number): string => `${formatWhole(Math.max(0, Math.ceil(ms / 1000)))}秒`;
 
 export const leaseWords: Words['lease'] = {
   label: '谁在操控',
   drives: '由你操控',
-  others: (count) => `另有 ${formatCount(count)} 个窗口在看`,
+  others: (count) => `另有${formatCount(count)}个窗口在看`,
   driver: (name) => `${named(name)}正在操控`,
   nobody: '无人操控',
   nobodyMore: '移动任意舵机即可开始',
