@@ -3,6 +3,8 @@ import { LinkError } from '#shared/session/linkError.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
 import type { JobState } from './messages.generated.ts';
 
+/** As backend/servodeck/guard.py has it. */
+const READ_BYTES = 512 * 1024;
 const FRAMES = [{ durationMs: 200, targets: [{ servo: 1, position: 1500 }] }];
 const RUNNING: JobState = {
   ...{ id: 'a1', by: 'Anna', status: 'running', slots: [5], groupsStored: 0, slot: 5, name: '' },
@@ -125,4 +127,19 @@ test('the same broken slots again are no news', () => {
   const { slots, changes } = createPage();
   for (const told of [[], [5], [5], [5, 8]]) slots.toldBroken(told);
   expect([slots.broken, changes()]).toEqual([[5, 8], 2]);
+});
+
+test('a full board goes in portions that the gateway reads, in its order and nothing left out', async () => {
+  const { slots, requests, turns } = createPage();
+  const targets = Array.from({ length: 32 }, (_, index) => ({ servo: index + 1, position: 1500 }));
+  const largest = Array.from({ length: 255 }, () => ({ durationMs: 30_000, targets }));
+  const groups = Array.from({ length: 256 }, (_, slot) => ({ slot, frames: slot % 5 ? FRAMES : largest }));
+  const portions = slots.portions(groups);
+  expect(portions.flat()).toEqual(groups);
+  expect(portions.length).toBeGreaterThan(1);
+  for (const portion of portions) void slots.store(portion);
+  await turns();
+  expect(requests).toHaveLength(portions.length);
+  for (const { body } of requests) expect(JSON.stringify(body).length).toBeLessThan(READ_BYTES);
+  expect(slots.portions([])).toEqual([]);
 });

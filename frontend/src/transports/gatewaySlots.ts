@@ -10,6 +10,9 @@ import type { JobState } from './messages.generated.ts';
 /** As large as half a megabyte, which a slow network takes a while for. */
 const BEGUN_WITHIN_MS = 8_000;
 
+/** What the gateway reads at once (backend/servodeck/guard.py), with room for what stands around the groups. */
+const PORTION_BYTES = 500 * 1024;
+
 export interface GatewaySlots extends SharedSlots {
   told(job: JobState | null): void;
   toldBroken(slots: readonly number[]): void;
@@ -44,6 +47,7 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
     get download() {
       return job && { ...job, isOver: job.status !== 'running' };
     },
+    portions,
     async store(groups) {
       const nonce = await begin();
       const body = { groups: groups.map(toBody), nonce };
@@ -77,6 +81,21 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
       waiter = null;
     },
   };
+}
+
+function portions(groups: readonly SlotGroup[]): readonly (readonly SlotGroup[])[] {
+  const all: SlotGroup[][] = [];
+  let roomBytes = 0;
+  for (const group of groups) {
+    const bytes = JSON.stringify(toBody(group)).length + 1; // figures and letters of one byte each, and a comma
+    if (bytes > roomBytes) {
+      all.push([]);
+      roomBytes = PORTION_BYTES;
+    }
+    all.at(-1)?.push(group);
+    roomBytes -= bytes;
+  }
+  return all;
 }
 
 function toBody({ slot, frames }: SlotGroup): object {

@@ -134,7 +134,8 @@ export function createStoring(
       requireRest(core);
       requireOwnSlots(groups);
       const sizes = groups.map((group) => frameCommands(group).map(sizeOf));
-      await (shared === undefined ? storeHere(groups, sizes) : storeThere(shared, groups));
+      if (shared === undefined) await storeHere(groups, sizes);
+      else for (const portion of shared.portions(groups)) await storeThere(shared, portion);
     },
     async cancel() {
       isCancelled = true;
