@@ -134,3 +134,17 @@ test('whatever is to be pressed is large enough for a finger, in every state', a
     expect.soft(await tooSmall(page), state).toEqual([]),
   );
 });
+
+test('on a large touch screen rows of the timeline stay in sight, and Play does', async ({
+  page,
+  servers,
+}) => {
+  await page.setViewportSize({ width: 1366, height: 820 });
+  await page.goto((await servers.files()).url);
+  for (const part of [
+    page.getByRole('rowheader', { name: 'Gripper' }),
+    dashboardOf(page).button('Play'),
+    dashboardOf(page).button('Several'),
+  ])
+    await expect(part).toBeInViewport({ ratio: 1 });
+});
