@@ -36,6 +36,7 @@ test('an owner comes in by the terminal’s link, lets a viewer in, who stops th
     .getByRole('button', { name: 'Revoke' })
     .click();
   await expect(pairCardOf(ben.page).title).toBeVisible();
+  await expect(pairCardOf(ben.page).problem).toContainText('not paired any more');
   await expect(people.person('Ben')).toBeHidden();
 });
 

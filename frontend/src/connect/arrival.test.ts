@@ -3,7 +3,7 @@ import { createStore } from 'zustand/vanilla';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { LinkState } from '#shared/session/state.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
-import { beginAnewAsAnother, deviceName, isAnother, wishIn } from './arrival.ts';
+import { beginAnewAsAnother, deviceName, isAnother, sentAway, wishIn } from './arrival.ts';
 
 test.each([
   ['', null],
@@ -34,6 +34,22 @@ test('somebody who was revoked, or may more or less now, is another one', () => 
   expect(isAnother(ben, { ...me, you: { ...ben, role: 'viewer' } })).toBe(true);
   expect(isAnother(ben, { ...me, you: null })).toBe(true);
   expect(isAnother(ben, null)).toBe(false);
+});
+
+test('a page that was revoked tells why it is out; one that has never been in does not', () => {
+  const history = {
+    state: null as unknown,
+    replaceState(state: unknown) {
+      this.state = state;
+    },
+  };
+  const you = { id: 'ben', name: 'Ben', role: 'driver' } as const;
+  const out = { mode: 'lan', overheard: true, you: null } as const;
+  sentAway(history, { mode: 'local', overheard: false, you });
+  expect(sentAway(history, out)).toBeNull();
+  expect(sentAway(history, { ...out, you })).toBeNull();
+  expect(sentAway(history, null)).toBeNull();
+  expect(sentAway(history, out)).toMatchObject({ code: 'notPaired' });
 });
 
 const LOST: LinkState = {

@@ -12,7 +12,7 @@ export interface Arrival {
   readonly me: Me | null;
   /** Whom the link in the address has let in just now: nobody has asked for a name yet. */
   readonly entered: You | null;
-  /** Why the link in the address did not let in. */
+  /** Why the link in the address did not let in, or why a page that was in is out. */
   readonly problem: PeopleError | null;
 }
 
@@ -33,8 +33,22 @@ export async function arrive(page: Window): Promise<Arrival> {
   page.addEventListener('hashchange', () => {
     if (wishIn(page.location.hash) !== null) page.location.reload();
   });
-  const paired = wish === null ? { entered: null, problem: null } : await tryToPair(wish);
-  return { me: await readMe(), ...paired };
+  const { entered, problem } = wish === null ? { entered: null, problem: null } : await tryToPair(wish);
+  const me = await readMe();
+  return { me, entered, problem: problem ?? sentAway(page.history, me) };
+}
+
+const PAIRED = 'paired';
+
+/** A page that was revoked begins anew, and its history is what it keeps of itself. */
+export function sentAway(
+  history: Pick<History, 'state' | 'replaceState'>,
+  me: Me | null,
+): PeopleError | null {
+  if (me === null || me.mode === 'local') return null;
+  if (me.you === null) return history.state === PAIRED ? new PeopleError('notPaired', '') : null;
+  history.replaceState(PAIRED, '');
+  return null;
 }
 
 async function tryToPair(wish: PairWish): Promise<Paired> {
