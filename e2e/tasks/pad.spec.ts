@@ -17,17 +17,20 @@ const test = base.extend<{ readonly pad: SyntheticPad }>({
 
 const driveSwitch = (page: Page) => page.getByRole('switch', { name: 'Drive' });
 
-/** Switched on, with servo 1 at 1500 and known. */
-async function startDriving(dashboard: Dashboard): Promise<void> {
-  const { page } = dashboard;
-  await dashboard.type(dashboard.target(1), 1500);
-  await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
+async function switchOn(page: Page): Promise<void> {
   await page.getByRole('radio', { name: 'Keys and pad' }).check();
   await driveSwitch(page).check();
   // What is held when driving begins moves nothing: a frame has to see it let go.
   await page.evaluate(async () => {
     for (let frame = 0; frame < 4; frame += 1) await new Promise(requestAnimationFrame);
   });
+}
+
+/** Switched on, with servo 1 at 1500 and known. */
+async function startDriving(dashboard: Dashboard): Promise<void> {
+  await dashboard.type(dashboard.target(1), 1500);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
+  await switchOn(dashboard.page);
 }
 
 /** What was asked for longer ago moves nothing any more. */
@@ -97,8 +100,7 @@ test('a held key turns its servo; leaving the window ends it though the key is n
 });
 
 test('servos that nobody knows are asked for and go home slowly', async ({ dashboard, robot, page, pad }) => {
-  await page.getByRole('radio', { name: 'Keys and pad' }).check();
-  await driveSwitch(page).check();
+  await switchOn(page);
   await pad.hold(RIGHT_TRIGGER);
   await expect(dashboard.notices).toContainText('Gripper stays: nobody knows where it is.');
   expect(ofKind(await robot.bus(), 'move')).toEqual([]);
