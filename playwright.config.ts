@@ -29,8 +29,8 @@ export default defineConfig<object, { way: Way }>({
   // that a driver in one of them is taken for gone.
   workers: 2,
   forbidOnly: Boolean(process.env.CI),
-  // Patience with a busy computer, and no bound: what has to be fast is measured from the press to the wire.
-  timeout: 60_000,
+  timeout: 30_000,
+  // Patience with a busy computer: what has to be fast is measured from the press to the wire.
   expect: { timeout: 10_000 },
   // For the trace of it, and to tell what fails always from what fails at times: `npm test` takes neither.
   retries: 1,
