@@ -122,7 +122,7 @@ export function endToEnd() {
       CHROMIUM_PATH: findBrowser() ?? '',
       NO_COLOR: undefined, // its workers are told to colour, and Node warns of the contradiction
     },
-    limitMs: 15 * 60_000,
+    limitMs: 45 * 60_000, // it ends itself before that
     count: countPlaywright,
   };
 }

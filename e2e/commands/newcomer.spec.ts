@@ -1,7 +1,7 @@
 // The main job from end to end as a newcomer does it: `npm start`, a simulated board on a real serial device, a browser.
 // Nothing is looked up behind the page's back.
 
-import { dashboardOf } from '../fixtures/dashboard.ts';
+import { dashboardOf, ONCE_BACK } from '../fixtures/dashboard.ts';
 import { captureGroup, downloadGroup } from '../fixtures/group.ts';
 import { expect, test } from '../fixtures/test.ts';
 
@@ -55,7 +55,7 @@ test('a newcomer starts, drives, captures, downloads, runs, stops, pulls the cab
   await test.step('brings it back and goes on without reloading', async () => {
     terminal.pressEnter();
     // The board is a simulated one, and says so; that it is the gateway's shows where the cable is pulled.
-    await expect(dashboard.link).toHaveText(/^Ready/);
+    await expect(dashboard.link).toHaveText(/^Ready/, ONCE_BACK);
     await expect(dashboard.frames).toHaveCount(3);
     await dashboard.resume.click();
     await dashboard.type(dashboard.target(2), 1700);

@@ -82,5 +82,5 @@ test('a script drives under its name, and the page that is alone beside it sees 
   await expect(dashboard.turn).toContainText('A script on this computer drives');
   await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
   await expect(dashboard.target(1)).toHaveValue('1800');
-  await expect(dashboard.turn).toHaveCount(0);
+  await expect(dashboard.turn).toHaveCount(0, { timeout: 10_000 });
 });

@@ -85,7 +85,7 @@ test('a driver who says nothing passes it on; taking over asks nobody and stops 
   await dashboard.type(dashboard.target(1), 1800);
   await expect(other.turn).toContainText('drives');
   await act(other, 'Ask to drive');
-  await expect(other.turn).toContainText('You drive');
+  await expect(other.turn).toContainText('You drive', { timeout: 10_000 });
 
   await movesSlowly(other, 1, 900);
   await poll(() => lastTarget(robot.bus, 1)).toBe(900);

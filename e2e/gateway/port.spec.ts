@@ -1,7 +1,7 @@
 // The gateway's port and the gateway itself come and go: the page says what to do, and needs no reload.
 
 import { lastTarget } from '../fixtures/bus.ts';
-import { dashboardOf, READY } from '../fixtures/dashboard.ts';
+import { dashboardOf, ONCE_BACK, READY } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
@@ -17,7 +17,7 @@ test('a port that is not there at the start says what to do, and is found when i
   await expect(dashboard.status).toContainText('The port is not there. Plug the robot in and switch it on');
   await expect(page.getByRole('heading', { name: 'No robot yet' })).toBeVisible();
   await ptyBoard.plugIn();
-  await expect(dashboard.link).toHaveText(READY);
+  await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
   if (await dashboard.resume.isVisible()) await dashboard.resume.click();
   await dashboard.type(dashboard.target(1), 1234);
   await poll(() => lastTarget(ptyBoard.bus, 1)).toBe(1234);
@@ -54,7 +54,7 @@ test.describe('when the gateway is killed', () => {
     await expect(dashboard.bar).toContainText(/Next try in \d+ s/);
 
     await newGateway({ serial: ptyBoard.device, port: Number(new URL(first.url).port) });
-    await expect(dashboard.link).toHaveText(READY);
+    await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
     await expect(dashboard.frames).toHaveCount(2);
     await dashboard.resume.click();
     await dashboard.type(dashboard.target(1), 1300);

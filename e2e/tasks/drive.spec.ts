@@ -1,7 +1,7 @@
 // Moving servos: by slider, by number, in a set time. Nothing moves that nobody asked for, nothing is clamped silently.
 
 import { lastTarget, ofKind, type Heard } from '../fixtures/bus.ts';
-import { READY } from '../fixtures/dashboard.ts';
+import { ONCE_BACK, READY } from '../fixtures/dashboard.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 test('connecting asks nothing of the board that moves it', async ({ dashboard, robot }) => {
@@ -99,7 +99,7 @@ test('once its power was gone the last pose is a guess, and only a press takes t
   await robot.unplug();
   await expect(dashboard.link).toHaveText(/^Lost/);
   await robot.plugIn();
-  await expect(dashboard.link).toHaveText(READY);
+  await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
   await dashboard.resume.click();
   await page.reload();
   await expect(dashboard.slider(2)).toHaveValue('1700');

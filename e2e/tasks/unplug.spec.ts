@@ -4,7 +4,7 @@
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { captureGroup } from '../fixtures/group.ts';
 import { SLOW_FLASH } from '../fixtures/robot.ts';
-import { READY } from '../fixtures/dashboard.ts';
+import { ONCE_BACK, READY } from '../fixtures/dashboard.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 test('a pulled cable is told, comes back without a reload, and moves only after Resume @everyWay', async ({
@@ -23,7 +23,7 @@ test('a pulled cable is told, comes back without a reload, and moves only after 
   await expect(dashboard.button('Download')).toBeDisabled();
 
   await robot.plugIn();
-  await expect(dashboard.link).toHaveText(READY);
+  await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
   await expect(dashboard.status).toContainText('The link came back; look at the robot first');
   await expect(dashboard.frames).toHaveCount(2);
   await expect(dashboard.slot).toHaveValue('5');
@@ -53,7 +53,7 @@ test.describe('on a board with slow flash', () => {
     await expect(dashboard.link).toHaveText(/^Lost/);
     await expect(dashboard.board).toContainText('Its download did not finish.');
     await robot.plugIn();
-    await expect(dashboard.link).toHaveText(READY);
+    await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
     await dashboard.resume.click();
     await expect(dashboard.button('Run')).toBeDisabled();
     await expect(dashboard.button('Download')).toBeEnabled();
