@@ -4,6 +4,7 @@ import asyncio
 import contextlib
 from collections.abc import AsyncIterator
 from pathlib import Path
+from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
@@ -14,6 +15,7 @@ from starlette.types import ASGIApp
 
 from servodeck import __version__, metrics
 from servodeck.api import api, socket
+from servodeck.background import in_thread
 from servodeck.control import Control
 from servodeck.disk import Disk
 from servodeck.docs import STYLE, docs_page
@@ -95,13 +97,22 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
 
 
 def add_docs(app: FastAPI) -> None:
+    describing = asyncio.Lock()
+
+    async def description() -> dict[str, Any]:
+        """Making it takes so long that a stop would have to wait."""
+        async with describing:
+            if app.openapi_schema is None:
+                return await in_thread(lambda: described(app), undo=lambda _: None)
+            return app.openapi_schema
+
     @app.get("/docs", include_in_schema=False, dependencies=[ANYBODY])
     async def docs() -> HTMLResponse:
-        return HTMLResponse(docs_page(described(app)))
+        return HTMLResponse(docs_page(await description()))
 
     @app.get("/openapi.json", include_in_schema=False, dependencies=[ANYBODY])
     async def schema() -> JSONResponse:
-        return JSONResponse(described(app))
+        return JSONResponse(await description())
 
     @app.get("/docs.css", include_in_schema=False, dependencies=[ANYBODY])
     async def style() -> Response:
