@@ -6,7 +6,6 @@ import { fromBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
-import { parseCommand } from '#shared/protocol/parse.ts';
 import type { LeaseAction } from '#shared/session/lease.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { Session } from '#shared/session/session.ts';
@@ -14,7 +13,7 @@ import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { SlotGroup, Transport } from '#shared/session/transport.ts';
 import { words } from '../words/words.ts';
-import { limitRefusal } from './limits.ts';
+import { createLimitGate } from './limitGate.ts';
 import { moveDurationMs, type Pace } from './moveTime.ts';
 import { createMovingWatch } from './movingWatch.ts';
 import type { Notices } from './notices.ts';
@@ -132,6 +131,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
 
   const setPaused = (on: boolean): boolean => (paused = on);
   const robot = (): Robot => robots.current().robot;
+  const gate = createLimitGate(robot, (refusal) => notices.tell('warning', refusal));
 
   /** On a link of one's own it is the last one described for such a board. */
   function takeUpRobot({ family: connected, robotOnBoard }: SessionState): void {
@@ -157,45 +157,6 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       // Without a target we moved it nowhere, even where the board told of it.
       return target !== null && target !== estimated;
     });
-  }
-
-  /** What the board is told, or null where a limit of the robot forbids it; then the person is told which. */
-  function allowed(targets: readonly ServoTarget[]): readonly ServoTarget[] | null {
-    const refusal = limitRefusal(robot(), targets);
-    if (refusal === null) return onBoard(robot(), targets);
-    notices.tell('warning', refusal);
-    return null;
-  }
-
-  /** A packet written by hand is in the board's own figures. */
-  function keepsLimits(packet: Uint8Array): boolean {
-    const command = parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
-    if (command?.kind !== 'move') return true;
-    const meant = command.targets.map(({ servo, position }) => ({
-      servo,
-      position: fromBoard(robot(), servo, position),
-    }));
-    return allowed(meant) !== null;
-  }
-
-  function allowedFrames(frames: readonly Frame[]): readonly Frame[] | null {
-    const kept: Frame[] = [];
-    for (const { durationMs, targets } of frames) {
-      const onIt = allowed(targets);
-      if (onIt === null) return null;
-      kept.push({ durationMs, targets: onIt });
-    }
-    return kept;
-  }
-
-  function allowedGroups(groups: readonly SlotGroup[]): readonly SlotGroup[] | null {
-    const kept: SlotGroup[] = [];
-    for (const { slot, frames: asked } of groups) {
-      const frames = allowedFrames(asked);
-      if (frames === null) return null;
-      kept.push({ slot, frames });
-    }
-    return kept;
   }
 
   function targetsNow(): Targets {
@@ -246,7 +207,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   function drag(targets: readonly ServoTarget[], pace: Pace): boolean {
-    return session !== null && allowed(targets) !== null && send(targets, pace);
+    return session !== null && gate.targets(targets) !== null && send(targets, pace);
   }
 
   function attempt(work: (session: Session) => Promise<unknown>, settled: Settled = () => undefined): void {
@@ -365,16 +326,16 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       ),
     release: (servos) => attempt((current) => current.release(servos)),
     download(groups, settled = () => undefined) {
-      const onIt = allowedGroups(groups);
+      const onIt = gate.groups(groups);
       if (onIt === null) settled(false);
       else attempt((current) => downloadTo(current, onIt), settled);
     },
     sendRaw(packet) {
-      if (keepsLimits(packet)) attempt((current) => current.sendRaw(packet));
+      if (gate.lets(packet)) attempt((current) => current.sendRaw(packet));
     },
     cancelDownload: () => attempt((current) => current.cancelDownload()),
     play(frames, times, settled) {
-      const onIt = allowedFrames(frames);
+      const onIt = gate.frames(frames);
       if (onIt === null) {
         settled(false);
         return;

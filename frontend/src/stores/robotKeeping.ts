@@ -2,7 +2,6 @@
 // comes here, and of two that were changed in the same part both are kept. Until the library has a change it waits in the
 // browser's storage. A robot that nobody has described is nobody's business. Never moves the robot.
 
-import * as z from 'zod/mini';
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
 import {
@@ -21,6 +20,7 @@ import { NAME_LENGTH } from '#shared/actions/robot/robot.ts';
 import { robotFromText, robotToText } from '#shared/actions/robot/robotText.ts';
 import { words } from '../words/words.ts';
 import type { TextStorage } from './document.ts';
+import { loadKnown, saveKnown, type Known } from './knownRobots.ts';
 import type { Notices } from './notices.ts';
 import type { RobotDocument } from './robotDocument.ts';
 import { isUsual, type OwnRobot, type RobotStore } from './robots.ts';
@@ -53,19 +53,11 @@ export interface RobotKeepingOptions {
   newId(): string;
 }
 
-/** What the library had of a robot when it was last read or written. */
-interface Known {
-  readonly document: string;
-  readonly revision: number;
-  readonly kit: Kit;
-}
-
 type There = ReadonlyMap<string, Listed<RobotFacts>>;
 
 const isThereAs = ({ document, kit }: Known, now: Kit, there: There): boolean =>
   there.has(document) && sameKit(kit, now);
 
-const KEY = 'servodeck.robots.kept';
 const SOON_MS = 100;
 const RETRY_MS = 5000;
 
@@ -292,35 +284,4 @@ export function createRobotKeeping(options: RobotKeepingOptions): RobotKeeping {
       return isKept ? (known.get(id)?.document ?? null) : null;
     },
   };
-}
-
-const knownSchema = z.record(
-  z.string(),
-  z.object({ document: z.string(), revision: z.number().check(z.int(), z.gte(0)), text: z.string() }),
-);
-
-function saveKnown(storage: TextStorage, known: ReadonlyMap<number, Known>): void {
-  const rows = [...known].map(([id, { document, revision, kit }]) => [
-    id,
-    { document, revision, text: kitToText(kit) },
-  ]);
-  try {
-    storage.setItem(KEY, JSON.stringify(Object.fromEntries(rows)));
-  } catch {
-    // The robots have told the person that this browser stores nothing.
-  }
-}
-
-function loadKnown(storage: TextStorage): Map<number, Known> {
-  const known = new Map<number, Known>();
-  try {
-    const rows = knownSchema.safeParse(JSON.parse(storage.getItem(KEY) ?? '{}')).data ?? {};
-    for (const [id, { document, revision, text }] of Object.entries(rows)) {
-      const kit = kitFromText(text);
-      if (kit !== null) known.set(Number(id), { document, revision, kit });
-    }
-  } catch {
-    // What stands there was not written here.
-  }
-  return known;
 }

@@ -16,14 +16,15 @@ import {
   type Keeper,
   type Listed,
   type Stored,
-  type Version,
 } from '#shared/actions/library/keeper.ts';
 import { words } from '../../words/words.ts';
 import type { Document, TextStorage } from '../document.ts';
 import type { Notices } from '../notices.ts';
 import type { RobotStore } from '../robots.ts';
 import type { View } from '../view.ts';
+import { groupOf } from './groupOf.ts';
 import { createLibraryFiles, type LibraryFiles } from './libraryFiles.ts';
+import { createLibraryVersions, type LibraryVersions } from './libraryVersions.ts';
 import { createOpenDocument } from './openDocument.ts';
 import { createOutbox } from './outbox.ts';
 import { createShelving } from './shelving.ts';
@@ -39,7 +40,7 @@ export interface LibraryState {
 }
 
 /** What cannot be done is told to the person; nothing rejects. */
-export interface Library extends LibraryFiles {
+export interface Library extends LibraryFiles, LibraryVersions {
   readonly store: StoreApi<LibraryState>;
   /** Looks what others have changed; the group that is shown follows, if nothing of it waits here. */
   refresh(): Promise<void>;
@@ -54,12 +55,6 @@ export interface Library extends LibraryFiles {
   change(id: string, label: Label, edit: (group: ActionGroup) => ActionGroup): Promise<void>;
   remove(id: string): Promise<void>;
   restore(id: string): Promise<void>;
-  versions(id: string): Promise<readonly Version[]>;
-  keepVersion(id: string, name: string): Promise<void>;
-  /** The person may take it back. */
-  removeVersion(id: string, version: Version): Promise<void>;
-  /** Opens the document and goes back to that version, undoably. */
-  restoreVersion(id: string, version: Version): Promise<void>;
 }
 
 export interface LibraryOptions {
@@ -258,18 +253,6 @@ export function createLibrary(options: LibraryOptions): Library {
     await refresh();
   }
 
-  async function removeVersion(id: string, version: Version): Promise<void> {
-    const keeper = await options.keeper;
-    const text = await keeper.readVersion(id, version.id);
-    await keeper.removeVersion(id, version.id);
-    const undo = (): void => void attempt(keeper.keepVersion(id, version, text).then(refresh));
-    notices.tell('info', words.library.versionRemoved(version.name), {
-      label: words.library.undo,
-      act: undo,
-    });
-    await refresh();
-  }
-
   async function start(): Promise<void> {
     const waiting = outbox.entries().map(([id, { text }]) => ({ id, text }));
     const own = waiting.find(({ id }) => id === opened.id());
@@ -289,6 +272,21 @@ export function createLibrary(options: LibraryOptions): Library {
     ...createLibraryFiles({
       ...{ keeper: options.keeper, notices, newId, tell, refresh, flush },
       factsOf: (group, updatedAtMs) => factsOf(group, { updatedAtMs, robot: '' }),
+    }),
+    ...createLibraryVersions({
+      ...{
+        keeper: options.keeper,
+        document,
+        notices,
+        view,
+        epochMs,
+        newId,
+        attempt,
+        read,
+        open,
+        flush,
+        refresh,
+      },
     }),
     store,
     refresh: look,
@@ -310,38 +308,5 @@ export function createLibrary(options: LibraryOptions): Library {
       ),
     remove: (id) => attempt(remove(id)),
     restore: (id) => attempt(restore(id)),
-    versions: async (id) =>
-      (await options.keeper).versions(id).catch((error: unknown) => {
-        tell(error);
-        return [];
-      }),
-    keepVersion: (id, name) =>
-      attempt(
-        (async () => {
-          const text = groupToText(await read(id));
-          if (!(await flush())) return;
-          await (await options.keeper).keepVersion(id, { id: newId(), name, atMs: epochMs() }, text);
-          view.setState({ said: words.library.versionKept(name) });
-          await refresh();
-        })(),
-      ),
-    removeVersion: (id, version) => attempt(removeVersion(id, version)),
-    restoreVersion: (id, { id: version, name }) =>
-      attempt(
-        (async () => {
-          const group = groupOf(await (await options.keeper).readVersion(id, version));
-          await open(id);
-          document.edit(
-            () => words.library.steps.version(name),
-            () => group,
-          );
-        })(),
-      ),
   };
-}
-
-function groupOf(text: string): ActionGroup {
-  const read = groupFromText(text);
-  if ('problem' in read) throw new LibraryError('failed', read.problem);
-  return read.value;
 }

@@ -1,0 +1,12 @@
+// A group out of the text the library keeps of it.
+
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { groupFromText } from '#shared/actions/group/groupText.ts';
+import { LibraryError } from '#shared/actions/library/keeper.ts';
+
+/** Throws a LibraryError where this version cannot read it. */
+export function groupOf(text: string): ActionGroup {
+  const read = groupFromText(text);
+  if ('problem' in read) throw new LibraryError('failed', read.problem);
+  return read.value;
+}

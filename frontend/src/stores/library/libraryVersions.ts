@@ -1,0 +1,82 @@
+// Versions of a group that were kept under a name, and the way back to them. What cannot be done is told; nothing rejects.
+
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { groupToText } from '#shared/actions/group/groupText.ts';
+import type { Keeper, Version } from '#shared/actions/library/keeper.ts';
+import { words } from '../../words/words.ts';
+import type { Document } from '../document.ts';
+import type { Notices } from '../notices.ts';
+import type { View } from '../view.ts';
+import { groupOf } from './groupOf.ts';
+
+export interface LibraryVersions {
+  versions(id: string): Promise<readonly Version[]>;
+  keepVersion(id: string, name: string): Promise<void>;
+  /** The person may take it back. */
+  removeVersion(id: string, version: Version): Promise<void>;
+  /** Opens the document and goes back to that version, undoably. */
+  restoreVersion(id: string, version: Version): Promise<void>;
+}
+
+interface LibraryVersionsOptions {
+  readonly keeper: Promise<Keeper>;
+  readonly document: Document;
+  readonly notices: Notices;
+  readonly view: View;
+  /** Milliseconds since 1970. */
+  epochMs(): number;
+  newId(): string;
+  /** Tells what failed. */
+  attempt(work: Promise<void>): Promise<void>;
+  read(id: string): Promise<ActionGroup>;
+  open(id: string): Promise<void>;
+  /** Whether the keeper has every change. */
+  flush(): Promise<boolean>;
+  refresh(): Promise<void>;
+}
+
+export function createLibraryVersions(options: LibraryVersionsOptions): LibraryVersions {
+  const { document, notices, view, epochMs, newId, attempt, read, open, flush, refresh } = options;
+
+  async function versions(id: string): Promise<readonly Version[]> {
+    let found: readonly Version[] = [];
+    await attempt(options.keeper.then(async (keeper) => void (found = await keeper.versions(id))));
+    return found;
+  }
+
+  async function keepVersion(id: string, name: string): Promise<void> {
+    const text = groupToText(await read(id));
+    if (!(await flush())) return;
+    await (await options.keeper).keepVersion(id, { id: newId(), name, atMs: epochMs() }, text);
+    view.setState({ said: words.library.versionKept(name) });
+    await refresh();
+  }
+
+  async function removeVersion(id: string, version: Version): Promise<void> {
+    const keeper = await options.keeper;
+    const text = await keeper.readVersion(id, version.id);
+    await keeper.removeVersion(id, version.id);
+    const undo = (): void => void attempt(keeper.keepVersion(id, version, text).then(refresh));
+    notices.tell('info', words.library.versionRemoved(version.name), {
+      label: words.library.undo,
+      act: undo,
+    });
+    await refresh();
+  }
+
+  async function restoreVersion(id: string, { id: version, name }: Version): Promise<void> {
+    const group = groupOf(await (await options.keeper).readVersion(id, version));
+    await open(id);
+    document.edit(
+      () => words.library.steps.version(name),
+      () => group,
+    );
+  }
+
+  return {
+    versions,
+    keepVersion: (id, name) => attempt(keepVersion(id, name)),
+    removeVersion: (id, version) => attempt(removeVersion(id, version)),
+    restoreVersion: (id, version) => attempt(restoreVersion(id, version)),
+  };
+}

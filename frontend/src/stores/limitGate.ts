@@ -1,0 +1,64 @@
+// Between what is asked for and what a board is told: the limits and trims of the robot at hand. Whatever leaves is in the
+// board's own figures and within the limits; whatever is not does not leave, and the person is told. Sends nothing.
+
+import { fromBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
+import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
+import { parseCommand } from '#shared/protocol/parse.ts';
+import type { SlotGroup } from '#shared/session/transport.ts';
+import { limitRefusal } from './limits.ts';
+
+/** Each gives what the board is told, or null where a limit forbids it. */
+export interface LimitGate {
+  targets(asked: readonly ServoTarget[]): readonly ServoTarget[] | null;
+  frames(asked: readonly Frame[]): readonly Frame[] | null;
+  groups(asked: readonly SlotGroup[]): readonly SlotGroup[] | null;
+  /** A packet written by hand is in the board's own figures already. */
+  lets(packet: Uint8Array): boolean;
+}
+
+/** `refuse` gets the sentence for the person. */
+export function createLimitGate(robot: () => Robot, refuse: (refusal: string) => void): LimitGate {
+  function targets(asked: readonly ServoTarget[]): readonly ServoTarget[] | null {
+    const refusal = limitRefusal(robot(), asked);
+    if (refusal === null) return onBoard(robot(), asked);
+    refuse(refusal);
+    return null;
+  }
+
+  function frames(asked: readonly Frame[]): readonly Frame[] | null {
+    return allOrNone(asked, (frame) => {
+      const onIt = targets(frame.targets);
+      return onIt === null ? null : { durationMs: frame.durationMs, targets: onIt };
+    });
+  }
+
+  function groups(asked: readonly SlotGroup[]): readonly SlotGroup[] | null {
+    return allOrNone(asked, (group) => {
+      const onIt = frames(group.frames);
+      return onIt === null ? null : { slot: group.slot, frames: onIt };
+    });
+  }
+
+  function lets(packet: Uint8Array): boolean {
+    const command = parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
+    if (command?.kind !== 'move') return true;
+    const meant = command.targets.map(({ servo, position }) => ({
+      servo,
+      position: fromBoard(robot(), servo, position),
+    }));
+    return targets(meant) !== null;
+  }
+
+  return { targets, frames, groups, lets };
+}
+
+/** Ends with the first that is refused: one sentence is enough. */
+function allOrNone<T, U>(asked: readonly T[], one: (item: T) => U | null): readonly U[] | null {
+  const all: U[] = [];
+  for (const item of asked) {
+    const given = one(item);
+    if (given === null) return null;
+    all.push(given);
+  }
+  return all;
+}
