@@ -2,6 +2,7 @@
 // The only place that knows transports; hands a session to the device store and forgets it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { Robot } from '#shared/actions/robot/robot.ts';
 import { FAMILIES, UNKNOWN_BOARD, type FamilyId } from '#shared/protocol/families.ts';
 import { STOP_PACKET } from '#shared/session/halt.ts';
 import { createSession, type Session } from '#shared/session/session.ts';
@@ -31,6 +32,7 @@ import {
   type GatewayPort,
   type GatewayStatus,
 } from './gatewayApi.ts';
+import { greetingOf } from './greeting.ts';
 import { recallReconnects, recallWay, rememberReconnects, rememberWay } from './lastWay.ts';
 import { rememberSlots } from './rememberedSlots.ts';
 
@@ -76,11 +78,6 @@ export interface Connector {
 }
 
 const GREETING_MS = 2000;
-/** A readable pose: every joint away from the line of its neighbour. */
-const GREETING = [1200, 1500, 1950, 2050, 1150, 1500].map((position, index) => ({
-  servo: index + 1,
-  position,
-}));
 
 export interface ConnectorOptions {
   readonly device: Device;
@@ -91,6 +88,8 @@ export interface ConnectorOptions {
   readonly role: You['role'];
   /** It has answered already. */
   readonly isAtGateway: boolean;
+  /** The one at hand. */
+  robot(): Robot;
   isWatched(): boolean;
 }
 
@@ -198,10 +197,10 @@ export function createConnector(options: ConnectorOptions): Connector {
 
   const simulated = (): Transport => createSimulatedTransport(simulatedAs(store.getState().board));
 
-  /** On a first visit the simulated arm rises, so that the page is alive; no real robot ever moves by itself. */
+  /** Until a way is chosen the simulated arm rises, so that the page is alive; no real robot ever moves by itself. */
   function greet(): void {
     const { unit, usualServoCount } = FAMILIES[store.getState().board];
-    if (unit === 'us' && usualServoCount === 6) device.move(GREETING, GREETING_MS);
+    if (unit === 'us' && usualServoCount === 6) device.move(greetingOf(options.robot()), GREETING_MS);
   }
 
   device.setAutoReconnect(store.getState().reconnects);
