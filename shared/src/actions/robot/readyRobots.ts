@@ -93,13 +93,15 @@ const HEXAPOD: readonly Joint[] = LEGS.flatMap((limb, leg) =>
   }),
 );
 
-/** Rows of eight, where nobody described the body. */
+/** Rows of at most eight, where nobody described the body. */
 function plain(count: number): readonly Joint[] {
-  const rows = Math.ceil(count / 8);
+  const columns = Math.min(8, count);
+  const rows = Math.ceil(count / columns);
+  const middle = (index: number, of: number): number => Math.round(((index + 0.5) / of) * 100);
   return Array.from({ length: count }, (_, index) => ({
-    role: 'servo',
-    at: [6 + (index % 8) * 12.5, Math.round(((Math.floor(index / 8) + 0.5) / rows) * 100)] as const,
-  })).map(({ role, at: [x, y] }) => ({ role: role as Role, at: [Math.round(x), y] }));
+    role: 'servo' as const,
+    at: [middle(index % columns, columns), middle(Math.floor(index / columns), rows)] as const,
+  }));
 }
 
 interface ReadyRobot {
