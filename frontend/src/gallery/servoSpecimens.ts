@@ -27,6 +27,26 @@ function describedArm(): Robot {
   };
 }
 
+/** At the very edges of what the board can do, and next to no way at all. */
+function shortWays(): Robot {
+  const robot = freshRobot('plain6', 'doc');
+  const ways = [
+    [500, 520],
+    [2480, 2500],
+    [1500, 1501],
+    [500, 501],
+    [600, 800],
+    [1450, 1550],
+  ] as const;
+  return {
+    ...robot,
+    servos: robot.servos.map((servo, index) => {
+      const [min, max] = ways[index] ?? [servo.min, servo.max];
+      return { ...servo, min, max, home: min };
+    }),
+  };
+}
+
 /** Each name as long as one may be. */
 function longNames(): Robot {
   const robot = freshRobot('humanoid18', 'lsc-24');
@@ -73,6 +93,7 @@ export const SERVO_SPECIMENS: readonly Named[] = [
     robot: { robot: longNames },
   },
   { name: 'Limits, degrees', ...LIVE, robot: { robot: describedArm, view: { positionsIn: 'degrees' } } },
+  { name: 'Limits, short ways', ...LIVE, robot: { robot: shortWays } },
   {
     name: 'Together, weighted',
     ...LIVE,

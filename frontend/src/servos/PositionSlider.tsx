@@ -2,7 +2,7 @@
 // target, the bar below it the estimate. The input is uncontrolled so that a finger on it is never pushed about by what
 // the session says meanwhile.
 
-import { useRef, type CSSProperties, type KeyboardEvent } from 'react';
+import { useRef, type KeyboardEvent } from 'react';
 import { fraction } from '../body/pose.ts';
 import { useMotion } from '../body/useMotion.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
@@ -11,6 +11,8 @@ import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { setAttribute } from '../ui/setAttribute.ts';
 import { words } from '../words/words.ts';
+import { Limits } from './Limits.tsx';
+import { between } from './limitPlaces.ts';
 import { stepped, type Scale } from './scale.ts';
 import { useRawDrag } from './useRawDrag.ts';
 import { useReadableTarget, useTarget } from './useTarget.ts';
@@ -126,19 +128,6 @@ function Track({ servo, range }: { readonly servo: RobotServo; readonly range: R
   );
 }
 
-/** The limits in figures, at the ends of the way between them, or as near as they have room beside each other. */
-function Limits({ servo, range, scale }: { servo: RobotServo; range: Range; scale: Scale }) {
-  const ends = [scale.digits(servo.min), scale.digits(servo.max)];
-  const room: CSSProperties = { ['--room' as string]: `${ends.join('  ').length}ch` };
-  return (
-    <div className={styles.limits} style={{ ...between(servo, range), ...room }} aria-hidden="true">
-      {ends.map((end, index) => (
-        <span key={index}>{end}</span>
-      ))}
-    </div>
-  );
-}
-
 const isNarrow = ({ min, max }: Range, range: Range): boolean => min > range.min || max < range.max;
 
 function EstimateMark({ servo, range }: { readonly servo: number; readonly range: Range }) {
@@ -165,20 +154,14 @@ function GuessMark({ share }: { readonly share: number }) {
   );
 }
 
-/** From where to where the limits lie on the track, as shares of it. */
-const between = ({ min, max }: Range, range: Range): CSSProperties => ({
-  ['--from' as string]: Math.max(0, fraction(min, range)).toFixed(4),
-  ['--to' as string]: Math.min(1, fraction(max, range)).toFixed(4),
-});
-
 /** A third of a pixel of the widest track: a shorter way is painted for nobody. */
 const thousandths = (share: number): string => `${(share * 100).toFixed(1)}%`;
 
 const percent = (share: number): string => `${(share * 100).toFixed(2)}%`;
 
-/** Arrows by one, with Shift by ten; right and up are the right end of the slider. */
-function keyStep({ key, shiftKey }: KeyboardEvent, { page, direction }: Scale): number {
-  const arrow = shiftKey ? 10 : 1;
+/** Right and up are the right end of the slider. */
+function keyStep({ key, shiftKey }: KeyboardEvent, { step, page, direction }: Scale): number {
+  const arrow = step * (shiftKey ? 10 : 1);
   const towards =
     {
       ArrowUp: arrow,

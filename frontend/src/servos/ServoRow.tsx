@@ -76,7 +76,7 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
       !isLocked && !isRefused.current && mayBrush(device.store.getState().snapshot, targetOf(device, servo)),
     step(change, isFar) {
       const from = targetOf(device, servo);
-      if (from !== null) move(stepped(scale, from, change * (isFar ? 10 : 1)));
+      if (from !== null) move(stepped(scale, from, change * scale.step * (isFar ? 10 : 1)));
     },
   });
 
@@ -138,7 +138,7 @@ function TargetField({ servo: own, scale, guess, blocked, onStep, onLeap, onRefu
       size="large"
       title={words.truth.commanded}
       value={target === null ? null : scale.shown(target)}
-      {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals }}
+      {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals, step: scale.step }}
       placeholder={
         target !== null
           ? ''

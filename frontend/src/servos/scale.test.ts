@@ -35,6 +35,45 @@ describe('positions as the person reads them', () => {
     expect(reversed.text(1500)).toBe('0.0°');
   });
 
+  test('of a way of a few degrees in tenths, whatever the unit', () => {
+    const short = scaleOf(
+      servoOn('bus-ctrl', { min: 500, max: 501, home: 500 }),
+      FAMILIES['bus-ctrl'],
+      'degrees',
+    );
+    expect(short).toMatchObject({ min: 0, max: 0.2, decimals: 1, step: 0.3 });
+    expect(stepped(short, 500, 1)).toBe(501);
+    expect(stepped(short, 501, -1)).toBe(500);
+  });
+
+  test('a step goes on until the end', () => {
+    fc.assert(
+      fc.property(servos, fc.nat(400), fc.nat(100), ({ board, ...change }, below, above) => {
+        const servo = servoOn(board, { ...change, min: change.home - below, max: change.home + above + 1 });
+        const scale = scaleOf(servo, FAMILIES[board], 'degrees');
+        const end = scale.position(scale.max);
+        for (
+          let at = scale.position(scale.min), before = NaN;
+          at !== end;
+          at = stepped(scale, at, scale.step)
+        ) {
+          expect(at).not.toBe(before);
+          before = at;
+        }
+      }),
+    );
+  });
+
+  test('what stands for an end leads to it', () => {
+    fc.assert(
+      fc.property(servos, fc.nat(400), fc.nat(100), ({ board, ...change }, below, above) => {
+        const servo = servoOn(board, { ...change, min: change.home - below, max: change.home + above + 1 });
+        const scale = scaleOf(servo, FAMILIES[board], 'degrees');
+        for (const end of [servo.min, servo.max]) expect(scale.position(scale.shown(end))).toBe(end);
+      }),
+    );
+  });
+
   test('what is shown is within the limits and leads to what is shown again', () => {
     fc.assert(
       fc.property(servos, fc.nat(1000), ({ board, ...change }, at) => {

@@ -12,7 +12,9 @@ export interface Scale {
   readonly min: number;
   readonly max: number;
   readonly decimals: 0 | 1;
-  /** How far the Page keys go; arrows go by 1, with Shift by 10. */
+  /** How far arrows and the wheel go; with Shift ten times as far. */
+  readonly step: number;
+  /** How far the Page keys go. */
   readonly page: number;
   /** -1 where a shown value grows towards the slider's left end. */
   readonly direction: 1 | -1;
@@ -26,6 +28,8 @@ export interface Scale {
 
 /** A unit finer than this is shown with a tenth of a degree, so that what is shown leads back to the same position. */
 const FINE_DEGREES = 0.1;
+/** So is a way shorter than this, and gone in small steps: in whole degrees there is next to nothing on it to choose from. */
+const SHORT_WAY_DEGREES = 10;
 
 export function scaleOf(servo: RobotServo, { unit }: Pick<Family, 'unit'>, positionsIn: PositionsIn): Scale {
   return positionsIn === 'degrees' ? inDegrees(servo) : inUnits(servo, unit);
@@ -39,7 +43,7 @@ export function stepped(scale: Scale, from: number, change: number): number {
 /** Of a servo that the robot at hand does not have, or not in this unit. */
 export function inUnits({ min, max }: Range, unit: Family['unit']): Scale {
   return {
-    ...{ unit: words.numbers.unitSymbol(unit), min, max, decimals: 0, direction: 1 },
+    ...{ unit: words.numbers.unitSymbol(unit), min, max, decimals: 0, direction: 1, step: 1 },
     isDegrees: false,
     page: unit === 'us' ? 100 : 50,
     shown: Math.round,
@@ -50,16 +54,25 @@ export function inUnits({ min, max }: Range, unit: Family['unit']): Scale {
 }
 
 function inDegrees(servo: RobotServo): Scale {
-  const decimals = servo.degreesPerUnit <= FINE_DEGREES ? 1 : 0;
+  const isShort = (servo.max - servo.min) * servo.degreesPerUnit < SHORT_WAY_DEGREES;
+  const decimals = isShort || servo.degreesPerUnit <= FINE_DEGREES ? 1 : 0;
   // Adding 0 turns -0, which would be written with its sign, into 0.
   const shown = (position: number): number => Number(degreesOf(servo, position).toFixed(decimals)) + 0;
-  const ends = [shown(servo.min), shown(servo.max)];
+  const [low, high] = servo.isReversed ? [servo.max, servo.min] : [servo.min, servo.max];
+  const [min, max] = [shown(low), shown(high)];
+  // What stands for an end leads to it, though the figure was rounded.
+  const position = (degrees: number): number => {
+    if (degrees <= min) return low;
+    return degrees >= max ? high : positionOf(servo, degrees);
+  };
   return {
-    ...{ unit: '°', min: Math.min(...ends), max: Math.max(...ends), decimals, page: 10 },
+    ...{ unit: '°', min, max, decimals, page: 10 },
     isDegrees: true,
+    // Never less than a unit: such a step would stay where it is.
+    step: isShort ? Math.ceil(servo.degreesPerUnit * 10) / 10 : 1,
     direction: servo.isReversed ? -1 : 1,
     shown,
-    position: (degrees) => within(servo, positionOf(servo, degrees)),
+    position,
     text: (position) => words.numbers.formatDegrees(shown(position), decimals),
     digits: (position) => words.numbers.formatDegrees(shown(position), decimals),
   };
