@@ -11,13 +11,41 @@ import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
-import { startTurning, type TurnPhase } from './turning.ts';
+import { awayFrom, sideOf, startTurning, type TurnPhase } from './turning.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
 
-export function DirectionStep({ at: { robot, servo, accept } }: { readonly at: CalibrationAtHand }) {
+interface At {
+  readonly at: CalibrationAtHand;
+}
+
+export function DirectionStep({ at }: At) {
+  const away = awayFrom(at.servo);
+  return away === null ? <TooLittleRoom at={at} /> : <TurnAndAsk at={at} away={away} />;
+}
+
+function TooLittleRoom({ at: { robot, servo, isFinished, keep, go } }: At) {
+  const { unit } = FAMILIES[robot.board];
+  return (
+    <>
+      <p className={styles.ask}>{words.calibration.tooLittleRoom(servo, unit)}</p>
+      <div className={styles.actions}>
+        <Button tone={isFinished ? 'plain' : 'primary'} onPress={() => go(servo.servo, 'min')}>
+          {words.calibration.setEnds}
+        </Button>
+        {!isFinished && (
+          <Button tone="quiet" onPress={keep}>
+            {words.calibration.leaveAsIs}
+          </Button>
+        )}
+      </div>
+    </>
+  );
+}
+
+function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away: number }) {
   const { device } = useStores();
-  const { phase, turn } = useTurning(servo);
+  const { phase, turn } = useTurning(servo, away);
   const target = useDevice(({ targets }) => targets[servo.servo]);
   const isMoving = useDevice((state) => state.isMoving);
   // That something moves is known a moment after it was asked to.
@@ -63,16 +91,7 @@ export function DirectionStep({ at: { robot, servo, accept } }: { readonly at: C
   );
 }
 
-const SHARE_OF_SIDE = 0.3;
-
-const sideOf = ({ min, home, max }: RobotServo): 1 | -1 => (max - home >= home - min ? 1 : -1);
-
-function awayOf(servo: RobotServo): number {
-  const side = sideOf(servo) > 0 ? servo.max - servo.home : servo.min - servo.home;
-  return Math.round(servo.home + side * SHARE_OF_SIDE);
-}
-
-function useTurning(servo: RobotServo): { readonly phase: TurnPhase | null; turn(): void } {
+function useTurning(servo: RobotServo, away: number): { readonly phase: TurnPhase | null; turn(): void } {
   const { device } = useStores();
   const [phase, setPhase] = useState<TurnPhase | null>(null);
   const end = useRef<() => void>(() => undefined);
@@ -88,7 +107,7 @@ function useTurning(servo: RobotServo): { readonly phase: TurnPhase | null; turn
           mayMove: () => motionHindrance(device.store.getState().snapshot) === null,
           move: device.creep,
         },
-        { home: servo.home, away: awayOf(servo) },
+        { home: servo.home, away },
         setPhase,
       );
     },

@@ -1,6 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import { startTurning, type TurnPhase } from './turning.ts';
+import { freshRobot } from '../stores/robots.ts';
+import { awayFrom, startTurning, type TurnPhase } from './turning.ts';
 
 function bench() {
   const clock = createVirtualClock();
@@ -63,5 +64,25 @@ describe('turning a little', () => {
     expect(stopped.phases).toEqual(['away', 'ended']);
     expect(moved.phases).toEqual(['away', 'ended']);
     expect(left.phases).toEqual(['away']);
+  });
+});
+
+describe('how far it turns', () => {
+  test.each([
+    [500, 1500, 2500, 1800],
+    [500, 1400, 1500, 1130],
+    [1450, 1500, 1560, 1534],
+    [500, 500, 534, 534],
+    [2466, 2500, 2500, 2466],
+  ])('lowest %i, home %i, highest %i: to %i', (min, home, max, away) => {
+    expect(awayFrom({ ...freshRobot('arm', 'doc').servos[0]!, min, home, max })).toBe(away);
+  });
+
+  test.each([
+    [500, 510, 520],
+    [1500, 1500, 1501],
+    [500, 500, 533],
+  ])('not at all where nobody would see it: %i, %i, %i', (min, home, max) => {
+    expect(awayFrom({ ...freshRobot('arm', 'doc').servos[0]!, min, home, max })).toBeNull();
   });
 });

@@ -1,6 +1,7 @@
 // A servo turns a little away from home and, once it stands there, back. Ends early where nothing may move any longer.
 // Knows no session.
 
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { ServoMotion } from '#shared/session/state.ts';
 
@@ -13,6 +14,21 @@ export interface Turning {
 
 /** `away` is what is looked at; `ended`: something else took the servo or stopped it. */
 export type TurnPhase = 'away' | 'back' | 'done' | 'ended';
+
+const SHARE_OF_SIDE = 0.3;
+/** Of a horn, by whoever looks for it. */
+const SEEN_DEGREES = 3;
+
+/** The side of home that has more room. */
+export const sideOf = ({ min, home, max }: RobotServo): 1 | -1 => (max - home >= home - min ? 1 : -1);
+
+/** A share of that side, and of a short one as much as is seen; null where its limits leave less than that. */
+export function awayFrom(servo: RobotServo): number | null {
+  const room = Math.max(servo.max - servo.home, servo.home - servo.min);
+  const seen = Math.ceil(SEEN_DEGREES / servo.degreesPerUnit);
+  if (room < seen) return null;
+  return Math.round(servo.home + sideOf(servo) * Math.max(room * SHARE_OF_SIDE, seen));
+}
 
 const TURN_MS = 900;
 /** To see where it stands before it comes back. */

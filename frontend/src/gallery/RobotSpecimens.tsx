@@ -2,6 +2,8 @@
 
 import type { Keeper } from '#shared/actions/library/keeper.ts';
 import type { Calibration } from '#shared/actions/robot/robotCalibration.ts';
+import { changeServo } from '#shared/actions/robot/robotEdits.ts';
+import type { Range } from '#shared/protocol/families.ts';
 import type { SessionState } from '#shared/session/state.ts';
 import { CalibrationWizard } from '../calibration/CalibrationWizard.tsx';
 import { RobotEditor } from '../robots/RobotEditor.tsx';
@@ -22,6 +24,8 @@ interface Case {
   readonly isUnknown?: boolean;
   readonly place?: Keeper['place'];
   readonly at?: Pick<Calibration, 'servo' | 'step' | 'found'>;
+  /** Of the servo at hand. */
+  readonly limits?: Range;
 }
 
 const CASES: readonly Case[] = [
@@ -40,6 +44,10 @@ const CASES: readonly Case[] = [
   },
   { name: 'Calibration, home first', content: 'calibrate', at: { servo: 3, step: 'direction' } },
   { name: 'Calibration, direction', content: 'calibrate', at: { servo: 2, step: 'direction' } },
+  {
+    ...{ name: 'Calibration, too little room', content: 'calibrate', at: { servo: 3, step: 'direction' } },
+    limits: { min: 1490, max: 1510 },
+  },
   { name: 'Calibration, mirror', content: 'calibrate', at: { servo: 3, step: 'partner' } },
   { name: 'Calibration, trim', content: 'calibrate', at: { servo: 3, step: 'trim' } },
 ];
@@ -53,11 +61,15 @@ export const ROBOTS: readonly Exhibit[] = CASES.map((specimen) => ({
   stores: () => storesOf(specimen),
 }));
 
-function storesOf({ state = READY, isUnknown = false, place = 'browser', at }: Case): Stores {
+function storesOf({ state = READY, isUnknown = false, place = 'browser', at, limits }: Case): Stores {
   const pose = isUnknown ? 'unknown' : 'still';
   const stores = standing({ board: BOARD, way: SIMULATED, state, pose, place });
   const { robots, device, view } = stores;
-  robots.add(() => words.robots.steps.add, freshRobot('humanoid16', BOARD));
+  const robot = freshRobot('humanoid16', BOARD);
+  robots.add(
+    () => words.robots.steps.add,
+    at === undefined || limits === undefined ? robot : changeServo(robot, at.servo, limits),
+  );
   device.refreshTargets();
   if (at !== undefined)
     view.setState({ calibration: { robotId: robots.current().id, progress: { ...at, done: [] } } });

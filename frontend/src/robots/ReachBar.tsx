@@ -12,8 +12,12 @@ export interface ReachBarProps {
   readonly unit: PositionUnit;
 }
 
+/** Of the bar, in percent: less is seen by nobody. */
+const LEAST_WIDTH = 1;
+
 export function ReachBar({ servo: { min, max, home }, reach, unit }: ReachBarProps) {
   const share = (at: number): number => ((at - reach.min) / (reach.max - reach.min)) * 100;
+  const width = Math.max(LEAST_WIDTH, share(max) - share(min));
   return (
     <svg
       className={styles.bar}
@@ -23,7 +27,7 @@ export function ReachBar({ servo: { min, max, home }, reach, unit }: ReachBarPro
       aria-label={words.robotEditor.reach(reach.min, reach.max, unit)}
     >
       <rect className={styles.reach} x={0} y={3} width={100} height={2} />
-      <rect className={styles.allowed} x={share(min)} y={2} width={share(max) - share(min)} height={4} />
+      <rect className={styles.allowed} x={Math.min(share(min), 100 - width)} y={2} width={width} height={4} />
       <path className={styles.home} d={`M${share(home)} 0V8`} />
     </svg>
   );

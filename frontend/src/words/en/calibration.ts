@@ -59,6 +59,9 @@ export const calibrationWords = {
   homeFirst: (at: number, home: number, unit: PositionUnit): string =>
     `The test begins at home, and this servo was sent to ${formatWhole(at)}. First it goes to ${formatPosition(home, unit)}, slowly.`,
   turn: 'Turn a little',
+  tooLittleRoom: ({ min, max }: Limits, unit: PositionUnit): string =>
+    `Between ${formatWhole(min)} and ${formatPosition(max, unit)} it turns too little to see which way.`,
+  setEnds: 'Set its ends anew',
   arrow: 'The way it should turn now',
   sights: {
     gripper: {

@@ -48,6 +48,9 @@ export const calibrationWords: typeof english = {
   homeFirst: (at, home, unit) =>
     `测试从初始位开始，而这个舵机的目标是 ${formatWhole(at)}。它先慢慢转到 ${formatPosition(home, unit)}。`,
   turn: '转一点',
+  tooLittleRoom: ({ min, max }, unit) =>
+    `在 ${formatWhole(min)} 到 ${formatPosition(max, unit)} 之间只能转一点点，看不出转向。`,
+  setEnds: '重新设置两端',
   arrow: '现在应该往哪边转',
   sights: {
     gripper: {
