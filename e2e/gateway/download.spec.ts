@@ -4,6 +4,7 @@ import type { BrowserContext } from '@playwright/test';
 import { ofKind } from '../fixtures/bus.ts';
 import { dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
+import { libraryOf } from '../fixtures/library.ts';
 import { SLOW_FLASH, type Robot } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
@@ -18,6 +19,30 @@ async function begins(dashboard: Dashboard, slot: number): Promise<void> {
   await expect(dashboard.progress).toHaveAttribute('aria-valuetext', '0 of 3 frames');
 }
 
+/** Two groups of a frame each, as one job; `names` are new to the library. */
+async function beginsTwo(dashboard: Dashboard, names: readonly string[], slots: readonly number[]) {
+  const library = libraryOf(dashboard.page);
+  for (const [index, name] of names.entries()) {
+    if (index > 0) {
+      await library.show();
+      await library.button('New group').click();
+      await expect(dashboard.frames).toHaveCount(0);
+    }
+    await captureGroup(dashboard, [1000 + 10 * index]);
+    await library.call(name);
+  }
+  await expect(dashboard.estimate(1)).toHaveText(`≈ ${990 + 10 * names.length}`);
+  await dashboard.button('Slots').click();
+  await dashboard.button('Download several').click();
+  const several = dashboard.page.getByRole('region', { name: 'Download several groups' });
+  for (const [index, name] of names.entries()) {
+    await several.getByRole('checkbox', { name: new RegExp(`^${name}`) }).click();
+    await dashboard.type(several.getByRole('textbox', { name: `Slot for ${name}` }), slots[index]!);
+  }
+  await several.getByRole('button', { name: 'Download these' }).click();
+  await expect(several.getByRole('progressbar')).toBeVisible();
+}
+
 async function joins(robot: Robot, context: BrowserContext): Promise<Dashboard> {
   const other = dashboardOf(await context.newPage());
   await robot.open(other.page);
@@ -25,23 +50,27 @@ async function joins(robot: Robot, context: BrowserContext): Promise<Dashboard> 
   return other;
 }
 
+const slotsHeard = async (robot: Robot): Promise<readonly number[]> =>
+  ofKind(await robot.bus(), 'download').map(({ slot }) => slot);
+
 const framesHeard = async (robot: Robot): Promise<readonly number[]> =>
   ofKind(await robot.bus(), 'download').map(({ frameIndex }) => frameIndex);
 
 test.describe('on a board with slow flash', () => {
   test.use({ boardSettings: SLOW_FLASH });
 
-  test('a download goes on when its tab is closed; opened again, the page finds it done and runs it', async ({
+  test('a download of several groups goes on when its tab is closed; opened again, the page finds them and runs one', async ({
     dashboard,
     robot,
     context,
   }) => {
-    await begins(dashboard, 21);
+    await beginsTwo(dashboard, ['Left alone first', 'Left alone second'], [20, 21]);
+    await poll(() => slotsHeard(robot)).not.toEqual([]);
     await dashboard.page.close();
-    await poll(() => framesHeard(robot)).toEqual([0, 1, 2]);
+    await poll(() => slotsHeard(robot)).toEqual([20, 21]);
 
     const again = await joins(robot, context);
-    await expect(again.notices).toContainText('Slot 21 is downloaded.');
+    await expect(again.notices).toContainText('2 groups are downloaded.');
     await again.type(again.slot, 21);
     await again.button('Run').click();
     await expect(again.status).toHaveText('Running slot 21, once: received by the board');
