@@ -129,10 +129,11 @@ EXAMPLES: dict[tuple[str, str], Example] = {
                 },
                 {"slot": 6, "name": "Bow", "frames": [{"durationMs": 900, "positions": {"1": 1500}}]},
             ],
+            "behind": None,
             "nonce": None,
             "take": False,
         },
-        ON_THE_WIRE,
+        (*ON_THE_WIRE, "notFound", "cancelled"),
     ),
     ("GET", "/api/jobs/{job}"): Example(JOB, errors=("notFound",)),
     ("DELETE", "/api/jobs/{job}"): Example(

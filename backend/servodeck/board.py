@@ -23,7 +23,7 @@ from servodeck.link import Link, Ports
 from servodeck.messages import JobState, PortState
 from servodeck.motion import Motion
 from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command, parse_report
-from servodeck.parts import Group
+from servodeck.parts import Part
 from servodeck.ports import OpenPort
 from servodeck.silence import Silence
 from servodeck.unattended import Unattended
@@ -169,11 +169,11 @@ class Board:
     def broken_slots_changed(self) -> None:
         self._events.board_changed()
 
-    def group_begun(self, group: Group) -> None:
-        self.motion.unstored(group.slot)
+    def group_begun(self, part: Part) -> None:
+        self.motion.unstored(part.slot)
 
-    def group_stored(self, group: Group) -> None:
-        self.motion.stored(group.slot, group.frames)
+    def group_stored(self, part: Part) -> None:
+        self.motion.stored(part.slot, part.durations_ms)
 
     # Inside
 

@@ -191,15 +191,20 @@ class Control:
             raise OutOfRangeError("times is 0: what goes on without its driver has an end.")
         self.board.unattended.allow(run, seat, for_ms / 1000)
 
-    def download(self, parts: Sequence[Part], by: str, claim: Callable[[], object]) -> JobState:
-        """Begins to store them; raises what keeps it from that before anything is sent. `claim` raises where
-        `by` may not.
+    def download(
+        self, parts: Sequence[Part], by: str, claim: Callable[[], object], behind: str | None = None
+    ) -> JobState:
+        """Begins to store them, or has the job `behind` which they come store them, too; raises what keeps it
+        from that before anything is sent. `claim` raises where `by` may not.
         """
         board = self.board
-        judge_parts(parts, board.taken_for)
+        before = board.jobs.parts_of(behind) if behind else ()
+        judge_parts((*before, *parts), board.taken_for)
         for part in parts:
-            for frame in part.group.frames:
-                self.limits.judge_targets(frame.targets)
+            self.limits.judge_targets(part.extremes)
+        if behind:
+            claim()
+            return board.jobs.add(behind, parts)
         wire = board.link.wire()
         judge_latch(parts[0].packets[0], self.latch)
         board.jobs.judge_idle()

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 
 from servodeck.errors import GatewayError
 from servodeck.messages import JobState
-from servodeck.parts import Group, Part
+from servodeck.parts import Part
 from servodeck.tally import Tally
 from servodeck.wire import Wire
 
@@ -23,7 +23,7 @@ class Job:
         self, parts: Sequence[Part], by: str, board: str, wire: Wire, now: Callable[[], float]
     ) -> None:
         """`board` is what its broken slots are remembered by."""
-        self.parts = parts
+        self.parts: list[Part] = []
         self.board = board
         self.wire = wire
         self.is_cancelled = False
@@ -31,27 +31,40 @@ class Job:
         """The first byte of the present group has left, or may have."""
         self.broke = False
         """The slot of the present group was whole before: where nothing has left, it still is."""
-        self._tally = Tally([[len(packet) for packet in part.packets] for part in parts], now)
-        first = parts[0].group
+        self._tally = Tally(now)
+        first = parts[0]
         self.state = JobState(
             id=secrets.token_hex(6),
             by=by,
             status="running",
-            slots=[part.group.slot for part in parts],
+            slots=[],
             groups_stored=0,
             slot=first.slot,
             name=first.name,
             frames_stored=0,
-            frame_count=sum(len(part.packets) for part in parts),
+            frame_count=0,
             bytes_sent=0,
-            bytes_total=sum(sum(map(len, part.packets)) for part in parts),
+            bytes_total=0,
             remaining_ms=0,
+        )
+        self.add(parts)
+
+    def add(self, parts: Sequence[Part]) -> None:
+        """Behind those that it has."""
+        self.parts += parts
+        self._tally.add([[len(packet) for packet in part.packets] for part in parts])
+        self._update(
+            {
+                "slots": [part.slot for part in self.parts],
+                "frame_count": self._tally.frame_count,
+                "bytes_total": self._tally.bytes_total,
+            }
         )
 
     @property
-    def group(self) -> Group:
+    def part(self) -> Part:
         """The present one, or the last."""
-        return self.parts[min(self.state.groups_stored, len(self.parts) - 1)].group
+        return self.parts[min(self.state.groups_stored, len(self.parts) - 1)]
 
     def note(self, frames: int) -> None:
         """So many frames of the present group are stored."""
@@ -66,6 +79,7 @@ class Job:
         status = "done" if error is None else "cancelled" if error.code == "cancelled" else "failed"
         reason = {} if error is None else {"code": error.code, "detail": error.detail}
         self._update({"status": status, "remaining_ms": 0, **reason})
+        self.parts.clear()  # remembered is only how it ended
 
     def _note(self, groups: int, frames: int) -> None:
         progress = self._tally.after(groups, frames)
@@ -77,7 +91,7 @@ class Job:
                 "remaining_ms": round(progress.remaining_s * 1000),
             }
         )
-        self._update({"slot": self.group.slot, "name": self.group.name})
+        self._update({"slot": self.part.slot, "name": self.part.name})
 
     def _update(self, what: dict[str, object]) -> None:
         self.state = self.state.model_copy(update=what)

@@ -13,10 +13,10 @@ from typing import Protocol
 from servodeck.answers import Answers
 from servodeck.broken_slots import BrokenSlots
 from servodeck.download import EDGE_FRAME_TIMEOUT_S, Download
-from servodeck.errors import GatewayError, MovingError, NotFoundError, SlotBrokenError
+from servodeck.errors import CancelledError, GatewayError, MovingError, NotFoundError, SlotBrokenError
 from servodeck.job import Job
 from servodeck.messages import JobState
-from servodeck.parts import Group, Part
+from servodeck.parts import Part
 from servodeck.values import Command, Erase, Erased, Report, Run
 from servodeck.wire import Wire
 
@@ -33,10 +33,10 @@ class JobEvents(Protocol):
 
     def broken_slots_changed(self) -> None: ...
 
-    def group_begun(self, group: Group) -> None:
+    def group_begun(self, part: Part) -> None:
         """What its slot held before is gone."""
 
-    def group_stored(self, group: Group) -> None:
+    def group_stored(self, part: Part) -> None:
         """All of it is on the board."""
 
 
@@ -74,6 +74,20 @@ class Jobs:
         log.info("download begun", extra={"facts": facts})
         self._tell(job)
         job.task = asyncio.create_task(self._run(job))
+        return job.state
+
+    def parts_of(self, job_id: str) -> Sequence[Part]:
+        """Raises CancelledError where it has ended."""
+        job = self._found(job_id)
+        if job is not self._current or job.is_cancelled:
+            raise CancelledError("That download has ended: nothing can follow it.")
+        return job.parts
+
+    def add(self, job_id: str, parts: Sequence[Part]) -> JobState:
+        """To one that lasts, behind what it has."""
+        job = self._found(job_id)
+        job.add(parts)
+        self._tell(job)
         return job.state
 
     def cancel(self, job_id: str) -> JobState:
@@ -132,7 +146,7 @@ class Jobs:
                 self._finish(job, GatewayError("The download ended by a mistake of the gateway."))
 
     async def _store(self, job: Job, part: Part) -> None:
-        slot = part.group.slot
+        slot = part.slot
         download = Download(
             part.packets,
             lambda packet: job.wire.send(packet, job),
@@ -144,7 +158,7 @@ class Jobs:
         await download.settle(self._owed_until_s - self._now())
         job.broke = slot not in self._memory.of(job.board)
         self._memory.add(job.board, slot)
-        self._events.group_begun(part.group)
+        self._events.group_begun(part)
         self._events.broken_slots_changed()
         await self._memory.kept()  # before the first byte leaves: a crash must not forget it
         job.has_begun = True
@@ -152,7 +166,7 @@ class Jobs:
         self._owed_until_s = float("-inf")
         self._mend(job)
         job.note_whole()
-        self._events.group_stored(part.group)
+        self._events.group_stored(part)
         self._events.broken_slots_changed()
         self._tell(job)
 
@@ -170,7 +184,7 @@ class Jobs:
 
     def _mend(self, job: Job) -> None:
         """The slot of its present group holds a whole one."""
-        self._memory.remove(job.board, job.group.slot)
+        self._memory.remove(job.board, job.part.slot)
         self._memory.keep_soon()
 
     def _progressed(self, job: Job, frames: int) -> None:

@@ -43,11 +43,13 @@ class GroupBody(Message):
 
 
 class DownloadWish(Message):
-    """`groups` in the order in which they are stored, each to a slot of its own. `nonce`: of the page that
-    drives. A program needs none; `take` as with every motion.
+    """`groups` in the order in which they are stored, each to a slot of its own. `behind`: the download under
+    way that they belong to; more than one request takes goes in several, one right after the other. `nonce`:
+    of the page that drives. A program needs none; `take` as with every motion.
     """
 
     groups: Annotated[list[GroupBody], Field(min_length=1, max_length=256)]
+    behind: Annotated[str, Field(max_length=64)] | None = None
     nonce: Nonce | None = None
     take: Take = False
 
@@ -66,16 +68,20 @@ async def download(
     control: Controlled,
     scripts: Scripted,
 ) -> JobState:
-    """Stores groups in slots of the board, one after the other. Goes on when whoever asked has left; STOP
-    ends it, and then the slot of the group in progress is broken: nobody may run it before another download
-    to it has ended well.
+    """Stores groups in slots of the board, one after the other, as one job, also where they come in several
+    requests. Goes on when whoever asked has left; STOP ends it, and then the slot of the group in progress is
+    broken: nobody may run it before another download to it has ended well.
     """
     groups = [await body.group() for body in wish.groups]
     parts = await parts_of(groups, control.board.taken_for)
     nonce = wish.nonce
     if nonce is None:
-        return scripts.download(caller, parts, take=wish.take)
-    return control.download(parts, caller.name, lambda: control.driving.judge_request(caller, nonce))
+        return scripts.download(caller, parts, wish.behind, take=wish.take)
+
+    def claim() -> None:
+        control.driving.judge_request(caller, nonce)
+
+    return control.download(parts, caller.name, claim, wish.behind)
 
 
 @jobs_api.get("/jobs/{job}", dependencies=[VIEWER])

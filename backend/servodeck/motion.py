@@ -16,7 +16,6 @@ from servodeck.messages import MotionTold, ServoWay
 from servodeck.packets import Report, encode, parse_command
 from servodeck.values import (
     Command,
-    Frame,
     Move,
     Release,
     Run,
@@ -76,10 +75,10 @@ class Motion:
         self._restless_until_s = -inf
         """A move that the board may take up late has ended by then."""
 
-    def stored(self, slot: int, frames: Sequence[Frame]) -> None:
+    def stored(self, slot: int, durations_ms: Sequence[int]) -> None:
         """What that slot holds now, for sure."""
         slack_s, pace = (0.35, 1.2) if self._family.id in POLLED else (0.0, 1.0)
-        self._passes_s[slot] = sum(frame.duration_ms / 1000 * pace + slack_s for frame in frames)
+        self._passes_s[slot] = sum(ms / 1000 * pace + slack_s for ms in durations_ms)
 
     def unstored(self, slot: int) -> None:
         self._passes_s.pop(slot, None)

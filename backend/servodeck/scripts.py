@@ -134,10 +134,14 @@ class Scripts:
             self._control.let_go_on(seat, continue_ms)
         return outcome
 
-    def download(self, caller: Caller, parts: Sequence[Part], *, take: bool) -> JobState:
+    def download(self, caller: Caller, parts: Sequence[Part], behind: str | None, *, take: bool) -> JobState:
         """Needs the lease to begin with, and nobody from then on."""
         seat, driving = self._seat_of(caller), self._control.driving
-        job = self._control.download(parts, seat.caller.name, lambda: driving.speak_for(seat, take=take))
+
+        def claim() -> None:
+            driving.speak_for(seat, take=take)
+
+        job = self._control.download(parts, seat.caller.name, claim, behind)
         driving.vouch(seat, 0.0)
         return job
 

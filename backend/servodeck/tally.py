@@ -20,14 +20,19 @@ class Progress:
 
 
 class Tally:
-    def __init__(self, sizes: Sequence[Sequence[int]], now: Callable[[], float]) -> None:
-        """`sizes`: bytes of each frame of each group."""
-        self._sizes = sizes
+    def __init__(self, now: Callable[[], float]) -> None:
+        self._sizes: list[Sequence[int]] = []
         self._now = now
-        self._frame_count = sum(map(len, sizes))
-        self._bytes_total = sum(map(sum, sizes))
+        self.frame_count = 0
+        self.bytes_total = 0
         self._begun_s = now()
         self._s_per_byte = 0.0
+
+    def add(self, sizes: Sequence[Sequence[int]]) -> None:
+        """Bytes of each frame of each further group."""
+        self._sizes += sizes
+        self.frame_count += sum(map(len, sizes))
+        self.bytes_total += sum(map(sum, sizes))
 
     def after(self, groups: int, frames: int) -> Progress:
         """So many groups are whole, and so many frames of the next one; none: it begins, or begins again. The
@@ -40,12 +45,12 @@ class Tally:
         else:
             self._begun_s = self._now()
         sent = sum(map(sum, whole)) + part_sent
-        left = self._bytes_total - sent
+        left = self.bytes_total - sent
         return Progress(
             groups,
             sum(map(len, whole)) + frames,
-            self._frame_count,
+            self.frame_count,
             sent,
-            self._bytes_total,
+            self.bytes_total,
             max(wire_s(left), self._s_per_byte * left),
         )

@@ -13,7 +13,7 @@ from servodeck import download, jobs
 from servodeck.callers import Caller
 from servodeck.control import Control
 from servodeck.messages import JobState
-from servodeck.parts import Group, Part, packets_of
+from servodeck.parts import Group, made_of, packets_of
 from servodeck.values import Frame, ServoTarget
 from servodeck.wire import wire_s
 from tests.client import Client, gateway_on
@@ -52,7 +52,7 @@ async def ended(control: Control, job: JobState) -> JobState:
 def begin(control: Control, *groups: Group) -> JobState:
     """By somebody who may."""
     board = control.board.taken_for
-    parts = [Part(group, list(packets_of(group, board)), board) for group in groups]
+    parts = [made_of(group, list(packets_of(group, board)), board) for group in groups]
     return control.download(parts, "Anna", lambda: None)
 
 

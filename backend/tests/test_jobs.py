@@ -22,7 +22,7 @@ from servodeck.errors import (
     SlotBrokenError,
 )
 from servodeck.packets import FAMILIES, encode
-from servodeck.parts import Group, Part, packets_of
+from servodeck.parts import Group, made_of, packets_of
 from servodeck.values import Frame, Run, ServoTarget
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort, FakePorts
@@ -221,7 +221,7 @@ async def test_who_may_not_begins_none() -> None:
             raise NotDrivingError("Anna drives.")
 
         with pytest.raises(NotDrivingError):
-            control.download([Part(WAVE, list(packets_of(WAVE, "doc")), "doc")], "Bert", refuse)
+            control.download([made_of(WAVE, list(packets_of(WAVE, "doc")), "doc")], "Bert", refuse)
         await asyncio.sleep(1)
         assert (control.board.jobs.latest, port.packets()) == (None, [STOP])
 

@@ -2,6 +2,7 @@
 
 import asyncio
 import itertools
+import tracemalloc
 from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
@@ -11,9 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from servodeck.control import Control
-from servodeck.errors import CancelledError, OutOfRangeError
+from servodeck.errors import CancelledError, NotDrivingError, NotFoundError, OutOfRangeError
 from servodeck.packets import FAMILIES, encode
-from servodeck.parts import Group, Part, packets_of, part_of
+from servodeck.parts import Group, made_of, packets_of, part_of
 from servodeck.tally import Progress, Tally
 from servodeck.values import Frame, Run, ServoTarget
 from servodeck.wire import wire_s
@@ -129,7 +130,7 @@ async def test_a_slot_that_is_wanted_twice_or_another_board_is_refused_before_an
     async with gateway_on(port) as control:
         with pytest.raises(OutOfRangeError, match="Slot 8 is wanted twice"):
             begin(control, WAVE, BOW, WAVE)
-        made = [Part(WAVE, list(packets_of(WAVE, "doc")), "doc")]
+        made = [made_of(WAVE, list(packets_of(WAVE, "doc")), "doc")]
         control.take_for("openarm-new")
         with pytest.raises(CancelledError):
             control.download(made, "Anna", lambda: None)
@@ -155,17 +156,77 @@ async def test_others_go_on_while_a_large_group_is_made_into_packets() -> None:
     assert turns >= 255
 
 
+def follow(control: Control, job_id: str, *groups: Group, claim: Callable[[], object] = lambda: None) -> Any:
+    parts = [made_of(group, list(packets_of(group, "doc")), "doc") for group in groups]
+    return control.download(parts, "Anna", claim, job_id)
+
+
+@in_virtual_time
+async def test_what_comes_behind_it_belongs_to_it_until_its_end() -> None:
+    port = AnsweringPort(QUICK * 3)
+    async with gateway_on(port) as control:
+        job = begin(control, WAVE)
+        await asyncio.sleep(0.1)
+        told = follow(control, job.id, BOW, NOD)
+        assert (told.id, told.slots, told.frame_count, told.bytes_total) == (
+            job.id,
+            SLOTS,
+            9,
+            9 * len(DOWNLOAD),
+        )
+        end = await ended(control, job)
+        assert (end.status, end.groups_stored, end.frames_stored) == ("done", 3, 9)
+        assert stored_by(port) == [(slot, frame) for slot in SLOTS for frame in range(3)]
+        with pytest.raises(CancelledError):
+            follow(control, job.id, BOW)
+
+
+@in_virtual_time
+async def test_nothing_comes_behind_what_has_its_slot_was_called_off_or_is_anothers() -> None:
+    async with gateway_on(AnsweringPort(QUICK * 3)) as control:
+        job = begin(control, WAVE)
+
+        def refuse() -> None:
+            raise NotDrivingError("Bert drives.")
+
+        with pytest.raises(OutOfRangeError, match="Slot 8 is wanted twice"):
+            follow(control, job.id, BOW, WAVE)
+        with pytest.raises(NotDrivingError):
+            follow(control, job.id, BOW, claim=refuse)
+        with pytest.raises(NotFoundError):
+            follow(control, "other", BOW)
+        control.board.jobs.cancel(job.id)
+        with pytest.raises(CancelledError):
+            follow(control, job.id, BOW)
+        assert (await ended(control, job)).slots == [WAVE.slot]
+
+
+async def test_a_full_board_waits_in_little_memory() -> None:
+    tracemalloc.start()
+    part = await part_of(Group(8, "Long", [frame_of(index) for index in range(255)]), "doc")
+    bytes_each, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert len(part.packets) == 255
+    assert bytes_each < 60 * 1024
+
+
+def frame_of(index: int) -> Frame:
+    return Frame(500, tuple(ServoTarget(servo, 500 + servo + index) for servo in range(1, 33)))
+
+
 @in_virtual_time
 async def test_over_http_they_are_one_job() -> None:
     frames = [{"durationMs": 500, "positions": {"1": 1500}}]
-    port = AnsweringPort([[225], [225]])
+    port = AnsweringPort([[225]] * 3)
     async with http_to(FakePorts(port), now) as (client, _):
         wish = {"groups": [{"slot": 8, "name": "Wave", "frames": frames}, {"slot": 3, "frames": frames}]}
         begun = await client.post("/api/download", json=wish)
         assert (begun.status_code, begun.json()["slots"]) == (202, [8, 3])
+        more = {"groups": [{"slot": 4, "frames": frames}], "behind": begun.json()["id"]}
+        assert (await client.post("/api/download", json=more)).json()["slots"] == [8, 3, 4]
         await asyncio.sleep(1)
         found = (await client.get(f"/api/jobs/{begun.json()['id']}")).json()
-        assert (found["status"], found["groupsStored"], found["name"]) == ("done", 2, "")
+        assert (found["status"], found["groupsStored"], found["name"]) == ("done", 3, "")
         twice = await client.post("/api/download", json={"groups": wish["groups"][:1] * 2})
         assert (twice.status_code, twice.json()["code"]) == (422, "outOfRange")
         assert (await client.post("/api/download", json={"groups": []})).json()["code"] == "malformed"
@@ -180,7 +241,8 @@ def test_the_time_left_is_at_least_the_wires_and_nothing_at_the_end(
 ) -> None:
     clock = itertools.accumulate(ms)
     at_s = 0.0
-    tally = Tally(sizes, lambda: at_s)
+    tally = Tally(lambda: at_s)
+    tally.add(sizes)
     last = tally.after(0, 0)
     total = sum(map(sum, sizes))
     for group, of_group in enumerate(sizes):

@@ -149,7 +149,7 @@ def test_a_stop_ends_the_moves_of_a_learm_who_knows_where() -> None:
 
 def running(*runs: tuple[float, Run], stored_ms: int = 500) -> Motion:
     motion = Motion(DOC)
-    motion.stored(8, [Frame(stored_ms, ())] * 4)
+    motion.stored(8, [stored_ms] * 4)
     for at_s, run in runs:
         motion.left(encode(run, DOC), at_s)
     return motion

@@ -243,7 +243,7 @@ async def test_where_only_the_board_knows_the_end_letting_go_is_enough_and_nobod
 @in_virtual_time
 async def test_of_a_group_that_the_gateway_stored_itself_it_says_how_long_it_may_take() -> None:
     async with script() as here:
-        here.control.board.motion.stored(8, [Frame(2000, (ServoTarget(1, 1500),))])
+        here.control.board.motion.stored(8, [2000])
         await here.post("slots/8/run")
         ends_in_ms = (await running(here))["endsInMs"]
         assert 2000 < ends_in_ms < 3600

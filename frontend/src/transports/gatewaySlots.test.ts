@@ -129,17 +129,49 @@ test('the same broken slots again are no news', () => {
   expect([slots.broken, changes()]).toEqual([[5, 8], 2]);
 });
 
-test('a full board goes in portions that the gateway reads, in its order and nothing left out', async () => {
-  const { slots, requests, turns } = createPage();
+const FULL_BOARD = Array.from({ length: 256 }, (_, slot) => {
   const targets = Array.from({ length: 32 }, (_, index) => ({ servo: index + 1, position: 1500 }));
   const largest = Array.from({ length: 255 }, () => ({ durationMs: 30_000, targets }));
-  const groups = Array.from({ length: 256 }, (_, slot) => ({ slot, frames: slot % 5 ? FRAMES : largest }));
-  const portions = slots.portions(groups);
-  expect(portions.flat()).toEqual(groups);
-  expect(portions.length).toBeGreaterThan(1);
-  for (const portion of portions) void slots.store(portion);
+  return { slot, frames: slot % 5 ? FRAMES : largest };
+});
+
+test('a full board is handed over at once as one job, in portions that the gateway reads', async () => {
+  const { slots, requests, answer } = createPage();
+  const done = slots.store(FULL_BOARD);
+  const bodies = () => requests.map(({ body }) => body as { groups: { slot: number }[]; behind?: string });
+  const handedOver = () => bodies().flatMap(({ groups }) => groups.map(({ slot }) => slot));
+  for (let count = 1; handedOver().length < FULL_BOARD.length; count += 1) {
+    await vi.waitFor(() => expect(requests).toHaveLength(count));
+    answer(202, RUNNING);
+  }
+  expect(handedOver()).toEqual(FULL_BOARD.map(({ slot }) => slot));
+  const [first, ...rest] = bodies();
+  expect(first).not.toHaveProperty('behind');
+  expect(new Set(rest.map(({ behind }) => behind))).toEqual(new Set(['a1']));
+  for (const body of bodies()) expect(JSON.stringify(body).length).toBeLessThan(READ_BYTES);
+  slots.told(DONE);
+  await done;
+});
+
+test('a download that ends while the rest of it is handed over ends with its own reason', async () => {
+  const { slots, requests, turns, answer } = createPage();
+  const failed = slots.store(FULL_BOARD).catch((error: unknown) => error);
   await turns();
-  expect(requests).toHaveLength(portions.length);
-  for (const { body } of requests) expect(JSON.stringify(body).length).toBeLessThan(READ_BYTES);
-  expect(slots.portions([])).toEqual([]);
+  answer(202, RUNNING);
+  await vi.waitFor(() => expect(requests).toHaveLength(2));
+  slots.told({ ...RUNNING, status: 'failed', code: 'latched', detail: 'Stopped.' });
+  answer(409, { code: 'cancelled', detail: 'That download has ended.' });
+  expect(await failed).toMatchObject({ code: 'latched' });
+  await turns();
+  expect(requests).toHaveLength(2);
+});
+
+test('what the gateway does not take of the rest is the error', async () => {
+  const { slots, requests, turns, answer } = createPage();
+  const failed = slots.store(FULL_BOARD).catch((error: unknown) => error);
+  await turns();
+  answer(202, RUNNING);
+  await vi.waitFor(() => expect(requests).toHaveLength(2));
+  answer(409, { code: 'notDriving', detail: 'Bert drives.' });
+  expect(await failed).toMatchObject({ code: 'notDriving' });
 });

@@ -8,7 +8,7 @@ import { askGateway, isRecord, refusal, withBody } from './gatewayHttp.ts';
 import type { JobState } from './messages.generated.ts';
 
 /** As large as half a megabyte, which a slow network takes a while for. */
-const BEGUN_WITHIN_MS = 8_000;
+const TAKEN_WITHIN_MS = 8_000;
 
 /** What the gateway reads at once (backend/servodeck/guard.py), with room for what stands around the groups. */
 const PORTION_BYTES = 500 * 1024;
@@ -40,6 +40,20 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
     else reject(refusal(job.code ?? 'internal', job.detail ?? ''));
   }
 
+  async function handOver(portion: readonly SlotGroup[], behind?: string): Promise<string> {
+    const nonce = await begin();
+    const body = { groups: portion.map(toBody), nonce, ...(behind !== undefined && { behind }) };
+    const taken = await askGateway('api/download', withBody('POST', body), TAKEN_WITHIN_MS);
+    if (!isRecord(taken) || typeof taken.id !== 'string')
+      throw new LinkError('internal', 'the gateway’s answer is no job');
+    return taken.id;
+  }
+
+  /** While the first ones are stored, which takes longer: from then on the gateway needs this page no more. */
+  async function handOverRest(rest: readonly (readonly SlotGroup[])[], id: string): Promise<void> {
+    for (const portion of rest) await handOver(portion, id);
+  }
+
   return {
     get broken() {
       return broken;
@@ -47,23 +61,19 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
     get download() {
       return job && { ...job, isOver: job.status !== 'running' };
     },
-    portions,
     async store(groups) {
-      const nonce = await begin();
-      const body = { groups: groups.map(toBody), nonce };
-      const begun = await askGateway('api/download', withBody('POST', body), BEGUN_WITHIN_MS);
-      if (!isRecord(begun) || typeof begun.id !== 'string')
-        throw new LinkError('internal', 'the gateway’s answer is no job');
-      const { id } = begun;
-      await new Promise<void>((resolve, reject) => {
+      const [first = [], ...rest] = portions(groups);
+      const id = await handOver(first);
+      const ended = new Promise<void>((resolve, reject) => {
         waiter = { id, resolve, reject };
         // Its end may have been told before its beginning was answered.
         settle();
       });
+      await Promise.all([ended, handOverRest(rest, id)]);
     },
     async cancel() {
       if (job?.status !== 'running') return;
-      await askGateway(`api/jobs/${job.id}`, { method: 'DELETE' }, BEGUN_WITHIN_MS);
+      await askGateway(`api/jobs/${job.id}`, { method: 'DELETE' }, TAKEN_WITHIN_MS);
     },
     told(next) {
       job = next;

@@ -1,6 +1,6 @@
 // What a session makes of a link that stores groups by itself: it asks for it, shows what it is told, and sends no frame.
 
-import { expect, test, vi } from 'vitest';
+import { expect, test } from 'vitest';
 import type { Command } from '../protocol/commands.ts';
 import { encodeCommand } from '../protocol/encode.ts';
 import { family as familyOf } from '../protocol/families.ts';
@@ -17,9 +17,6 @@ const UNDER_WAY = {
 };
 const DONE = { ...UNDER_WAY, groupsStored: 1, framesStored: 3, isOver: true };
 const FAILED = { ...UNDER_WAY, isOver: true };
-
-/** So many groups the link takes, and the rest after them. */
-const AT_ONCE = 3;
 
 async function sharedSession(known: Pick<SharedSlots, 'broken' | 'download'>) {
   const clock = createVirtualClock();
@@ -38,8 +35,6 @@ async function sharedSession(known: Pick<SharedSlots, 'broken' | 'download'>) {
       get download() {
         return told.download;
       },
-      portions: (groups) =>
-        [groups.slice(0, AT_ONCE), groups.slice(AT_ONCE)].filter(({ length }) => length > 0),
       store(groups) {
         asked.push(`store ${groups.map(({ slot, frames }) => `${slot}:${frames.length}`).join(' ')}`);
         return new Promise((resolve, reject) => (settle = { resolve, reject }));
@@ -168,18 +163,4 @@ test('of several that end early, those that were stored are noted and the one in
     ...{ activity: { kind: 'idle' }, brokenSlots: [9], storedSlots: [5] },
     lastDownload: { slots: [5, 9, 12], groupsStored: 1 },
   });
-});
-
-test('more than the link takes at once goes in portions, until one of them fails', async () => {
-  const { session, asked, stored, failed } = await sharedSession({ broken: [], download: null });
-  const groups = [5, 9, 12, 14].map((slot) => ({ slot, frames: WAVE }));
-  const done = session.download(groups);
-  stored();
-  await vi.waitFor(() => expect(asked).toEqual(['store 5:1 9:1 12:1', 'store 14:1']));
-  stored();
-  await done;
-  const ended = session.download(groups).catch((error: unknown) => error);
-  failed(new LinkError('latched', 'stopped'));
-  expect(await ended).toMatchObject({ code: 'latched' });
-  expect(asked.slice(2)).toEqual(['store 5:1 9:1 12:1']);
 });

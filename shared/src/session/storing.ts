@@ -135,7 +135,7 @@ export function createStoring(
       requireOwnSlots(groups);
       const sizes = groups.map((group) => frameCommands(group).map(sizeOf));
       if (shared === undefined) await storeHere(groups, sizes);
-      else for (const portion of shared.portions(groups)) await storeThere(shared, portion);
+      else await storeThere(shared, groups);
     },
     async cancel() {
       isCancelled = true;

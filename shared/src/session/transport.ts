@@ -61,9 +61,7 @@ export interface SharedSlots {
   readonly broken: readonly number[];
   /** The latest download, whoever began it; null where there was none. */
   readonly download: SharedDownload | null;
-  /** In their order, as many together as it takes at once. What it has not taken yet ends with this end. */
-  portions(groups: readonly SlotGroup[]): readonly (readonly SlotGroup[])[];
-  /** Of one portion: resolves when the board has all of it; rejects with what ended it. */
+  /** In their order; resolves when the board has all of them; rejects with what ended it. */
   store(groups: readonly SlotGroup[]): Promise<void>;
   /** Calls off the one under way. */
   cancel(): Promise<void>;
