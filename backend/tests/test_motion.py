@@ -7,7 +7,6 @@ from servodeck.motion import END_GRACE_S, Motion
 from servodeck.packets import FAMILIES, encode, parse_command
 from servodeck.values import (
     Command,
-    Frame,
     Move,
     Positions,
     ReadBattery,

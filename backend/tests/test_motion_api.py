@@ -18,7 +18,7 @@ from servodeck.callers import THIS_COMPUTER, Caller, Role
 from servodeck.control import Control
 from servodeck.messages import ServoLimits
 from servodeck.packets import FAMILIES, encode
-from servodeck.values import Frame, Move, ServoTarget
+from servodeck.values import Move, ServoTarget
 from tests.client import Client
 from tests.fake_port import FakePort, FakePorts
 from tests.knocking import scope_of
