@@ -4,6 +4,7 @@
 import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
 import { I18nProvider } from 'react-aria-components/I18nProvider';
 import { Tab, TabList, TabPanel, Tabs } from 'react-aria-components/Tabs';
+import { useStore } from 'zustand';
 import { CaptureStrip } from './actions/CaptureStrip.tsx';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
 import { BatteryPanel } from './battery/BatteryPanel.tsx';
@@ -184,7 +185,7 @@ function useOwnPlace(tab: TabName) {
 }
 
 function Said() {
-  const said = useView((state) => state.said);
+  const said = useStore(useStores().notices.said);
   return (
     <p className={styles.said} role="status">
       {said}

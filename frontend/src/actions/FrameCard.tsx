@@ -3,7 +3,7 @@
 import { memo } from 'react';
 import type { GroupFrame } from '#shared/actions/group/group.ts';
 import { setDuration } from '#shared/actions/group/timeEdits.ts';
-import { PoseThumb, sameLook } from '../body/PoseThumb.tsx';
+import { PoseThumb } from '../body/PoseThumb.tsx';
 import { useDevice, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
@@ -27,7 +27,7 @@ export interface FrameCardProps {
   readonly isPlaying: boolean;
 }
 
-/** Drawn again only where it is another: a strip has dozens, and an edit concerns one or two. */
+/** `pose`, `changed`: the very same as before where they say the same. A strip has dozens, and an edit concerns one or two. */
 export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
   const { frame, index, pose, changed, isSelected, isAmongSelected, isTabStop, isPlaying } = props;
   useWords();
@@ -84,13 +84,7 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
       </div>
     </li>
   );
-}, isSame);
-
-const PLAIN = ['frame', 'index', 'isSelected', 'isAmongSelected', 'isTabStop', 'isPlaying'] as const;
-
-function isSame(one: FrameCardProps, other: FrameCardProps): boolean {
-  return PLAIN.every((name) => one[name] === other[name]) && sameLook(one, other);
-}
+});
 
 function FrameTime({ frame, number, isTabStop }: { frame: GroupFrame; number: number; isTabStop: boolean }) {
   const { document, notices } = useStores();

@@ -2,6 +2,7 @@
 
 import type { Frame } from '#shared/protocol/commands.ts';
 import { poseAt } from '#shared/actions/group/group.ts';
+import { sameLook, samePose } from '../body/pose.ts';
 
 export interface FramePose {
   readonly pose: ReadonlyMap<number, number>;
@@ -9,14 +10,37 @@ export interface FramePose {
   readonly changed: readonly number[];
 }
 
+type Pose = FramePose['pose'];
+
+interface Step {
+  readonly from: Pose;
+  readonly to: FramePose;
+}
+
+const known = new WeakMap<Frame, Step>();
+
+/** The very same ones as before as long as they say the same: an edit of one frame has nothing done for dozens of others. */
 export function framePoses(frames: readonly Frame[], first: number, end: number): readonly FramePose[] {
-  let before: ReadonlyMap<number, number> = poseAt(frames, first - 1);
-  return frames.slice(first, end).map(({ targets }) => {
-    const pose = new Map(before);
-    for (const { servo, position } of targets) pose.set(servo, position);
-    const known = before;
-    const changed = [...pose.keys()].filter((servo) => known.get(servo) !== pose.get(servo));
-    before = pose;
-    return { pose, changed: changed.sort((one, other) => one - other) };
+  let from: Pose = poseAt(frames, first - 1);
+  return frames.slice(first, end).map((frame) => {
+    const to = stepFrom(from, frame);
+    from = to.pose;
+    return to;
   });
+}
+
+function stepFrom(from: Pose, frame: Frame): FramePose {
+  const before = known.get(frame);
+  if (before !== undefined && samePose(before.from, from)) return before.to;
+  const made = newStep(from, frame);
+  const to = before !== undefined && sameLook(before.to, made) ? before.to : made;
+  known.set(frame, { from, to });
+  return to;
+}
+
+function newStep(from: Pose, { targets }: Frame): FramePose {
+  const pose = new Map(from);
+  for (const { servo, position } of targets) pose.set(servo, position);
+  const changed = [...pose.keys()].filter((servo) => from.get(servo) !== pose.get(servo));
+  return { pose, changed: changed.sort((one, other) => one - other) };
 }

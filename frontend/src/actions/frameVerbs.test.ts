@@ -34,7 +34,7 @@ async function createStrip() {
     choose(...ids: readonly number[]) {
       for (const [index, id] of ids.entries()) pressFrame(stores, id, { ctrl: index > 0, shift: false });
     },
-    said: () => stores.view.getState().said,
+    said: () => stores.notices.said.getState(),
   };
 }
 

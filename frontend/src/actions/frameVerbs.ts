@@ -50,7 +50,7 @@ export function moveBy(stores: DeskStores, id: number, places: number): void {
   );
   showFrames(stores, ids, id);
   const after = numbersOf(stores, ids);
-  if (after.join() !== before.join()) stores.view.setState({ said: words.actions.moved(before, after) });
+  if (after.join() !== before.join()) stores.notices.say(words.actions.moved(before, after));
 }
 
 /** What comes next is selected then. */
@@ -94,7 +94,7 @@ export function copy(stores: DeskStores, ids: FrameIds): Clip | null {
   if (ids.length === 0) return null;
   const clip = copyFrames(stores.document.store.getState().present, ids);
   stores.timeline.setState({ clip });
-  stores.view.setState({ said: words.actions.copied(ids.length) });
+  stores.notices.say(words.actions.copied(ids.length));
   return clip;
 }
 

@@ -7,7 +7,7 @@ import { useRobot } from '../stores/stores.ts';
 import { ArmFigure } from './ArmFigure.tsx';
 import { BoneFigure } from './BoneFigure.tsx';
 import { bonesOf } from './bones.ts';
-import { armPicture, fraction } from './pose.ts';
+import { armPicture, fraction, sameLook } from './pose.ts';
 import styles from './PoseThumb.module.css';
 
 export interface PoseThumbProps {
@@ -23,16 +23,6 @@ export const PoseThumb = memo(function PoseThumb(props: PoseThumbProps) {
 
 function isSame(one: PoseThumbProps, other: PoseThumbProps): boolean {
   return one.family === other.family && sameLook(one, other);
-}
-
-type Look = Omit<PoseThumbProps, 'family'>;
-
-export function sameLook(one: Look, other: Look): boolean {
-  return (
-    one.pose.size === other.pose.size &&
-    one.changed.join() === other.changed.join() &&
-    [...one.pose].every(([servo, position]) => other.pose.get(servo) === position)
-  );
 }
 
 export interface RobotThumbProps extends PoseThumbProps {

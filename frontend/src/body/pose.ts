@@ -88,3 +88,20 @@ export const halfDegree = (degrees: number): number => Math.round(degrees * 2) /
 export function fraction(position: number, { min, max }: Range): number {
   return (position - min) / (max - min);
 }
+
+/** Positions by servo. */
+type PoseShown = ReadonlyMap<number, number>;
+
+export function samePose(one: PoseShown, other: PoseShown): boolean {
+  if (one === other) return true;
+  return one.size === other.size && [...one].every(([servo, position]) => other.get(servo) === position);
+}
+
+interface Look {
+  readonly pose: PoseShown;
+  readonly changed: readonly number[];
+}
+
+export function sameLook(one: Look, other: Look): boolean {
+  return samePose(one.pose, other.pose) && one.changed.join() === other.changed.join();
+}

@@ -14,7 +14,7 @@ import styles from './Macros.module.css';
 import { useAddMacro } from './useAddMacro.ts';
 
 export function EditGrid() {
-  const { macros, view } = useStores();
+  const { macros, view, notices } = useStores();
   const add = useAddMacro();
   const list = useMacros(({ present }) => present.macros);
   const selected = useView((state) => state.selectedButton);
@@ -28,7 +28,8 @@ export function EditGrid() {
         () => words.macros.edits.move(nameOf(id)),
         (page) => moveMacro(page, id, to),
       );
-      view.setState({ selectedButton: id, said: words.macros.moved(ids.indexOf(id) + 1, to + 1) });
+      view.setState({ selectedButton: id });
+      notices.say(words.macros.moved(ids.indexOf(id) + 1, to + 1));
     },
     remove(id, next) {
       macros.edit(

@@ -33,7 +33,7 @@ interface MacroProps {
 }
 
 function Tools({ macro }: MacroProps) {
-  const { macros, view } = useStores();
+  const { macros, notices } = useStores();
   const list = useMacros(({ present }) => present.macros);
   const index = list.indexOf(macro);
   const { id, name } = macro;
@@ -42,7 +42,7 @@ function Tools({ macro }: MacroProps) {
       () => words.macros.edits.move(name),
       (page) => moveMacro(page, id, to),
     );
-    view.setState({ said: words.macros.moved(index + 1, to + 1) });
+    notices.say(words.macros.moved(index + 1, to + 1));
   };
   return (
     <>

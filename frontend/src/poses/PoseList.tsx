@@ -10,7 +10,7 @@ import { PoseCard } from './PoseCard.tsx';
 import styles from './PosesPanel.module.css';
 
 export function PoseList() {
-  const { poses, view } = useStores();
+  const { poses, view, notices } = useStores();
   const book = usePoses(({ present }) => present);
   const selected = useView((state) => state.selectedPose);
   const ids = book.poses.map(({ id }) => id);
@@ -22,7 +22,8 @@ export function PoseList() {
         () => words.poses.steps.move(poseName(book, id)),
         (before) => movePose(before, id, to),
       );
-      view.setState({ selectedPose: id, said: words.poses.moved(ids.indexOf(id) + 1, to + 1) });
+      view.setState({ selectedPose: id });
+      notices.say(words.poses.moved(ids.indexOf(id) + 1, to + 1));
     },
     remove(id, next) {
       poses.book.edit(

@@ -157,7 +157,7 @@ function Shapes() {
 }
 
 function Arrange() {
-  const { poses, view } = useStores();
+  const { poses, view, notices } = useStores();
   const pose = useSelectedPose();
   const list = usePoses(({ present }) => present.poses);
   const nextId = usePoses(({ present }) => present.nextId);
@@ -170,7 +170,7 @@ function Arrange() {
       () => words.poses.steps.move(pose.name),
       (book) => movePose(book, pose.id, to),
     );
-    view.setState({ said: words.poses.moved(index + 1, to + 1) });
+    notices.say(words.poses.moved(index + 1, to + 1));
   };
   const duplicate = (): void => {
     if (none) return;

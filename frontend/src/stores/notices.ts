@@ -24,6 +24,9 @@ export interface Notice {
 
 export interface Notices {
   readonly store: StoreApi<readonly Notice[]>;
+  /** The latest change that only the eye could see, for screen readers. */
+  readonly said: StoreApi<string>;
+  say(text: string): void;
   tell(tone: NoticeTone, text: string, action?: NoticeAction): void;
   /** The sentence of a failure. What the person called off is no failure. */
   tellError(error: unknown): void;
@@ -35,6 +38,7 @@ const MAX_SHOWN = 3;
 
 export function createNotices(clock: Clock): Notices {
   const store = createStore<readonly Notice[]>(() => []);
+  const said = createStore(() => '');
   let nextId = 1;
 
   function tell(tone: NoticeTone, text: string, action?: NoticeAction): void {
@@ -49,8 +53,8 @@ export function createNotices(clock: Clock): Notices {
   }
 
   return {
-    store,
-    tell,
+    ...{ store, said, tell },
+    say: (text) => said.setState(text, true),
     tellError(error) {
       const { code, message, cause } = asLinkError(error);
       const detail = cause instanceof RangeRefusal ? words.rangeText(cause) : message;

@@ -53,8 +53,6 @@ export interface ViewState {
   readonly goesOn: boolean;
   /** At most. */
   readonly goOnMinutes: number;
-  /** The latest change that only the eye could see, for screen readers. */
-  readonly said: string;
 }
 
 export type View = StoreApi<ViewState>;
@@ -99,7 +97,6 @@ export const INITIAL_VIEW: ViewState = {
   untilStopped: false,
   goesOn: false,
   goOnMinutes: 10,
-  said: '',
 };
 
 export function createView(storage: TextStorage): View {

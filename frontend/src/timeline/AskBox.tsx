@@ -1,7 +1,7 @@
 // A field in place: a number or a text that the timeline asks for, beside what it is about. Enter and leaving the field take it,
 // Escape does not (and stops the robot, as everywhere). Before it is asked for, the value of the selected key stands there.
 
-import { useStores } from '../stores/stores.ts';
+import { useStores, useTimeline } from '../stores/stores.ts';
 import type { Ask } from '../stores/timeline.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
@@ -16,16 +16,18 @@ import { useDesk, type SeenDesk } from './useDesk.ts';
 import styles from './AskBox.module.css';
 
 export function AskBox({ onClose }: { onClose(): void }) {
-  const desk = useDesk();
-  const { asks } = desk.state;
-  return asks === null ? <KeyValue desk={desk} /> : <Asked key={asks} ask={asks} onClose={onClose} />;
+  const asks = useTimeline((state) => state.asks);
+  const hasOne = useTimeline(({ selected }) => selected.size === 1);
+  if (asks !== null) return <Asked key={asks} ask={asks} onClose={onClose} />;
+  return hasOne ? <KeyValue /> : null;
 }
 
 /** The cell of the key says it to ears. */
-function KeyValue({ desk }: { readonly desk: SeenDesk }) {
+function KeyValue() {
+  const desk = useDesk();
   const { times, state } = desk;
-  const [key, ...others] = selectedKeys(times, state.selected);
-  if (key === undefined || others.length > 0 || state.cursor.frameId !== key.frameId) return null;
+  const [key] = selectedKeys(times, state.selected);
+  if (key?.frameId !== state.cursor.frameId) return null;
   const place = placeOf(desk);
   if (place === null) return null;
   return (
@@ -37,6 +39,7 @@ function KeyValue({ desk }: { readonly desk: SeenDesk }) {
 
 function Asked({ ask, onClose }: { readonly ask: Ask; onClose(): void }) {
   const stores = useStores();
+  const place = placeOf(useDesk());
   const desk = deskOf(stores);
   const asked = ASKED[ask];
   const close = (): void => {
@@ -50,7 +53,7 @@ function Asked({ ask, onClose }: { readonly ask: Ask; onClose(): void }) {
     if (problem !== null) stores.notices.tell('warning', problem);
   };
   return (
-    <div className={styles.box} style={placeOf(desk) ?? {}}>
+    <div className={styles.box} style={place ?? {}}>
       <input
         type="text"
         autoFocus

@@ -3,6 +3,7 @@
 import { useServoView, useStores, editServoView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
+import { isTouch } from '../ui/touch.ts';
 import { words } from '../words/words.ts';
 import { cellName } from './cellName.ts';
 import type { StatusName } from './gesture.ts';
@@ -45,18 +46,17 @@ const ABOUT_KEYS = new Set<StatusName>(['move', 'box', 'scrub', 'duration', 'str
 
 function textOf(desk: SeenDesk, status: StatusName | null): string {
   const { state, family } = desk;
-  const isTouch = matchMedia('(pointer: coarse)').matches;
   if (status !== null && status !== 'selected' && status !== 'nothing')
-    return isTouch && ABOUT_KEYS.has(status) ? '' : words.timeline.status[status];
+    return isTouch() && ABOUT_KEYS.has(status) ? '' : words.timeline.status[status];
   const keys = selectedKeys(desk.times, state.selected);
   const servo = servoAtHand(desk, keys);
   const [only] = keys;
   if (only === undefined || servo === undefined)
-    return isTouch ? words.timeline.byTouch.nothing : words.timeline.status.nothing;
+    return isTouch() ? words.timeline.byTouch.nothing : words.timeline.status.nothing;
   const about =
     keys.length === 1
       ? cellName(desk, { row: servoRowId(servo), frameId: only.frameId })
       : words.timeline.keys(keys.length);
-  if (isTouch) return words.timeline.byTouch.selected(about);
+  if (isTouch()) return words.timeline.byTouch.selected(about);
   return words.timeline.status.selected(about, family.motion.tickMs, turnText(desk, servo));
 }

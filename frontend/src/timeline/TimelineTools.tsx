@@ -2,16 +2,17 @@
 
 import { memo } from 'react';
 import { Toolbar } from 'react-aria-components/Toolbar';
-import { EASINGS, type Easing, type GroupFrame } from '#shared/actions/group/group.ts';
+import { EASINGS, type Easing } from '#shared/actions/group/group.ts';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Hint } from '../ui/Hint.tsx';
 import { Select } from '../ui/Select.tsx';
-import { refsOf, type KeySet } from '../stores/keySet.ts';
+import type { KeySet } from '../stores/keySet.ts';
 import { ToggleButton } from '../ui/ToggleButton.tsx';
 import { useWords, words } from '../words/words.ts';
 import { ease } from './changes.ts';
 import { deskOf } from './desk.ts';
+import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { mayRun, VERBS, type VerbName } from './verbs.ts';
 import styles from './TimelineTools.module.css';
 
@@ -86,7 +87,7 @@ function VerbButton({ verb }: { readonly verb: VerbName }) {
 function EasingChoice() {
   const stores = useStores();
   const selected = useTimeline((state) => state.selected);
-  const value = useDocument(({ present }) => commonEasing(present.frames, selected));
+  const value = useDocument(({ present }) => commonEasing(timesOf(present), selected));
   return (
     <Select<Easing | ''>
       label={words.timeline.easing}
@@ -101,9 +102,8 @@ function EasingChoice() {
   );
 }
 
-function commonEasing(frames: readonly GroupFrame[], selected: KeySet): Easing | '' {
-  const wanted = new Set(refsOf(selected).map(({ frameId }) => frameId));
-  const easings = new Set(frames.filter(({ id }) => wanted.has(id)).map(({ easing }) => easing));
+function commonEasing(times: GroupTimes, selected: KeySet): Easing | '' {
+  const easings = new Set(selectedKeys(times, selected).map(({ easing }) => easing));
   const [only = ''] = easings;
   return easings.size === 1 ? only : '';
 }

@@ -95,7 +95,7 @@ export function copy(desk: Desk): Clip | null {
   const clip = clipOf(desk);
   if (clip !== null) {
     desk.stores.timeline.setState({ clip });
-    desk.stores.view.setState({ said: words.timeline.copied(desk.state.selected.size) });
+    desk.stores.notices.say(words.timeline.copied(desk.state.selected.size));
   }
   return clip;
 }

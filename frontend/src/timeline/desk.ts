@@ -15,7 +15,7 @@ import type { Cursor, TimelineState } from '../stores/timeline.ts';
 import type { PositionsIn } from '../stores/view.ts';
 import { words } from '../words/words.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
-import { rowsOf, type Row } from './rows.ts';
+import { rowsNow, type Row } from './rows.ts';
 
 export type DeskStores = Pick<Stores, 'device' | 'document' | 'view' | 'notices' | 'robots' | 'timeline'>;
 
@@ -39,7 +39,7 @@ export function deskOf(stores: DeskStores): Desk {
   return {
     ...{ stores, group, times, robot, servoView },
     state: stores.timeline.getState(),
-    rows: rowsOf(robot, [...times.tracks.keys()], servoView),
+    rows: rowsNow(robot, times.servos, servoView),
     family: stores.device.store.getState().family,
     positionsIn: stores.view.getState().positionsIn,
   };

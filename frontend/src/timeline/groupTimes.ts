@@ -1,6 +1,7 @@
 // What the timeline reads from a group's frames, worked out once for each state of them: tracks, ends, places by id.
 
 import type { GroupFrame } from '#shared/actions/group/group.ts';
+import { sameList } from '#shared/actions/group/groupEdits.ts';
 import {
   frameEnds,
   repositioned,
@@ -14,6 +15,8 @@ import { refsOf, type KeySet } from '../stores/keySet.ts';
 export interface GroupTimes {
   readonly frames: readonly GroupFrame[];
   readonly tracks: Tracks;
+  /** Those with a key, in ascending order. */
+  readonly servos: readonly number[];
   /** When each frame is done. */
   readonly ends: readonly number[];
   readonly lengthMs: number;
@@ -28,10 +31,10 @@ export function timesOf({ frames }: { readonly frames: readonly GroupFrame[] }):
   const before = known.get(frames);
   if (before !== undefined) return before;
   const ends = frameEnds(frames);
+  const tracks = (latest && repositioned(frames, latest)) ?? tracksOf({ frames }, latest?.tracks);
   const times = {
-    frames,
-    tracks: (latest && repositioned(frames, latest)) ?? tracksOf({ frames }, latest?.tracks),
-    ends,
+    ...{ frames, tracks, ends },
+    servos: sameList(latest?.servos ?? [], [...tracks.keys()]),
     lengthMs: ends.at(-1) ?? 0,
     places: placesOf(frames, latest),
   };
@@ -70,21 +73,30 @@ export function keysOfFrame(
     .map((target) => ({ ...target, frameId, atMs, easing: frame.easing }));
 }
 
-export function keyOf({ tracks }: GroupTimes, { frameId, servo }: KeyRef): Key | undefined {
-  return tracks.get(servo)?.keys.find((key) => key.frameId === frameId);
+export function keyOf({ frames, ends, places }: GroupTimes, { frameId, servo }: KeyRef): Key | undefined {
+  const place = places.get(frameId) ?? -1;
+  const [frame, atMs] = [frames[place], ends[place]];
+  const target = frame?.targets.find((one) => one.servo === servo);
+  if (frame === undefined || atMs === undefined || target === undefined) return undefined;
+  return { ...target, frameId, atMs, easing: frame.easing };
 }
 
-/** Those of the set that are there, servo by servo. */
-export function selectedKeys({ frames, ends, places }: GroupTimes, selected: KeySet): readonly Key[] {
-  const keys = refsOf(selected).flatMap(({ frameId, servo }): readonly Key[] => {
-    const place = places.get(frameId) ?? -1;
-    const [frame, atMs] = [frames[place], ends[place]];
-    const target = frame?.targets.find((one) => one.servo === servo);
-    if (frame === undefined || atMs === undefined || target === undefined) return [];
-    return [{ ...target, frameId, atMs, easing: frame.easing }];
-  });
-  return keys.sort((one, other) => one.servo - other.servo || one.atMs - other.atMs);
+const selections = new WeakMap<GroupTimes, WeakMap<KeySet, readonly Key[]>>();
+
+/** Those of the set that are there, servo by servo; worked out once, however many ask. */
+export function selectedKeys(times: GroupTimes, selected: KeySet): readonly Key[] {
+  const ofTimes = selections.get(times) ?? new WeakMap<KeySet, readonly Key[]>();
+  selections.set(times, ofTimes);
+  const keys =
+    ofTimes.get(selected) ??
+    refsOf(selected)
+      .flatMap((ref) => keyOf(times, ref) ?? [])
+      .sort(inOrder);
+  ofTimes.set(selected, keys);
+  return keys;
 }
+
+const inOrder = (one: Key, other: Key): number => one.servo - other.servo || one.atMs - other.atMs;
 
 /** The times of these keys, first and last; null where there are none. */
 export function spanOf(keys: readonly Key[]): { readonly fromMs: number; readonly toMs: number } | null {

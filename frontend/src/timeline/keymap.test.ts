@@ -79,7 +79,7 @@ describe('arrows', () => {
     key('ArrowUp');
     const degree = Math.round(1 / servoOf(desk().robot, 1)!.degreesPerUnit);
     expect(keys(1).map(([, position]) => position)).toContain(1200 + degree);
-    expect(stores.view.getState().said).toMatch(/, -?\d+\.\d°, linear$/);
+    expect(stores.notices.said.getState()).toMatch(/, -?\d+\.\d°, linear$/);
   });
 
   test('keep the cursor on the key they nudge', async () => {
@@ -89,7 +89,7 @@ describe('arrows', () => {
     key('ArrowRight');
     const { cursor } = stores.timeline.getState();
     expect(selected()).toEqual([[cursor.frameId, 2]]);
-    expect(stores.view.getState().said).toMatch(/^Wrist roll, 0\.52 s, 1500 µs, linear$/);
+    expect(stores.notices.said.getState()).toMatch(/^Wrist roll, 0\.52 s, 1500 µs, linear$/);
   });
 
   test('go no farther than all of the selected keys can', async () => {

@@ -14,6 +14,7 @@ import { followPointer } from './pointer.ts';
 import { sceneOf, type Scene } from './scene.ts';
 import { sizesOf, type Sizes } from './sizes.ts';
 import { panned, pinched, zoomedAt } from '../stores/timeScale.ts';
+import { isTouch } from '../ui/touch.ts';
 import { followWheel } from './wheel.ts';
 
 export interface LaneParts {
@@ -28,8 +29,7 @@ export interface LaneHost {
   say(status: StatusName | null, tells?: () => string): void;
 }
 
-export const sizesNow = ({ isTall }: { readonly isTall: boolean }): Sizes =>
-  sizesOf(matchMedia('(pointer: coarse)').matches, isTall);
+export const sizesNow = ({ isTall }: { readonly isTall: boolean }): Sizes => sizesOf(isTouch(), isTall);
 
 export function bringToLife(parts: LaneParts, stores: DeskStores, host: LaneHost): () => void {
   const sizes = (): Sizes => sizesNow(stores.timeline.getState());

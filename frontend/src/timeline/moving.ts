@@ -67,5 +67,5 @@ export function nudge(desk: Desk, ticks: number, turns: number): void {
   const cursor = (times: GroupTimes): Cursor => cursorAfter(desk, refs, move.selects(times));
   apply(desk, { label: () => words.timeline.steps.move, ...move, cursor });
   const times = timesOf(desk.stores.document.store.getState().present);
-  desk.stores.view.setState({ said: cellName({ ...desk, times }, cursor(times)) });
+  desk.stores.notices.say(cellName({ ...desk, times }, cursor(times)));
 }

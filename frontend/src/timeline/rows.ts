@@ -1,4 +1,4 @@
-// The rows of the timeline: one for all, one for each limb, one for each servo, in the robot's order. Pure.
+// The rows of the timeline: one for all, one for each limb, one for each servo, in the robot's order. Knows no screen.
 
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
@@ -18,8 +18,22 @@ export interface Row {
 
 export const servoRowId = (servo: number): string => `servo ${servo}`;
 
+let latest: { readonly of: readonly unknown[]; readonly rows: readonly Row[] } | null = null;
+
+/** The very same list as before as long as it is of the same. */
+export function rowsNow(
+  robot: Robot,
+  keyed: readonly number[],
+  view: Pick<ServoView, 'hidden' | 'folded'>,
+): readonly Row[] {
+  const of = [robot, keyed, view.hidden, view.folded];
+  if (latest === null || !of.every((part, index) => part === latest?.of[index]))
+    latest = { of, rows: rowsOf(robot, keyed, view) };
+  return latest.rows;
+}
+
 /** The first one is that of all servos. `keyed`: servos that have keys, those the robot does not have too. */
-export function rowsOf(
+function rowsOf(
   { servos }: Robot,
   keyed: readonly number[],
   { hidden, folded }: Pick<ServoView, 'hidden' | 'folded'>,

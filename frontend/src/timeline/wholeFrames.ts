@@ -1,10 +1,11 @@
 // Which frames are selected as a whole, with every key of theirs in a row that is shown, and the rests between them: what the strip
-// marks, and what is done to several frames is done to. Pure but for the hook at the end.
+// marks, and what is done to several frames is done to. The list is pure, and kept as long as it says the same.
 
-import { useMemo } from 'react';
+import { sameList } from '#shared/actions/group/groupEdits.ts';
+import type { Key } from '#shared/actions/group/tracks.ts';
 import { refsOf, type KeySet } from '../stores/keySet.ts';
 import { useDocument, useTimeline } from '../stores/stores.ts';
-import { timesOf, type GroupTimes } from './groupTimes.ts';
+import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { useRows } from './useRows.ts';
 
 /** In the order of time. A frame without a key to select goes with the frames on both sides of it. */
@@ -32,10 +33,29 @@ export function wholeFrames(
   });
 }
 
-/** As text in between: an edit that leaves them the same has nothing drawn again. */
+interface Whole {
+  readonly shown: readonly number[];
+  readonly ids: readonly number[];
+}
+
+/** By the selected keys, of which there is one list for each selection in each state of the group. */
+const known = new WeakMap<readonly Key[], Whole>();
+let latest: readonly number[] = [];
+
+/** The very same list as before where it says the same: an edit that leaves them the same has nothing drawn again. */
+function wholeNow(times: GroupTimes, selected: KeySet, shown: readonly number[]): readonly number[] {
+  const keys = selectedKeys(times, selected);
+  const before = known.get(keys);
+  if (before?.shown === shown) return before.ids;
+  latest = sameList(before?.ids ?? latest, wholeFrames(times, selected, new Set(shown)));
+  known.set(keys, { shown, ids: latest });
+  return latest;
+}
+
 export function useWholeFrames(): readonly number[] {
   const selected = useTimeline((state) => state.selected);
-  const shown = useRows().find(({ kind }) => kind === 'all')?.servos;
-  const ids = useDocument(({ present }) => wholeFrames(timesOf(present), selected, new Set(shown)).join());
-  return useMemo(() => (ids === '' ? [] : ids.split(',').map(Number)), [ids]);
+  const shown = useRows().find(({ kind }) => kind === 'all')?.servos ?? NO_SERVOS;
+  return useDocument(({ present }) => wholeNow(timesOf(present), selected, shown));
 }
+
+const NO_SERVOS: readonly number[] = [];

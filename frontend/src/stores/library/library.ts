@@ -278,7 +278,6 @@ export function createLibrary(options: LibraryOptions): Library {
         keeper: options.keeper,
         document,
         notices,
-        view,
         epochMs,
         newId,
         attempt,

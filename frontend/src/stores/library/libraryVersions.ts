@@ -6,7 +6,6 @@ import type { Keeper, Version } from '#shared/actions/library/keeper.ts';
 import { words } from '../../words/words.ts';
 import type { Document } from '../document.ts';
 import type { Notices } from '../notices.ts';
-import type { View } from '../view.ts';
 import { groupOf } from './groupOf.ts';
 
 export interface LibraryVersions {
@@ -22,7 +21,6 @@ interface LibraryVersionsOptions {
   readonly keeper: Promise<Keeper>;
   readonly document: Document;
   readonly notices: Notices;
-  readonly view: View;
   /** Milliseconds since 1970. */
   epochMs(): number;
   newId(): string;
@@ -36,7 +34,7 @@ interface LibraryVersionsOptions {
 }
 
 export function createLibraryVersions(options: LibraryVersionsOptions): LibraryVersions {
-  const { document, notices, view, epochMs, newId, attempt, read, open, flush, refresh } = options;
+  const { document, notices, epochMs, newId, attempt, read, open, flush, refresh } = options;
 
   async function versions(id: string): Promise<readonly Version[]> {
     let found: readonly Version[] = [];
@@ -48,7 +46,7 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
     const text = groupToText(await read(id));
     if (!(await flush())) return;
     await (await options.keeper).keepVersion(id, { id: newId(), name, atMs: epochMs() }, text);
-    view.setState({ said: words.library.versionKept(name) });
+    notices.say(words.library.versionKept(name));
     await refresh();
   }
 

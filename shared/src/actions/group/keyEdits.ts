@@ -2,7 +2,8 @@
 // are not named go on exactly as they did. What shifts time for everybody is timeEdits.ts.
 
 import type { ActionGroup, GroupFrame } from './group.ts';
-import { momentsOf, newMoment, placed, wholeMs, withMoments, withTargets, type Moment } from './moments.ts';
+import { changed, sameList, samePose } from './groupEdits.ts';
+import { momentsOf, newMoment, placed, wholeMs, withMoments, type Moment } from './moments.ts';
 import { isVacated, lifted, servosByFrame } from './lifted.ts';
 import { setDuration, type Ripple } from './timeEdits.ts';
 import type { KeyRef } from './tracks.ts';
@@ -88,8 +89,8 @@ export function moveKeys(
   const meant = keys.flatMap(({ atMs, targets }) => targets.map(({ position }) => ({ atMs, position })));
   const { deltaMs, deltaPosition } = boundedMove(meant, move);
   if (deltaMs === 0 || ripple) {
-    const changed = changePositions(group, refs, (position) => position + deltaPosition);
-    return ripple ? rippled(changed, refs, deltaMs) : changed;
+    const turned = changePositions(group, refs, (position) => position + deltaPosition);
+    return ripple ? rippled(turned, refs, deltaMs) : turned;
   }
   // A frame that loses all its keys goes along with the first of them, so that it keeps its name.
   const vacated = new Set(kept.filter((moment) => isVacated(moment, group)).map(({ frame }) => frame.id));
@@ -145,15 +146,14 @@ function changePositions(
   change: (position: number, servo: number, frame: GroupFrame) => number,
 ): ActionGroup {
   const meant = servosByFrame(refs);
-  const moments = momentsOf(group).map((moment) => {
-    const servos = meant.get(moment.frame.id);
-    if (servos === undefined) return moment;
-    const targets = moment.frame.targets.map(({ servo, position }) =>
-      servos.has(servo)
-        ? { servo, position: wholePosition(change(position, servo, moment.frame)) }
-        : { servo, position },
-    );
-    return withTargets(moment, targets);
+  const frames = group.frames.map((frame) => {
+    const servos = meant.get(frame.id);
+    if (servos === undefined) return frame;
+    const targets = frame.targets.map((target) => {
+      const { servo, position } = target;
+      return servos.has(servo) ? { servo, position: wholePosition(change(position, servo, frame)) } : target;
+    });
+    return samePose(frame.targets, targets) ? frame : { ...frame, targets };
   });
-  return withMoments(group, moments);
+  return changed(group, { frames: sameList(group.frames, frames) });
 }
