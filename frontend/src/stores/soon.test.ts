@@ -24,7 +24,8 @@ test('work that is asked for without end is done in each frame while it is quick
   expect((await heldDown(0.5)).slice(0, 3)).toEqual([16, 32, 48]);
 });
 
-test('work that takes long gets a twentieth of the time, the first of it at once', async () => {
+test('work that takes long gets a quarter of the time, the first of it at once', async () => {
   const done = await heldDown(10);
-  expect(done).toEqual([16, 206, 396, 586, 776, 966]);
+  // The clock of the test stands still while it works.
+  expect(done).toEqual(Array.from({ length: 33 }, (_, index) => 16 + 30 * index));
 });

@@ -9,8 +9,8 @@ export interface Soon {
   flush(): void;
 }
 
-/** Of the time, for work that is asked for without end: a slow computer is not kept from the rest. */
-const SHARE = 0.05;
+/** Of the time, for work that is asked for without end: a slow computer has most of it for the rest. */
+const SHARE = 0.25;
 
 export function createSoon(clock: Clock, afterMs: number, work: () => void): Soon {
   let cancelTimer: (() => void) | null = null;

@@ -16,21 +16,25 @@ export interface Outbox {
 }
 
 const KEY = 'servodeck.unkept';
-const schema = z.record(
-  z.string(),
-  z.object({ text: z.string(), revision: z.number().check(z.int(), z.gte(0)) }),
-);
-type Unkept = Record<string, Stored>;
+/** Stands in no JSON text. Texts within JSON would be read and written sign by sign, and the largest are written in each frame. */
+const MARK = '\u001e';
+const revision = z.number().check(z.int(), z.gte(0));
+const headSchema = z.array(z.object({ id: z.string(), revision }));
+/** Of earlier versions. */
+const earlierSchema = z.record(z.string(), z.object({ text: z.string(), revision }));
+type Unkept = ReadonlyMap<string, Stored>;
 
 export function createOutbox(storage: TextStorage): Outbox {
-  const own = new Map(Object.entries(load(storage)));
+  const own = new Map(load(storage));
 
   /** Other tabs' texts stay as they are there. */
   function save(id: string): void {
     try {
-      const { [id]: _before, ...others } = load(storage);
-      const text = own.get(id);
-      storage.setItem(KEY, JSON.stringify(text === undefined ? others : { ...others, [id]: text }));
+      const unkept = new Map(load(storage));
+      const now = own.get(id);
+      if (now === undefined) unkept.delete(id);
+      else unkept.set(id, now);
+      storage.setItem(KEY, written(unkept));
     } catch {
       // The document has told the person that this browser stores nothing.
     }
@@ -60,10 +64,24 @@ export function createOutbox(storage: TextStorage): Outbox {
   };
 }
 
+/** What is said of each, as JSON, then the texts as they are. */
+function written(unkept: Unkept): string {
+  const head = [...unkept].map(([id, { revision: at }]) => ({ id, revision: at }));
+  return [JSON.stringify(head), ...[...unkept].map(([, { text }]) => text)].join(MARK);
+}
+
 function load(storage: TextStorage): Unkept {
   try {
-    return schema.safeParse(JSON.parse(storage.getItem(KEY) ?? '{}')).data ?? {};
+    const [head = '', ...texts] = (storage.getItem(KEY) ?? '[]').split(MARK);
+    const said: unknown = JSON.parse(head);
+    if (!Array.isArray(said)) return new Map(Object.entries(earlierSchema.parse(said)));
+    return new Map(
+      headSchema.parse(said).flatMap(({ id, revision: at }, index) => {
+        const text = texts[index];
+        return text === undefined ? [] : [[id, { text, revision: at }] as const];
+      }),
+    );
   } catch {
-    return {};
+    return new Map();
   }
 }
