@@ -53,18 +53,17 @@ class Flooders:
 
     async def shout(self) -> None:
         """Until it is sent away."""
-        begun_s = time.monotonic() - self._kept_waiting_s()
+        begun_s = self._now_s()
         async with connect(self.ws, max_queue=None) as client:
             listening = asyncio.create_task(drain(client))
             with suppress(ConnectionClosed):
-                for _ in range(round(2 * CLOSED_WITHIN_S * BURSTS_PER_S)):
+                while self._now_s() - begun_s < 2 * CLOSED_WITHIN_S:
                     for _ in range(MESSAGES_PER_S // BURSTS_PER_S):
                         await say(client, type="calibrate", servo=None)
                     await asyncio.sleep(1 / BURSTS_PER_S)
             await client.close()  # unless it was sent away
             await listening
-            lasted_s = time.monotonic() - self._kept_waiting_s() - begun_s
-            self.ends.append((lasted_s, client.close_code))
+            self.ends.append((self._now_s() - begun_s, client.close_code))
 
     async def knock(self) -> None:
         """A handshake: of a page of another site, of our own, or given up half-way."""
@@ -79,9 +78,9 @@ class Flooders:
             async with connect(self.ws, additional_headers=headers, open_timeout=ANSWERED_WITHIN_S):
                 pass
 
-    def _kept_waiting_s(self) -> float:
-        """So far, by whatever else runs on this machine, and by one another where it has a single core."""
-        return sum(kept_waiting_s(pid) for pid in self._pids)
+    def _now_s(self) -> float:
+        """Without what both have waited for whatever else runs here, or for each other on a single core."""
+        return time.monotonic() - sum(kept_waiting_s(pid) for pid in self._pids)
 
 
 async def drain(client: ClientConnection) -> None:
