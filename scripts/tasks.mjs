@@ -17,13 +17,13 @@ import { run, say } from './steps.mjs';
  * @property {string} name
  * @property {readonly [string, ...string[]]} command
  * @property {NodeJS.ProcessEnv} [env]
- * @property {number} [limitMs] where ten minutes are not enough
+ * @property {number} [limitMs] where twenty minutes are not enough
  * @property {() => Counts} [count] reads the report of a test run; absent for checks that are no tests
  * @typedef {{task: Task, ok: boolean, counts: Counts, seconds: number}} Result
  */
 
 /** Far more than the slowest needs: an endless loop shall fail, not hang. */
-const usualLimitMs = 10 * 60_000;
+const usualLimitMs = 20 * 60_000;
 
 /** Tools see a pipe and not the terminal behind it. */
 const colours = process.stdout.isTTY ? { FORCE_COLOR: '1' } : { FORCE_COLOR: undefined, NO_COLOR: '1' };
