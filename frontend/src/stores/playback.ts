@@ -2,23 +2,21 @@
 // either way. One thing at a time; STOP, a lost link and a hidden page end it. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { passageOf, type Passage } from '#shared/actions/group/passage.ts';
 import { totalDurationMs } from '#shared/actions/group/group.ts';
-import { frameEnds, poseAtMs, tracksOf } from '#shared/actions/group/tracks.ts';
-import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
+import { frameEnds } from '#shared/actions/group/tracks.ts';
 import type { Activity } from '#shared/session/state.ts';
 import { words } from '../words/words.ts';
 import { createBoardRun, type Replacing } from './boardRun.ts';
 import { obstacles, type CompiledGroup, type CompiledStore } from './compiled.ts';
 import type { Device } from './device.ts';
 import type { Document } from './document.ts';
-import { chosenPlace } from './groupPlace.ts';
-import { createFollower, type FollowedPose } from './follower.ts';
+import { createFollower } from './follower.ts';
+import { createMeantPart } from './meantPart.ts';
 import type { Notices } from './notices.ts';
 import { pageAt, previewAt, type PagePlay, type PreviewPlay } from './playedAt.ts';
+import type { Playhead } from './playhead.ts';
 import { startHindrance } from './readiness.ts';
 import type { RobotStore } from './robots.ts';
-import { isSilent, servoViewFor } from './servoView.ts';
 import type { Slots } from './slots.ts';
 import type { View } from './view.ts';
 
@@ -34,16 +32,6 @@ export interface PlaybackState {
   readonly phase: PlaybackPhase | null;
   /** What would go from the board, while the person is asked. */
   readonly replacing: Replacing | null;
-}
-
-/** The instant that is looked at, and the part of the group that is meant; null: all of it. */
-export interface Playhead {
-  at(): number;
-  /** Out of sight it stays there: whoever looks elsewhere is left alone. */
-  go(atMs: number): void;
-  /** Brought into sight. */
-  show(atMs: number): void;
-  range(): { readonly fromMs: number; readonly toMs: number } | null;
 }
 
 /** `fromMs` null: from the beginning; `times` 0: until stopped. */
@@ -99,19 +87,16 @@ export function createPlayback(options: PlaybackOptions): Playback {
     ...{ speedPercent: 100, loops: false, isLive: false, phase: null, replacing: null },
   }));
   const follower = createFollower(device);
+  const meant = createMeantPart({
+    ...{ device, document, view, playhead, robots },
+    chosen: () => store.getState(),
+  });
   let following: PagePlay | null = null;
   let previewing: PreviewPlay | null = null;
 
-  function poseAt(atMs: number): FollowedPose {
-    const pose = poseAtMs(tracksOf(document.store.getState().present), atMs);
-    return new Map(
-      [...pose].flatMap(([servo, position]) => (isSent({ servo }) ? [[servo, Math.round(position)]] : [])),
-    );
-  }
-
   function followPlayhead(): void {
     if (document.store.getState().present.unit === device.store.getState().family.unit)
-      follower.follow(poseAt(playhead.at()));
+      follower.follow(meant.poseAt(playhead.at()));
   }
 
   const activity = (): Activity => device.store.getState().snapshot.activity;
@@ -137,54 +122,14 @@ export function createPlayback(options: PlaybackOptions): Playback {
     return null;
   }
 
-  function passageNow({ frames, source }: CompiledGroup): Passage {
-    const { speedPercent } = store.getState();
-    const range = playhead.range();
-    return passageOf(frames.map(heard), {
-      fromMs: within() ?? range?.fromMs ?? 0,
-      toMs: range?.toMs ?? null,
-      longestMs: source.family.durationMs.max,
-      speedPercent,
-      strangers: source.robot.servos
-        .map(({ servo }) => servo)
-        .filter((servo) => device.motion(servo).estimated === null),
-    });
-  }
-
-  /** Where the playhead is within what is meant; null: it begins at the beginning, as a loop always does. */
-  function within(): number | null {
-    const { fromMs, toMs } = part();
-    const at = playhead.at();
-    return at > fromMs && at < toMs && !store.getState().loops ? at : null;
-  }
-
-  /** What is meant: what was marked, or all of it. */
-  function part(): { readonly fromMs: number; readonly toMs: number } {
-    const { frames } = document.store.getState().present;
-    return playhead.range() ?? { fromMs: 0, toMs: totalDurationMs(frames) };
-  }
-
-  /** As often as the group is run on its board; from within it, the rest once. 0: until stopped. */
-  function passes(): number {
-    if (store.getState().loops) return 0;
-    return within() === null ? chosenPlace(view.getState()).times : 1;
-  }
-
-  /** Rows that are muted, or beside those that play alone, are not sent. */
-  function isSent({ servo }: Pick<ServoTarget, 'servo'>): boolean {
-    return !isSilent(servoViewFor(view.getState().servos, robots.current().id), servo);
-  }
-
-  const heard = (frame: Frame): Frame => ({ ...frame, targets: frame.targets.filter(isSent) });
-
   function play(): void {
     const group = playable('page');
     if (group === null) return;
     store.setState({ isLive: false });
-    const passage = passageNow(group);
+    const passage = meant.passage(group);
     following = { passage, index: 0, beganMs: clock.now(), isLead: true };
     phase('leading');
-    const times = passes();
+    const times = meant.passes();
     playhead.show(passage.atMs[0] ?? 0);
     device.play(passage.frames, times, (isDone) => {
       if (isDone) playhead.go(passage.atMs.at(-1) ?? 0);
@@ -196,8 +141,9 @@ export function createPlayback(options: PlaybackOptions): Playback {
   function preview(): void {
     store.setState({ isLive: false });
     const { speedPercent } = store.getState();
-    const startMs = within() ?? part().fromMs;
-    previewing = { ...part(), startMs, passes: passes(), speedPercent, beganMs: clock.now() };
+    const part = meant.part();
+    const startMs = meant.within() ?? part.fromMs;
+    previewing = { ...part, startMs, passes: meant.passes(), speedPercent, beganMs: clock.now() };
     phase('previewing');
     playhead.show(startMs);
   }
@@ -279,13 +225,13 @@ export function createPlayback(options: PlaybackOptions): Playback {
     const to =
       direction === 1 ? ends.find((endMs) => endMs > at) : (ends.findLast((endMs) => endMs < at) ?? ends[0]);
     if (to === undefined) return;
-    if (store.getState().isLive) follower.go(poseAt(to), Math.abs(to - at), poseAt(at));
+    if (store.getState().isLive) follower.go(meant.poseAt(to), Math.abs(to - at), meant.poseAt(at));
     playhead.show(to);
   }
 
   return {
     store,
-    next: () => ({ fromMs: within(), times: passes() }),
+    next: () => ({ fromMs: meant.within(), times: meant.passes() }),
     set(change) {
       if (change.isLive === true) follower.begin();
       store.setState(change);

@@ -1,8 +1,17 @@
 // Where the timeline's playhead is, for whoever plays the group. Knows no group.
 
-import type { Playhead } from './playback.ts';
 import type { Timeline } from './timeline.ts';
 import { paged } from './timeScale.ts';
+
+/** The instant that is looked at, and the part of the group that is meant; null: all of it. */
+export interface Playhead {
+  at(): number;
+  /** Out of sight it stays there: whoever looks elsewhere is left alone. */
+  go(atMs: number): void;
+  /** Brought into sight. */
+  show(atMs: number): void;
+  range(): { readonly fromMs: number; readonly toMs: number } | null;
+}
 
 export function createPlayhead(timeline: Timeline): Playhead {
   return {
