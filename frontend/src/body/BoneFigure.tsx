@@ -7,11 +7,19 @@ import type { BonePicture, Point } from './bones.ts';
 import styles from './figure.module.css';
 
 const RADIUS = 2.4;
+const PARTS = ['shadow', 'trunk'] as const;
 
 export function BoneFigure({ picture, look }: { readonly picture: BonePicture; readonly look: FigureLook }) {
   return (
     <g>
-      {!isOutline(look) && <polygon data-trunk="" className={styles.trunk} points={corners(picture.trunk)} />}
+      {PARTS.map((part) => (
+        <polygon
+          key={part}
+          data-part={part}
+          className={cx(styles[part], isOutline(look) && styles.outlined)}
+          points={corners(picture[part])}
+        />
+      ))}
       {picture.bones.map(({ servo, from, to, known }) => (
         <path
           key={servo}
@@ -24,8 +32,10 @@ export function BoneFigure({ picture, look }: { readonly picture: BonePicture; r
   );
 }
 
-export function drawBones(figure: SVGGElement, { trunk, bones }: BonePicture): void {
-  figure.querySelector('[data-trunk]')?.setAttribute('points', corners(trunk));
+export function drawBones(figure: SVGGElement, picture: BonePicture): void {
+  const { bones } = picture;
+  for (const part of PARTS)
+    figure.querySelector(`[data-part='${part}']`)?.setAttribute('points', corners(picture[part]));
   const paths = figure.querySelectorAll('[data-bone]');
   for (const [index, { from, to, known }] of bones.entries()) {
     paths[index]?.setAttribute('d', capsule(from, to));

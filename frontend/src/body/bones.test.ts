@@ -1,7 +1,9 @@
 import { describe, expect, test } from 'vitest';
+import { exampleGroup, type ExampleId } from '#shared/actions/examples/examples.ts';
+import { poseAt } from '#shared/actions/group/group.ts';
 import { readyRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
 import { words } from '../words/words.ts';
-import { bonesOf, type Bone } from './bones.ts';
+import { bonesOf, type Bone, type BonePicture } from './bones.ts';
 
 const robot = (id: ReadyRobotId) => readyRobot(id, 'lsc-24', words.robots.names(id));
 const posed = (positions: Record<number, number>) => (servo: number) => positions[servo] ?? 1500;
@@ -46,6 +48,31 @@ describe('a body by bones', () => {
     expect(length(bone('hexapod18', 2, swung))).toBeCloseTo(length(bone('hexapod18', 2, atHome)));
     expect(bone('hexapod18', 2, swung).to.y).not.toBeCloseTo(bone('hexapod18', 2, atHome).to.y);
     expect(length(bone('hexapod18', 2, lifted))).toBeLessThan(length(bone('hexapod18', 2, atHome)) * 0.8);
+  });
+
+  const examplePoses = (id: ReadyRobotId, example: ExampleId) => {
+    const { frames } = exampleGroup(example, robot(id), example);
+    const poses = frames.map((_, index) => poseAt(frames, index));
+    return poses.map((pose) => bonesOf(robot(id), (servo) => pose.get(servo) ?? null)!);
+  };
+  const top = ({ trunk }: BonePicture): number => Math.min(...trunk.map(({ y }) => y));
+  const feet = ({ bones }: BonePicture): number => Math.max(...bones.map(({ to }) => to.y));
+  const aside = ({ trunk, shadow }: BonePicture): number => shadow[0]!.x - trunk[0]!.x;
+
+  test('a humanoid that squats sinks onto its feet, and one that lifts a leg stands on the other', () => {
+    const [stands, squats] = examplePoses('humanoid16', 'squat');
+    expect(top(squats!) - top(stands!)).toBeGreaterThan(3);
+    expect(feet(squats!)).toBeCloseTo(feet(stands!));
+    const lifts = bonesOf(robot('humanoid16'), posed({ 4: 2200 }))!;
+    expect(top(lifts)).toBeCloseTo(top(stands!));
+  });
+
+  test('a hexapod that rises has its shadow farther beside it, one that waves a leg has not', () => {
+    const [sunk, risen] = examplePoses('hexapod18', 'rise');
+    expect(aside(risen!)).toBeGreaterThan(aside(sunk!) + 4);
+    const [lies, waves] = examplePoses('hexapod18', 'wave');
+    expect(aside(waves!)).toBe(aside(lies!));
+    expect(aside(bonesOf(robot('hexapod18'), posed({ 2: 1000 }))!)).toBe(aside(lies!));
   });
 
   test('a finger folds, and the base turns the whole hand', () => {

@@ -21,12 +21,20 @@ export interface Bone {
 export interface BonePicture {
   /** Palm or trunk. */
   readonly trunk: readonly Point[];
+  /** Of a body seen from above: the farther beside the trunk, the higher it is. Empty for others. */
+  readonly shadow: readonly Point[];
   readonly bones: readonly Bone[];
 }
 
 const CENTRE: Point = { x: 50, y: 50 };
 /** Above its middle, so that hips come before knees and shoulders before elbows. */
 const HUMANOID_CENTRE: Point = { x: 50, y: 30 };
+/** Nothing that points at the eye vanishes. */
+const SHORTEST = 0.15;
+/** A body that lies on the ground, and what its shadow goes beside it for each step up. */
+const SHADOW = { least: 1, each: 0.4 };
+/** It stands on three legs at least, whatever the others do. */
+const STANDS_ON = 3;
 const PALM: Point = { x: 50, y: 62 };
 /** Limbs of a humanoid bend towards and away from the eye; drawn sideways at half the turn they stay apart. */
 const BEND = 0.5;
@@ -37,8 +45,8 @@ const TIP = 0.7;
 
 /** Null for bodies that are not drawn by bones. */
 export function bonesOf({ body, servos }: Robot, pose: Pose): BonePicture | null {
-  if (body === 'humanoid') return limbs(servos, pose, HUMANOID_CENTRE, bending);
-  if (body === 'hexapod') return limbs(servos, pose, CENTRE, lifting);
+  if (body === 'humanoid') return humanoid(servos, pose);
+  if (body === 'hexapod') return hexapod(servos, pose);
   return body === 'hand' ? hand(servos, pose) : null;
 }
 
@@ -54,26 +62,79 @@ type Kinematics = (turns: readonly number[]) => Turn;
 
 const bending: Kinematics = (turns) => ({ degrees: sum(turns) * BEND, length: 1 });
 
+/** A leg that bends looks shorter, too. */
+const standing: Kinematics = (turns) => ({ ...bending(turns), length: foreshortened(sum(turns)) });
+
 /** Seen from above the first joint swings the leg, the others lift it. */
 const lifting: Kinematics = ([swing = 0, ...lifts]) => ({
   degrees: swing,
-  length: Math.max(0.15, Math.abs(Math.cos(radians(sum(lifts))))),
+  length: foreshortened(sum(lifts)),
 });
 
-function limbs(
-  servos: readonly RobotServo[],
-  pose: Pose,
-  centre: Point,
-  kinematics: Kinematics,
-): BonePicture {
-  const chains = limbsOf(servos).map((limb) =>
+const foreshortened = (degrees: number): number => Math.max(SHORTEST, Math.abs(Math.cos(radians(degrees))));
+
+/** The servos of a limb, from the trunk on. */
+type Chain = readonly RobotServo[];
+
+const chainsOf = (servos: readonly RobotServo[], centre: Point): readonly Chain[] =>
+  limbsOf(servos).map((limb) =>
     limb.servos.toSorted((one, other) => distance(one.place, centre) - distance(other.place, centre)),
   );
-  const roots = chains.flatMap(([root]) => (root === undefined ? [] : [root.place]));
-  return { trunk: aroundMiddle(roots), bones: chains.flatMap((chain) => limb(chain, pose, kinematics)) };
+
+const trunkOf = (chains: readonly Chain[]): readonly Point[] =>
+  aroundMiddle(chains.flatMap(([root]) => (root === undefined ? [] : [root.place])));
+
+/** It stands on the lower of its feet: where both legs bend, all of it sinks. */
+function humanoid(servos: readonly RobotServo[], pose: Pose): BonePicture {
+  const chains = chainsOf(servos, HUMANOID_CENTRE);
+  const posed = (as: Pose): readonly Bone[] =>
+    chains.flatMap((chain) => limb(chain, as, isLeg(chain) ? standing : bending));
+  const bones = posed(pose);
+  const by = { x: 0, y: lowest(posed(() => null)) - lowest(bones) };
+  return {
+    trunk: trunkOf(chains).map((corner) => added(corner, by)),
+    shadow: [],
+    bones: bones.map((bone) => ({ ...bone, from: added(bone.from, by), to: added(bone.to, by) })),
+  };
 }
 
-function limb(chain: readonly RobotServo[], pose: Pose, kinematics: Kinematics): Bone[] {
+/** It goes far down and hardly aside. */
+function isLeg(chain: Chain): boolean {
+  const [root, tip] = [chain[0], chain.at(-1)];
+  if (root === undefined || tip === undefined) return false;
+  const { x, y } = vector(root.place, tip.place);
+  return y > 2 * Math.abs(x);
+}
+
+const lowest = (bones: readonly Bone[]): number => Math.max(0, ...bones.map(({ to }) => to.y));
+
+function hexapod(servos: readonly RobotServo[], pose: Pose): BonePicture {
+  const chains = chainsOf(servos, CENTRE);
+  const trunk = trunkOf(chains);
+  const reaches = chains.map((chain) => reachDown(chain, pose)).toSorted((one, other) => other - one);
+  const height = Math.max(0, reaches[STANDS_ON - 1] ?? 0);
+  const aside = SHADOW.least + height * SHADOW.each;
+  return {
+    trunk,
+    shadow: trunk.map((corner) => added(corner, { x: aside, y: aside })),
+    bones: chains.flatMap((chain) => limb(chain, pose, lifting)),
+  };
+}
+
+/** How far its foot is below its root. The sides are built as mirrors: what lifts the one lowers the other. */
+function reachDown(chain: Chain, pose: Pose): number {
+  const side = (chain[0]?.place.x ?? 0) < CENTRE.x ? -1 : 1;
+  let lift = 0;
+  return sum(
+    chain.map((servo, index) => {
+      if (index > 0) lift += degreesOf(servo, pose(servo.servo) ?? servo.home);
+      const { x, y } = restBone(chain, index);
+      return Math.hypot(x, y) * Math.sin(radians(lift)) * side;
+    }),
+  );
+}
+
+function limb(chain: Chain, pose: Pose, kinematics: Kinematics): Bone[] {
   const bones: Bone[] = [];
   let from = chain[0]?.place ?? CENTRE;
   let known = true;
@@ -91,7 +152,7 @@ function limb(chain: readonly RobotServo[], pose: Pose, kinematics: Kinematics):
 }
 
 /** From this servo's place to the next one's; the last goes on as the one before it. */
-function restBone(chain: readonly RobotServo[], index: number): Point {
+function restBone(chain: Chain, index: number): Point {
   const [here, next, before] = [chain[index], chain[index + 1], chain[index - 1]];
   if (here === undefined) return { x: 0, y: 0 };
   if (next !== undefined) return vector(here.place, next.place);
@@ -115,7 +176,11 @@ function hand(servos: readonly RobotServo[], pose: Pose): BonePicture {
   });
   if (base !== undefined)
     bones.push({ servo: base.servo, from: base.place, to: seen(PALM), known: pose(base.servo) !== null });
-  return { trunk: aroundMiddle([...knuckles, { x: 40, y: 74 }, { x: 60, y: 74 }].map(seen)), bones };
+  return {
+    trunk: aroundMiddle([...knuckles, { x: 40, y: 74 }, { x: 60, y: 74 }].map(seen)),
+    shadow: [],
+    bones,
+  };
 }
 
 /** The corners in the order in which one walks around them. */

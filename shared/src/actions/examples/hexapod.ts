@@ -52,10 +52,12 @@ const TRIPOD_GAIT: Example = [
   to(500, () => STAND),
 ];
 
+const HIGH = -0.4;
+
 const RISE: Example = [
   to(1500, () => ({ swing: 0, lift: 0.4 })),
-  to(1200, () => ({ swing: 0, lift: -0.3 })),
-  to(600, () => ({ swing: 0, lift: -0.3 })),
+  to(1200, () => ({ swing: 0, lift: HIGH })),
+  to(600, () => ({ swing: 0, lift: HIGH })),
   to(1200, () => STAND),
 ];
 

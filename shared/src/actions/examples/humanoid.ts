@@ -17,10 +17,10 @@ interface Stand {
 
 /** The ankle and thigh take back what the knee bends, so that the body sinks upright. The sides are built as mirrors. */
 function stand({ knees = 0, lean = 0, arms = [0, 0], elbows = [0, 0] }: Stand): Turns {
-  const left = { 1: 0, 2: knees / 2, 3: -knees, 4: knees / 2 + lean, 5: 0, 6: elbows[0], 7: arms[0], 8: 0 };
-  const right = { 1: 0, 2: knees / 2, 3: -knees, 4: knees / 2 + lean, 5: 0, 6: elbows[1], 7: arms[1], 8: 0 };
-  const mirrored = Object.entries(right).map(([servo, turn]) => [Number(servo) + RIGHT, -turn]);
-  return { ...left, ...(Object.fromEntries(mirrored) as Turns) };
+  const side = (arm: number, elbow: number) => [0, knees / 2, -knees, knees / 2 + lean, 0, elbow, arm, 0];
+  const left = side(arms[0], elbows[0]).map((turn, index) => [index + 1, -turn]);
+  const right = side(arms[1], elbows[1]).map((turn, index) => [index + 1 + RIGHT, turn]);
+  return Object.fromEntries([...left, ...right]) as Turns;
 }
 
 const to = (durationMs: number, pose: Stand) => ({ durationMs, turns: stand(pose) });
@@ -43,7 +43,7 @@ const BOW: Example = [
 
 const SQUAT: Example = [
   to(1500, {}),
-  ...[0.35, 0, 0.35, 0].map((knees) => to(1000, { knees, arms: [knees, knees] })),
+  ...[0.7, 0, 0.7, 0].map((knees) => to(1200, { knees, arms: [knees, knees] })),
 ];
 
 const CHEER: Example = [
