@@ -133,7 +133,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
             "nonce": None,
             "take": False,
         },
-        (*ON_THE_WIRE, "notFound", "cancelled"),
+        (*ON_THE_WIRE, "slotChanged", "notFound", "cancelled"),
     ),
     ("GET", "/api/jobs/{job}"): Example(JOB, errors=("notFound",)),
     ("DELETE", "/api/jobs/{job}"): Example(
@@ -237,6 +237,7 @@ PROBLEMS: dict[ErrorCode, str] = {
     "portDenied": "This user may not open the port.",
     "portMissing": "There is no such port.",
     "slotBroken": "Slot 5 holds half a group: download it again.",
+    "slotChanged": "Something else was stored in slot 5 meanwhile.",
     "storageBusy": "The library is busy.",
     "storageFailed": "The library's file cannot be used: disk I/O error.",
     "storageFull": "The disk is full.",

@@ -12,7 +12,6 @@ from typing import Protocol
 from servodeck import metrics
 from servodeck.answers import Answers
 from servodeck.battery import BatteryWatch
-from servodeck.broken_slots import BrokenSlots
 from servodeck.decoder import COMMAND_AT
 from servodeck.errors import CancelledError, ClosedError, GatewayError, PortLostError
 from servodeck.families import Family
@@ -26,6 +25,7 @@ from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command
 from servodeck.parts import Part
 from servodeck.ports import OpenPort
 from servodeck.silence import Silence
+from servodeck.slot_memory import SlotMemory
 from servodeck.unattended import Unattended
 from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire
 
@@ -40,7 +40,7 @@ class BoardEvents(Protocol):
         """It was open and is gone, unasked; `board_changed` follows."""
 
     def board_changed(self) -> None:
-        """The port, a broken slot or what goes on alone is another now."""
+        """The port, what a slot holds or what goes on alone is another now."""
 
     def job_changed(self, state: JobState) -> None: ...
 
@@ -60,7 +60,7 @@ class Board:
         now: Callable[[], float],
         taken_for: str,
         simulated_device: str | None,
-        broken_slots: BrokenSlots,
+        slot_memory: SlotMemory,
         events: BoardEvents,
     ) -> None:
         """`taken_for` is a family's name. `simulated_device`: what is behind that port is no real board."""
@@ -71,7 +71,7 @@ class Board:
         self.link = Link(ports, self._make_wire, self, now)
         self.answers = Answers()
         self.battery = BatteryWatch(self.answers, self._ask, now)
-        self.jobs = Jobs(self, self.answers, now, broken_slots)
+        self.jobs = Jobs(self, self.answers, now, slot_memory)
         self._motion = Motion(self.family)
         self._silence = Silence()
         self.unattended = Unattended(now, events.time_alone_over, events.board_changed)
@@ -99,6 +99,11 @@ class Board:
     @property
     def broken_slots(self) -> list[int]:
         return self.jobs.broken(self.link.place)
+
+    @property
+    def slot_versions(self) -> dict[str, str]:
+        """By slot, as JSON has it."""
+        return {str(slot): version for slot, version in self.jobs.versions(self.link.place).items()}
 
     def may_move(self) -> bool:
         return self.motion.group_may_run(self._now()) or self.motion.is_moving(self._now())
@@ -166,7 +171,7 @@ class Board:
     def job_changed(self, state: JobState) -> None:
         self._events.job_changed(state)
 
-    def broken_slots_changed(self) -> None:
+    def slots_changed(self) -> None:
         self._events.board_changed()
 
     def group_begun(self, part: Part) -> None:
@@ -197,7 +202,7 @@ class Board:
         if is_harmless(packet) and packet[COMMAND_AT] != STOP:
             self._silence.asked(packet[COMMAND_AT], at_s)
         self.unattended.follow(self.motion.run)
-        self.jobs.left(parse_command(packet), at_s)
+        self.jobs.left(parse_command(packet), at_s, self.link.place)
         is_told = packet[COMMAND_AT] == STOP or not is_harmless(packet)
         if is_told and owner is not self:  # its own stop at the opening ends nothing that anybody began
             self._events.leaving(owner, packet, at_s)

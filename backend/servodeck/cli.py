@@ -105,7 +105,6 @@ def serve(
     from servodeck.announcement import Announcement
     from servodeck.app import create_app
     from servodeck.background import BackgroundPorts
-    from servodeck.broken_slots import BrokenSlots
     from servodeck.control import Control
     from servodeck.data_folder import data_folder
     from servodeck.epoch import first_epoch
@@ -116,6 +115,7 @@ def serve(
     from servodeck.logs import set_up_logs
     from servodeck.remembered import Remembered
     from servodeck.server import Server, leave_with_stdin
+    from servodeck.slot_memory import SlotMemory
 
     recalls_board = not board
     board = board or ("doc" if simulated else UNKNOWN.id)
@@ -145,7 +145,7 @@ def serve(
         serial or None,
         simulated=simulated,
         epoch=first_epoch(folder),
-        broken_slots=BrokenSlots(folder),
+        slot_memory=SlotMemory(folder),
         remembered=remembered,
         recalls_board=recalls_board,
         read_robot=robots_in(library),

@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 
 from servodeck import __version__
 from servodeck.board import Board
-from servodeck.broken_slots import BrokenSlots
 from servodeck.callers import Caller
 from servodeck.decoder import COMMAND_AT
 from servodeck.driving import Driving
@@ -53,6 +52,7 @@ from servodeck.relay import Relay
 from servodeck.remembered import Remembered
 from servodeck.robot import RobotLimits
 from servodeck.robot_of_board import ReadFacts, RobotOfBoard, no_robot
+from servodeck.slot_memory import SlotMemory
 from servodeck.wire import Job, Left, Owner, always
 
 SOMEBODY = Cause("person")
@@ -68,14 +68,14 @@ class Control:
         *,
         simulated: bool = False,
         epoch: int = 0,
-        broken_slots: BrokenSlots | None = None,
+        slot_memory: SlotMemory | None = None,
         remembered: Remembered | None = None,
         recalls_board: bool = False,
         read_robot: ReadFacts = no_robot,
     ) -> None:
         """`named_device` is the port named at the start: always offered, even where the system does not list
         it. `simulated`: what is behind it is no real board. `epoch`: leases are counted on from there.
-        Without `broken_slots` and `remembered` these are forgotten at the end.
+        Without `slot_memory` and `remembered` these are forgotten at the end.
         `recalls_board`: where nobody has said of which family the board is, it is as it was last.
         `read_robot` asks the library.
         """
@@ -89,7 +89,7 @@ class Control:
         self.hub = Hub()
         self.driving = Driving(self.hub, now, epoch, self)
         simulated_device = named_device if simulated else None
-        self.board = Board(ports, now, board, simulated_device, broken_slots or BrokenSlots(), self)
+        self.board = Board(ports, now, board, simulated_device, slot_memory or SlotMemory(), self)
         self._relay = Relay(self.hub, now)
         self._halting: Left | None = None
 
@@ -202,6 +202,7 @@ class Control:
         judge_parts((*before, *parts), board.taken_for)
         for part in parts:
             self.limits.judge_targets(part.extremes)
+            board.jobs.judge_replaced(part, board.link.place)
         if behind:
             claim()
             return board.jobs.add(behind, parts)
@@ -321,6 +322,7 @@ class Control:
             robot=self.robot.told(),
             lease=self.driving.state_for(seat),
             broken_slots=self.board.broken_slots,
+            slot_versions=self.board.slot_versions,
             job=self.board.jobs.latest,
             motion=self.board.motion.told(self.now()),
         )
@@ -335,6 +337,7 @@ class Control:
             clients=len(self.hub),
             unattended=self.board.unattended.told(),
             broken_slots=self.board.broken_slots,
+            slot_versions=self.board.slot_versions,
         )
         self.hub.tell_all(encode(state), but)
 

@@ -20,6 +20,7 @@ ErrorCode = Literal[
     "expired",
     "busy",
     "slotBroken",
+    "slotChanged",
     "cancelled",
     "outOfRange",
     "malformed",
@@ -138,6 +139,13 @@ class SlotBrokenError(GatewayError):
     """The slot holds half a group (S35)."""
 
     code: ClassVar[ErrorCode] = "slotBroken"
+    status: ClassVar[int] = 409
+
+
+class SlotChangedError(GatewayError):
+    """The slot does not hold any more what whoever asks has seen there."""
+
+    code: ClassVar[ErrorCode] = "slotChanged"
     status: ClassVar[int] = 409
 
 

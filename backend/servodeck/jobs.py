@@ -1,22 +1,29 @@
 """Downloads as jobs of the gateway: they go on when whoever began them has left. One at a time; while it
-lasts nothing else goes to the board. Keeps account of what they leave behind: slots that hold half a group.
+lasts nothing else goes to the board. Keeps account of what they leave behind in the slots.
 
 Knows packets and a wire. Must not know HTTP, nor who may begin one and when.
 """
 
 import asyncio
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import Protocol
 
 from servodeck.answers import Answers
-from servodeck.broken_slots import BrokenSlots
 from servodeck.download import EDGE_FRAME_TIMEOUT_S, Download
-from servodeck.errors import CancelledError, GatewayError, MovingError, NotFoundError, SlotBrokenError
+from servodeck.errors import (
+    CancelledError,
+    GatewayError,
+    MovingError,
+    NotFoundError,
+    SlotBrokenError,
+    SlotChangedError,
+)
 from servodeck.job import Job
 from servodeck.messages import JobState
 from servodeck.parts import Part
+from servodeck.slot_memory import SlotMemory
 from servodeck.values import Command, Erase, Erased, Report, Run
 from servodeck.wire import Wire
 
@@ -31,7 +38,7 @@ log = logging.getLogger("servodeck.robot")
 class JobEvents(Protocol):
     def job_changed(self, state: JobState) -> None: ...
 
-    def broken_slots_changed(self) -> None: ...
+    def slots_changed(self) -> None: ...
 
     def group_begun(self, part: Part) -> None:
         """What its slot held before is gone."""
@@ -42,7 +49,7 @@ class JobEvents(Protocol):
 
 class Jobs:
     def __init__(
-        self, events: JobEvents, answers: Answers, now: Callable[[], float], memory: BrokenSlots
+        self, events: JobEvents, answers: Answers, now: Callable[[], float], memory: SlotMemory
     ) -> None:
         self._events = events
         self._now = now
@@ -116,23 +123,34 @@ class Jobs:
             raise MovingError("The board is erasing: wait for its end.")
 
     def judge_run(self, command: Command | None, board: str) -> None:
-        if isinstance(command, Run) and command.slot in self._memory.of(board):
+        if isinstance(command, Run) and command.slot in self._memory.broken(board):
             raise SlotBrokenError(f"Slot {command.slot} holds half a group: download it again.")
 
     def broken(self, board: str) -> list[int]:
-        return self._memory.of(board)
+        return self._memory.broken(board)
 
-    def left(self, command: Command | None, at_s: float) -> None:
+    def versions(self, board: str) -> Mapping[int, str]:
+        return self._memory.versions(board)
+
+    def judge_replaced(self, part: Part, board: str) -> None:
+        """Raises SlotChangedError where the slot does not hold any more what whoever asks has seen there."""
+        if part.replaces is not None and part.replaces != self._memory.versions(board).get(part.slot, ""):
+            raise SlotChangedError(f"Something else was stored in slot {part.slot} meanwhile.")
+
+    def left(self, command: Command | None, at_s: float, board: str) -> None:
         """The last bit of that command leaves then."""
         if isinstance(command, Erase):
             self._erasing_until_s = at_s + ERASE_TIMEOUT_S
+            self._memory.forget(board)
+            self._memory.keep_soon()
+            self._events.slots_changed()
 
     def heard(self, report: Report, board: str) -> None:
         if isinstance(report, Erased) and self._now() < self._erasing_until_s:
             self._erasing_until_s = float("-inf")
             self._memory.clear(board)
             self._memory.keep_soon()
-            self._events.broken_slots_changed()
+            self._events.slots_changed()
 
     async def _run(self, job: Job) -> None:
         try:
@@ -156,18 +174,19 @@ class Jobs:
             lambda frames: self._progressed(job, frames),
         )
         await download.settle(self._owed_until_s - self._now())
-        job.broke = slot not in self._memory.of(job.board)
-        self._memory.add(job.board, slot)
+        job.broke = slot not in self._memory.broken(job.board)
+        self._memory.breaks(job.board, slot)
         self._events.group_begun(part)
-        self._events.broken_slots_changed()
+        self._events.slots_changed()
         await self._memory.kept()  # before the first byte leaves: a crash must not forget it
         job.has_begun = True
         await download.store()
         self._owed_until_s = float("-inf")
-        self._mend(job)
+        self._memory.store(job.board, slot, part.version)
+        self._memory.keep_soon()
         job.note_whole()
         self._events.group_stored(part)
-        self._events.broken_slots_changed()
+        self._events.slots_changed()
         self._tell(job)
 
     def _finish(self, job: Job, error: GatewayError | None) -> None:
@@ -175,17 +194,13 @@ class Jobs:
         if error:
             self._owed_until_s = self._now() + EDGE_FRAME_TIMEOUT_S
         if job.broke and not job.has_begun:
-            self._mend(job)
+            self._memory.mend(job.board, job.part.slot)
+            self._memory.keep_soon()
         job.conclude(error)
         facts = {"slot": job.state.slot, "code": job.state.code, "detail": job.state.detail}
         log.info("download %s", job.state.status, extra={"facts": facts})
-        self._events.broken_slots_changed()
+        self._events.slots_changed()
         self._tell(job)
-
-    def _mend(self, job: Job) -> None:
-        """The slot of its present group holds a whole one."""
-        self._memory.remove(job.board, job.part.slot)
-        self._memory.keep_soon()
 
     def _progressed(self, job: Job, frames: int) -> None:
         job.note(frames)

@@ -28,9 +28,18 @@ class FrameBody(Message):
         return Frame(self.duration_ms, tuple(targets))
 
 
+Version = Annotated[str, Field(max_length=64)]
+
+
 class GroupBody(Message):
+    """`version` tells it from other groups: a text of one's own, or the gateway makes one up. `replaces`: the
+    version that was seen in its slot, an empty text for none; where another one is there now, it is refused.
+    """
+
     slot: Annotated[int, Field(ge=0, le=255)]
     name: Annotated[str, Field(max_length=64)] = ""
+    version: Version = ""
+    replaces: Version | None = None
     frames: Annotated[list[FrameBody], Field(min_length=1, max_length=255)]
 
     async def group(self) -> Group:
@@ -39,7 +48,7 @@ class GroupBody(Message):
         for body in self.frames:
             frames.append(body.frame())
             await asyncio.sleep(0)
-        return Group(self.slot, self.name, frames)
+        return Group(self.slot, self.name, frames, self.version, self.replaces)
 
 
 class DownloadWish(Message):

@@ -268,6 +268,7 @@ class WelcomeMessage(Message):
     robot: RobotTold | None
     lease: LeaseState
     broken_slots: list[int]
+    slot_versions: dict[str, str]
     job: JobState | None
     motion: MotionTold
 
@@ -323,7 +324,8 @@ class ResumedMessage(Message):
 
 
 class StateMessage(Message):
-    """Something of this changed. `brokenSlots` hold half a group: nobody may run them. `stoppedBy` is what
+    """Something of this changed. `brokenSlots` hold half a group: nobody may run them. `slotVersions` tell
+    what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
     people call whoever pressed STOP, where that is known.
     """
 
@@ -336,6 +338,7 @@ class StateMessage(Message):
     clients: int
     unattended: UnattendedRun | None
     broken_slots: list[int]
+    slot_versions: dict[str, str]
 
 
 class JobMessage(Message):

@@ -6,6 +6,7 @@ packets are 10.
 """
 
 import asyncio
+import secrets
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -19,12 +20,15 @@ class Group:
     slot: int
     name: str
     frames: Sequence[Frame]
+    version: str = ""
+    replaces: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
     """One group of a download; `packets` in the order of its frames, for boards of the family `board`.
-    `extremes`: the least and the greatest position of each servo.
+    `extremes`: the least and the greatest position of each servo. `version`: what it is called, by whoever
+    asks, to tell it from others; `replaces`: that of what they have seen in its slot, if they have looked.
     """
 
     slot: int
@@ -33,6 +37,8 @@ class Part:
     board: str
     durations_ms: Sequence[int]
     extremes: Sequence[ServoTarget]
+    version: str
+    replaces: str | None
 
 
 def judge_parts(parts: Sequence[Part], board: str) -> None:
@@ -61,8 +67,16 @@ async def part_of(group: Group, board: str) -> Part:
 
 
 def made_of(group: Group, packets: Sequence[bytes], board: str) -> Part:
-    durations_ms = [frame.duration_ms for frame in group.frames]
-    return Part(group.slot, group.name, packets, board, durations_ms, extremes_of(group.frames))
+    return Part(
+        group.slot,
+        group.name,
+        packets,
+        board,
+        [frame.duration_ms for frame in group.frames],
+        extremes_of(group.frames),
+        group.version or secrets.token_hex(8),
+        group.replaces,
+    )
 
 
 def extremes_of(frames: Sequence[Frame]) -> list[ServoTarget]:

@@ -2,12 +2,10 @@
 
 import asyncio
 import json
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-from servodeck.broken_slots import FILE, BrokenSlots
 from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.control import Control
 from servodeck.errors import (
@@ -346,42 +344,6 @@ async def test_what_is_stopped_before_its_first_byte_leaves_the_slot_whole() -> 
         await asyncio.sleep(1)
         assert broken(control) == []
         assert DOWNLOAD[3] not in [packet[3] for packet in port.packets()]
-
-
-def test_what_is_broken_outlives_the_gateway_for_its_own_board(tmp_path: Path) -> None:
-    async def work() -> None:
-        memory = BrokenSlots(tmp_path)
-        memory.add("/dev/a", 5)
-        memory.add("/dev/a", 9)
-        memory.add("/dev/b", 7)
-        memory.remove("/dev/a", 9)
-        await memory.kept()
-
-    asyncio.run(work())
-    again = BrokenSlots(tmp_path)
-    assert (again.of("/dev/a"), again.of("/dev/b"), again.of("/dev/c")) == ([5], [7], [])
-
-
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"a": 5}', '{"a": ["x"]}'])
-def test_a_damaged_memory_is_no_memory(tmp_path: Path, text: str) -> None:
-    (tmp_path / FILE).write_text(text)
-    assert BrokenSlots(tmp_path).of("a") == []
-
-
-async def test_it_is_on_disk_before_the_first_byte_leaves_and_a_disk_that_takes_nothing_hinders_nothing(
-    tmp_path: Path,
-) -> None:
-    (tmp_path / "file").touch()
-    for folder, kept in ((tmp_path / "new", [SLOT]), (tmp_path / "file", [])):
-        port = FakePort()
-        loop = asyncio.get_running_loop()
-        control = Control(FakePorts(port), loop.time, "doc", broken_slots=BrokenSlots(folder))
-        await control.use_port("/dev/board")
-        begin(control, WAVE)
-        await port.until_written(2)
-        assert BrokenSlots(folder).of("/dev/board") == kept
-        assert broken(control) == [SLOT]
-        await control.shut_down()
 
 
 FRAMES = [{"durationMs": 500, "positions": {"1": 1500}}]

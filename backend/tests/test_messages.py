@@ -77,6 +77,7 @@ def test_names_on_the_wire_are_camel_case() -> None:
         clients=2,
         unattended=None,
         broken_slots=[],
+        slot_versions={},
     )
     state = json.loads(encode(told))
     assert state["port"]["retryInMs"] == 250

@@ -136,6 +136,14 @@ export function createConnector(options: ConnectorOptions): Connector {
       slotMemory: isOwn ? undefined : rememberSlots(storage, transport),
     });
     current = { transport, session };
+    // Before the page itself hears that it is ready: where somebody has changed the gateway's port, it leads to another board.
+    let wasReady = false;
+    session.subscribe({
+      state({ link: { status } }) {
+        if (status === 'ready' && !wasReady) device.describe(session, wayOf(transport));
+        wasReady = status === 'ready';
+      },
+    });
     device.attach(session, wayOf(transport));
     // A first attempt that fails is in the link's state, with its sentence and its next try.
     await session.open().catch(() => undefined);

@@ -192,14 +192,14 @@ function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
 function ReplaceQuestion({ isDisabled }: { readonly isDisabled: boolean }) {
   const { playback } = useStores();
   const replacing = usePlayback((state) => state.replacing);
-  const { slot, name: held } = replacing?.record ?? { slot: 0, name: '' };
+  const slot = replacing?.slot ?? 0;
   return (
     <ConfirmDialog
       icon="board"
       isDisabled={isDisabled}
       isOpen={replacing !== null}
       title={words.play.replaceTitle(slot)}
-      text={words.play.replaceText(slot, held, replacing?.name ?? '')}
+      text={words.play.replaceText(slot, replacing?.record?.name ?? '', replacing?.name ?? '')}
       keepLabel={words.play.replaceKeep}
       confirmLabel={words.play.replace}
       closeLabel={words.close}

@@ -13,7 +13,11 @@ import type { View } from './view.ts';
 
 /** What the slot holds and what would take its place: the person is asked. */
 export interface Replacing {
-  readonly record: SlotRecord;
+  readonly slot: number;
+  /** null where somebody else has stored it. */
+  readonly record: SlotRecord | null;
+  /** As a shared link has it. */
+  readonly version: string | undefined;
   /** Of the group that would be written. */
   readonly name: string;
 }
@@ -54,10 +58,12 @@ export function createBoardRun(options: BoardRunOptions): BoardRun {
     const now = { broken: device.store.getState().snapshot.brokenSlots, arriving: null };
     const fate = fateOf(book, now, slot, { ...group, ...own });
     if (fate === 'same') return run(slot, times);
-    const record = recordOf(book, slot);
+    const record = recordOf(book, slot) ?? null;
+    const version = slots.versionIn(slot);
     // A name says nothing: two groups may have the same, and books of earlier versions note nothing else.
-    const isAnother = fate !== 'broken' && record !== undefined && record.documentId !== own.documentId;
-    if (isAnother && record !== allowed?.record) return ask({ record, name: own.name });
+    const isAnother = record === null ? isOfOthers(version, group) : record.documentId !== own.documentId;
+    const isAllowed = allowed?.slot === slot && record === allowed.record && version === allowed.version;
+    if (fate !== 'broken' && isAnother && !isAllowed) return ask({ slot, record, version, name: own.name });
     phase('storing');
     slots.download([{ slot, ...own, frames: group.frames }], (isDone) => {
       if (isDone) run(slot, times);
@@ -80,4 +86,9 @@ export function createBoardRun(options: BoardRunOptions): BoardRun {
   }
 
   return { begin, at };
+}
+
+/** Of which this page has no record. */
+function isOfOthers(version: string | undefined, { fingerprint }: CompiledGroup): boolean {
+  return version !== undefined && version !== '' && version !== fingerprint;
 }

@@ -35,7 +35,7 @@ export function createLimitGate(robot: () => Robot, refuse: (refusal: string) =>
   function groups(asked: readonly SlotGroup[]): readonly SlotGroup[] | null {
     return allOrNone(asked, (group) => {
       const onIt = frames(group.frames);
-      return onIt === null ? null : { slot: group.slot, frames: onIt };
+      return onIt === null ? null : { ...group, frames: onIt };
     });
   }
 

@@ -5,6 +5,7 @@ import { startHistory } from '#shared/actions/history.ts';
 import { positionAt, tracksOf } from '#shared/actions/group/tracks.ts';
 import { words } from '../words/words.ts';
 import { createDesk } from './deskUnderTest.ts';
+import { createSharedSlots } from './sharedSlotsUnderTest.ts';
 import { INITIAL_SERVO_VIEW } from './servoView.ts';
 
 const frame = (durationMs: number, position: number, more: Partial<NewFrame> = {}): NewFrame => ({
@@ -18,8 +19,8 @@ const groupOf = (...frames: readonly NewFrame[]): ActionGroup =>
 
 const WAVE = groupOf(frame(400, 1000), frame(400, 1600), frame(600, 1300));
 
-async function deskWith(group: ActionGroup) {
-  const desk = await createDesk();
+async function deskWith(group: ActionGroup, board: Parameters<typeof createDesk>[1] = {}) {
+  const desk = await createDesk(new Map(), board);
   desk.document.edit(
     () => 'write',
     () => group,
@@ -400,8 +401,8 @@ describe('playing on the board', () => {
 
   describe('where the slot holds another group', () => {
     /** The first group is in slot 0, and the second one at hand. */
-    async function deskWithAnother(name: string) {
-      const desk = await deskWith(WAVE);
+    async function deskWithAnother(name: string, board: Parameters<typeof createDesk>[1] = {}) {
+      const desk = await deskWith(WAVE, board);
       const { playback, document, shelf, ofKind, draw } = desk;
       playback.runOnBoard();
       await draw(3000);
@@ -440,6 +441,25 @@ describe('playing on the board', () => {
       await draw(1000);
       expect(asked()).toMatchObject({ record: { name: 'Third' } });
       expect(counts()).toEqual([4, 1]);
+    });
+
+    test('asks again where somebody else has stored something there meanwhile, and before', async () => {
+      const { sharedSlots, othersStore, asked: stored } = createSharedSlots();
+      const { playback, draw, asked, phase } = await deskWithAnother('Bow', { sharedSlots });
+      // Of a board that holds nothing only the clock tells when a run is over.
+      await draw(6000);
+      expect(phase()).toBeNull();
+      playback.runOnBoard();
+      expect(asked()).toMatchObject({ slot: 0, record: { name: 'Wave' } });
+      othersStore(0, 'of Bert');
+      playback.answer(true);
+      await draw(1000);
+      expect(asked()).toMatchObject({ slot: 0, record: null, version: 'of Bert' });
+      expect(stored).toHaveLength(1);
+      playback.answer(true);
+      await draw(1000);
+      expect(asked()).toBeNull();
+      expect(stored.map(({ replaces }) => replaces)).toEqual(['', 'of Bert']);
     });
 
     test('of which an earlier version noted the name alone, it asks too', async () => {

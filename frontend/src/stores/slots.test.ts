@@ -1,6 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { recordOf } from '#shared/actions/slots/slotBook.ts';
 import { createDesk } from './deskUnderTest.ts';
+import { createSharedSlots } from './sharedSlotsUnderTest.ts';
 import { words } from '../words/words.ts';
 import type { Way } from './device.ts';
 
@@ -162,6 +163,36 @@ describe('the slots of a board', () => {
     device.download([{ slot: 5, frames: at(1700) }]);
     await draw(4000);
     expect(stored()).toEqual(['9 Bow']);
+  });
+
+  test('what somebody else stored while this page was away makes it unknown when it is back', async () => {
+    const texts = new Map<string, string>();
+    const gateway = createSharedSlots();
+    const way: Way = { kind: 'gateway', label: '/dev/board', isSimulated: false };
+    const { sharedSlots, othersStore } = gateway;
+    const first = await openDesk(texts, { way, sharedSlots });
+    first.slots.download([WAVE, BOW]);
+    await first.draw(100);
+    expect(first.stored()).toEqual(['5 Wave', '9 Bow']);
+    othersStore(5, 'of Bert', false);
+    expect((await openDesk(texts, { way, sharedSlots })).stored()).toEqual(['9 Bow']);
+  });
+
+  test('what somebody else stores while it looks on does so at once, what one has seen is told with a download', async () => {
+    const { sharedSlots, othersStore, asked } = createSharedSlots({ 5: 'of Bert' });
+    const { slots, stored, draw, told } = await openDesk(new Map(), { way: USB, sharedSlots });
+    slots.download([WAVE, BOW]);
+    await draw(100);
+    expect(asked.map(({ slot, replaces }) => [slot, replaces])).toEqual([
+      [5, 'of Bert'],
+      [9, ''],
+    ]);
+    othersStore(9, 'of Bert');
+    expect(stored()).toEqual(['5 Wave']);
+    slots.download([{ ...BOW, replaces: 'seen before' }]);
+    await draw(100);
+    expect(told()).toContain(words.errorSentence('slotChanged', ''));
+    expect(stored()).toEqual(['5 Wave']);
   });
 
   test('another trim makes the copy another motion', async () => {

@@ -11,9 +11,11 @@ import {
   withErasing,
   withStored,
   withUnknown,
+  withVersions,
   type SlotBook,
   type SlotRecord,
 } from '#shared/actions/slots/slotBook.ts';
+import type { SlotGroup } from '#shared/session/transport.ts';
 import { words } from '../words/words.ts';
 import { nameOf } from './boards.ts';
 import { boardFingerprint } from './workedOut.ts';
@@ -22,7 +24,9 @@ import type { TextStorage } from './document.ts';
 import type { Notices } from './notices.ts';
 import type { RobotStore } from './robots.ts';
 
-export type SlotDownload = Pick<SlotRecord, 'slot' | 'name' | 'documentId' | 'frames'>;
+/** `replaces`: what was seen in the slot, as `versionIn` had it then; left out: as it is now. */
+export type SlotDownload = Pick<SlotRecord, 'slot' | 'name' | 'documentId' | 'frames'> &
+  Pick<SlotGroup, 'replaces'>;
 
 export interface SlotsState {
   readonly book: SlotBook;
@@ -33,6 +37,8 @@ export interface Slots {
   /** One after the other, until one fails or is called off. `settled` hears whether all of them are stored. */
   download(groups: readonly SlotDownload[], settled?: Settled): void;
   cancel(): void;
+  /** What a shared link says was stored there last, '' for nothing; undefined on one's own. */
+  versionIn(slot: number): string | undefined;
   erase(): void;
   /** Downloads again what the last erase took. */
   restoreAll(): void;
@@ -90,7 +96,19 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     // From here on nobody knows what is left, whatever the board will say.
     if (isErasing(state) && !isErasing(before)) keep(withErasing(store.getState().book));
     noteDownload(state);
+    noteVersions(state);
   });
+
+  /** Others may have stored something there while this page was away. */
+  function noteVersions({ snapshot: { link, slotVersions } }: DeviceState): void {
+    if (link.status === 'ready' && slotVersions !== null)
+      keep(withVersions(store.getState().book, slotVersions));
+  }
+
+  function versionIn(slot: number): string | undefined {
+    const { slotVersions } = device.store.getState().snapshot;
+    return slotVersions === null ? undefined : (slotVersions[slot] ?? '');
+  }
 
   function recordOf({ slot, name, documentId, frames }: SlotDownload): SlotRecord {
     const fingerprint = boardFingerprint(robots.current().robot, frames);
@@ -134,7 +152,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     if (isAsking) return settled(false);
     isAsking = true;
     wanted = groups.map(recordOf);
-    device.download(groups, (isDone) => {
+    device.download(groups.map(groupOf), (isDone) => {
       isAsking = false;
       // Told so late that nobody saw it under way.
       if (isDone) keep(wanted.reduce(withStored, store.getState().book));
@@ -143,8 +161,13 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     });
   }
 
+  function groupOf({ slot, frames, replaces = versionIn(slot) }: SlotDownload): SlotGroup {
+    return { slot, frames, ...(replaces !== undefined && { replaces }) };
+  }
+
   return {
     store,
+    versionIn,
     download,
     cancel: () => device.cancelDownload(),
     erase: () =>

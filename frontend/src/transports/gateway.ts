@@ -111,7 +111,7 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
   }
 
   function stateChanged(state: Omit<StateMessage, 'type'>): void {
-    slots.toldBroken(state.brokenSlots);
+    slots.toldHeld(state.brokenSlots, state.slotVersions);
     turn.counted(state.clients, state.unattended);
     leaseChanged();
     boardChanged(state.board);

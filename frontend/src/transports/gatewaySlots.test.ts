@@ -1,4 +1,5 @@
 import { afterEach, expect, test, vi } from 'vitest';
+import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
 import type { JobState } from './messages.generated.ts';
@@ -46,13 +47,21 @@ function createPage() {
 
 test('a download begins with the nonce of this page’s turn and ends as the gateway tells', async () => {
   const { slots, requests, turns, answer, changes } = createPage();
-  const done = slots.store([{ slot: 5, frames: FRAMES }]);
+  const done = slots.store([{ slot: 5, frames: FRAMES, replaces: 'seen' }]);
   await turns();
   expect(requests).toEqual([
     {
       url: 'api/download',
       method: 'POST',
-      body: { groups: [{ slot: 5, frames: [{ durationMs: 200, positions: { '1': 1500 } }] }], nonce: '7-1' },
+      body: {
+        groups: [
+          {
+            ...{ slot: 5, version: fingerprintOf(FRAMES), replaces: 'seen' },
+            frames: [{ durationMs: 200, positions: { '1': 1500 } }],
+          },
+        ],
+        nonce: '7-1',
+      },
     },
   ]);
   answer(202, RUNNING);
@@ -123,10 +132,11 @@ test('only one under way is called off, whoever began it', async () => {
   expect(requests).toEqual([{ url: 'api/jobs/b2', method: 'DELETE', body: null }]);
 });
 
-test('the same broken slots again are no news', () => {
+test('the same broken slots and versions again are no news', () => {
   const { slots, changes } = createPage();
-  for (const told of [[], [5], [5], [5, 8]]) slots.toldBroken(told);
-  expect([slots.broken, changes()]).toEqual([[5, 8], 2]);
+  for (const told of [[], [5], [5], [5, 8]]) slots.toldHeld(told, {});
+  for (const told of [{ 5: 'a' }, { 5: 'a' }, { 5: 'b' }, {}]) slots.toldHeld([5, 8], told);
+  expect([slots.broken, changes()]).toEqual([[5, 8], 5]);
 });
 
 const FULL_BOARD = Array.from({ length: 256 }, (_, slot) => {

@@ -1,9 +1,10 @@
 // The gateway's downloads as this page sees them: begins one, hears how far the latest is, calls it off. The gateway stores by
 // itself and goes on when the page has gone. Knows jobs and their route; no socket.
 
+import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
 import type { Frame } from '#shared/protocol/commands.ts';
 import { LinkError } from '#shared/session/linkError.ts';
-import type { SharedSlots, SlotGroup } from '#shared/session/transport.ts';
+import type { SharedSlots, SlotGroup, SlotVersions } from '#shared/session/transport.ts';
 import { askGateway, isRecord, refusal, withBody } from './gatewayHttp.ts';
 import type { JobState } from './messages.generated.ts';
 
@@ -15,7 +16,7 @@ const PORTION_BYTES = 500 * 1024;
 
 export interface GatewaySlots extends SharedSlots {
   told(job: JobState | null): void;
-  toldBroken(slots: readonly number[]): void;
+  toldHeld(broken: readonly number[], versions: SlotVersions): void;
   /** The gateway is gone: whoever waits for a download waits in vain, though it may go on. */
   gone(error: LinkError): void;
 }
@@ -30,6 +31,7 @@ interface Waiter {
 export function createGatewaySlots(begin: () => Promise<string>, changed: () => void): GatewaySlots {
   let job: JobState | null = null;
   let broken: readonly number[] = [];
+  let versions: SlotVersions = {};
   let waiter: Waiter | null = null;
 
   function settle(): void {
@@ -58,6 +60,9 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
     get broken() {
       return broken;
     },
+    get versions() {
+      return versions;
+    },
     get download() {
       return job && { ...job, isOver: job.status !== 'running' };
     },
@@ -80,10 +85,12 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
       settle();
       changed();
     },
-    toldBroken(slots) {
-      const isSame = slots.join() === broken.join();
-      broken = slots;
-      if (!isSame) changed();
+    toldHeld(nextBroken, nextVersions) {
+      const isSame = nextBroken.join() === broken.join() && isAlike(nextVersions, versions);
+      if (isSame) return;
+      broken = nextBroken;
+      versions = nextVersions;
+      changed();
     },
     gone(error) {
       job = null;
@@ -108,8 +115,14 @@ function portions(groups: readonly SlotGroup[]): readonly (readonly SlotGroup[])
   return all;
 }
 
-function toBody({ slot, frames }: SlotGroup): object {
-  return { slot, frames: frames.map(frameBody) };
+function toBody({ slot, frames, replaces }: SlotGroup): object {
+  const version = fingerprintOf(frames);
+  return { slot, version, ...(replaces !== undefined && { replaces }), frames: frames.map(frameBody) };
+}
+
+function isAlike(one: SlotVersions, other: SlotVersions): boolean {
+  const slots = Object.keys(one).map(Number);
+  return slots.length === Object.keys(other).length && slots.every((slot) => one[slot] === other[slot]);
 }
 
 function frameBody({ durationMs, targets }: Frame): object {

@@ -122,6 +122,9 @@ export interface WelcomeMessage {
   robot: RobotTold | null;
   lease: LeaseState;
   brokenSlots: number[];
+  slotVersions: {
+    [k: string]: string;
+  };
   job: JobState | null;
   motion: MotionTold;
 }
@@ -148,6 +151,7 @@ export interface PortState {
         | 'expired'
         | 'busy'
         | 'slotBroken'
+        | 'slotChanged'
         | 'cancelled'
         | 'outOfRange'
         | 'malformed'
@@ -242,6 +246,7 @@ export interface JobState {
         | 'expired'
         | 'busy'
         | 'slotBroken'
+        | 'slotChanged'
         | 'cancelled'
         | 'outOfRange'
         | 'malformed'
@@ -322,6 +327,7 @@ export interface RefusedMessage {
     | 'expired'
     | 'busy'
     | 'slotBroken'
+    | 'slotChanged'
     | 'cancelled'
     | 'outOfRange'
     | 'malformed'
@@ -369,7 +375,8 @@ export interface ResumedMessage {
   by: string;
 }
 /**
- * Something of this changed. `brokenSlots` hold half a group: nobody may run them. `stoppedBy` is what
+ * Something of this changed. `brokenSlots` hold half a group: nobody may run them. `slotVersions` tell
+ * what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
  * people call whoever pressed STOP, where that is known.
  */
 export interface StateMessage {
@@ -382,6 +389,9 @@ export interface StateMessage {
   clients: number;
   unattended: UnattendedRun | null;
   brokenSlots: number[];
+  slotVersions: {
+    [k: string]: string;
+  };
 }
 /**
  * Another robot stands on the board now, or any robot of the library has changed: look there.

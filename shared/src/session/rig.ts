@@ -11,6 +11,7 @@ import { COMMAND_SHAPES } from '../protocol/shapes.ts';
 import type { BoardOptions } from '../simulator/board.ts';
 import { createSimulatedTransport, type SimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock, type VirtualClock } from '../simulator/virtualClock.ts';
+import type { SharedSlots, Transport, TransportEvents } from './transport.ts';
 import { createSession, type Session, type SessionOptions } from './session.ts';
 import { FIRST_MOVE_MS, FIRST_MOVE_STAGGER_MS } from './timings.ts';
 
@@ -39,9 +40,12 @@ export function firstMovesMs(servoCount: number): number {
 /** Opened and ready; the board has been on for a while and knows its battery. */
 export async function createRig(
   options: Omit<BoardOptions, 'clock' | 'send' | 'onUnplug'> &
-    Partial<Pick<SessionOptions, 'family' | 'slotMemory' | 'identifies' | 'isWatched'>> = {},
+    Partial<Pick<SessionOptions, 'family' | 'slotMemory' | 'identifies' | 'isWatched'>> & {
+      /** Of a link that is shared; it says through `changed` when something of it is another. */
+      readonly sharedSlots?: (changed: () => void) => SharedSlots;
+    } = {},
 ): Promise<Rig> {
-  const { family = familyOf('doc'), slotMemory, identifies, isWatched, ...board } = options;
+  const { family = familyOf('doc'), slotMemory, identifies, isWatched, sharedSlots, ...board } = options;
   const clock = createVirtualClock();
   const heard: HeardCommand[] = [];
   const ear = createEar(clock, heard);
@@ -51,11 +55,27 @@ export async function createRig(
     onByte: ({ direction, byte }) => direction === 'in' && ear(byte),
   });
   const computer = createSleepingClock(clock);
-  const session = createSession({ transport, clock: computer, family, slotMemory, identifies, isWatched });
+  const session = createSession({
+    ...{ clock: computer, family, slotMemory, identifies, isWatched },
+    transport: sharedSlots === undefined ? transport : sharing(transport, sharedSlots),
+  });
   await session.open();
   return {
     ...{ clock, session, transport, heard, asleep: computer.asleep },
     ofKind: (kind) => heard.flatMap(({ command }) => (command.kind === kind ? [command as never] : [])),
+  };
+}
+
+function sharing(transport: Transport, slotsOf: (changed: () => void) => SharedSlots): Transport {
+  let heard: TransportEvents | null = null;
+  const slots = slotsOf(() => heard?.slotsChanged?.());
+  return {
+    ...transport,
+    slots,
+    open(events) {
+      heard = events;
+      return transport.open(events);
+    },
   };
 }
 

@@ -8,7 +8,7 @@ import { createSimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
 import { LinkError } from './linkError.ts';
 import { createSession } from './session.ts';
-import type { SharedSlots, Transport, TransportEvents } from './transport.ts';
+import type { SharedSlots, SlotVersions, Transport, TransportEvents } from './transport.ts';
 
 const WAVE = [{ durationMs: 200, targets: [{ servo: 1, position: 1_600 }] }];
 const UNDER_WAY = {
@@ -18,7 +18,11 @@ const UNDER_WAY = {
 const DONE = { ...UNDER_WAY, groupsStored: 1, framesStored: 3, isOver: true };
 const FAILED = { ...UNDER_WAY, isOver: true };
 
-async function sharedSession(known: Pick<SharedSlots, 'broken' | 'download'>) {
+const NONE: SlotVersions = {};
+
+type Told = Pick<SharedSlots, 'broken' | 'download'> & Partial<Pick<SharedSlots, 'versions'>>;
+
+async function sharedSession(known: Told) {
   const clock = createVirtualClock();
   const line = createSimulatedTransport(clock, { onForMs: 60_000 });
   const sent: number[] = [];
@@ -31,6 +35,9 @@ async function sharedSession(known: Pick<SharedSlots, 'broken' | 'download'>) {
     slots: {
       get broken() {
         return told.broken;
+      },
+      get versions() {
+        return told.versions ?? NONE;
       },
       get download() {
         return told.download;
@@ -60,7 +67,7 @@ async function sharedSession(known: Pick<SharedSlots, 'broken' | 'download'>) {
   await session.open();
   return {
     ...{ clock, session, sent, asked },
-    tell(next: typeof known) {
+    tell(next: Told) {
       told = next;
       heard?.slotsChanged?.();
     },
@@ -163,4 +170,11 @@ test('of several that end early, those that were stored are noted and the one in
     ...{ activity: { kind: 'idle' }, brokenSlots: [9], storedSlots: [5] },
     lastDownload: { slots: [5, 9, 12], groupsStored: 1 },
   });
+});
+
+test('which version each slot holds is what the link says, from the first moment and on each change', async () => {
+  const { session, tell } = await sharedSession({ broken: [], download: null, versions: { 5: 'wave' } });
+  expect(session.state.slotVersions).toEqual({ 5: 'wave' });
+  tell({ broken: [], download: null, versions: { 5: 'bow' } });
+  expect(session.state.slotVersions).toEqual({ 5: 'bow' });
 });

@@ -7,7 +7,7 @@ import type { Family } from '../protocol/families.ts';
 import type { Lease } from './lease.ts';
 import type { Identity } from './identity.ts';
 import type { LinkError } from './linkError.ts';
-import type { DownloadProgress, RobotOnBoard, SharedLatchReason } from './transport.ts';
+import type { DownloadProgress, RobotOnBoard, SharedLatchReason, SlotVersions } from './transport.ts';
 
 export type LinkState =
   | { readonly status: 'closed' }
@@ -84,6 +84,8 @@ export interface SessionState {
   readonly offsets: readonly ServoOffset[] | null;
   /** Slots whose download was begun and not finished, here or in an earlier visit: broken on the board (S35). */
   readonly brokenSlots: readonly number[];
+  /** By the word of a shared link; null on one's own. */
+  readonly slotVersions: SlotVersions | null;
   /** How far the download before this moment came, by whomever; null where nobody knows of one. */
   readonly lastDownload: Pick<DownloadProgress, 'slots' | 'groupsStored'> | null;
   /** What this session stored, by slot. */

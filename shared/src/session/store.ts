@@ -29,6 +29,7 @@ export const INITIAL_STATE: SessionState = {
   battery: { kind: 'unread' },
   ...NOTHING_READ,
   brokenSlots: [],
+  slotVersions: null,
   storedSlots: [],
   lastDownload: null,
   robotOnBoard: null,

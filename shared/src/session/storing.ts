@@ -58,6 +58,8 @@ export function createStoring(
       for (const slot of remembered) broken.add(slot);
       publish();
     }
+    const slotVersions = shared?.versions ?? null;
+    if (slotVersions !== store.state.slotVersions) store.update({ slotVersions });
     const { kind } = store.state.activity;
     if (shared !== undefined && (kind === 'idle' || kind === 'downloading')) setActivity(core, work());
   }

@@ -37,7 +37,12 @@ export interface TransportEvents {
 export interface SlotGroup {
   readonly slot: number;
   readonly frames: readonly Frame[];
+  /** Which version was seen in that slot, '' for none: where another one is there by now, a shared link refuses. */
+  readonly replaces?: string;
 }
+
+/** What was stored in each slot last, by its fingerprint where a page did it; a slot of which nobody knows is not in it. */
+export type SlotVersions = Readonly<Partial<Record<number, string>>>;
 
 /** Of several groups together. */
 export interface DownloadProgress {
@@ -59,6 +64,7 @@ export interface SharedDownload extends DownloadProgress {
 export interface SharedSlots {
   /** Slots that hold half a group. */
   readonly broken: readonly number[];
+  readonly versions: SlotVersions;
   /** The latest download, whoever began it; null where there was none. */
   readonly download: SharedDownload | null;
   /** In their order; resolves when the board has all of them; rejects with what ended it. */

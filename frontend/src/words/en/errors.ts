@@ -36,6 +36,8 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
   expired: () => 'This came too late to be done now. Do it again; if it goes on, the network is too slow.',
   busy: () => 'The robot moves, or a download or an erase is under way. Wait for its end, or cancel it.',
   slotBroken: () => 'This slot is broken: its download did not finish. Download a group to it again.',
+  slotChanged: () =>
+    'Somebody else has stored a group in this slot meanwhile. Nothing was overwritten: look at the slot, then download again.',
   cancelled: () => 'Cancelled.',
   overslept: () => 'This computer or page was asleep. What waited was not sent; ask for it again.',
   outOfRange: (detail) => withDetail('This value is out of range', detail),

@@ -29,6 +29,7 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
   expired: () => '这个操作来得太晚，没有执行。请再试一次；如果反复出现，说明网络太慢。',
   busy: () => '机器人正在移动，或者正在下载或擦除。请等它结束，或者取消它。',
   slotBroken: () => '这个槽位已损坏：上次下载没有完成。请重新下载一个动作组。',
+  slotChanged: () => '其间有人在这个槽位存入了另一个动作组。没有覆盖任何内容：请先查看该槽位，然后重新下载。',
   cancelled: () => '已取消。',
   overslept: () => '这台电脑或此页面刚才处于休眠状态。等待中的指令没有发送，请重新操作。',
   outOfRange: (detail) => withDetail('这个值超出范围', inChinese(detail)),

@@ -83,6 +83,14 @@ export function withUnknown(book: SlotBook, slot: number): SlotBook {
   return { ...book, stored: without(book.stored, slot), isEmptied: false };
 }
 
+/** By the word of whoever sees all downloads; `versions` are fingerprints. What does not stand there is not there any more. */
+export function withVersions(book: SlotBook, versions: Readonly<Partial<Record<number, string>>>): SlotBook {
+  const stored = book.stored.filter(({ slot, fingerprint }) => versions[slot] === fingerprint);
+  const isEmptied = book.isEmptied && Object.keys(versions).length === stored.length;
+  if (stored.length === book.stored.length && isEmptied === book.isEmptied) return book;
+  return { ...book, stored, isEmptied };
+}
+
 /** An erase has begun: nobody knows what is left. */
 export function withErasing({ stored, erased, begun }: SlotBook): SlotBook {
   const gone = stored.reduce((sum, record) => [...without(sum, record.slot), record], erased);

@@ -6,12 +6,14 @@ import { fingerprintOf } from './fingerprint.ts';
 import {
   EMPTY_SLOT_BOOK,
   fateOf,
+  recordOf,
   slotBookFromText,
   slotBookToText,
   withErased,
   withErasing,
   withStored,
   withUnknown,
+  withVersions,
   type SlotRecord,
 } from './slotBook.ts';
 
@@ -162,5 +164,22 @@ describe('comparing two groups', () => {
     });
     expect(compareFrames(WAVE, WAVE.slice(0, 1))).toMatchObject({ isSame: false, firstDifferent: null });
     expect(compareFrames(WAVE, structuredClone(WAVE))).toMatchObject({ isSame: true, firstDifferent: null });
+  });
+});
+
+describe('the word of whoever sees all downloads', () => {
+  const book = [record(3), record(5, 'Bow', [at(400, 1200)])].reduce(withStored, EMPTY_SLOT_BOOK);
+  const versions = Object.fromEntries(book.stored.map(({ slot, fingerprint }) => [slot, fingerprint]));
+
+  test('takes from the book what is not there any more, and nothing else', () => {
+    expect(withVersions(book, { ...versions, 9: 'another' })).toBe(book);
+    expect(withVersions(book, { ...versions, 5: 'another' }).stored).toEqual([recordOf(book, 3)]);
+    expect(withVersions(book, {}).stored).toEqual([]);
+  });
+
+  test('a board of which every slot is known to be empty is one no more where something was stored', () => {
+    const emptied = withStored(withErased(EMPTY_SLOT_BOOK), record(3));
+    expect(withVersions(emptied, { 3: record(3).fingerprint })).toBe(emptied);
+    expect(withVersions(emptied, { 3: record(3).fingerprint, 4: 'another' }).isEmptied).toBe(false);
   });
 });
