@@ -18,6 +18,7 @@ test.describe('an xArm', () => {
     const { url } = await newGateway({ serial: ptyBoard.device, board: 'xarm' });
     const dashboard = dashboardOf(page);
     await page.goto(url);
+    await expect(dashboard.link).toHaveText(READY);
     await dashboard.button('Read positions').click();
     await expect(dashboard.servoRow(6)).toContainText(/≈ 400.*400.*ago/u);
     await dashboard.type(dashboard.target(1), 500);

@@ -3,7 +3,7 @@
 import type { Locator, Page } from '@playwright/test';
 import { dashboardOf } from '../fixtures/dashboard.ts';
 import { robotDialogOf } from '../fixtures/robotDialog.ts';
-import { expect, test } from '../fixtures/test.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
 import { timelineOf } from '../fixtures/timeline.ts';
 
 /** More than there are stops on the page. */
@@ -59,14 +59,15 @@ test('the main job needs no mouse', async ({ page, servers }) => {
 test('a dialog shares the focus with STOP alone, and gives it back', async ({ page, servers }) => {
   const dashboard = dashboardOf(page);
   await page.goto((await servers.files()).url);
+  await expect(dashboard.link).toHaveText(/Ready/);
   await tabTo(page, dashboard.button('Connect'));
   await page.keyboard.press('Enter');
   await expect(dashboard.connectDialog).toBeVisible();
+  await poll(() => holdsFocus(dashboard.connectDialog)).toBe(true);
   const stops = [dashboard.connectDialog, dashboard.stop];
   for (let presses = 0; presses < 12; presses += 1) {
     await page.keyboard.press('Tab');
-    const holds = await Promise.all(stops.map(holdsFocus));
-    expect(holds).toContain(true);
+    await poll(() => Promise.all(stops.map(holdsFocus))).toContain(true);
   }
   await dashboard.connectDialog.getByRole('button', { name: 'Close' }).press('Enter');
   await expect(dashboard.button('Connect')).toBeFocused();
@@ -78,7 +79,7 @@ async function throughDialog(page: Page, opener: Locator, name: string, within: 
   await tabTo(page, opener);
   await page.keyboard.press('Enter');
   await expect(dialog).toBeVisible();
-  await expect.poll(() => holdsFocus(dialog)).toBe(true);
+  await poll(() => holdsFocus(dialog)).toBe(true);
   await within();
   await tabTo(page, dialog.getByRole('button', { name: 'Close', exact: true }));
   await page.keyboard.press('Enter');

@@ -3,7 +3,7 @@
 
 import type { Page } from '@playwright/test';
 import { dashboardOf } from '../fixtures/dashboard.ts';
-import { expect, test } from '../fixtures/test.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
 
 const SIZES = [
   { width: 390, height: 844 },
@@ -37,7 +37,7 @@ for (const size of SIZES) {
     await expect(dashboard.notices).toContainText('Gripper: 9999 is out of range; it takes 500 to 2500.');
     await dashboard.type(dashboard.target(2), 9998);
     await expect(dashboard.notices).toContainText(/\d more/);
-    expect(await coveredBy(page)).toEqual([]);
+    await poll(() => coveredBy(page)).toEqual([]);
     await dashboard.notices.getByRole('button', { name: 'Dismiss' }).click();
     await expect(dashboard.notices.getByRole('listitem')).toHaveText(/Gripper/);
   });
@@ -62,7 +62,6 @@ test('no hint lies over Stop or takes a press', async ({ page, servers }) => {
   await page.goto((await servers.files()).url);
   const dashboard = dashboardOf(page);
   await expect(dashboard.link).toHaveText(/Simulated/);
-  const stop = (await dashboard.stop.boundingBox())!;
   const appearance = dashboard.bar.getByRole('button', { name: /^Appearance/ });
   // As wide as any: where it hangs is the library's, whom it covers is ours.
   await page.addStyleTag({ content: '[role="tooltip"] { width: 280px; height: 60px; }' });
@@ -70,9 +69,11 @@ test('no hint lies over Stop or takes a press', async ({ page, servers }) => {
   await appearance.hover();
   const hint = page.getByRole('tooltip');
   await expect(hint).toBeVisible();
-  const box = (await hint.boundingBox())!;
-  expect(box.x + box.width).toBeGreaterThan(stop.x);
-  expect(box.y).toBeLessThan(stop.y + stop.height);
+  await expect(async () => {
+    const [box, stop] = [(await hint.boundingBox())!, (await dashboard.stop.boundingBox())!];
+    expect(box.x + box.width).toBeGreaterThan(stop.x);
+    expect(box.y).toBeLessThan(stop.y + stop.height);
+  }).toPass();
   expect(await coveredStop(page)).toEqual([]);
   await expect(hint).toHaveCSS('pointer-events', 'none');
 });

@@ -33,9 +33,8 @@ test('STOP goes out three times over a real port, and holds', async ({ openPort,
   await expect(openPort.estimate(1)).toHaveText('≈ 2000');
   await openPort.stop.click();
   await expect(openPort.status).toContainText('Stop sent');
-  const heard = await ptyBoard.bus();
-  expect(ofKind(heard, 'stop')).toHaveLength(3);
-  expect(ofKind(heard, 'move').at(-1)?.targets).toEqual([{ servo: 1, position: 2000 }]);
+  await poll(async () => ofKind(await ptyBoard.bus(), 'stop')).toHaveLength(3);
+  expect(ofKind(await ptyBoard.bus(), 'move').at(-1)?.targets).toEqual([{ servo: 1, position: 2000 }]);
 });
 
 test('an adapter that goes away is told as such', async ({ openPort, ptyBoard }) => {

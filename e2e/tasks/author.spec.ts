@@ -3,6 +3,7 @@
 import { ofKind } from '../fixtures/bus.ts';
 import type { Dashboard } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
+import { noteAttribute, noteTexts } from '../fixtures/notes.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 import { keepGroup } from '../fixtures/timeline.ts';
 
@@ -101,9 +102,11 @@ test('the group plays from the page, gently to its first frame, and moves nothin
   await captureGroup(dashboard, [1000, 1600]);
   await expect(dashboard.estimate(1)).toHaveText('≈ 1600');
   const before = ofKind(await robot.bus(), 'move').length;
+  const said = await noteTexts(dashboard.status);
+  const marked = await noteAttribute(dashboard.frame(2), 'aria-current');
   await dashboard.button('Play').click();
-  await expect(dashboard.status).toHaveText('Playing frame 1 of 2');
-  await expect(dashboard.frame(2)).toHaveAttribute('aria-current', 'step');
+  await poll(said).toContain('Playing frame 1 of 2');
+  await poll(marked).toContain('step');
   await expect(dashboard.status).toHaveText('Idle');
   expect(ofKind(await robot.bus(), 'move').slice(before)).toEqual([
     { kind: 'move', durationMs: 1500, targets: [{ servo: 1, position: 1000 }] },
@@ -159,16 +162,18 @@ test.describe('of a long group', () => {
   }) => {
     const strip = page.getByRole('list', { name: 'Frames' });
     await expect(dashboard.frame(1)).toBeVisible();
-    const cameOrWent = await strip.evaluate(async (list) => {
-      let changes = 0;
-      const observer = new MutationObserver((records) => (changes += records.length));
-      observer.observe(list, { childList: true });
-      for (let frame = 0; frame < 20; frame += 1) await new Promise(requestAnimationFrame);
-      observer.disconnect();
-      return changes;
-    });
-    expect(cameOrWent).toBe(0);
-    expect(await dashboard.frames.count()).toBeLessThan(40);
+    const cameOrWent = () =>
+      strip.evaluate(async (list) => {
+        let changes = 0;
+        const observer = new MutationObserver((records) => (changes += records.length));
+        observer.observe(list, { childList: true });
+        for (let frame = 0; frame < 20; frame += 1) await new Promise(requestAnimationFrame);
+        observer.disconnect();
+        return changes;
+      });
+    // At most until the strip knows its own width.
+    await poll(cameOrWent).toBe(0);
+    await poll(() => dashboard.frames.count()).toBeLessThan(40);
     await strip.evaluate((list) => list.scrollTo({ left: list.scrollWidth }));
     await expect(dashboard.frame(120)).toBeInViewport();
     await expect(dashboard.frame(1)).toBeHidden();

@@ -75,6 +75,7 @@ test('a pad moves nothing before it is switched on, then while it is held, and s
   await expect(driveSwitch(page)).not.toBeChecked();
   await pad.hold();
   await dashboard.resume.click();
+  await expectRest(robot.bus);
   const before = ofKind(await robot.bus(), 'move').length;
   await pad.hold(RIGHT_TRIGGER);
   await dashboard.battery.getByRole('button', { name: 'Refresh' }).click();

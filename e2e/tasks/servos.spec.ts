@@ -118,13 +118,14 @@ test.describe('with thirty-two servos', () => {
   test('the dials leave what is below them free', async ({ dashboard, page }) => {
     const legend = page.getByRole('list', { name: 'What the marks mean' });
     await expect(dashboard.slider(1)).toBeVisible();
-    const over = await legend.evaluate((list) => {
-      const { left, top, width, height } = list.getBoundingClientRect();
-      const places = Array.from({ length: 40 }, (_, index) => left + (width * index) / 40);
-      const there = places.flatMap((x) => document.elementsFromPoint(x, top + height / 2));
-      return there.filter((one) => one.role === 'img' && !list.contains(one)).map((one) => one.ariaLabel);
-    });
-    expect(over).toEqual([]);
+    const over = () =>
+      legend.evaluate((list) => {
+        const { left, top, width, height } = list.getBoundingClientRect();
+        const places = Array.from({ length: 40 }, (_, index) => left + (width * index) / 40);
+        const there = places.flatMap((x) => document.elementsFromPoint(x, top + height / 2));
+        return there.filter((one) => one.role === 'img' && !list.contains(one)).map((one) => one.ariaLabel);
+      });
+    await poll(over).toEqual([]);
   });
 
   test('those scrolled out of sight are drawn as soon as they rest', async ({ dashboard, robot }) => {

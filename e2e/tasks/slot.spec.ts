@@ -1,9 +1,8 @@
 // The board's own memory: download a group to a slot, run it there, end it, erase all.
 
 import { kindsAfter, ofKind } from '../fixtures/bus.ts';
-import type { Dashboard } from '../fixtures/dashboard.ts';
 import { captureGroup, downloadGroup } from '../fixtures/group.ts';
-import { SLOW_FLASH } from '../fixtures/robot.ts';
+import { noteAttribute, noteTexts } from '../fixtures/notes.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 test('a group goes to slot 5, runs there twice and ends by itself @everyWay', async ({
@@ -23,8 +22,9 @@ test('a group goes to slot 5, runs there twice and ends by itself @everyWay', as
   ]);
 
   await dashboard.type(dashboard.times, 2);
+  const said = await noteTexts(dashboard.status);
   await dashboard.button('Run').click();
-  await expect(dashboard.status).toHaveText('Running slot 5, 2 times: received by the board');
+  await poll(said).toContain('Running slot 5, 2 times: received by the board');
   expect(ofKind(await robot.bus(), 'run')).toEqual([{ kind: 'run', slot: 5, times: 2 }]);
   await dashboard.button('Show the log').click();
   await expect(dashboard.log).toContainText('Group finished by itself');
@@ -57,18 +57,9 @@ test('a group runs until it is ended after its frame in progress, one at a time'
   await expect(dashboard.resume).toBeHidden();
 });
 
-/** Notes all that it says from now on: each word stands for tenths of a second only. */
-async function watchProgress({ progress }: Dashboard): Promise<() => Promise<readonly string[]>> {
-  const said = await progress.evaluateHandle((bar) => {
-    const texts: string[] = [];
-    new MutationObserver(() => texts.push(bar.ariaValueText ?? '')).observe(bar, { attributes: true });
-    return texts;
-  });
-  return () => said.jsonValue();
-}
-
 test.describe('on a board with slow flash', () => {
-  test.use({ boardSettings: SLOW_FLASH });
+  // Twice as slow as elsewhere: several things are looked at before its first frame is written.
+  test.use({ boardSettings: { faults: ['slowErase=600'] } });
 
   test('a download shows how far it is; cancelled, it leaves the slot broken, and that is not run', async ({
     dashboard,
@@ -94,9 +85,9 @@ test.describe('on a board with slow flash', () => {
     await expect(dashboard.button('Run')).toBeEnabled();
     await dashboard.type(dashboard.slot, 7);
     await dashboard.button('Download').click();
-    const shown = await watchProgress(dashboard);
+    const shown = await noteAttribute(dashboard.progress, 'aria-valuetext');
     await expect(dashboard.button('Run')).toBeEnabled();
-    expect(await shown()).toContain('2 of 3 frames');
+    await poll(shown).toContain('2 of 3 frames');
   });
 });
 
