@@ -56,7 +56,7 @@ describe('notices', () => {
     await speak('en');
     expect(told()).toEqual([
       'This value is out of range: the position of servo 3 is 2600, allowed is 500 to 2500.',
-      '这个值超出范围：3号舵机的位置是 2600，应在 500 到 2500 之间。',
+      '这个值超出范围：3号舵机的位置是2600，应在500到2500之间。',
     ]);
   });
 

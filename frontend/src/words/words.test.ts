@@ -12,6 +12,11 @@ const sources = readdirSync(pageDir, { recursive: true, encoding: 'utf8' })
   .map((path) => readFileSync(join(pageDir, path), 'utf8'))
   .join('\n');
 
+const chineseDir = join(import.meta.dirname, 'zh');
+const chineseSources = readdirSync(chineseDir)
+  .map((path) => readFileSync(join(chineseDir, path), 'utf8'))
+  .join('\n');
+
 /** Every text of the catalogue that takes no values, with its path. */
 function plainTexts(value: unknown, path: string): [string, string][] {
   if (typeof value === 'string') return [[path, value]];
@@ -97,6 +102,16 @@ describe('Chinese', () => {
       expect(text, path).toMatch(/[\p{Script=Han}，]/u);
       expect(text, path).not.toMatch(/\p{Script=Han}[,.:;?!()]/u);
     }
+  });
+
+  test('no space is typed between a number and the characters around it', () => {
+    // A name that ends with a figure stays a word; bytes are written as everywhere.
+    const names = /(?<![A-Za-z])[A-Za-z]+-?\d+|55 55/gu;
+    for (const [path, text] of plainTexts(chinese, 'chinese'))
+      expect(text.replace(names, 'X'), path).not.toMatch(/\p{Script=Han} \d|\d \p{Script=Han}/u);
+    const number = String.raw`\$\{(?:format\w+|span|rangeText)\((?:[^{}]|\{[^{}]*\})*\}`;
+    const written = new RegExp(String.raw`\p{Script=Han} ${number}|${number}%? \p{Script=Han}`, 'gu');
+    expect(chineseSources.match(written)).toBeNull();
   });
 
   test('every failure of a link has a sentence of its own that ends like one', () => {

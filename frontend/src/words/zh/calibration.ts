@@ -31,13 +31,13 @@ export const calibrationWords: typeof english = {
     max: '把这里设为最高',
     home: '把这里设为初始位',
   },
-  keep: (at, unit) => `保留 ${formatPosition(at, unit)}`,
-  keepAndGo: (at, unit) => `保留 ${formatPosition(at, unit)}，慢慢转到那里`,
+  keep: (at, unit) => `保留${formatPosition(at, unit)}`,
+  keepAndGo: (at, unit) => `保留${formatPosition(at, unit)}，慢慢转到那里`,
   stepLabel: (step, servo) => `${servo}的${step}`,
   limitsNow: ({ min, home, max }, unit) =>
-    `现在最低 ${formatWhole(min)}，初始位 ${formatWhole(home)}，最高 ${formatWhole(max)}${unitSymbol(unit)}。`,
-  homeMoved: (from, to) => `初始位原来是 ${formatWhole(from)}，在这两端之间是 ${formatWhole(to)}。`,
-  goTo: (at, unit) => `慢慢转到 ${formatPosition(at, unit)}`,
+    `现在最低${formatWhole(min)}，初始位${formatWhole(home)}，最高${formatWhole(max)}${unitSymbol(unit)}。`,
+  homeMoved: (from, to) => `初始位原来是${formatWhole(from)}，在这两端之间是${formatWhole(to)}。`,
+  goTo: (at, unit) => `慢慢转到${formatPosition(at, unit)}`,
   lower: '点动减小',
   higher: '点动增大',
   now: '目标位置',
@@ -46,10 +46,10 @@ export const calibrationWords: typeof english = {
   unknown: '还不知道这个舵机在哪里。它会先慢慢转到中间。请保持距离。',
   goHome: '慢慢转到中间',
   homeFirst: (at, home, unit) =>
-    `测试从初始位开始，而这个舵机的目标是 ${formatWhole(at)}。它先慢慢转到 ${formatPosition(home, unit)}。`,
+    `测试从初始位开始，而这个舵机的目标是${formatWhole(at)}。它先慢慢转到${formatPosition(home, unit)}。`,
   turn: '转一点',
   tooLittleRoom: ({ min, max }, unit) =>
-    `在 ${formatWhole(min)} 到 ${formatPosition(max, unit)} 之间只能转一点点，看不出转向。`,
+    `在${formatWhole(min)}到${formatPosition(max, unit)}之间只能转一点点，看不出转向。`,
   setEnds: '重新设置两端',
   arrow: '现在应该往哪边转',
   sights: {
@@ -66,7 +66,7 @@ export const calibrationWords: typeof english = {
   other: '不是，方向相反',
   partner: (name) => `${name}是它的镜像。可以把刚才设置的镜像值用在它上面：`,
   partnerFigures: (min, home, max) =>
-    `最低 ${formatWhole(min)}，初始位 ${formatWhole(home)}，最高 ${formatWhole(max)}`,
+    `最低${formatWhole(min)}，初始位${formatWhole(home)}，最高${formatWhole(max)}`,
   partnerNot: '它的控制板转不了那么远。请单独校准对侧舵机。',
   takeOver: (name) => `这样设置${name}`,
   allHome: (count) => `全部${formatWhole(count)}个依次回到初始位`,
@@ -74,11 +74,11 @@ export const calibrationWords: typeof english = {
   onToPoses: '接着做姿态',
   leaveAsIs: '保持不变',
   trim: (home, centre, trim) =>
-    `初始位在 ${formatWhole(home)}。微调设为 ${formatWhole(trim)} 后，它记作 ${formatWhole(centre)}，姿态就能用在同样结构的其他机器人上。机器人不会动。`,
+    `初始位在${formatWhole(home)}。微调设为${formatWhole(trim)}后，它记作${formatWhole(centre)}，姿态就能用在同样结构的其他机器人上。机器人不会动。`,
   trimNone: '初始位就是控制板范围的中间，不需要微调。',
   trimFar: (home, centre, reach) =>
-    `初始位在 ${formatWhole(home)}；微调最多到 ${formatWhole(centre)} 两侧各 ${formatWhole(reach)}，已超过舵盘半个齿。要改善，请把舵盘换一个齿装上。姿态照样能用。`,
-  trimSet: (centre) => `记作 ${formatWhole(centre)}`,
+    `初始位在${formatWhole(home)}；微调最多到${formatWhole(centre)}两侧各${formatWhole(reach)}，已超过舵盘半个齿。要改善，请把舵盘换一个齿装上。姿态照样能用。`,
+  trimSet: (centre) => `记作${formatWhole(centre)}`,
   goOn: '下一步',
   finished: '所有舵机都已校准。',
   done: '完成',

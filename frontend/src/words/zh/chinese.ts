@@ -138,7 +138,7 @@ export const chinese: Words = {
       choose: '选择串口',
       open: (label) => `打开 ${label}`,
       isOpen: (label) => `${label}已打开`,
-      secureLink: '用 127.0.0.1 打开',
+      secureLink: '用127.0.0.1打开',
     },
     gateway: {
       title: '网关',
@@ -175,7 +175,7 @@ export const chinese: Words = {
     hand: '跟手',
     timed: '定时',
     moveTimeAbout: {
-      hand: '跟着指针走。键入的数字、Home 键和 End 键：全程 2 秒。',
+      hand: '跟着指针走。键入的数字、Home 键和 End 键：全程2秒。',
       timed: '每次移动都用这么久。',
     },
     moveTimeField: '移动时间，单位毫秒',
@@ -259,7 +259,7 @@ export const chinese: Words = {
     setSpeed: '设置速度',
     speedHint: '相对于存储时速度的百分比。控制板断电后失效。',
     speedSent: (slot, percent) =>
-      `已请求${slot === null ? '全部槽位' : `槽位${formatWhole(slot)}`}以 ${formatWhole(percent)}% 的速度播放。控制板不会确认。`,
+      `已请求${slot === null ? '全部槽位' : `槽位${formatWhole(slot)}`}以${formatWhole(percent)}%的速度播放。控制板不会确认。`,
     unsure: { download: UNSURE, run: UNSURE, speed: UNSURE, erase: UNSURE },
     absent: {
       download: '这种控制板不能从这里下载动作组。请在页面上播放，或者用厂商的软件写入。',
@@ -307,14 +307,14 @@ export const chinese: Words = {
     field: '十六进制数据包',
     example: '55 55 02 0F',
     hint: '输入一个数据包，看看控制板会怎么理解。',
-    notHex: '只能是完整的十六进制字节：0 到 9 和 A 到 F。',
+    notHex: '只能是完整的十六进制字节：0到9和 A 到 F。',
     consent: '我知道这会做什么',
     send: '发送数据包',
     waits: '已停止。恢复后才能发送。',
   },
 
   refused: (name, value, min, max) =>
-    `${name}：${formatWhole(value)} 超出范围，应在 ${formatWhole(min)} 到 ${formatWhole(max)} 之间。`,
+    `${name}：${formatWhole(value)}超出范围，应在${formatWhole(min)}到${formatWhole(max)}之间。`,
   dismiss: '关闭',
   moreNotices: (count) => `另有${formatWhole(count)}条`,
 };

@@ -13,7 +13,7 @@ import { formatSeconds, formatWhole, unitSymbol } from './numbers.ts';
 /** What a program or a schema said of the file is English, for whoever writes such files: left out. */
 const PROBLEMS: Readonly<Record<ProblemCode, (found: string) => string>> = {
   empty: () => '文件是空的。',
-  tooLarge: () => '文件超过 8 MB，动作组不会这么大。',
+  tooLarge: () => '文件超过8 MB，动作组不会这么大。',
   unreadable: () => '浏览器无法读取它，可能是一个文件夹。',
   unknownFormat: () => '这里打不开这种格式。',
   notOurs: () => '这不是 Servodeck 的动作组文件，或者文件已损坏。',
@@ -21,9 +21,9 @@ const PROBLEMS: Readonly<Record<ProblemCode, (found: string) => string>> = {
   tooManyFrames: (found) => `它有${found}帧，动作组最多10000帧。`,
   cutShort: () => '文件不完整，后面缺了一部分。',
   badMove: (found) => `“${found}”不是舵机和位置，应像“#1 P1500”这样。`,
-  badTime: (found) => `“${found}”不是时间，应是 0 到 65535 的整数毫秒。`,
-  badServo: (found) => `“${found}”不是舵机编号，应在 0 到 255 之间。`,
-  badPosition: (found) => `“${found}”不是位置，应是 0 到 65535 的整数。`,
+  badTime: (found) => `“${found}”不是时间，应是0到65535的整数毫秒。`,
+  badServo: (found) => `“${found}”不是舵机编号，应在0到255之间。`,
+  badPosition: (found) => `“${found}”不是位置，应是0到65535的整数。`,
   unpaired: (found) => `每帧要有一个 ID、一个 Move 和一个 Time，这里有 ${found}。`,
   notClosed: (found) => `<${found}> 没有结束。`,
   encrypted: () => '文件已加密。可以用写它的软件不加密地再存一次。',
@@ -53,19 +53,19 @@ function placed({ place }: Problem | Remark, sentence: string): string {
 }
 
 const span = ({ min, max }: Range): string =>
-  min === max ? formatWhole(min) : `${formatWhole(min)} 到 ${formatWhole(max)}`;
+  min === max ? formatWhole(min) : `${formatWhole(min)}到${formatWhole(max)}`;
 
 const MISFITS: Readonly<Record<MisfitCode, (misfit: Misfit) => string>> = {
   unit: () => '它是为另一种单位的控制板做的。',
   frameCount: ({ values, allowed }) =>
     `控制板最多存${formatWhole(allowed.max)}帧，它有${formatWhole(values.max)}帧。`,
-  slot: ({ values, allowed }) => `控制板的槽位是 ${span(allowed)}，没有 ${formatWhole(values.max)}。`,
-  duration: ({ values, allowed }) => `时间是 ${span(values)} 毫秒，控制板接受 ${span(allowed)} 毫秒。`,
+  slot: ({ values, allowed }) => `控制板的槽位是${span(allowed)}，没有${formatWhole(values.max)}。`,
+  duration: ({ values, allowed }) => `时间是${span(values)}毫秒，控制板接受${span(allowed)}毫秒。`,
   servoCount: ({ values, allowed }) =>
     `同时有${span(values)}个舵机，控制板最多接受${formatWhole(allowed.max)}个。`,
-  servo: ({ servo, allowed }) => `${formatWhole(servo ?? 0)}号舵机不存在，舵机编号是 ${span(allowed)}。`,
+  servo: ({ servo, allowed }) => `${formatWhole(servo ?? 0)}号舵机不存在，舵机编号是${span(allowed)}。`,
   position: ({ servo, values, allowed }) =>
-    `${formatWhole(servo ?? 0)}号舵机要到 ${span(values)}，它只能在 ${span(allowed)} 之间。`,
+    `${formatWhole(servo ?? 0)}号舵机要到${span(values)}，它只能在${span(allowed)}之间。`,
 };
 
 /** So many frames are named; the others are counted. */
@@ -91,7 +91,7 @@ const FORMATS: Readonly<Record<SaveFormat, { readonly name: string; readonly abo
   json: { name: 'Servodeck', about: '保存全部内容，以后可以接着编辑。' },
   xml: { name: 'XML', about: '用于 uHand 和 LeArm 的软件。uHand 只打开每帧六个舵机的文件。' },
   d6a: { name: '.d6a', about: '用于 TonyPi、SpiderPi、MasterPi、ArmPi 和 AiNex。' },
-  rob: { name: '.rob', about: '用于总线舵机控制软件，1 到 40 号总线舵机。' },
+  rob: { name: '.rob', about: '用于总线舵机控制软件，1到40号总线舵机。' },
   csv: { name: 'CSV', about: '用于电子表格，每帧一行。' },
   python: { name: 'Python', about: '通过串口播放的程序，需要 pyserial。' },
   arduino: { name: 'Arduino', about: '引脚接地时播放的程序。' },
@@ -130,7 +130,7 @@ export const fileWords: typeof english = {
     const range = `${span(UNIT_RANGE[unit])} ${unitSymbol(unit)}`;
     if (positions === null) return range;
     const fit = outside === 0 ? '全部合适' : `${formatWhole(outside)}个不合适`;
-    return `${range}。这里是 ${span(positions)}，${fit}。`;
+    return `${range}。这里是${span(positions)}，${fit}。`;
   },
   convert: '换算成步数：（微秒 − 500）÷ 2，取整',
 

@@ -9,7 +9,7 @@ export const firstMoveWords: typeof english = {
     `正在逐个缓慢启动，还未启动：${servos.length > MOST_NAMED ? `${formatCount(servos.length)}个` : `${formatList(servos)}号`}舵机。`,
   guess: '上次位置',
   guessed: (position) => `${position}?`,
-  guessedValue: (position) => `未知；上次位置 ${position}。第一次移动很慢。`,
+  guessedValue: (position) => `未知；上次位置${position}。第一次移动很慢。`,
   goToGuess: '回到上次的姿势',
   goToGuessHint: '舵机逐个缓慢移动到本页面上次发给这块控制板的位置',
 };

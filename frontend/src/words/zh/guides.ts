@@ -8,7 +8,7 @@ const EVERYWHERE = [
 ] as const;
 
 const HID_BOARDS =
-  'LSC 控制板、总线舵机控制板和 xArm 自带的 USB 线不是串口。请用它的 4 针接口（GND、TX、RX），接一个 5 V 或 3.3 V 的 USB 转 TTL 模块。';
+  'LSC 控制板、总线舵机控制板和 xArm 自带的 USB 线不是串口。请用它的4针接口（GND、TX、RX），接一个5 V 或3.3 V 的 USB 转 TTL 模块。';
 
 export const guideWords: typeof english = {
   title: '列表里没有？',
@@ -28,7 +28,7 @@ export const guideWords: typeof english = {
     ],
     macos: [
       ...EVERYWHERE,
-      '串口的名字类似 “cu.usbserial-110” 或 “cu.wchusbserial110”。macOS 从 10.15 起自带驱动；厂商的旧驱动可能会冲突，可以卸载。',
+      '串口的名字类似 “cu.usbserial-110” 或 “cu.wchusbserial110”。macOS 从10.15起自带驱动；厂商的旧驱动可能会冲突，可以卸载。',
       '如果 macOS 询问是否允许连接配件，请允许。',
       HID_BOARDS,
     ],

@@ -28,10 +28,10 @@ export const identityWords: typeof english = {
   change: '更换控制板',
   thisBoard: '当前控制板',
   notThis: '重新询问',
-  version: (version) => `固件版本 ${formatWhole(version)}`,
+  version: (version) => `固件版本${formatWhole(version)}`,
   offsets: (offsets) => {
     const set = offsets.filter(({ offset }) => offset !== 0);
-    const list = set.map(({ servo, offset }) => `${formatWhole(servo)}号舵机 ${formatWhole(offset)}`);
+    const list = set.map(({ servo, offset }) => `${formatWhole(servo)}号舵机是${formatWhole(offset)}`);
     return set.length === 0 ? '所有舵机都没有偏差' : `偏差：${list.join('，')}`;
   },
   askDetails: '询问版本和偏差',

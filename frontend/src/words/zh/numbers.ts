@@ -1,4 +1,5 @@
-// Numbers in Chinese, which leaves no gap before a unit that it writes out.
+// Numbers in Chinese, which leaves no gap before a unit that it writes out. Nor is a space typed between any number and the
+// characters around it: the gap that readers want there is the browser's (text-autospace), as wide everywhere.
 
 import type { numbers as english } from '../en/numbers.ts';
 import { numbersIn } from '../numbers.ts';

@@ -28,7 +28,7 @@ function commandWords(command: Command | null, bytes: Uint8Array): string {
     case 'download':
       return downloadWords(command);
     case 'setSpeed':
-      return `${command.slot === null ? '全部槽位' : `槽位${formatWhole(command.slot)}`}的速度设为 ${formatWhole(command.percent)}%`;
+      return `${command.slot === null ? '全部槽位' : `槽位${formatWhole(command.slot)}`}的速度设为${formatWhole(command.percent)}%`;
     case 'release':
       return `卸力：${servoWords(command.servos)}`;
     case 'readPositions':
@@ -60,7 +60,7 @@ function reportWords(report: Report): string {
     case 'erased':
       return '全部槽位已擦除';
     case 'battery':
-      return `电池 ${formatVolts(report.batteryMv)}`;
+      return `电池${formatVolts(report.batteryMv)}`;
     case 'frameStored':
       return '一帧已处理';
     case 'positions':
@@ -125,9 +125,9 @@ function refusalWords(reason: RawRefusal, board: string): string {
     case 'noHeader':
       return '数据包以 55 55 开头';
     case 'shortLength':
-      return `LEN ${formatWhole(reason.length)} 太小；它包括自身和指令，所以至少是 2`;
+      return `LEN ${formatWhole(reason.length)}太小；它包括自身和指令，所以至少是2`;
     case 'longLength':
-      return `LEN ${formatWhole(reason.length)} 太大；${board}最多接受 ${formatWhole(reason.limit)}`;
+      return `LEN ${formatWhole(reason.length)}太大；${board}最多接受${formatWhole(reason.limit)}`;
     case 'tooLong':
       return `太长：比 LEN 多${bytesWords(reason.extra)}`;
     case 'neverSend':

@@ -25,5 +25,5 @@ export function rangeText({ field, value, min, max, servo }: RangeRefusal): stri
   const what = servo === undefined ? FIELDS[field] : `${formatWhole(servo)}号舵机的${FIELDS[field]}`;
   if (min === undefined || max === undefined)
     return field === 'servo' ? `${formatWhole(Number(value))}号舵机出现了两次` : `不支持${what} ${value}`;
-  return `${what}是 ${value}，应在 ${formatWhole(min)} 到 ${formatWhole(max)} 之间`;
+  return `${what}是${value}，应在${formatWhole(min)}到${formatWhole(max)}之间`;
 }

@@ -76,7 +76,7 @@ function flawText(flaw: RobotFileFlaw): string {
     case 'servoTwice':
       return `${formatWhole(flaw.servo)}号舵机出现了两次`;
     case 'alarmNotBelow':
-      return `报警电压 ${formatWhole(flaw.alarmMv)} mV 不低于提醒电压 ${formatWhole(flaw.warnMv)} mV`;
+      return `报警电压${formatWhole(flaw.alarmMv)} mV 不低于提醒电压${formatWhole(flaw.warnMv)} mV`;
     case 'servo':
       return `${flaw.servo.name}（${formatWhole(flaw.servo.servo)}号舵机）${servoFlawText(flaw.flaw)}`;
   }
@@ -85,21 +85,21 @@ function flawText(flaw: RobotFileFlaw): string {
 function servoFlawText(flaw: ServoFlaw): string {
   switch (flaw.code) {
     case 'number':
-      return `的编号应在 ${rangeText(flaw.range)} 之间`;
+      return `的编号应在${rangeText(flaw.range)}之间`;
     case 'minNotBelowMax':
-      return `的最低位置 ${formatWhole(flaw.min)} 不低于最高位置 ${formatWhole(flaw.max)}`;
+      return `的最低位置${formatWhole(flaw.min)}不低于最高位置${formatWhole(flaw.max)}`;
     case 'home':
-      return `的初始位 ${formatWhole(flaw.value)} 不在 ${rangeText(flaw.range)} 之间`;
+      return `的初始位${formatWhole(flaw.value)}不在${rangeText(flaw.range)}之间`;
     case 'trim':
-      return `的微调 ${formatWhole(flaw.value)} 不在 ${rangeText(flaw.range)} 之间`;
+      return `的微调${formatWhole(flaw.value)}不在${rangeText(flaw.range)}之间`;
     case 'beyondBoard':
-      return `加上微调后超出控制板的范围 ${rangeText(flaw.range)}`;
+      return `加上微调后超出控制板的范围${rangeText(flaw.range)}`;
     case 'noMirror':
       return `的镜像，${formatWhole(flaw.mirror)}号舵机，不存在`;
   }
 }
 
-const rangeText = ({ min, max }: Range): string => `${formatWhole(min)} 到 ${formatWhole(max)}`;
+const rangeText = ({ min, max }: Range): string => `${formatWhole(min)}到${formatWhole(max)}`;
 
 export const robotWords: typeof english = {
   notSaved: '浏览器不能保存机器人；关闭页面前它们一直在。',

@@ -20,7 +20,7 @@ export const servoPanelWords: typeof english = {
   places: '身体上的舵机',
   arrange: '摆放',
   placeOf: (name, joint, x, y) =>
-    `${name}${joint === name ? '' : `，${joint}`}，横向 ${formatWhole(x)}%，纵向 ${formatWhole(y)}%`,
+    `${name}${joint === name ? '' : `，${joint}`}，横向${formatWhole(x)}%，纵向${formatWhole(y)}%`,
   placeStep: (servo) => `${formatWhole(servo)}号舵机的摆放`,
   atHandHint: '点身体上的舵机来移动它。',
   selection: '所选舵机',
@@ -44,7 +44,7 @@ export const servoPanelWords: typeof english = {
   showHidden: (count) => `显示隐藏的${formatCount(count)}个`,
   fold: (group, count) => `${group}，${formatCount(count)}个舵机`,
   noGroup: '其他',
-  refused: (name, value, min, max) => `${name}：${value} 超出范围，应在 ${min} 到 ${max} 之间。`,
+  refused: (name, value, min, max) => `${name}：${value}超出范围，应在${min}到${max}之间。`,
   sending: (packetsPerSecond, waiting) =>
     `每秒${formatWhole(packetsPerSecond)}包，${formatWhole(waiting)}个等待`,
   sendingHint: '最近一秒发送的数据包；最新目标尚未发出的舵机数',

@@ -68,7 +68,7 @@ export const slotWords: typeof english = {
       ? buttons[trigger.button]
       : { select: 'SELECT', key: '按键', chain: '接续' }[trigger.kind],
   stored: (name, when, count, durationMs, version) =>
-    `${name === '' ? '无名称' : name}，${frameCount(count)}，${formatSeconds(durationMs)}，下载于${when}，版本 ${version}`,
+    `${name === '' ? '无名称' : name}，${frameCount(count)}，${formatSeconds(durationMs)}，下载于${when}，版本${version}`,
   run: '运行',
   compare: '比较',
   same: '控制板上的副本与这个页面上的动作组相同。',
