@@ -24,6 +24,7 @@ class Access:
     scheme: Scheme
     port: int
     names: frozenset[str]
+    listens_at: str = "0.0.0.0"
 
     @property
     def needs_pairing(self) -> bool:
@@ -67,11 +68,11 @@ def local(port: int) -> Access:
     return Access("local", "http", port, LOOPBACK)
 
 
-def lan(port: int, host_name: str | None = None) -> Access:
+def lan(port: int, host_name: str | None = None, *, listens_at: str = "0.0.0.0") -> Access:
     """This computer's own names and whatever address of its own a connection came in at."""
     name = (host_name or socket.gethostname()).lower()
     own = {name, f"{name.partition('.')[0]}.local", MDNS_NAME}
-    return Access("lan", "http", port, LOOPBACK | {one for one in own if is_name(one)})
+    return Access("lan", "http", port, LOOPBACK | {one for one in own if is_name(one)}, listens_at)
 
 
 def behind_proxy(url: str) -> Access:

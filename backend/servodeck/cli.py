@@ -124,11 +124,11 @@ def serve(
     proxied = parse_public_url(public_url) if public_url else None
     listener = bind(*parse_listen(listen or (LAN_LISTEN if lan else DEFAULT_LISTEN), lan=lan))
     folder = data or data_folder()
-    by_address = access.lan if lan else access.local
-    entrance = entrance_to(proxied or by_address(listener.getsockname()[1]), folder)
+    host, port = listener.getsockname()[:2]
+    by_address = access.lan(port, listens_at=host) if lan else access.local(port)
+    entrance = entrance_to(proxied or by_address, folder)
     log = set_up_logs(log_level, log_format)
     url = url_of(listener)
-    host = listener.getsockname()[0]
 
     def reachable() -> list[str]:
         return access.answered_at(host, access.lan_addresses())

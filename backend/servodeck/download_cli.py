@@ -73,9 +73,13 @@ def followed(remote: Remote, job: dict[str, Any], *, tells: bool) -> dict[str, A
 def words_of(job: dict[str, Any]) -> str:
     stored, count = job["groupsStored"], len(job["slots"])
     if job["status"] == "running":
-        return f"Begun: job {job['id']}, {count} groups, {job['frameCount']} frames."
-    end = f"{stored} of {count} groups are stored."
+        return f"Begun: job {job['id']}, {counted(count, 'group')}, {counted(job['frameCount'], 'frame')}."
+    end = f"{stored} of {counted(count, 'group')} {'is' if count == 1 else 'are'} stored."
     return end if job["status"] == "done" else f"{end} {job['detail']} ({job['code']})"
+
+
+def counted(count: int, thing: str) -> str:
+    return f"{count} {thing}{'' if count == 1 else 's'}"
 
 
 def group_of(text: str) -> dict[str, Any]:

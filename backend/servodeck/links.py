@@ -8,14 +8,14 @@ import io
 
 import segno
 
-from servodeck.access import LOOPBACK, Access, lan_addresses
+from servodeck.access import LOOPBACK, Access, answered_at, lan_addresses
 
 QUIET_MODULES = 3
 
 
 def link_base(access: Access, host: str) -> str:
     """An address that other devices can reach: the one that whoever invites came by, if it is not this
-    computer's own.
+    computer's own, or if no other one answers.
     """
     if access.mode == "lan" and any(host == access.host_of(name) for name in LOOPBACK):
         return next(iter(reachable_urls(access)), f"{access.scheme}://{host}")
@@ -23,7 +23,7 @@ def link_base(access: Access, host: str) -> str:
 
 
 def reachable_urls(access: Access) -> list[str]:
-    return [access.url_of(address) for address in lan_addresses()]
+    return [access.url_of(address) for address in answered_at(access.listens_at, lan_addresses())]
 
 
 def pair_link(base: str, secret: str) -> str:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from servodeck import access
+from servodeck import access, links
 from servodeck.access import bracketed, lan_addresses
 
 
@@ -74,3 +74,15 @@ def test_addresses_as_a_host_header_has_them() -> None:
 )
 def test_only_addresses_that_answer_are_named_to_others(host: str, told: list[str]) -> None:
     assert access.answered_at(host, ["192.168.1.5", "10.0.0.2"]) == told
+
+
+@pytest.mark.parametrize(
+    ("listens_at", "named"),
+    [("0.0.0.0", "http://192.0.2.7:8300"), ("192.0.2.7", "http://192.0.2.7:8300"), ("127.0.0.1", "")],
+)
+def test_an_invitation_names_an_address_that_answers(
+    listens_at: str, named: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(links, "lan_addresses", lambda: ["192.0.2.7"])
+    own = "127.0.0.1:8300"
+    assert links.link_base(access.lan(8300, listens_at=listens_at), own) == (named or f"http://{own}")

@@ -82,6 +82,7 @@ def test_several_files_go_to_their_slots(served: Served, board: Board, tmp_path:
         "2 of 2 groups are stored.",
     ]
     assert board.stored == [(5, 0), (5, 1), (7, 0)]
+    assert run("download", f"7={bow}", "--url", served.url).stdout.endswith("\n1 of 1 group is stored.\n")
     told = json.loads(run("download", f"5={wave}", "--url", served.url, "--json").stdout)
     assert (told["status"], told["name"]) == ("done", "wave")
 
@@ -91,6 +92,7 @@ def test_it_may_go_on_without_the_command(served: Served, board: Board, tmp_path
     begun = run("download", f"5={wave}", "--no-wait", "--url", served.url)
     assert begun.exit_code == 0
     assert begun.stdout.startswith("Begun: job ")
+    assert begun.stdout.endswith(", 1 group, 40 frames.\n")
     second = run("download", f"6={wave}", "--url", served.url)
     assert (second.exit_code, "(busy)" in second.stderr) == (REFUSED, True)
     assert run("stop", "--url", served.url).exit_code == 0
