@@ -20,10 +20,11 @@ from servodeck.driving import name_of
 from servodeck.errors import ErrorCode, OutOfRangeError
 from servodeck.gate import judge_script
 from servodeck.latch import Cause
-from servodeck.messages import Message, PortState, UnattendedRun
 from servodeck.packets import FAMILIES
 from servodeck.ports import lasting_of, list_devices
 from servodeck.roles import DRIVER, OWNER, STOPPER, VIEWER
+from servodeck.schema import Message
+from servodeck.told import PortState, UnattendedRun
 
 
 class Problem(Message):

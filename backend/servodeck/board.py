@@ -19,13 +19,13 @@ from servodeck.gate import STOP, is_harmless, judge_packet
 from servodeck.inbox import Inbox
 from servodeck.jobs import Jobs
 from servodeck.link import Link, Ports
-from servodeck.messages import JobState, PortState
 from servodeck.motion import Motion
 from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command, parse_report
 from servodeck.parts import Part
 from servodeck.ports import OpenPort
 from servodeck.silence import Silence
 from servodeck.slot_memory import SlotMemory
+from servodeck.told import JobState, PortState
 from servodeck.unattended import Unattended
 from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire
 

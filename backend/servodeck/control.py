@@ -6,7 +6,6 @@ Knows what is asked and what may be done now. Must not know HTTP, WebSockets or 
 import contextlib
 from collections.abc import Callable, Sequence
 
-from servodeck import __version__
 from servodeck.board import Board
 from servodeck.callers import Caller
 from servodeck.decoder import COMMAND_AT
@@ -35,15 +34,10 @@ from servodeck.link import Ports
 from servodeck.messages import (
     HaltedMessage,
     JobMessage,
-    JobState,
-    Message,
     NoiseMessage,
     ReceivedMessage,
     ResumedMessage,
     RobotMessage,
-    StateMessage,
-    WelcomeMessage,
-    encode,
 )
 from servodeck.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command
 from servodeck.parts import Part, judge_parts
@@ -53,6 +47,8 @@ from servodeck.remembered import Remembered
 from servodeck.robot import RobotLimits
 from servodeck.robot_of_board import ReadFacts, RobotOfBoard, no_robot
 from servodeck.slot_memory import SlotMemory
+from servodeck.telling import Telling
+from servodeck.told import JobState
 from servodeck.wire import Job, Left, Owner, always
 
 SOMEBODY = Cause("person")
@@ -81,7 +77,7 @@ class Control:
         """
         self.named_device = named_device
         self.now = now
-        self._latch = Latch(self._tell_state)
+        self._latch = Latch(self._latch_changed)
         self.limits = RobotLimits()
         self.remembered = remembered or Remembered()
         self._recalled_board = RecalledBoard(self.remembered, is_wanted=recalls_board)
@@ -91,6 +87,7 @@ class Control:
         simulated_device = named_device if simulated else None
         self.board = Board(ports, now, board, simulated_device, slot_memory or SlotMemory(), self)
         self._relay = Relay(self.hub, now)
+        self._telling = Telling(self.hub, self.board, self._latch, self.robot, self.driving, now)
         self._halting: Left | None = None
 
     @property
@@ -103,8 +100,8 @@ class Control:
     def join(self, seat: Seat) -> None:
         """The welcome is the seat's first message."""
         self.hub.join(seat)
-        seat.put(encode(self._welcome(seat)))
-        self._tell_state(but=seat)
+        self._telling.welcome(seat)
+        self._telling.state(but=seat)
         self.driving.seated(seat)
 
     def leave(self, seat: Seat) -> None:
@@ -114,7 +111,7 @@ class Control:
         self.driving.leave(seat)
         self.driving.seated(seat)
         self._relay.forget(seat)
-        self._tell_state()
+        self._telling.state()
 
     def send(self, owner: Owner, packet_hex: str, nonce: str | None = None, *, newest: bool = False) -> Left:
         """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving. What
@@ -157,7 +154,7 @@ class Control:
         if port.status == "lost":
             raise PortLostError(port.detail or "The serial port is gone.")
         if self._latch.open():
-            self._tell(ResumedMessage(by=caller.name), but=seat)
+            self._telling.everybody(ResumedMessage(by=caller.name), but=seat)
 
     def name_board(self, seat: Seat, board: str) -> None:
         """Raises NotDrivingError where somebody else drives whatever else it was."""
@@ -174,7 +171,7 @@ class Control:
         if board != self.board.taken_for:
             self.board.take_for(board)
             self._recalled_board.said(self.board)
-        self._tell_state()
+        self._telling.state()
         self._see_robot()
 
     def let_go_on(self, seat: Seat, for_ms: int | None) -> None:
@@ -242,11 +239,11 @@ class Control:
         self._latch.cause = Cause("loss")  # the change of the port's state follows and tells both
 
     def board_changed(self) -> None:
-        self._tell_state()
+        self._telling.state()
         self._see_robot()
 
     def job_changed(self, state: JobState) -> None:
-        self._tell(JobMessage(job=state))
+        self._telling.everybody(JobMessage(job=state))
 
     def time_alone_over(self) -> None:
         self._end_quietly(CancelledError("The time in which it might go on alone is over."))
@@ -254,7 +251,7 @@ class Control:
     def received(self, event: DecoderEvent) -> None:
         is_packet = isinstance(event, PacketEvent)
         text = event.bytes.hex()
-        self._tell(ReceivedMessage(packet=text) if is_packet else NoiseMessage(bytes=text))
+        self._telling.everybody(ReceivedMessage(packet=text) if is_packet else NoiseMessage(bytes=text))
 
     def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
         self._relay.leaving(owner, packet, at_s)
@@ -309,52 +306,20 @@ class Control:
         with contextlib.suppress(GatewayError):
             self.stop(None, cause=Cause("silence"))
 
-    def _welcome(self, seat: Seat) -> Message:
-        return WelcomeMessage(
-            version=__version__,
-            board=self.board.taken_for,
-            port=self.board.port,
-            latch=self.latch,
-            latched_by=self._latch.by,
-            stopped_by=self._latch.name,
-            clients=len(self.hub),
-            unattended=self.board.unattended.told(),
-            robot=self.robot.told(),
-            lease=self.driving.state_for(seat),
-            broken_slots=self.board.broken_slots,
-            slot_versions=self.board.slot_versions,
-            job=self.board.jobs.latest,
-            motion=self.board.motion.told(self.now()),
-        )
-
-    def _tell_state(self, but: Seat | None = None) -> None:
-        state = StateMessage(
-            board=self.board.taken_for,
-            port=self.board.port,
-            latch=self.latch,
-            latched_by=self._latch.by,
-            stopped_by=self._latch.name,
-            clients=len(self.hub),
-            unattended=self.board.unattended.told(),
-            broken_slots=self.board.broken_slots,
-            slot_versions=self.board.slot_versions,
-        )
-        self.hub.tell_all(encode(state), but)
-
-    def _tell(self, message: Message, but: Seat | None = None) -> None:
-        self.hub.tell_all(encode(message), but)
-
     def _see_robot(self) -> None:
         link = self.board.link
         if link.state.status == "open":
             self.robot.stands_on(self.board.taken_for, link.place)
 
+    def _latch_changed(self) -> None:
+        self._telling.state()
+
     def _robot_changed(self) -> None:
-        self._tell(RobotMessage(robot=self.robot.told()))
+        self._telling.everybody(RobotMessage(robot=self.robot.told()))
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
-            self._tell(HaltedMessage())
+            self._telling.everybody(HaltedMessage())
 
 
 def is_run(job: Job) -> bool:

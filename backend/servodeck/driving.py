@@ -11,7 +11,8 @@ from servodeck.errors import NotDrivingError, NotFoundError
 from servodeck.hub import Hub, Seat
 from servodeck.intake import SHORTEST_WAIT_S
 from servodeck.lease import BEAT_S, GONE_S, Lease, LeaseEvents, Permit
-from servodeck.messages import Candidate, LeaseAction, LeaseState, LeaseToldMessage, TickMessage, encode
+from servodeck.messages import LeaseAction, LeaseToldMessage, TickMessage, encode
+from servodeck.told import Candidate, LeaseState
 
 # A timer so late means that this process was held up. What the driver said meanwhile waits to be read, and a
 # tick that was not sent could not be answered: before a silence is judged, one is sent, and so long waited.

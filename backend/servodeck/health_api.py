@@ -13,9 +13,10 @@ from servodeck import __version__, metrics
 from servodeck.api import Controlled, called_by_own_page
 from servodeck.control import Control
 from servodeck.disk import Disk
-from servodeck.messages import Message, PortState, PortStatus
 from servodeck.pulse import Pulse
 from servodeck.roles import ANYBODY, VIEWER
+from servodeck.schema import Message
+from servodeck.told import PortState, PortStatus
 
 # Far above what a busy small computer shows, far below what a person at a slider would not notice.
 LATE_S = 0.25

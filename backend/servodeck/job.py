@@ -8,9 +8,9 @@ import secrets
 from collections.abc import Callable, Sequence
 
 from servodeck.errors import GatewayError
-from servodeck.messages import JobState
 from servodeck.parts import Part
 from servodeck.tally import Tally
+from servodeck.told import JobState
 from servodeck.wire import Wire
 
 

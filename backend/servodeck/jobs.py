@@ -21,9 +21,9 @@ from servodeck.errors import (
     SlotChangedError,
 )
 from servodeck.job import Job
-from servodeck.messages import JobState
 from servodeck.parts import Part
 from servodeck.slot_memory import SlotMemory
+from servodeck.told import JobState
 from servodeck.values import Command, Erase, Erased, Report, Run
 from servodeck.wire import Wire
 

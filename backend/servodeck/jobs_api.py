@@ -10,10 +10,12 @@ from pydantic import Field
 
 from servodeck.api import Controlled, Problem, called_by_own_page
 from servodeck.callers import Caller
-from servodeck.messages import JobState, Message, Nonce
+from servodeck.messages import Nonce
 from servodeck.motion_api import Scripted, Servo, Take
 from servodeck.parts import Group, parts_of
 from servodeck.roles import DRIVER, VIEWER
+from servodeck.schema import Message
+from servodeck.told import JobState
 from servodeck.values import Frame, ServoTarget
 
 

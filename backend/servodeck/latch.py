@@ -4,7 +4,7 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from servodeck.messages import LatchedBy
+from servodeck.told import LatchedBy
 
 log = logging.getLogger("servodeck.robot")
 

@@ -10,7 +10,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, TypeAdapter
 
-from servodeck.messages import Message, ServoLimits, schema_of
+from servodeck.schema import Message, schema_of
+from servodeck.told import ServoLimits
 
 MAX_SAFE = 2**53 - 1
 MAX_TEXT = 2 * 1024 * 1024

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from servodeck.errors import CancelledError, ClosedError, PortError, PortLostError
-from servodeck.messages import PortState
 from servodeck.ports import OpenPort
+from servodeck.told import PortState
 from servodeck.whereabouts import UsbDevice, Whereabouts
 from servodeck.wire import Wire, fail, settle
 

@@ -1,4 +1,4 @@
-"""What the gateway and its clients say to each other, as strict models: unknown fields are refused.
+"""What the gateway and its clients say to each other over the WebSocket.
 
 The only description of these messages: `python -m servodeck.messages` prints the JSON schema from which the
 page's types are generated. Knows no socket and no rule about who may say what.
@@ -8,11 +8,20 @@ import json
 import sys
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
-from pydantic.alias_generators import to_camel
-from pydantic.json_schema import GenerateJsonSchema
+from pydantic import Field, TypeAdapter
 
 from servodeck.errors import ErrorCode
+from servodeck.schema import Message, schema_of
+from servodeck.told import (
+    JobState,
+    LatchedBy,
+    LeaseState,
+    MotionTold,
+    PortState,
+    RobotTold,
+    ServoNumber,
+    UnattendedRun,
+)
 
 # A packet is 255 bytes at most; one more is let in so that the gate can say what is wrong with it.
 Hex = Annotated[
@@ -23,115 +32,8 @@ MessageId = Annotated[
 ]
 
 
-class Message(BaseModel):
-    model_config = ConfigDict(
-        strict=True,
-        extra="forbid",
-        frozen=True,
-        alias_generator=to_camel,
-        populate_by_name=True,
-        serialize_by_alias=True,
-        json_schema_serialization_defaults_required=True,
-    )
-
-
-PortStatus = Literal["closed", "opening", "open", "lost"]
-
-
 LeaseAction = Literal["request", "release", "take", "refuse"]
 Nonce = Annotated[str, Field(max_length=40, description="Of the latest `tick`: shows how old this is.")]
-
-
-class Candidate(Message):
-    """Somebody who is here and may drive."""
-
-    id: str
-    name: str
-
-
-class LeaseState(Message):
-    """Who drives and who asks to, by name; `drives` and `asks`: that is this client. `answerInMs`: how long
-    the driver may still refuse. `givenBy`: who handed it to this client, which drives. `candidates`: whom
-    this client may hand it to.
-    """
-
-    driver: str | None
-    drives: bool
-    asker: str | None
-    asks: bool
-    answer_in_ms: int | None
-    may_drive: bool
-    may_take: bool
-    given_by: str | None
-    candidates: list[Candidate]
-
-
-class PortState(Message):
-    """How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
-    follows. `simulated` where the device was declared to be no real board.
-    """
-
-    device: str | None
-    status: PortStatus
-    simulated: bool = False
-    code: ErrorCode | None = None
-    detail: str | None = None
-    retry_in_ms: int | None = None
-
-
-class UnattendedRun(Message):
-    """A run that may go on without its driver `by`, for so long at most."""
-
-    slot: int
-    times: int
-    by: str
-    ends_in_ms: int
-
-
-class ServoWay(Message):
-    """A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`
-    is null where nobody knows where it began.
-    """
-
-    servo: int
-    start: float | None
-    target: int
-    begun_ms_ago: float
-    duration_ms: float
-
-
-class MotionTold(Message):
-    """Where packets have taken the servos since the port opened; of one that is not named nobody knows the
-    place. `runSlot`: the group that may run.
-    """
-
-    servos: list[ServoWay]
-    run_slot: int | None
-
-
-JobStatus = Literal["running", "done", "failed", "cancelled"]
-
-
-class JobState(Message):
-    """A download and how far it is. `slots`: where its groups go, in this order; `slot` and `name`: of the
-    one that is being stored, or was last; frames and bytes are of all of them. `by`: who began it. `code` and
-    `detail` say why it failed or was cancelled.
-    """
-
-    id: str
-    by: str
-    status: JobStatus
-    slots: list[int]
-    groups_stored: int
-    slot: int
-    name: str
-    frames_stored: int
-    frame_count: int
-    bytes_sent: int
-    bytes_total: int
-    remaining_ms: int
-    code: ErrorCode | None = None
-    detail: str | None = None
 
 
 class SendMessage(Message):
@@ -167,25 +69,6 @@ class BoardMessage(Message):
 
     type: Literal["board"]
     board: Annotated[str, Field(max_length=64)]
-
-
-ServoNumber = Annotated[int, Field(ge=1, le=253)]
-
-
-class ServoLimits(Message):
-    """How far a servo may be turned, in its board's unit, and what people call it."""
-
-    servo: ServoNumber
-    name: Annotated[str, Field(min_length=1, max_length=64)]
-    min: Annotated[int, Field(ge=0, le=65535)]
-    max: Annotated[int, Field(ge=0, le=65535)]
-
-
-class RobotTold(Message):
-    """The robot on the board: which document of the library, at which revision; 0 while it is read."""
-
-    id: str
-    revision: int
 
 
 class CalibrateMessage(Message):
@@ -247,10 +130,6 @@ AnyClientMessage = (
     | BeatMessage
 )
 ClientMessage = Annotated[AnyClientMessage, Field(discriminator="type")]
-
-
-LatchedBy = Literal["person", "silence", "loss"]
-"""Somebody pressed STOP; a driver was not heard while the robot moved; the port went away."""
 
 
 class WelcomeMessage(Message):
@@ -400,31 +279,6 @@ gateway_message: TypeAdapter[Any] = TypeAdapter(GatewayMessage)
 
 def encode(message: Message) -> str:
     return message.model_dump_json()
-
-
-class PlainSchema(GenerateJsonSchema):
-    """Without a title for each field, which would become a type name of its own in TypeScript."""
-
-    def field_title_should_be_set(self, _schema: Any) -> bool:
-        return False
-
-
-def schema_of(title: str, read: dict[str, Any], written: dict[str, Any]) -> dict[str, Any]:
-    """One schema whose $defs hold those named types and all they consist of."""
-    types = [(name, "validation", TypeAdapter(each)) for name, each in read.items()]
-    types += [(name, "serialization", TypeAdapter(each)) for name, each in written.items()]
-    names, definitions = TypeAdapter.json_schemas(
-        types,  # type: ignore[arg-type]
-        ref_template="#/$defs/{model}",
-        schema_generator=PlainSchema,
-    )
-    unions = {name: {**schema, "title": name} for (name, _mode), schema in names.items()}
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": title,
-        "oneOf": [{"$ref": f"#/$defs/{name}"} for name in unions],
-        "$defs": {**definitions["$defs"], **unions},
-    }
 
 
 def json_schema() -> dict[str, Any]:

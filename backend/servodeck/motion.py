@@ -12,8 +12,8 @@ from math import inf
 
 from servodeck.families import Family
 from servodeck.hearing import Hearing
-from servodeck.messages import MotionTold, ServoWay
 from servodeck.packets import Report, encode, parse_command
+from servodeck.told import MotionTold, ServoWay
 from servodeck.values import (
     Command,
     Move,

@@ -11,9 +11,11 @@ from starlette.requests import HTTPConnection
 
 from servodeck.api import Problem, called_by_own_page
 from servodeck.callers import Caller
-from servodeck.messages import ContinueMs, LeaseState, Message, PersonId
+from servodeck.messages import ContinueMs, PersonId
 from servodeck.roles import DRIVER, OWNER
+from servodeck.schema import Message
 from servodeck.scripts import RunOutcome, ScriptAction, Scripts
+from servodeck.told import LeaseState
 
 Servo = Annotated[str, Field(pattern=r"^[1-9][0-9]{0,2}$")]
 Take = Annotated[bool, Field(description="An owner's: without asking whoever drives.")]

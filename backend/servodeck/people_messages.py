@@ -13,7 +13,7 @@ from pydantic import Field
 from servodeck.access import Mode
 from servodeck.callers import Role
 from servodeck.devices import Kind
-from servodeck.messages import Message, schema_of
+from servodeck.schema import Message, schema_of
 
 PersonRole = Literal["viewer", "driver", "owner"]
 Name = Annotated[str, Field(max_length=64, pattern=r"^[^\x00-\x1f\x7f]*$")]

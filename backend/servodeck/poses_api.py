@@ -14,9 +14,9 @@ from servodeck.errors import NotFoundError, OutOfRangeError
 from servodeck.families import Family
 from servodeck.library_messages import Name, NamedPose
 from servodeck.limits import UNITS
-from servodeck.messages import Message
 from servodeck.motion_api import Driving, MoveBegun, Scripted, Take, begin_move
 from servodeck.roles import VIEWER
+from servodeck.schema import Message
 
 
 class Poses(Message):

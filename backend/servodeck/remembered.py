@@ -10,7 +10,7 @@ from typing import Annotated
 
 from pydantic import Field, ValidationError
 
-from servodeck.messages import Message
+from servodeck.schema import Message
 from servodeck.small_file import FileBehind
 
 FILE = "remembered.json"

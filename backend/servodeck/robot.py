@@ -7,8 +7,8 @@ come here; this holds for every program that moves the robot.
 from collections.abc import Iterable, Sequence
 
 from servodeck.errors import MovingError, OutOfRangeError
-from servodeck.messages import ServoLimits
 from servodeck.packets import parse_command
+from servodeck.told import ServoLimits
 from servodeck.values import Command, Move, ServoTarget
 from servodeck.wire import Owner
 

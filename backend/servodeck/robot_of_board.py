@@ -10,9 +10,9 @@ from collections.abc import Callable
 from servodeck.background import in_thread
 from servodeck.errors import ConflictError, GatewayError, NotFoundError, OutOfRangeError
 from servodeck.library_messages import RobotFacts
-from servodeck.messages import RobotTold
 from servodeck.remembered import Remembered
 from servodeck.robot import RobotLimits
+from servodeck.told import RobotTold
 
 ReadFacts = Callable[[str], tuple[RobotFacts, int]]
 """Of a robot outside the trash, with its revision. Blocks; raises a GatewayError."""

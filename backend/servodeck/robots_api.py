@@ -8,8 +8,8 @@ from servodeck.api import Controlled, Problem, called_by_own_page
 from servodeck.callers import Caller
 from servodeck.errors import NotDrivingError
 from servodeck.library_messages import Id
-from servodeck.messages import Message
 from servodeck.roles import DRIVER
+from servodeck.schema import Message
 
 
 class RobotChoice(Message):

@@ -17,9 +17,9 @@ from servodeck.errors import CancelledError, MovingError, NoAnswerError, OutOfRa
 from servodeck.families import Family
 from servodeck.gate import judge_latch
 from servodeck.hub import Seat
-from servodeck.messages import JobState, LeaseState
 from servodeck.parts import Part
 from servodeck.script_moves import packet_of, plan_move
+from servodeck.told import JobState, LeaseState
 from servodeck.values import Erase, Erased, Run, RunAccepted, RunStarted
 from servodeck.wire import Left
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from servodeck.hub import Seat
-from servodeck.messages import UnattendedRun
+from servodeck.told import UnattendedRun
 from servodeck.values import Run
 
 

@@ -12,8 +12,8 @@ import pytest
 from servodeck import download, jobs
 from servodeck.callers import Caller
 from servodeck.control import Control
-from servodeck.messages import JobState
 from servodeck.parts import Group, made_of, packets_of
+from servodeck.told import JobState
 from servodeck.values import Frame, ServoTarget
 from servodeck.wire import wire_s
 from tests.client import Client, gateway_on

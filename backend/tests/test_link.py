@@ -7,8 +7,8 @@ import pytest
 
 from servodeck.errors import CancelledError, ClosedError, PortBusyError, PortLostError, PortMissingError
 from servodeck.link import Link, Ports
-from servodeck.messages import PortState
 from servodeck.ports import OpenPort
+from servodeck.told import PortState
 from servodeck.wire import Wire
 from tests.fake_port import FakePort, FakePorts
 from tests.virtual_time import at, in_virtual_time, now

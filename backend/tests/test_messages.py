@@ -13,7 +13,6 @@ from servodeck.clients import hear, intake_of
 from servodeck.control import Control
 from servodeck.hub import Seat
 from servodeck.messages import (
-    PortState,
     ResumeMessage,
     SendMessage,
     SentMessage,
@@ -25,6 +24,7 @@ from servodeck.messages import (
     json_schema,
 )
 from servodeck.packets import FAMILIES
+from servodeck.told import PortState
 from tests.amount import TIMES
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, MOVE, RUN, STOP

@@ -16,8 +16,8 @@ from servodeck import access
 from servodeck.app import create_app
 from servodeck.callers import THIS_COMPUTER, Caller, Role
 from servodeck.control import Control
-from servodeck.messages import ServoLimits
 from servodeck.packets import FAMILIES, encode
+from servodeck.told import ServoLimits
 from servodeck.values import Move, ServoTarget
 from tests.client import Client
 from tests.fake_port import FakePort, FakePorts

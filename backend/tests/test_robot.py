@@ -9,8 +9,8 @@ from servodeck.clients import hear, intake_of
 from servodeck.control import Control
 from servodeck.errors import OutOfRangeError
 from servodeck.hub import Seat
-from servodeck.messages import ServoLimits
 from servodeck.parts import Group
+from servodeck.told import ServoLimits
 from servodeck.values import Frame, ServoTarget
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort

@@ -13,9 +13,9 @@ from servodeck.callers import Caller
 from servodeck.control import Control
 from servodeck.errors import ConflictError, MovingError, NotFoundError, OutOfRangeError
 from servodeck.library_messages import RobotFacts
-from servodeck.messages import ServoLimits
 from servodeck.remembered import FILE, Remembered
 from servodeck.small_file import write_whole
+from servodeck.told import ServoLimits
 from tests.client import Client
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import MOVE, MOVE_ELSEWHERE

@@ -1,0 +1,48 @@
+"""Messages as strict models, unknown fields refused, and as the JSON schemas from which the page's types are
+generated.
+
+Knows no message.
+"""
+
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, TypeAdapter
+from pydantic.alias_generators import to_camel
+from pydantic.json_schema import GenerateJsonSchema
+
+
+class Message(BaseModel):
+    model_config = ConfigDict(
+        strict=True,
+        extra="forbid",
+        frozen=True,
+        alias_generator=to_camel,
+        populate_by_name=True,
+        serialize_by_alias=True,
+        json_schema_serialization_defaults_required=True,
+    )
+
+
+class PlainSchema(GenerateJsonSchema):
+    """Without a title for each field, which would become a type name of its own in TypeScript."""
+
+    def field_title_should_be_set(self, _schema: Any) -> bool:
+        return False
+
+
+def schema_of(title: str, read: dict[str, Any], written: dict[str, Any]) -> dict[str, Any]:
+    """One schema whose $defs hold those named types and all they consist of."""
+    types = [(name, "validation", TypeAdapter(each)) for name, each in read.items()]
+    types += [(name, "serialization", TypeAdapter(each)) for name, each in written.items()]
+    names, definitions = TypeAdapter.json_schemas(
+        types,  # type: ignore[arg-type]
+        ref_template="#/$defs/{model}",
+        schema_generator=PlainSchema,
+    )
+    unions = {name: {**schema, "title": name} for (name, _mode), schema in names.items()}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": title,
+        "oneOf": [{"$ref": f"#/$defs/{name}"} for name in unions],
+        "$defs": {**definitions["$defs"], **unions},
+    }

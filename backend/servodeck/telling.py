@@ -1,0 +1,71 @@
+"""How everything stands, told to whoever joins and to everybody when something of it has changed.
+
+Knows seats, messages and the parts they are about; changes none of them.
+"""
+
+from collections.abc import Callable
+
+from servodeck import __version__
+from servodeck.board import Board
+from servodeck.driving import Driving
+from servodeck.hub import Hub, Seat
+from servodeck.latch import Latch
+from servodeck.messages import StateMessage, WelcomeMessage, encode
+from servodeck.robot_of_board import RobotOfBoard
+from servodeck.schema import Message
+
+
+class Telling:
+    def __init__(
+        self,
+        hub: Hub,
+        board: Board,
+        latch: Latch,
+        robot: RobotOfBoard,
+        driving: Driving,
+        now: Callable[[], float],
+    ) -> None:
+        self._hub = hub
+        self._board = board
+        self._latch = latch
+        self._robot = robot
+        self._driving = driving
+        self._now = now
+
+    def welcome(self, seat: Seat) -> None:
+        board, latch = self._board, self._latch
+        welcome = WelcomeMessage(
+            version=__version__,
+            board=board.taken_for,
+            port=board.port,
+            latch=latch.cause is not None,
+            latched_by=latch.by,
+            stopped_by=latch.name,
+            clients=len(self._hub),
+            unattended=board.unattended.told(),
+            robot=self._robot.told(),
+            lease=self._driving.state_for(seat),
+            broken_slots=board.broken_slots,
+            slot_versions=board.slot_versions,
+            job=board.jobs.latest,
+            motion=board.motion.told(self._now()),
+        )
+        seat.put(encode(welcome))
+
+    def state(self, but: Seat | None = None) -> None:
+        board, latch = self._board, self._latch
+        state = StateMessage(
+            board=board.taken_for,
+            port=board.port,
+            latch=latch.cause is not None,
+            latched_by=latch.by,
+            stopped_by=latch.name,
+            clients=len(self._hub),
+            unattended=board.unattended.told(),
+            broken_slots=board.broken_slots,
+            slot_versions=board.slot_versions,
+        )
+        self.everybody(state, but)
+
+    def everybody(self, message: Message, but: Seat | None = None) -> None:
+        self._hub.tell_all(encode(message), but)

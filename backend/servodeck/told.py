@@ -1,0 +1,127 @@
+"""What there is to tell of the gateway and its board: the port, who drives, what moves, what is stored, which
+robot it is. Knows no message in which it is told.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from servodeck.errors import ErrorCode
+from servodeck.schema import Message
+
+PortStatus = Literal["closed", "opening", "open", "lost"]
+
+
+class Candidate(Message):
+    """Somebody who is here and may drive."""
+
+    id: str
+    name: str
+
+
+class LeaseState(Message):
+    """Who drives and who asks to, by name; `drives` and `asks`: that is this client. `answerInMs`: how long
+    the driver may still refuse. `givenBy`: who handed it to this client, which drives. `candidates`: whom
+    this client may hand it to.
+    """
+
+    driver: str | None
+    drives: bool
+    asker: str | None
+    asks: bool
+    answer_in_ms: int | None
+    may_drive: bool
+    may_take: bool
+    given_by: str | None
+    candidates: list[Candidate]
+
+
+class PortState(Message):
+    """How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
+    follows. `simulated` where the device was declared to be no real board.
+    """
+
+    device: str | None
+    status: PortStatus
+    simulated: bool = False
+    code: ErrorCode | None = None
+    detail: str | None = None
+    retry_in_ms: int | None = None
+
+
+class UnattendedRun(Message):
+    """A run that may go on without its driver `by`, for so long at most."""
+
+    slot: int
+    times: int
+    by: str
+    ends_in_ms: int
+
+
+class ServoWay(Message):
+    """A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`
+    is null where nobody knows where it began.
+    """
+
+    servo: int
+    start: float | None
+    target: int
+    begun_ms_ago: float
+    duration_ms: float
+
+
+class MotionTold(Message):
+    """Where packets have taken the servos since the port opened; of one that is not named nobody knows the
+    place. `runSlot`: the group that may run.
+    """
+
+    servos: list[ServoWay]
+    run_slot: int | None
+
+
+JobStatus = Literal["running", "done", "failed", "cancelled"]
+
+
+class JobState(Message):
+    """A download and how far it is. `slots`: where its groups go, in this order; `slot` and `name`: of the
+    one that is being stored, or was last; frames and bytes are of all of them. `by`: who began it. `code` and
+    `detail` say why it failed or was cancelled.
+    """
+
+    id: str
+    by: str
+    status: JobStatus
+    slots: list[int]
+    groups_stored: int
+    slot: int
+    name: str
+    frames_stored: int
+    frame_count: int
+    bytes_sent: int
+    bytes_total: int
+    remaining_ms: int
+    code: ErrorCode | None = None
+    detail: str | None = None
+
+
+ServoNumber = Annotated[int, Field(ge=1, le=253)]
+
+
+class ServoLimits(Message):
+    """How far a servo may be turned, in its board's unit, and what people call it."""
+
+    servo: ServoNumber
+    name: Annotated[str, Field(min_length=1, max_length=64)]
+    min: Annotated[int, Field(ge=0, le=65535)]
+    max: Annotated[int, Field(ge=0, le=65535)]
+
+
+class RobotTold(Message):
+    """The robot on the board: which document of the library, at which revision; 0 while it is read."""
+
+    id: str
+    revision: int
+
+
+LatchedBy = Literal["person", "silence", "loss"]
+"""Somebody pressed STOP; a driver was not heard while the robot moved; the port went away."""
