@@ -8,7 +8,6 @@ from servodeck.callers import Caller
 from servodeck.clients import take
 from servodeck.errors import (
     BusyError,
-    CancelledError,
     ExpiredError,
     ForbiddenError,
     NotDrivingError,
@@ -19,7 +18,7 @@ from servodeck.wire import Left
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, RUN, STOP
-from tests.virtual_time import hold_up, in_virtual_time, now
+from tests.virtual_time import in_virtual_time
 
 STOPS = [STOP, STOP, STOP]
 # MOVE takes servo 1 to 2000 and MOVE_ELSEWHERE to 1500, in a second each.
@@ -186,182 +185,6 @@ async def test_while_nobody_drives_whoever_may_drive_resumes() -> None:
         control.stop(None)
         take(ResumeMessage(type="resume"), carl, control)
         assert control.latch is False
-
-
-@in_virtual_time
-async def test_a_tab_that_froze_and_wakes_moves_nothing() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(BATTERY)
-        anna.beats = False
-        await asyncio.sleep(0.8)
-        with pytest.raises(ExpiredError):
-            anna.send(MOVE)
-        await asyncio.sleep(60)
-        anna.beats = True
-        assert control.driving.driver is None
-        with pytest.raises(NotDrivingError):
-            control.send(anna, MOVE.hex(), anna.nonce)
-        control.driving.act(anna, "request")
-        await anna.send(MOVE)
-        assert port.packets() == [STOP, BATTERY, MOVE]
-
-
-@in_virtual_time
-async def test_what_waits_too_long_for_the_wire_is_not_sent() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(MOVE)
-        anna.beats = False
-        long_move = bytes.fromhex("5555650320e803" + "".join(f"{servo:02x}dc05" for servo in range(1, 33)))
-        waiting = [anna.send(long_move) for _ in range(6)]
-        outcomes = await asyncio.gather(*waiting, return_exceptions=True)
-        assert [type(outcome) for outcome in outcomes[:4]] == [type(None)] * 4
-        assert isinstance(outcomes[-1], (ExpiredError, CancelledError))
-        last_s = max(at_s for at_s, packet in port.written if packet == long_move)
-        assert last_s <= 0.1 + 0.5 + 0.05
-
-
-@in_virtual_time
-async def test_a_driver_who_falls_silent_in_a_move_is_stopped_and_held_in_time() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna, bert = Client(control), Client(control)
-        await anna.send(MOVE)
-        await asyncio.sleep(MOVE_S)
-        await anna.send(MOVE_ELSEWHERE)
-        left_s = now()
-        anna.beats = False
-        await bert.heard()
-        await asyncio.sleep(0.85)
-        sent = port.written[3:]
-        assert sent[0][0] - left_s <= 0.75 + 0.001
-        went = (sent[0][0] - left_s) / MOVE_S
-        assert [packet for _, packet in sent][:2] == [STOP, hold_at(round(2000 - 500 * went))]
-        [state] = await bert.heard()
-        assert (state["latch"], state["latchedBy"]) == (True, "silence")
-        await asyncio.sleep(0.3)
-        assert [packet for _, packet in port.written[3:]].count(STOP) == 3
-
-
-@in_virtual_time
-async def test_a_gateway_that_was_held_up_itself_asks_whether_its_driver_is_there() -> None:
-    for is_there in (True, False):
-        port = FakePort()
-        async with gateway_on(port) as control:
-            anna = Client(control)
-            await anna.send(RUN)
-            anna.beats = is_there
-            hold_up(2.5)
-            await asyncio.sleep(0.4)
-            assert control.latch is not is_there
-            assert port.packets() == [STOP, RUN, *([] if is_there else STOPS)]
-
-
-@in_virtual_time
-async def test_a_gateway_that_is_held_up_again_and_again_stops_for_a_lost_driver_all_the_same() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(RUN)
-        anna.beats = False
-        hold_up(2.5)
-        for _ in range(3):
-            await asyncio.sleep(0.01)
-            hold_up(0.3)
-        await asyncio.sleep(0.01)
-        assert control.latch is True
-
-
-@in_virtual_time
-async def test_a_group_outlives_its_drivers_silence_by_two_seconds_at_most() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(RUN)
-        anna.beats = False
-        begun_s = now()
-        await asyncio.sleep(1.7)
-        assert port.packets() == [STOP, RUN]
-        await asyncio.sleep(0.8)
-        assert port.packets() == [STOP, RUN, *STOPS]
-        assert port.written[2][0] - begun_s <= 2.0 + 0.001
-        assert control.latch is True
-
-
-@in_virtual_time
-async def test_a_silent_driver_of_a_robot_at_rest_stops_nothing_and_loses_the_lease_after_ten_seconds() -> (
-    None
-):
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna, bert = Client(control), Client(control)
-        await anna.send(MOVE)
-        await asyncio.sleep(MOVE_S + 0.1)
-        anna.beats = False
-        await asyncio.sleep(9)
-        assert bert.lease["driver"] == "This computer"
-        await asyncio.sleep(1.1)
-        assert bert.lease["driver"] is None
-        assert (port.packets(), control.latch) == ([STOP, MOVE], False)
-
-
-@in_virtual_time
-async def test_a_driver_who_leaves_is_lost_at_once_and_what_moves_stops() -> None:
-    for begun in (MOVE, RUN):
-        port = FakePort()
-        async with gateway_on(port) as control:
-            anna, bert = Client(control), Client(control)
-            await anna.send(begun)
-            control.leave(anna)
-            await asyncio.sleep(0.5)
-            assert port.packets() == [STOP, begun, *STOPS]
-            assert control.latch is True
-            assert bert.lease["driver"] is None
-
-
-@in_virtual_time
-async def test_a_driver_who_leaves_a_robot_at_rest_stops_nothing() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(RUN)
-        await anna.send(STOP)
-        await anna.send(MOVE)
-        await asyncio.sleep(MOVE_S)
-        control.leave(anna)
-        await asyncio.sleep(1)
-        assert port.packets() == [STOP, RUN, STOP, MOVE]
-        assert control.latch is False
-
-
-@in_virtual_time
-async def test_a_driver_who_leaves_after_the_group_has_ended_stops_nothing() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(RUN)
-        await asyncio.sleep(1)
-        port.say(STOP)  # from this board: finished by itself
-        await asyncio.sleep(0.01)
-        control.leave(anna)
-        await asyncio.sleep(1)
-        assert (port.packets(), control.latch) == ([STOP, RUN], False)
-
-
-@in_virtual_time
-async def test_what_a_leaving_client_had_waiting_is_never_sent() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        for _ in range(5):
-            anna.send(MOVE)
-        await asyncio.sleep(0.005)
-        control.leave(anna)
-        await asyncio.sleep(1)
-        assert port.packets() == [STOP, MOVE, *STOPS]
 
 
 @in_virtual_time

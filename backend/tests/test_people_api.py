@@ -1,15 +1,12 @@
 """How people come in over HTTP, what owners see and change, and who is sent away."""
 
 import asyncio
-import json
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Any
 
 import pytest
 from httpx2 import AsyncClient, Response
-from websockets.asyncio.client import connect
-from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from servodeck import access
 from servodeck.callers import Caller, Role
@@ -17,11 +14,8 @@ from servodeck.control import Control
 from servodeck.entrance import Entrance
 from servodeck.messages import LeaseAction
 from tests.client import Client
-from tests.fake_port import FakePort, FakePorts
 from tests.knocking import NOWHERE
-from tests.running import PORT, Running, entrance_to, http_to, server_on
-from tests.samples import ERASE, MOVE, STOP
-from tests.test_clients import drive, hear, hear_until, say
+from tests.running import PORT, entrance_to, http_to
 from tests.virtual_time import in_virtual_time, now
 
 BASE = f"http://127.0.0.1:{PORT}"
@@ -297,86 +291,3 @@ async def test_behind_a_proxy_the_cookie_is_for_https_only() -> None:
 async def test_what_cannot_be_a_way_in_is_malformed(wish: dict[str, str]) -> None:
     async with lan() as (_, client, _owner):
         assert (await Browser(client).pair(**wish)).status_code == 422
-
-
-@pytest.fixture
-def port() -> FakePort:
-    return FakePort()
-
-
-@pytest.fixture
-async def gateway(port: FakePort) -> AsyncIterator[Running]:
-    async with server_on(FakePorts(port), make_access=access.lan) as running:
-        yield running
-
-
-def token_for(gateway: Running, role: Role) -> tuple[str, dict[str, str]]:
-    device, token = gateway.entrance.devices.admit("token", role, role)
-    return device.id, {"Authorization": f"Bearer {token}"}
-
-
-async def test_no_stranger_and_no_stopper_gets_a_connection(gateway: Running) -> None:
-    _, stopper = token_for(gateway, "stopper")
-    for headers, status, code in (({}, 401, "notPaired"), (stopper, 403, "forbidden")):
-        with pytest.raises(InvalidStatus) as refused:
-            async with connect(gateway.ws, additional_headers=headers):
-                pass
-        assert refused.value.response.status_code == status
-        assert json.loads(refused.value.response.body)["code"] == code
-
-
-async def test_whoever_is_revoked_is_out_at_once(gateway: Running) -> None:
-    device, driver = token_for(gateway, "driver")
-    async with connect(gateway.ws, additional_headers=driver) as client:
-        await hear_until(client, "welcome")
-        gateway.entrance.devices.revoke(device)
-        gateway.control.hub.send_away(device, "This device is not paired any more.")
-        with pytest.raises(ConnectionClosed):
-            await hear_until(client, "nothing")
-        assert (client.close_code, client.close_reason) == (1008, "This device is not paired any more.")
-    with pytest.raises(InvalidStatus):
-        await connect(gateway.ws, additional_headers=driver)
-
-
-async def test_a_viewer_sees_and_stops_and_nothing_more(port: FakePort, gateway: Running) -> None:
-    _, viewer = token_for(gateway, "viewer")
-    async with connect(gateway.ws, additional_headers=viewer) as client:
-        await hear_until(client, "welcome")
-        await say(client, type="send", id=1, packet=MOVE.hex())
-        assert (await hear(client))["code"] == "forbidden"
-        for message in (
-            {"type": "resume"},
-            {"type": "board", "board": "lsc-16"},
-            {"type": "calibrate", "servo": 1},
-        ):
-            await say(client, **message)
-            assert (await hear_until(client, "refused"))["code"] == "forbidden"
-        await say(client, type="stop", hold=None)
-        assert (await hear_until(client, "state"))["latch"] is True
-        await hear_until(client, "halted")
-    assert set(port.packets()) == {STOP}
-
-
-async def test_a_driver_does_not_erase(port: FakePort, gateway: Running) -> None:
-    _, driver = token_for(gateway, "driver")
-    _, owner = token_for(gateway, "owner")
-    async with connect(gateway.ws, additional_headers=driver) as client:
-        await say(client, type="send", id=1, packet=ERASE.hex())
-        assert (await hear_until(client, "refused"))["code"] == "forbidden"
-    async with connect(gateway.ws, additional_headers=owner) as client:
-        nonce = await drive(client)
-        await say(client, type="send", id=2, packet=ERASE.hex(), nonce=nonce)
-        assert (await hear_until(client, "sent"))["id"] == 2
-
-
-async def test_one_device_takes_no_more_than_its_share_of_seats(gateway: Running) -> None:
-    _, viewer = token_for(gateway, "viewer")
-    _, other = token_for(gateway, "viewer")
-    open_ones = [await connect(gateway.ws, additional_headers=viewer) for _ in range(8)]
-    with pytest.raises(InvalidStatus) as refused:
-        await connect(gateway.ws, additional_headers=viewer)
-    assert refused.value.response.status_code == 403
-    async with connect(gateway.ws, additional_headers=other) as client:
-        await hear_until(client, "welcome")
-    for client in open_ones:
-        await client.close()
