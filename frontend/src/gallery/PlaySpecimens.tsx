@@ -5,6 +5,7 @@ import { insertFrame, setMeta, type NewFrame } from '#shared/actions/group/group
 import { EMPTY_SLOT_BOOK, withStored } from '#shared/actions/slots/slotBook.ts';
 import { BoardPanel } from '../board/BoardPanel.tsx';
 import { PlayBar } from '../play/PlayBar.tsx';
+import { ReplaceContent } from '../play/ReplaceQuestion.tsx';
 import { SlotBoard } from '../slots/SlotsControl.tsx';
 import { editServoView, type Stores } from '../stores/stores.ts';
 import { standing, type Exhibit } from './exhibit.ts';
@@ -41,73 +42,88 @@ function fill(stores: Stores): void {
   stores.slots.store.setState({ book: { ...book, erased: [{ ...stored, slot: 100, name: 'Dance' }] } });
 }
 
-const CASES: readonly { readonly name: string; readonly panel: ReactNode; prepare(stores: Stores): void }[] =
-  [
-    {
-      name: 'On the board, off by a little',
-      panel: <BoardPanel />,
-      prepare: (stores) => write(stores, frame(400, 900), frame(900, 1900, 'inOut')),
-    },
-    {
-      name: 'On the board, does not fit',
-      panel: <BoardPanel />,
-      prepare: (stores) => write(stores, frame(400, 300), frame(5, 1900), frame(20, 700)),
-    },
-    {
-      name: 'Going to the first pose',
-      panel: <PlayBar />,
-      prepare: ({ playback }) => playback.store.setState({ phase: 'leading' }),
-    },
-    {
-      name: 'Only on the drawing',
-      panel: <PlayBar />,
-      prepare: ({ playback }) => playback.store.setState({ phase: 'previewing' }),
-    },
-    {
-      name: 'The board gets the group first',
-      panel: <PlayBar />,
-      prepare: ({ playback }) => playback.store.setState({ phase: 'storing' }),
-    },
-    {
-      name: 'Ready to play from within',
-      panel: <PlayBar />,
-      prepare(stores) {
-        fill(stores);
-        stores.playhead.go(700);
-      },
-    },
-    {
-      name: 'Ready to play, a row muted',
-      panel: <PlayBar />,
-      prepare(stores) {
-        fill(stores);
-        editServoView(stores, (view) => ({ ...view, muted: [1] }));
-      },
-    },
-    {
-      name: 'On the board, another group in the slot',
-      panel: <BoardPanel />,
-      prepare(stores) {
-        fill(stores);
-        stores.view.setState({ slot: 8 });
-      },
-    },
-    { name: 'Slots', panel: <SlotBoard />, prepare: fill },
-    {
-      name: 'Slots, several groups',
-      panel: <SlotBoard isSeveralFirst />,
-      prepare(stores) {
-        fill(stores);
-        stores.library.add(
-          setMeta(stores.document.store.getState().present, { name: 'Greet the visitor', slot: 12 }),
-        );
-      },
-    },
-  ];
+interface Case {
+  readonly name: string;
+  readonly panel: ReactNode;
+  readonly isInDialog?: boolean;
+  prepare(stores: Stores): void;
+}
 
-export const PLAYING: readonly Exhibit[] = CASES.map(({ name, panel, prepare }) => ({
-  name,
-  content: panel,
+const CASES: readonly Case[] = [
+  {
+    name: 'On the board, off by a little',
+    panel: <BoardPanel />,
+    prepare: (stores) => write(stores, frame(400, 900), frame(900, 1900, 'inOut')),
+  },
+  {
+    name: 'On the board, does not fit',
+    panel: <BoardPanel />,
+    prepare: (stores) => write(stores, frame(400, 300), frame(5, 1900), frame(20, 700)),
+  },
+  {
+    name: 'Going to the first pose',
+    panel: <PlayBar />,
+    prepare: ({ playback }) => playback.store.setState({ phase: 'leading' }),
+  },
+  {
+    name: 'Only on the drawing',
+    panel: <PlayBar />,
+    prepare: ({ playback }) => playback.store.setState({ phase: 'previewing' }),
+  },
+  {
+    name: 'The board gets the group first',
+    panel: <PlayBar />,
+    prepare: ({ playback }) => playback.store.setState({ phase: 'storing' }),
+  },
+  {
+    name: 'Ready to play from within',
+    panel: <PlayBar />,
+    prepare(stores) {
+      fill(stores);
+      stores.playhead.go(700);
+    },
+  },
+  {
+    name: 'Ready to play, a row muted',
+    panel: <PlayBar />,
+    prepare(stores) {
+      fill(stores);
+      editServoView(stores, (view) => ({ ...view, muted: [1] }));
+    },
+  },
+  {
+    name: 'On the board, another group in the slot',
+    panel: <BoardPanel />,
+    prepare(stores) {
+      fill(stores);
+      stores.view.setState({ slot: 8 });
+    },
+  },
+  {
+    name: 'Run on board, another group in the slot',
+    panel: <ReplaceContent isDisabled={false} />,
+    isInDialog: true,
+    prepare(stores) {
+      fill(stores);
+      stores.view.setState({ slot: 8 });
+      stores.playback.runOnBoard();
+    },
+  },
+  { name: 'Slots', panel: <SlotBoard />, prepare: fill },
+  {
+    name: 'Slots, several groups',
+    panel: <SlotBoard isSeveralFirst />,
+    prepare(stores) {
+      fill(stores);
+      stores.library.add(
+        setMeta(stores.document.store.getState().present, { name: 'Greet the visitor', slot: 12 }),
+      );
+    },
+  },
+];
+
+export const PLAYING: readonly Exhibit[] = CASES.map(({ name, panel, isInDialog = false, prepare }) => ({
+  ...{ name, content: panel, isInDialog },
   stores() {
     const stores = standing({});
     prepare(stores);

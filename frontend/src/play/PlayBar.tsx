@@ -20,11 +20,11 @@ import {
 } from '../stores/stores.ts';
 import { timesOf } from '../timeline/groupTimes.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
-import { ConfirmDialog } from '../ui/Confirm.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
+import { ReplaceQuestion } from './ReplaceQuestion.tsx';
 import styles from './PlayBar.module.css';
 
 export function PlayBar() {
@@ -186,26 +186,6 @@ function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
       </Button>
       <ReplaceQuestion isDisabled={isDisabled} />
     </>
-  );
-}
-
-function ReplaceQuestion({ isDisabled }: { readonly isDisabled: boolean }) {
-  const { playback } = useStores();
-  const replacing = usePlayback((state) => state.replacing);
-  const slot = replacing?.slot ?? 0;
-  return (
-    <ConfirmDialog
-      icon="board"
-      isDisabled={isDisabled}
-      isOpen={replacing !== null}
-      title={words.play.replaceTitle(slot)}
-      text={words.play.replaceText(slot, replacing?.record?.name ?? '', replacing?.name ?? '')}
-      keepLabel={words.play.replaceKeep}
-      confirmLabel={words.play.replace}
-      closeLabel={words.close}
-      onClose={() => playback.answer(false)}
-      onConfirm={() => playback.answer(true)}
-    />
   );
 }
 

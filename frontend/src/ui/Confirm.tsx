@@ -51,19 +51,33 @@ export interface ConfirmDialogProps extends Question, Looks {
   onClose(): void;
 }
 
-export function ConfirmDialog(props: ConfirmDialogProps) {
-  const { title, text, keepLabel, confirmLabel, closeLabel, isOpen, onClose, onConfirm, ...looks } = props;
+export function ConfirmDialog({ title, closeLabel, isOpen, ...content }: ConfirmDialogProps) {
+  const { onClose } = content;
   return (
     <Dialog role="alertdialog" title={title} closeLabel={closeLabel} isOpen={isOpen} onClose={onClose}>
+      <ConfirmContent autoFocus {...content} />
+    </Dialog>
+  );
+}
+
+export type ConfirmContentProps = Omit<ConfirmDialogProps, 'title' | 'closeLabel' | 'isOpen'> & {
+  /** The way out is at hand. */
+  readonly autoFocus?: boolean;
+};
+
+export function ConfirmContent(props: ConfirmContentProps) {
+  const { text, keepLabel, confirmLabel, autoFocus = false, onClose, onConfirm, ...looks } = props;
+  return (
+    <>
       <p className={styles.text}>{text}</p>
       <div className={styles.actions}>
-        <Button autoFocus onPress={onClose}>
+        <Button autoFocus={autoFocus} onPress={onClose}>
           {keepLabel}
         </Button>
         <Button {...looks} tone="danger" onPress={onConfirm}>
           {confirmLabel}
         </Button>
       </div>
-    </Dialog>
+    </>
   );
 }
