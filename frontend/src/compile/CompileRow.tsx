@@ -2,8 +2,10 @@
 // on a place goes there.
 
 import { select } from '../stores/servoView.ts';
-import { obstacles } from '../stores/compiled.ts';
-import { editServoView, useCompiled, useDevice, useStores } from '../stores/stores.ts';
+import { MOST_ERROR_UNITS } from '#shared/actions/group/group.ts';
+import { setMeta } from '#shared/actions/group/groupEdits.ts';
+import { maxErrorOf, obstacles } from '../stores/compiled.ts';
+import { editServoView, useCompiled, useDevice, useDocument, useStores } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { words } from '../words/words.ts';
@@ -45,11 +47,12 @@ export function CompileRow() {
   );
 }
 
-/** The largest error that may be: how many frames it takes depends on it. */
+/** The largest error that may be: how many frames it takes depends on it. The group keeps it. */
 function ErrorField() {
-  const { compiled, notices } = useStores();
-  const unit = useDevice((state) => state.family.unit);
-  const value = useCompiled((state) => state.maxErrorUnits[unit]);
+  const { document, notices } = useStores();
+  const family = useDevice((state) => state.family);
+  const value = useDocument(({ present }) => maxErrorOf(present, family));
+  const isOfGroup = useDocument(({ present }) => present.frames.length === 0 || present.unit === family.unit);
   return (
     <div className={field.named} role="group" aria-label={words.compile.label}>
       <span className={styles.dim} aria-hidden="true">
@@ -59,19 +62,23 @@ function ErrorField() {
         label={words.compile.errorField}
         value={value}
         min={1}
-        max={MOST_UNITS}
-        unit={words.numbers.unitSymbol(unit)}
-        onChange={(units) => compiled.setMaxError(units)}
+        max={MOST_ERROR_UNITS}
+        unit={words.numbers.unitSymbol(family.unit)}
+        isDisabled={!isOfGroup}
+        onChange={(maxErrorUnits) =>
+          document.edit(
+            () => words.compile.step,
+            (group) =>
+              setMeta(group.frames.length === 0 ? { ...group, unit: family.unit } : group, { maxErrorUnits }),
+          )
+        }
         onRefused={(units) =>
-          notices.tell('warning', words.refused(words.compile.errorField, units, 1, MOST_UNITS))
+          notices.tell('warning', words.refused(words.compile.errorField, units, 1, MOST_ERROR_UNITS))
         }
       />
     </div>
   );
 }
-
-/** More than that is another motion. */
-const MOST_UNITS = 200;
 
 function Worst() {
   const stores = useStores();

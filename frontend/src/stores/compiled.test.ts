@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { insertFrame, setMeta } from '#shared/actions/group/groupEdits.ts';
+import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
 import { createCompiled, obstacles } from './compiled.ts';
 import { createDesk } from './deskUnderTest.ts';
 import { workedOut, type Source } from './workedOut.ts';
@@ -17,7 +18,12 @@ async function openDesk() {
       () => 'add',
       (group) => insertFrame(group, group.frames.length, frame(position, easing)),
     );
-  return { ...desk, state, add };
+  const setMax = (maxErrorUnits: number) =>
+    desk.document.edit(
+      () => 'error',
+      (group) => setMeta(group, { maxErrorUnits }),
+    );
+  return { ...desk, state, add, setMax };
 }
 
 describe('the group as the board gets it', () => {
@@ -99,14 +105,28 @@ describe('the group as the board gets it', () => {
   });
 
   test('needs fewer frames where a larger error may be', async () => {
-    const { add, compiled, clock, state } = await openDesk();
+    const { add, compiled, clock, state, setMax } = await openDesk();
     add(1000);
     add(2000, 'inOut');
     const exact = compiled.now().frames.length;
-    compiled.setMaxError(60);
+    setMax(60);
     await clock.advance(300);
     expect(state().latest.frames.length).toBeLessThan(exact);
     expect(state().latest.report.worst?.units).toBeGreaterThan(5);
+  });
+
+  test('how far off it may be is the group’s: undone, kept and of no other one', async () => {
+    const { add, compiled, document, device, robots, setMax } = await openDesk();
+    add(1000);
+    const { present: before } = document.store.getState();
+    setMax(60);
+    expect(compiled.now().source.maxErrorUnits).toBe(60);
+    const on = { family: device.store.getState().family, robot: robots.current().robot };
+    expect(compiled.of(before, on).source.maxErrorUnits).toBe(5);
+    const read = groupFromText(groupToText(document.store.getState().present));
+    expect(read).toMatchObject({ value: { maxErrorUnits: 60 } });
+    document.undo();
+    expect(compiled.now().source.maxErrorUnits).toBe(5);
   });
 
   test('goes back to fresh when a change is undone', async () => {

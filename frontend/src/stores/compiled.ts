@@ -17,7 +17,6 @@ export interface CompiledGroup extends WorkedOut {
 }
 
 export interface CompiledState {
-  readonly maxErrorUnits: Readonly<Record<Family['unit'], number>>;
   readonly latest: CompiledGroup;
   /** False while the group is being changed: the latest is of an earlier one. */
   readonly isFresh: boolean;
@@ -27,9 +26,8 @@ export interface CompiledStore {
   readonly store: StoreApi<CompiledState>;
   /** Of the group as it is now. */
   now(): CompiledGroup;
-  /** Of another group, under the same error. */
+  /** Of another group. */
   of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>): CompiledGroup;
-  setMaxError(units: number): void;
 }
 
 /** As good as nobody can see: half a degree. */
@@ -49,20 +47,14 @@ export interface CompiledOptions {
 export function createCompiled({ document, device, robots, clock, aside }: CompiledOptions): CompiledStore {
   let cancelTimer = (): void => undefined;
   let isBusy = false;
-  const maxErrorUnits: CompiledState['maxErrorUnits'] = USUAL_ERROR;
 
-  const sourceNow = (errors: CompiledState['maxErrorUnits']): Source => {
-    const { family } = device.store.getState();
-    const { present: group } = document.store.getState();
-    return { group, family, robot: robots.current().robot, maxErrorUnits: errors[family.unit] };
-  };
-  const store = createStore<CompiledState>(() => ({
-    maxErrorUnits,
-    latest: compiled(sourceNow(maxErrorUnits)),
-    isFresh: true,
-  }));
+  const wanted = (): Source =>
+    sourceOf(document.store.getState().present, {
+      family: device.store.getState().family,
+      robot: robots.current().robot,
+    });
+  const store = createStore<CompiledState>(() => ({ latest: compiled(wanted()), isFresh: true }));
 
-  const wanted = (): Source => sourceNow(store.getState().maxErrorUnits);
   const isLatest = (source: Source): boolean => isSame(source, store.getState().latest.source);
 
   function now(): CompiledGroup {
@@ -104,15 +96,18 @@ export function createCompiled({ document, device, robots, clock, aside }: Compi
   return {
     store,
     now,
-    of: (group, { family, robot }) =>
-      compiled({ group, family, robot, maxErrorUnits: store.getState().maxErrorUnits[family.unit] }),
-    setMaxError(units) {
-      const { family } = device.store.getState();
-      store.setState((state) => ({ maxErrorUnits: { ...state.maxErrorUnits, [family.unit]: units } }));
-      touched();
-    },
+    of: (group, on) => compiled(sourceOf(group, on)),
   };
 }
+
+/** What the group says, in its own unit. */
+export function maxErrorOf({ unit, maxErrorUnits }: ActionGroup, family: Family): number {
+  return (unit === family.unit ? maxErrorUnits : undefined) ?? USUAL_ERROR[family.unit];
+}
+
+const sourceOf = (group: ActionGroup, { family, robot }: Pick<Source, 'family' | 'robot'>): Source => ({
+  ...{ group, family, robot, maxErrorUnits: maxErrorOf(group, family) },
+});
 
 const compiled = (source: Source): CompiledGroup => ({ source, ...workedOut(source) });
 

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
-import { insertFrame, type NewFrame } from '#shared/actions/group/groupEdits.ts';
+import { insertFrame, setMeta, type NewFrame } from '#shared/actions/group/groupEdits.ts';
 import { startHistory } from '#shared/actions/history.ts';
 import { positionAt, tracksOf } from '#shared/actions/group/tracks.ts';
 import { words } from '../words/words.ts';
@@ -172,8 +172,11 @@ describe('playing from the page', () => {
 
   test('sends what compile says: an eased way is as near as the bound', async () => {
     const group = groupOf(frame(400, 1000), frame(1200, 2000, { easing: 'inOut' }));
-    const { playback, draw, transport, compiled, clock, heard } = await deskWith(group);
-    compiled.setMaxError(8);
+    const { playback, draw, transport, compiled, document, clock, heard } = await deskWith(group);
+    document.edit(
+      () => 'error',
+      (now) => setMeta(now, { maxErrorUnits: 8 }),
+    );
     playback.play();
     await draw(1520);
     const [track] = tracksOf(group).values();

@@ -48,6 +48,7 @@ const problems: ProblemWords = {
 export const compileWords = {
   label: 'On the board',
   error: 'May be off by',
+  step: 'change how far off it may be',
   errorField: 'Largest error allowed on the board',
   frames: (count: number, limit: number): string => `${formatCount(count)} of ${counted(limit, 'frame')}`,
   bytes: (bytes: number): string => counted(bytes, 'byte'),

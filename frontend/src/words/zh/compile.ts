@@ -46,6 +46,7 @@ const problems: ProblemWords = {
 export const compileWords: typeof english = {
   label: '在控制板上',
   error: '允许偏差',
+  step: '更改允许偏差',
   errorField: '控制板上允许的最大误差',
   frames: (count, limit) => `${formatCount(count)}/${formatCount(limit)}帧`,
   bytes: (bytes) => `${formatCount(bytes)}字节`,

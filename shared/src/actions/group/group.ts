@@ -15,6 +15,8 @@ export type Easing = (typeof EASINGS)[number];
 
 export const GROUP_NAME_LENGTH = 64;
 export const NOTE_LENGTH = 200;
+/** More than that is another motion. */
+export const MOST_ERROR_UNITS = 200;
 /** Far above any board; keeps a damaged file from filling the memory. */
 export const MAX_FRAMES = 10_000;
 const MAX_MARKERS = 1000;
@@ -53,6 +55,8 @@ export const groupSchema = z.strictObject({
   slot: z.nullable(whole(0, 255)),
   /** How often it is played; 0: until stopped. */
   times: whole(0, 0xffff),
+  /** How far off its board may be on the way; left out: as little as nobody can see. */
+  maxErrorUnits: z.optional(whole(1, MOST_ERROR_UNITS)),
   frames: z.array(frameSchema).check(z.maxLength(MAX_FRAMES)),
   markers: z.array(markerSchema).check(z.maxLength(MAX_MARKERS)),
   /** The next unused id of a frame or marker: an undone frame comes back as itself. */

@@ -9,7 +9,7 @@ export function rename(group: ActionGroup, name: string): ActionGroup {
 }
 
 /** What is said of the group as a whole. */
-export type GroupMeta = Pick<ActionGroup, 'name' | 'tags' | 'slot' | 'times' | 'robot'>;
+export type GroupMeta = Pick<ActionGroup, 'name' | 'tags' | 'slot' | 'times' | 'robot' | 'maxErrorUnits'>;
 
 export function setMeta(group: ActionGroup, meta: Partial<GroupMeta>): ActionGroup {
   const tags = meta.tags ?? group.tags;
