@@ -64,9 +64,11 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
       <p className={styles.ask}>
         {isAway ? words.calibration.homeFirst(target ?? servo.home, servo.home, unit) : sight.about}
       </p>
-      <div className={styles.arrow}>
-        {phase === 'away' && from !== 'gripper' && <TurnArrow isClockwise={sideOf(servo) > 0} />}
-      </div>
+      {from !== 'gripper' && (
+        <div className={styles.arrow}>
+          {phase === 'away' && <TurnArrow isClockwise={sideOf(servo) > 0} />}
+        </div>
+      )}
       <div className={styles.actions}>
         {isAway ? (
           <Button tone="primary" onPress={() => device.creep(servo.home, GENTLE_MOVE_MS)}>
