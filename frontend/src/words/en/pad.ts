@@ -47,7 +47,7 @@ function chipText({ input, action }: Binding): string {
 export const padWords = {
   title: 'Keys and pad',
   drive: 'Drive',
-  driveHint: 'Off, no key and no stick moves anything. Stop on the pad always works.',
+  driveHint: 'While it is off, no key and no stick moves anything. Stop on the pad always works.',
   drivingHint: 'Keys and sticks move the robot. Letting go, or leaving this window, ends it.',
   unreadable: 'The saved keys and pad could not be read. They were set aside unharmed.',
   notSaved: 'The browser does not store keys and pad; they are kept until the page is closed.',
