@@ -1,10 +1,11 @@
-// A picture that changes in each frame, on a canvas: it costs neither style nor layout, only what is drawn, and only while it is in
-// sight and shows something else than before. Knows no needle.
+// A picture that changes in each frame, on a canvas: it costs neither style nor layout, only what is drawn, and only where it shows
+// something else than before. Knows no needle.
 
 import { useEffectEvent, useLayoutEffect, useRef } from 'react';
 import { lookOf, type Look } from '../timeline/look.ts';
-import { watchSight, watchSize } from '../ui/onScreen.ts';
-import { useEachFrame } from '../ui/useEachFrame.ts';
+import { watchSize } from '../ui/onScreen.ts';
+import { useSight } from '../ui/sight.ts';
+import { useFollow } from '../ui/useFollow.ts';
 
 export interface Size {
   readonly width: number;
@@ -26,45 +27,63 @@ export interface DrawingProps<Shown extends readonly unknown[]> {
   paint(pen: Pen, shown: Shown): void;
 }
 
+interface Picture<Shown> {
+  readonly size: Size;
+  readonly look: Look;
+  readonly ratio: number;
+  readonly shown: Shown;
+}
+
 export function Drawing<Shown extends readonly unknown[]>({ className, shown, paint }: DrawingProps<Shown>) {
   const canvas = useRef<HTMLCanvasElement>(null);
-  const place = useRef({ size: { width: 0, height: 0 }, isInSight: true });
-  const drawn = useRef<readonly unknown[]>([]);
+  const size = useRef<Size>({ width: 0, height: 0 });
+  const sight = useSight(canvas);
 
-  function draw(): void {
-    const { size, isInSight } = place.current;
-    if (canvas.current === null || !isInSight || size.width === 0) return;
-    const now = shown();
+  function read(): Picture<Shown> | null {
+    if (canvas.current === null || size.current.width === 0) return null;
     const look = lookOf(canvas.current);
-    const reasons = [size, look, devicePixelRatio, ...now];
-    if (reasons.every((reason, index) => reason === drawn.current[index])) return;
-    drawn.current = reasons;
-    const ctx = cleanContext(canvas.current, size);
-    if (ctx !== null) paint({ ctx, look, size }, now);
+    return { size: size.current, look, ratio: devicePixelRatio, shown: shown() };
   }
 
-  const drawNow = useEffectEvent(draw);
+  function draw(picture: Picture<Shown> | null): void {
+    if (canvas.current === null || picture === null) return;
+    const ctx = cleanContext(canvas.current, picture);
+    if (ctx !== null) paint({ ctx, look: picture.look, size: picture.size }, picture.shown);
+  }
+
+  /** What is on a canvas costs the browser something in each frame, seen or not. */
+  function leave(): void {
+    if (canvas.current !== null && canvas.current.width > 0) canvas.current.width = 0;
+  }
+
+  const drawNow = useEffectEvent(() => draw(read()));
 
   useLayoutEffect(() => {
     if (canvas.current === null) return undefined;
-    const ends = [
-      watchSize(canvas.current, ({ contentRect: { width, height } }) => {
-        place.current = { ...place.current, size: { width, height } };
-        drawNow();
-      }),
-      watchSight(canvas.current, ({ isIntersecting }) => {
-        place.current = { ...place.current, isInSight: isIntersecting };
-        drawNow();
-      }),
-    ];
-    return () => ends.forEach((end) => end());
+    return watchSize(canvas.current, ({ contentRect: { width, height } }) => {
+      size.current = { width, height };
+      drawNow();
+    });
   }, []);
-  useEachFrame(draw);
+  useFollow({ read, isSame, draw, sight, leave });
   return <canvas ref={canvas} className={className} aria-hidden="true" />;
 }
 
-function cleanContext(canvas: HTMLCanvasElement, size: Size): CanvasRenderingContext2D | null {
-  const ratio = devicePixelRatio;
+function isSame(one: Picture<readonly unknown[]> | null, other: Picture<readonly unknown[]> | null): boolean {
+  if (one === null || other === null) return one === other;
+  return (
+    one.size === other.size &&
+    one.look === other.look &&
+    one.ratio === other.ratio &&
+    one.shown.length === other.shown.length &&
+    one.shown.every((part, index) => part === other.shown[index])
+  );
+}
+
+function cleanContext(
+  canvas: HTMLCanvasElement,
+  { size, ratio }: Picture<readonly unknown[]>,
+): CanvasRenderingContext2D | null {
   const [width, height] = [Math.round(size.width * ratio), Math.round(size.height * ratio)];
   if (canvas.width !== width) canvas.width = width;
   if (canvas.height !== height) canvas.height = height;

@@ -4,15 +4,15 @@ import type { Look } from '../timeline/look.ts';
 
 /** Units across a dial's drawing. */
 const FACE = 48;
-export const HUB = 4;
+const HUB = 4;
 
-export type Corners = readonly (readonly [x: number, y: number])[];
-export const TARGET: Corners = [
+type Corners = readonly (readonly [x: number, y: number])[];
+const TARGET: Corners = [
   [-4, -22.5],
   [4, -22.5],
   [0, -15.5],
 ];
-export const NEEDLE: Corners = [
+const NEEDLE: Corners = [
   [-2.5, 4],
   [-1, -14],
   [1, -14],
@@ -23,7 +23,7 @@ const PREVIEW: Corners = [
   [0, -19],
 ];
 
-export function turnedBy(corners: Corners, degrees: number): Corners {
+function turnedBy(corners: Corners, degrees: number): Corners {
   const radians = (degrees * Math.PI) / 180;
   const [sin, cos] = [Math.sin(radians), Math.cos(radians)];
   return corners.map(([x, y]) => [x * cos - y * sin, x * sin + y * cos] as const);

@@ -1,21 +1,20 @@
-// A native range input between the servo's limits, on a track as wide as the board allows, with two marks: the thumb is the
-// target, the bar below it the estimate. The input is uncontrolled so that a finger on it is never pushed about by what
-// the session says meanwhile.
+// A native range input between the servo's limits, on a track as wide as the board allows. It is the control and has no picture
+// of its own: its marks are drawn. The input is uncontrolled so that a finger on it is never pushed about by what the session says
+// meanwhile.
 
 import { useRef, type KeyboardEvent } from 'react';
 import { fraction } from '../body/pose.ts';
-import { useMotion } from '../body/useMotion.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Family, Range } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
-import { setAttribute } from '../ui/setAttribute.ts';
 import { words } from '../words/words.ts';
 import { Limits } from './Limits.tsx';
 import { between } from './limitPlaces.ts';
 import { stepped, type Scale } from './scale.ts';
-import { useRawDrag } from './useRawDrag.ts';
-import { useReadableTarget, useTarget } from './useTarget.ts';
+import { SliderMarks } from './SliderMarks.tsx';
+import { useDrag } from './useDrag.ts';
+import { targetOf, useReadableTarget } from './useTarget.ts';
 import styles from './PositionSlider.module.css';
 
 export interface PositionSliderProps {
@@ -48,45 +47,61 @@ export function PositionSlider({
   onHome,
 }: PositionSliderProps) {
   const input = useRef<HTMLInputElement>(null);
-  const held = useRef(false);
   const { min, max, home } = servo;
   const { device } = useStores();
-  const shown = (): number => device.targetsNow()[servo.servo] ?? guess ?? home;
+  const asked = (): number => device.targetsNow()[servo.servo] ?? guess ?? home;
 
-  useRawDrag(input, (position) => blocked || onDrag(position));
-  // Past React: dozens of them may change in each frame.
-  useTarget(servo.servo, (target) => {
-    if (input.current !== null && !held.current) input.current.value = String(target ?? guess ?? home);
+  const hold = useDrag(input, {
+    shown: asked,
+    drag,
+    release: () => write(asked()),
+    pressTwice: () => blocked || onHome(),
   });
   useReadableTarget(servo.servo, (target) => {
+    if (hold.current !== 'held') write(target ?? guess ?? home);
     if (input.current !== null) input.current.ariaValueText = valueText(scale, target, guess);
   });
 
-  /** Blocked, it keeps the focus and its place, and takes nothing. Without a pointer on it, it was Home or End. */
-  function moved(element: HTMLInputElement): void {
-    if (blocked) element.value = String(shown());
-    else if (held.current) onDrag(element.valueAsNumber);
-    else onLeap(element.valueAsNumber);
+  function write(position: number): void {
+    if (input.current !== null) input.current.value = String(position);
   }
 
-  function release(): void {
-    held.current = false;
-    if (input.current !== null) input.current.value = String(shown());
+  function drag(position: number): void {
+    if (blocked) return;
+    write(position);
+    onDrag(position);
+  }
+
+  /** Where the thumb is drawn. */
+  function shown(): number {
+    if (hold.current === 'held' && input.current !== null) return input.current.valueAsNumber;
+    return targetOf(device, servo.servo) ?? guess ?? home;
+  }
+
+  /** Blocked, it keeps the focus and its place, and takes nothing. Without a pointer on it, it was Home or End. */
+  function moved(element: HTMLInputElement): void {
+    if (blocked || hold.current === 'brushed') element.value = String(asked());
+    else if (hold.current === 'held') onDrag(element.valueAsNumber);
+    else onLeap(element.valueAsNumber);
   }
 
   function stepByKey(event: KeyboardEvent<HTMLInputElement>): void {
     const change = keyStep(event, scale);
     if (change === 0) return;
     event.preventDefault();
-    if (!blocked) onMove(stepped(scale, shown(), change));
+    if (!blocked) onMove(stepped(scale, asked(), change));
   }
 
   return (
     <div className={cx(styles.slider, blocked && styles.blocked, !isKnown && styles.unknown)}>
       <Track servo={servo} range={family.position} />
       {isNarrow(servo, family.position) && <Limits servo={servo} range={family.position} scale={scale} />}
-      <EstimateMark servo={servo.servo} range={family.position} />
       {guess !== null && <GuessMark share={fraction(guess, family.position)} />}
+      <SliderMarks
+        {...{ servo: servo.servo, range: family.position, isKnown, isBlocked: blocked }}
+        thumbAt={shown}
+        isHeld={() => hold.current === 'held'}
+      />
       <input
         ref={input}
         type="range"
@@ -100,10 +115,6 @@ export function PositionSlider({
         defaultValue={home}
         onInput={(event) => moved(event.currentTarget)}
         onKeyDown={stepByKey}
-        onDoubleClick={() => blocked || onHome()}
-        onPointerDown={() => (held.current = true)}
-        onPointerUp={release}
-        onPointerCancel={release}
       />
     </div>
   );
@@ -130,22 +141,6 @@ function Track({ servo, range }: { readonly servo: RobotServo; readonly range: R
 
 const isNarrow = ({ min, max }: Range, range: Range): boolean => min > range.min || max < range.max;
 
-function EstimateMark({ servo, range }: { readonly servo: number; readonly range: Range }) {
-  const mark = useRef<SVGRectElement>(null);
-  useMotion(servo, ({ estimated }) => {
-    if (mark.current === null) return;
-    setAttribute(mark.current, 'visibility', estimated === null ? 'hidden' : 'visible');
-    if (estimated !== null) setAttribute(mark.current, 'x', thousandths(fraction(estimated, range)));
-  });
-  return (
-    <div className={styles.whole} aria-hidden="true">
-      <svg className={styles.estimate}>
-        <rect ref={mark} visibility="hidden" width={3} height={9} rx={1} />
-      </svg>
-    </div>
-  );
-}
-
 function GuessMark({ share }: { readonly share: number }) {
   return (
     <div className={styles.whole} aria-hidden="true">
@@ -153,9 +148,6 @@ function GuessMark({ share }: { readonly share: number }) {
     </div>
   );
 }
-
-/** A third of a pixel of the widest track: a shorter way is painted for nobody. */
-const thousandths = (share: number): string => `${(share * 100).toFixed(1)}%`;
 
 const percent = (share: number): string => `${(share * 100).toFixed(2)}%`;
 

@@ -1,4 +1,4 @@
-// A servo's target past React's rounds: for what is drawn in each frame, and for what is drawn no more often than it can be read.
+// A servo's target past React's rounds, no more often than it can be read.
 
 import { useLayoutEffect, useState } from 'react';
 import type { Device } from '../stores/device.ts';
@@ -10,16 +10,11 @@ const READ_EACH_MS = 100;
 export const targetOf = ({ store }: Device, servo: number): number | null =>
   store.getState().targets[servo] ?? null;
 
-/** `show` is called with each new target, and each time the component is drawn. */
-export function useTarget(servo: number, show: (target: number | null) => void, eachMs = 0): void {
+/** `show` is called no more often than it can be read, and each time the component is drawn. */
+export function useReadableTarget(servo: number, show: (target: number | null) => void): void {
   const { device } = useStores();
   useLayoutEffect(() => show(targetOf(device, servo)));
-  useFollow({ read: () => targetOf(device, servo), draw: show, eachMs });
-}
-
-/** `show` is called no more often than it can be read. */
-export function useReadableTarget(servo: number, show: (target: number | null) => void): void {
-  useTarget(servo, show, READ_EACH_MS);
+  useFollow({ read: () => targetOf(device, servo), draw: show, eachMs: READ_EACH_MS });
 }
 
 /** The target, and a function that takes it over at once. */

@@ -3,7 +3,18 @@
 import { COLOURS, type Colour } from '#shared/actions/colours.ts';
 
 const NAMES = [
-  ...(['ink', 'ink-dim', 'line', 'edge', 'panel', 'raised', 'well', 'commanded', 'estimated'] as const),
+  ...([
+    'ink',
+    'ink-dim',
+    'line',
+    'edge',
+    'panel',
+    'raised',
+    'well',
+    'commanded',
+    'estimated',
+    'unknown',
+  ] as const),
   ...COLOURS,
 ] as const;
 export type LookName = (typeof NAMES)[number];

@@ -1,19 +1,22 @@
 // Whether a part of the page is in sight, for whoever draws in it in each frame.
 
-import { createContext, useLayoutEffect, useRef, type RefObject } from 'react';
+import { createContext, use, useLayoutEffect, useRef, type RefObject } from 'react';
 import { watchSight } from './onScreen.ts';
 
-type InSight = Readonly<RefObject<boolean>>;
+export type InSight = Readonly<RefObject<boolean>>;
 
 /** Outside of parts that are watched everything is. */
-export const Sight = createContext<InSight>({ current: true });
+const EVERYWHERE: InSight = { current: true };
+export const Sight = createContext<InSight>(EVERYWHERE);
 
-/** For `Sight`, around what is within `part`. */
-export function useSight(part: RefObject<HTMLElement | null>): InSight {
-  const isInSight = useRef(true);
+/** For `Sight`, around what is within `part`. Within a part that is watched already it is that part's. */
+export function useSight(part: RefObject<Element | null>): InSight {
+  const around = use(Sight);
+  const own = useRef(true);
+  const isWatchedAround = around !== EVERYWHERE;
   useLayoutEffect(() => {
-    if (part.current === null) return undefined;
-    return watchSight(part.current, ({ isIntersecting }) => (isInSight.current = isIntersecting));
-  }, [part]);
-  return isInSight;
+    if (part.current === null || isWatchedAround) return undefined;
+    return watchSight(part.current, ({ isIntersecting }) => (own.current = isIntersecting));
+  }, [part, isWatchedAround]);
+  return isWatchedAround ? around : own;
 }

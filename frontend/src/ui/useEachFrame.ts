@@ -2,6 +2,7 @@
 // React's own rounds. The browser is asked once a frame, however many there are.
 
 import { useEffect, useEffectEvent } from 'react';
+import { flushSync } from 'react-dom';
 
 /** `nowMs` is the same for all of a frame. */
 type Draw = (nowMs: number) => void;
@@ -11,7 +12,10 @@ let request = 0;
 
 function drawAll(nowMs: number): void {
   request = requestAnimationFrame(drawAll);
-  for (const draw of drawers) draw(nowMs);
+  // What they tell React is laid out with what they draw, not in a frame of its own.
+  flushSync(() => {
+    for (const draw of drawers) draw(nowMs);
+  });
 }
 
 function add(draw: Draw): () => void {

@@ -2,7 +2,7 @@
 // at once, and what nobody sees would cost as much as the rest. Knows no servo.
 
 import { use, useRef } from 'react';
-import { Sight } from './sight.ts';
+import { Sight, type InSight } from './sight.ts';
 import { useEachFrame } from './useEachFrame.ts';
 
 export interface Follow<T> {
@@ -12,13 +12,17 @@ export interface Follow<T> {
   draw(value: T): void;
   /** No more often than it can be read; left out: in each frame. */
   readonly eachMs?: number;
+  /** Left out: that of the part of the page around it. */
+  readonly sight?: InSight;
+  /** It has become another out of sight, and is drawn once it rests. */
+  leave?(): void;
 }
 
 /** Longer than a slow drag takes from one value to the next; no more often is looked at what is out of sight. */
 const REST_MS = 250;
 
-export function useFollow<T>({ read, isSame = Object.is, draw, eachMs = 0 }: Follow<T>): void {
-  const isInSight = use(Sight);
+export function useFollow<T>({ read, isSame = Object.is, draw, eachMs = 0, sight, leave }: Follow<T>): void {
+  const isInSight = sight ?? use(Sight);
   const latest = useRef<{ readonly value: T } | null>(null);
   const drawn = useRef<{ readonly value: T } | null>(null);
   const readIn = useRef(-1);
@@ -31,7 +35,11 @@ export function useFollow<T>({ read, isSame = Object.is, draw, eachMs = 0 }: Fol
     latest.current = now;
     if (drawn.current !== null && isSame(drawn.current.value, now.value)) return;
     const isAtRest = before !== null && isSame(before.value, now.value);
-    if (!isInSight.current && !isAtRest) return;
+    if (!isInSight.current && !isAtRest) {
+      drawn.current = null;
+      leave?.();
+      return;
+    }
     drawn.current = now;
     draw(now.value);
   });
