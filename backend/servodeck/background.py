@@ -8,9 +8,9 @@ import asyncio
 import contextlib
 import threading
 from collections.abc import Callable
+from functools import partial
 from typing import TypeVar
 
-from servodeck.errors import GatewayError
 from servodeck.ports import OpenPort, list_usb, open_port
 from servodeck.whereabouts import UsbDevice
 
@@ -36,7 +36,7 @@ class BackgroundPorts:
 
 
 async def in_thread(action: Callable[[], T], undo: Callable[[T], None]) -> T:
-    """The result of `action`, which may block; `undo` gets it where nobody waits for it any more."""
+    """What `action`, which may block, gives or raises; `undo` gets the result where nobody waits any more."""
     loop = asyncio.get_running_loop()
     outcome: asyncio.Future[T] = loop.create_future()
 
@@ -46,18 +46,17 @@ async def in_thread(action: Callable[[], T], undo: Callable[[T], None]) -> T:
         else:
             outcome.set_result(result)
 
-    def refuse(error: GatewayError) -> None:
+    def refuse(error: Exception) -> None:
         if not outcome.done():
             outcome.set_exception(error)
 
     def run() -> None:
+        try:
+            told = partial(hand_over, action())
+        except Exception as error:  # noqa: BLE001 (whatever it is, somebody waits for it)
+            told = partial(refuse, error)
         with contextlib.suppress(RuntimeError):  # the loop is closed: the process is ending
-            try:
-                result = action()
-            except GatewayError as error:
-                loop.call_soon_threadsafe(refuse, error)
-            else:
-                loop.call_soon_threadsafe(hand_over, result)
+            loop.call_soon_threadsafe(told)
 
     threading.Thread(target=run, name="serial port", daemon=True).start()
     return await outcome
