@@ -39,7 +39,7 @@ export function measureFrames(): Promise<Figure[]> {
       await centre(page);
       await moveAll(page);
       const moving = await drawing(page, thread);
-      await page.getByRole('slider').first().evaluate(dragInEachFrame);
+      await dragAll(page);
       const dragging = await drawing(page, thread);
       return [
         ...figures('moving', moving, bare, 'estimates of 32 servos under way'),
@@ -131,16 +131,23 @@ function framesDrawn(page: Page, forMs: number): Promise<number> {
   );
 }
 
-/** Runs in the page: the first slider is dragged to another value in every frame, and takes all others along. */
-function dragInEachFrame(slider: HTMLElement | SVGElement): void {
-  slider.dispatchEvent(new PointerEvent('pointerdown', { bubbles: true, pointerType: 'mouse', buttons: 1 }));
+/** The first slider takes all others along. */
+async function dragAll(page: Page): Promise<void> {
+  const slider = page.getByRole('slider').first();
+  await slider.hover();
+  await page.mouse.down();
+  await slider.evaluate(dragInEachFrame);
+}
+
+/** Runs in the page: the mouse that holds the slider is elsewhere in every frame. */
+function dragInEachFrame(slider: Element): void {
+  const { left, width } = slider.getBoundingClientRect();
+  const pointerId = 1; // the mouse's, in Chromium
   let frame = 0;
   requestAnimationFrame(function drag() {
     frame += 1;
-    if (slider instanceof HTMLInputElement) {
-      slider.valueAsNumber = Math.round(1500 + 600 * Math.sin(frame / 40));
-      slider.dispatchEvent(new InputEvent('input', { bubbles: true }));
-    }
+    const clientX = left + width * (0.5 + 0.3 * Math.sin(frame / 40));
+    slider.dispatchEvent(new PointerEvent('pointermove', { bubbles: true, pointerId, clientX }));
     requestAnimationFrame(drag);
   });
 }
