@@ -44,7 +44,10 @@ test.describe('when the gateway is killed', () => {
     await page.goto(first.url);
     const dashboard = dashboardOf(page);
     await expect(dashboard.link).toHaveText(READY);
+    // What works the group out beside the page comes from the gateway, too.
+    const beside = page.waitForResponse(/asideWorker/);
     await captureGroup(dashboard, [1000, 1200]);
+    await (await beside).finished();
 
     await first.end();
     await expect(dashboard.link).toHaveText(/^Lost/);

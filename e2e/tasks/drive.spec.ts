@@ -101,6 +101,8 @@ test('once its power was gone the last pose is a guess, and only a press takes t
   await robot.plugIn();
   await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
   await dashboard.resume.click();
+  // The gateway has heard it.
+  await expect(dashboard.resume).toBeHidden();
   await page.reload();
   await expect(dashboard.slider(2)).toHaveValue('1700');
   await expect(dashboard.slider(2)).toHaveAttribute('aria-valuetext', /^Unknown; last known 1700 µs/);

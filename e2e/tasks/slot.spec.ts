@@ -3,6 +3,7 @@
 import { kindsAfter, ofKind } from '../fixtures/bus.ts';
 import { captureGroup, downloadGroup } from '../fixtures/group.ts';
 import { noteAttribute, noteTexts } from '../fixtures/notes.ts';
+import { SLOW_FLASH } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 test('a group goes to slot 5, runs there twice and ends by itself @everyWay', async ({
@@ -58,8 +59,7 @@ test('a group runs until it is ended after its frame in progress, one at a time'
 });
 
 test.describe('on a board with slow flash', () => {
-  // Twice as slow as elsewhere: several things are looked at before its first frame is written.
-  test.use({ boardSettings: { faults: ['slowErase=600'] } });
+  test.use({ boardSettings: SLOW_FLASH });
 
   test('a download shows how far it is; cancelled, it leaves the slot broken, and that is not run', async ({
     dashboard,
