@@ -54,9 +54,10 @@ def test_each_line_is_an_object_also_those_of_the_libraries(json_served: Served)
         "port open",
         "port lost",
     ]
-    (lost,) = [line for line in lines if line["event"] == "port lost" and line["level"] == "warning"]
+    warnings = [line for line in lines if line["event"] == "port lost" and line["level"] == "warning"]
+    # A slow machine sees the first retry fail, too, which is news of another code.
+    (lost,) = [line for line in warnings if line["code"] == "lost"]
     assert lost["device"] == json_served.pty.device
-    assert lost["code"] == "lost"
     assert any(line["logger"] == "uvicorn.error" and line["level"] == "warning" for line in lines)
     assert all(line["level"] in LEVELS and line["time"].endswith("+00:00") for line in lines)
 
