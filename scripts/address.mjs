@@ -1,19 +1,21 @@
-// Where the dashboard listens: the port that was asked for, or the first free one from the usual one on.
+// Where the dashboard listens: the address that was asked for, or the first free port from the usual one on, for this computer
+// alone or for all its network.
 
 import { createServer } from 'node:net';
 import { SetupProblem, say } from './steps.mjs';
 
-const usual = { host: '127.0.0.1', port: 8300 };
+const usualPort = 8300;
 const attempts = 20;
 
 /** @typedef {{host: string, port: number}} Address */
 
 /**
  * @param {string | null} asked as `HOST:PORT`; port 0 means any
+ * @param {{lan: boolean}} reach others shall reach it, too
  * @returns {Promise<Address>}
  */
-export async function chooseAddress(asked) {
-  if (asked === null) return firstFree();
+export async function chooseAddress(asked, { lan }) {
+  if (asked === null) return firstFree(lan ? '0.0.0.0' : '127.0.0.1');
   const address = parse(asked);
   if (address.port === 0) return { ...address, port: await freePort(address.host) };
   if (await isFree(address)) return address;
@@ -39,15 +41,14 @@ export function freePort(host) {
   });
 }
 
-async function firstFree() {
-  for (let port = usual.port; port < usual.port + attempts; port += 1) {
-    if (!(await isFree({ ...usual, port }))) continue;
-    if (port !== usual.port) say(`Port ${usual.port} is taken, perhaps by another Servodeck; using ${port}.`);
-    return { ...usual, port };
+/** @param {string} host @returns {Promise<Address>} */
+async function firstFree(host) {
+  for (let port = usualPort; port < usualPort + attempts; port += 1) {
+    if (!(await isFree({ host, port }))) continue;
+    if (port !== usualPort) say(`Port ${usualPort} is taken, perhaps by another Servodeck; using ${port}.`);
+    return { host, port };
   }
-  throw new SetupProblem(
-    `No free port from ${usual.port} on. Name one: npm start -- --listen 127.0.0.1:PORT`,
-  );
+  throw new SetupProblem(`No free port from ${usualPort} on. Name one: npm start -- --listen ${host}:PORT`);
 }
 
 /** @param {Address} address @returns {Promise<boolean>} */

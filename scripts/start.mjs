@@ -93,7 +93,7 @@ async function start() {
   onEnd(() => void leave(0));
   const { serial, listen, passedOn } = parseArguments(process.argv.slice(2));
   await setUp();
-  const address = await chooseAddress(listen);
+  const address = await chooseAddress(listen, { lan: passedOn.includes('--lan') });
   const cable = serial === null ? await boardOn(`build/simulated-board-${address.port}`) : null;
   const plugged = cable?.plug();
   const port = cable === null ? ['--serial', serial ?? ''] : ['--serial', cable.device, '--simulated'];

@@ -43,3 +43,14 @@ test('npm start says what to do when the address is taken', async ({ terminal: {
   second.stderr.on('data', (text: Buffer) => (said += text.toString()));
   await expect.poll(() => said).toContain('End that one, or take another port: npm start -- --listen');
 });
+
+test.describe('for a class', () => {
+  test.use({ overLan: true });
+
+  test('npm start -- --lan is enough: it is reached at the address that it tells', async ({ terminal }) => {
+    const address = (): string => /Others reach it at (\S+)/.exec(terminal.said())?.[1] ?? '';
+    await expect.poll(address).not.toBe('');
+    expect(terminal.said()).not.toContain('Only this computer');
+    expect((await fetch(`${address()}/api/health`)).status).toBe(200);
+  });
+});
