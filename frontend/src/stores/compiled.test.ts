@@ -129,6 +129,15 @@ describe('the group as the board gets it', () => {
     expect(compiled.now().source.maxErrorUnits).toBe(5);
   });
 
+  test('of another group is worked out once for each robot, however often it is asked for', async () => {
+    const { compiled, document, device, robots } = await openDesk();
+    const { present: group } = document.store.getState();
+    const on = { family: device.store.getState().family, robot: robots.current().robot };
+    const first = compiled.of(group, on);
+    expect(compiled.of(group, { ...on })).toBe(first);
+    expect(compiled.of(group, { ...on, robot: { ...on.robot } })).not.toBe(first);
+  });
+
   test('goes back to fresh when a change is undone', async () => {
     const { add, document, state, clock } = await openDesk();
     add(1000);

@@ -26,7 +26,7 @@ export interface CompiledStore {
   readonly store: StoreApi<CompiledState>;
   /** Of the group as it is now. */
   now(): CompiledGroup;
-  /** Of another group. */
+  /** Of another group; one that was asked for before is not worked out again. */
   of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>): CompiledGroup;
 }
 
@@ -47,6 +47,7 @@ export interface CompiledOptions {
 export function createCompiled({ document, device, robots, clock, aside }: CompiledOptions): CompiledStore {
   let cancelTimer = (): void => undefined;
   let isBusy = false;
+  const others = new WeakMap<ActionGroup, CompiledGroup>();
 
   const wanted = (): Source =>
     sourceOf(document.store.getState().present, {
@@ -78,6 +79,15 @@ export function createCompiled({ document, device, robots, clock, aside }: Compi
     else touched();
   }
 
+  function of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>): CompiledGroup {
+    const source = sourceOf(group, on);
+    const before = others.get(group);
+    if (before !== undefined && isSame(source, before.source)) return before;
+    const made = compiled(source);
+    others.set(group, made);
+    return made;
+  }
+
   function touched(): void {
     const isFresh = isLatest(wanted());
     if (isFresh && store.getState().isFresh) return;
@@ -93,11 +103,7 @@ export function createCompiled({ document, device, robots, clock, aside }: Compi
     if (family !== before.family) touched();
   });
 
-  return {
-    store,
-    now,
-    of: (group, on) => compiled(sourceOf(group, on)),
-  };
+  return { store, now, of };
 }
 
 /** What the group says, in its own unit. */
