@@ -22,9 +22,10 @@ from servodeck.describe import describe
 from servodeck.download_cli import download
 from servodeck.families import UNKNOWN
 from servodeck.logs import Form, Level
+from servodeck.options_cli import Token, TokenFile, asked, remote_at
 from servodeck.packets import FAMILIES, PacketError
 from servodeck.ports import PortInfo, list_devices
-from servodeck.remote_cli import COMMANDS, Token, TokenFile, asked, remote_at
+from servodeck.remote_cli import COMMANDS
 
 if TYPE_CHECKING:
     from servodeck.access import Access

@@ -10,27 +10,28 @@ from typing import Annotated, Any
 
 import typer
 
-from servodeck.remote import HERE, Remote
-from servodeck.remote_cli import (
+from servodeck.options_cli import (
     INTERRUPTED,
     REFUSED,
     USAGE,
     AsJson,
     Take,
-    Token,
-    TokenFile,
-    Url,
     asked,
+    asking,
     fail,
-    remote_at,
     show,
 )
+from servodeck.remote import Remote
 
 LOOK_S = 0.2
+# What the gateway reads at once (guard.py), with room for what stands around the groups.
+PORTION_BYTES = 500 * 1024
 SHAPE = '{"name": "Wave", "frames": [{"durationMs": 400, "positions": {"1": 1200}}]}'
 
 
+@asking
 def download(
+    remote: Remote,
     groups: Annotated[
         list[str], typer.Argument(metavar="SLOT=FILE...", help="For example 5=wave.json 6=bow.json")
     ],
@@ -38,20 +39,38 @@ def download(
         bool, typer.Option("--wait/--no-wait", help="Until all are stored, or return once it has begun.")
     ] = True,
     take: Take = False,
-    url: Url = HERE,
-    token: Token = "",
-    token_file: TokenFile = None,
     as_json: AsJson = False,
 ) -> None:
     """Store groups on the board, one after the other. The gateway goes on by itself; Ctrl-C calls it off."""
-    remote = remote_at(url, token, token_file)
-    body = {"groups": [group_of(text) for text in groups], "take": take}
-    job = asked(remote, "POST", "/api/download", body)
+    job = handed_over(remote, [group_of(text) for text in groups], take=take)
     if wait:
         job = followed(remote, job, tells=not as_json)
     show(job, as_json, words_of)
     if job["status"] not in ("done", "running"):
         raise typer.Exit(REFUSED)
+
+
+def handed_over(remote: Remote, groups: list[dict[str, Any]], *, take: bool) -> dict[str, Any]:
+    """As one job, in as many requests as the gateway needs to read them."""
+    first, *rest = portions_of(groups)
+    job: dict[str, Any] = asked(remote, "POST", "/api/download", {"groups": first, "take": take})
+    for portion in rest:
+        body = {"groups": portion, "take": take, "behind": job["id"]}
+        job = asked(remote, "POST", "/api/download", body)
+    return job
+
+
+def portions_of(groups: list[dict[str, Any]]) -> list[list[dict[str, Any]]]:
+    portions: list[list[dict[str, Any]]] = []
+    room_bytes = 0
+    for group in groups:
+        size_bytes = len(json.dumps(group)) + 2  # a comma and a blank
+        if size_bytes > room_bytes:
+            portions.append([])
+            room_bytes = PORTION_BYTES
+        portions[-1].append(group)
+        room_bytes -= size_bytes
+    return portions
 
 
 def followed(remote: Remote, job: dict[str, Any], *, tells: bool) -> dict[str, Any]:

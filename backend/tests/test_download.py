@@ -3,7 +3,7 @@ packet that follows from it. The page's session (shared/src/session/downloads.te
 """
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +29,7 @@ GUEST = Caller("guest", "Bert", "viewer")
 class AnsweringPort(FakePort):
     """Says "stored" as it is told: a list for each packet, of times after the packet's last bit."""
 
-    def __init__(self, answers_ms: Sequence[Sequence[float]] = ()) -> None:
+    def __init__(self, answers_ms: Iterable[Sequence[float]] = ()) -> None:
         super().__init__()
         self._answers_ms = iter(answers_ms)
 

@@ -12,7 +12,7 @@ from typing import Any
 import httpx2
 import pytest
 
-from servodeck.remote_cli import REFUSED, USAGE
+from servodeck.options_cli import REFUSED, USAGE
 from servodeck.wire import wire_s
 from tests.samples import DOWNLOAD
 from tests.test_cli import Served, run
@@ -97,6 +97,20 @@ def test_it_may_go_on_without_the_command(served: Served, board: Board, tmp_path
     assert (second.exit_code, "(busy)" in second.stderr) == (REFUSED, True)
     assert run("stop", "--url", served.url).exit_code == 0
     assert {slot for slot, _ in board.stored} <= {5}
+
+
+def test_what_one_request_does_not_take_goes_in_several_as_one_job(
+    served: Served, board: Board, tmp_path: Path
+) -> None:
+    frame = {"durationMs": 400, "positions": {str(servo): 1500 for servo in range(1, 33)}}
+    long = file_in(tmp_path, "long.json", {"frames": [frame] * 255})
+    slots = range(5)
+    files = [f"{slot}={long}" for slot in slots]
+    begun = run("download", *files, "--no-wait", "--url", served.url, "--json")
+    assert (begun.exit_code, begun.stderr) == (0, "")
+    told = json.loads(begun.stdout)
+    assert (told["slots"], told["frameCount"]) == (list(slots), 5 * 255)
+    assert run("stop", "--url", served.url).exit_code == 0
 
 
 def test_what_ends_it_early_is_told_with_what_is_stored(served: Served, board: Board, tmp_path: Path) -> None:
