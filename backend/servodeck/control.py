@@ -3,7 +3,6 @@
 Knows what is asked and what may be done now. Must not know HTTP, WebSockets or how a byte reaches the port.
 """
 
-import contextlib
 from collections.abc import Callable, Sequence
 
 from servodeck.board import Board
@@ -12,7 +11,6 @@ from servodeck.decoder import COMMAND_AT
 from servodeck.driving import Driving
 from servodeck.errors import (
     CancelledError,
-    GatewayError,
     LatchedError,
     MovingError,
     NotDrivingError,
@@ -49,6 +47,7 @@ from servodeck.robot_of_board import ReadFacts, RobotOfBoard, no_robot
 from servodeck.slot_memory import SlotMemory
 from servodeck.telling import Telling
 from servodeck.told import JobState
+from servodeck.watch import Watch
 from servodeck.wire import Job, Left, Owner, always
 
 SOMEBODY = Cause("person")
@@ -83,7 +82,8 @@ class Control:
         self._recalled_board = RecalledBoard(self.remembered, is_wanted=recalls_board)
         self.robot = RobotOfBoard(self.limits, read_robot, self.remembered, self._robot_changed)
         self.hub = Hub()
-        self.driving = Driving(self.hub, now, epoch, self)
+        self._watch = Watch(self)
+        self.driving = Driving(self.hub, now, epoch, self._watch)
         simulated_device = named_device if simulated else None
         self.board = Board(ports, now, board, simulated_device, slot_memory or SlotMemory(), self)
         self._relay = Relay(self.hub, now)
@@ -105,7 +105,7 @@ class Control:
         self.driving.seated(seat)
 
     def leave(self, seat: Seat) -> None:
-        self._drop(seat, CancelledError("The client has left."))
+        self.board.drop(lambda job: job.owner is seat, CancelledError("The client has left."))
         self.limits.forget(seat)
         self.hub.leave(seat)
         self.driving.leave(seat)
@@ -246,7 +246,7 @@ class Control:
         self._telling.everybody(JobMessage(job=state))
 
     def time_alone_over(self) -> None:
-        self._end_quietly(CancelledError("The time in which it might go on alone is over."))
+        self._watch.end_quietly(CancelledError("The time in which it might go on alone is over."))
 
     def received(self, event: DecoderEvent) -> None:
         is_packet = isinstance(event, PacketEvent)
@@ -256,55 +256,17 @@ class Control:
     def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
         self._relay.leaving(owner, packet, at_s)
 
-    # What the lease tells
-
-    def driver_quiet(self) -> None:
-        self._drop(self.driving.driver, CancelledError("Its driver was not heard any more."))
-        if self.board.motion.is_moving(self.now()):
-            self._stop_for_nobody()
-
-    def driver_silent(self) -> None:
-        if self.board.may_move() and not self.board.unattended.by:
-            self._stop_for_nobody()
-
-    def driver_lost(self) -> None:
-        self.driver_silent()
-
-    def driver_changed(self) -> None:
-        """What one driver began does not go on under the next; nobody has to resume for it."""
-        goes_on_alone = self.board.unattended.by and self.driving.driver is None
-        if self.board.may_move() and not goes_on_alone:
-            self._end_quietly(NotDrivingError("Somebody else drives now."))
-
-    def lease_changed(self) -> None:
-        if self.driving.driver and self.board.unattended.by not in (None, self.driving.driver):
-            self._end_quietly(NotDrivingError("Somebody else drives now."))
-        self.driving.tell_all()
-
     # Inside
 
     def _permitted(self, owner: Owner, nonce: str | None) -> Callable[[], None]:
         permit = self.driving.permit(owner, nonce)
         return lambda: self.driving.judge(permit)
 
-    def _drop(self, owner: Owner, reason: GatewayError) -> None:
-        self.board.drop(lambda job: job.owner is owner, reason)
-
     def _judge_idle(self, packet: bytes) -> None:
         """A stop always goes, but the frame it meets on the board is not stored for sure (S10)."""
         if packet[COMMAND_AT] == STOP:
             self.board.jobs.end(CancelledError("A stop ended it before all of it was stored."))
         self.board.jobs.judge_idle()
-
-    def _end_quietly(self, reason: GatewayError) -> None:
-        """Without the latch: somebody is there, or it was said beforehand."""
-        with contextlib.suppress(GatewayError):
-            self.board.halt(None, reason)
-
-    def _stop_for_nobody(self) -> None:
-        """STOP because nobody watches over what moves: whoever goes on has to look first."""
-        with contextlib.suppress(GatewayError):
-            self.stop(None, cause=Cause("silence"))
 
     def _see_robot(self) -> None:
         link = self.board.link

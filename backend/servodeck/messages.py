@@ -132,11 +132,12 @@ AnyClientMessage = (
 ClientMessage = Annotated[AnyClientMessage, Field(discriminator="type")]
 
 
-class WelcomeMessage(Message):
-    """The first message on each connection."""
+class Standing(Message):
+    """How the gateway stands, for everybody alike. `brokenSlots` hold half a group: nobody may run them.
+    `slotVersions` tell what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
+    people call whoever pressed STOP, where that is known.
+    """
 
-    type: Literal["welcome"] = "welcome"
-    version: str
     board: str
     port: PortState
     latch: bool
@@ -144,10 +145,17 @@ class WelcomeMessage(Message):
     stopped_by: str | None
     clients: int
     unattended: UnattendedRun | None
-    robot: RobotTold | None
-    lease: LeaseState
     broken_slots: list[int]
     slot_versions: dict[str, str]
+
+
+class WelcomeMessage(Standing):
+    """The first message on each connection."""
+
+    type: Literal["welcome"] = "welcome"
+    version: str
+    robot: RobotTold | None
+    lease: LeaseState
     job: JobState | None
     motion: MotionTold
 
@@ -202,22 +210,10 @@ class ResumedMessage(Message):
     by: str
 
 
-class StateMessage(Message):
-    """Something of this changed. `brokenSlots` hold half a group: nobody may run them. `slotVersions` tell
-    what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
-    people call whoever pressed STOP, where that is known.
-    """
+class StateMessage(Standing):
+    """Something of this changed."""
 
     type: Literal["state"] = "state"
-    board: str
-    port: PortState
-    latch: bool
-    latched_by: LatchedBy | None
-    stopped_by: str | None
-    clients: int
-    unattended: UnattendedRun | None
-    broken_slots: list[int]
-    slot_versions: dict[str, str]
 
 
 class JobMessage(Message):

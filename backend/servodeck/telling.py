@@ -4,6 +4,7 @@ Knows seats, messages and the parts they are about; changes none of them.
 """
 
 from collections.abc import Callable
+from typing import Any
 
 from servodeck import __version__
 from servodeck.board import Board
@@ -33,39 +34,34 @@ class Telling:
         self._now = now
 
     def welcome(self, seat: Seat) -> None:
-        board, latch = self._board, self._latch
+        board = self._board
         welcome = WelcomeMessage(
             version=__version__,
-            board=board.taken_for,
-            port=board.port,
-            latch=latch.cause is not None,
-            latched_by=latch.by,
-            stopped_by=latch.name,
-            clients=len(self._hub),
-            unattended=board.unattended.told(),
             robot=self._robot.told(),
             lease=self._driving.state_for(seat),
-            broken_slots=board.broken_slots,
-            slot_versions=board.slot_versions,
             job=board.jobs.latest,
             motion=board.motion.told(self._now()),
+            **self._standing(),
         )
         seat.put(encode(welcome))
 
     def state(self, but: Seat | None = None) -> None:
-        board, latch = self._board, self._latch
-        state = StateMessage(
-            board=board.taken_for,
-            port=board.port,
-            latch=latch.cause is not None,
-            latched_by=latch.by,
-            stopped_by=latch.name,
-            clients=len(self._hub),
-            unattended=board.unattended.told(),
-            broken_slots=board.broken_slots,
-            slot_versions=board.slot_versions,
-        )
-        self.everybody(state, but)
+        self.everybody(StateMessage(**self._standing()), but)
 
     def everybody(self, message: Message, but: Seat | None = None) -> None:
         self._hub.tell_all(encode(message), but)
+
+    def _standing(self) -> dict[str, Any]:
+        """The fields of `Standing`."""
+        board, latch = self._board, self._latch
+        return {
+            "board": board.taken_for,
+            "port": board.port,
+            "latch": latch.cause is not None,
+            "latched_by": latch.by,
+            "stopped_by": latch.name,
+            "clients": len(self._hub),
+            "unattended": board.unattended.told(),
+            "broken_slots": board.broken_slots,
+            "slot_versions": board.slot_versions,
+        }

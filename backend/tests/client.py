@@ -81,6 +81,17 @@ async def gateway_on(*ports: FakePort) -> AsyncIterator[Control]:
             port.close()
 
 
+@asynccontextmanager
+async def driven(*sent: bytes) -> AsyncIterator[tuple[Control, FakePort, Client]]:
+    """A gateway, its port, and who drives there: has sent these, one after the other."""
+    port = FakePort()
+    async with gateway_on(port) as control:
+        driver = Client(control)
+        for packet in sent:
+            await driver.send(packet)
+        yield control, port, driver
+
+
 def lease_of(connection: ClientConnection) -> str:
     """Over a real socket: gets a lease that nobody has; the nonce holds for half a second."""
     connection.send('{"type": "lease", "action": "request"}')

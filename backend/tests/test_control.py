@@ -1,4 +1,4 @@
-"""What the gateway does with what clients and the board do: latch, welcome, battery, the last one out."""
+"""What the gateway does with what clients and the board do: latch, board, battery, the last one out."""
 
 import asyncio
 
@@ -18,7 +18,7 @@ from servodeck.errors import (
 )
 from servodeck.hub import OUTBOX_MESSAGES
 from servodeck.inbox import SILENCE_S
-from tests.client import Client, gateway_on
+from tests.client import Client, driven, gateway_on
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, BATTERY_REPORT, DOWNLOAD, ERASE, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
 from tests.virtual_time import at, in_virtual_time, now
@@ -30,73 +30,6 @@ async def test_opening_a_port_sends_one_stop_and_nothing_that_moves() -> None:
     async with gateway_on(port) as control:
         assert port.packets() == [STOP]
         assert control.latch is False
-
-
-@in_virtual_time
-async def test_each_client_is_welcomed_and_the_others_hear_how_many_there_are() -> None:
-    async with gateway_on() as control:
-        anna = Client(control)
-        [welcome] = await anna.heard()
-        assert welcome["type"] == "welcome"
-        assert (welcome["board"], welcome["latch"], welcome["clients"]) == ("doc", False, 1)
-        assert welcome["port"]["status"] == "open"
-        bert = Client(control)
-        assert [message["type"] for message in await bert.heard()] == ["welcome"]
-        assert [(message["type"], message["clients"]) for message in await anna.heard()] == [("state", 2)]
-        control.leave(bert)
-        assert [(message["type"], message["clients"]) for message in await anna.heard()] == [("state", 1)]
-
-
-def port_status(control: Control) -> str:
-    return control.board.port.status
-
-
-async def told_of_servos(control: Control) -> list[int]:
-    """Whose place somebody hears who comes now."""
-    newcomer = Client(control)
-    [welcome] = await newcomer.heard()
-    control.leave(newcomer)
-    return [way["servo"] for way in welcome["motion"]["servos"]]
-
-
-@in_virtual_time
-async def test_whoever_comes_late_is_told_where_the_servos_are() -> None:
-    async with gateway_on() as control:
-        assert await told_of_servos(control) == []
-        await Client(control).send(MOVE)
-        await asyncio.sleep(2)
-        assert await told_of_servos(control) == [1]
-
-
-@in_virtual_time
-async def test_when_the_port_went_nobody_is_told_any_place_not_after_its_return_either() -> None:
-    first, second = FakePort(), FakePort()
-    async with gateway_on(first, second) as control:
-        await Client(control).send(MOVE)
-        first.unplug()
-        await asyncio.sleep(0.1)
-        assert port_status(control) == "lost"
-        assert await told_of_servos(control) == []
-        await asyncio.sleep(1)
-        assert port_status(control) == "open"
-        assert await told_of_servos(control) == []
-
-
-@in_virtual_time
-async def test_a_board_that_was_silent_may_stand_anywhere() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(BATTERY)
-        port.say(BATTERY_REPORT)
-        await anna.send(MOVE)
-        for _ in range(2):
-            assert await told_of_servos(control) == [1]
-            await anna.send(BATTERY)
-            await asyncio.sleep(5)
-        port.say(BATTERY_REPORT)
-        await asyncio.sleep(0.1)
-        assert await told_of_servos(control) == []
 
 
 @in_virtual_time
@@ -143,9 +76,7 @@ async def test_an_unknown_board_gets_questions_and_stops_and_nothing_else() -> N
 
 @in_virtual_time
 async def test_what_waits_for_one_board_does_not_go_to_another() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
+    async with driven() as (control, port, anna):
         leaving, waiting = anna.send(MOVE), anna.send(ERASE)
         await asyncio.sleep(0)
         control.take_for("lsc-6")
@@ -214,9 +145,7 @@ async def test_a_port_that_never_opened_does_not_latch() -> None:
 
 @in_virtual_time
 async def test_a_plain_stop_overtakes_what_waits_and_takes_waiting_runs_with_it() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
+    async with driven() as (control, port, anna):
         on_wire = anna.send(MOVE)
         await asyncio.sleep(0.005)
         run, move = anna.send(RUN), anna.send(MOVE_ELSEWHERE)
@@ -280,9 +209,7 @@ async def test_changing_the_port_first_ends_a_group_that_nobody_could_stop_after
 
 @in_virtual_time
 async def test_shutting_down_stops_the_robot_within_half_a_second() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
+    async with driven() as (control, port, anna):
         for _ in range(8):
             anna.send(MOVE)
         await asyncio.sleep(0.001)
@@ -310,15 +237,3 @@ async def test_a_client_that_does_not_read_is_given_up_and_the_others_lose_nothi
             assert [message["type"] for message in await alert.heard()] == ["received"]
         assert deaf.ended.is_set()
         assert not alert.ended.is_set()
-
-
-@in_virtual_time
-async def test_a_port_declared_as_simulated_is_told_so_and_only_that_one() -> None:
-    ports = FakePorts(FakePort(), FakePort())
-    control = Control(ports, now, "doc", "/dev/board", simulated=True)
-    await control.use_port("/dev/board")
-    [welcome] = await Client(control).heard()
-    assert welcome["port"]["simulated"] is True
-    await control.use_port("/dev/other")
-    assert control.board.port.simulated is False
-    await control.board.link.close()

@@ -9,19 +9,14 @@ from servodeck.errors import (
     ExpiredError,
     NotDrivingError,
 )
-from tests.client import Client, gateway_on
-from tests.fake_port import FakePort
-from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, RUN, STOP
-from tests.test_driving import MOVE_S, STOPS, hold_at
+from tests.client import Client, driven
+from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, MOVE_S, RUN, STOP, STOPS, hold_at
 from tests.virtual_time import hold_up, in_virtual_time, now
 
 
 @in_virtual_time
 async def test_a_tab_that_froze_and_wakes_moves_nothing() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(BATTERY)
+    async with driven(BATTERY) as (control, port, anna):
         anna.beats = False
         await asyncio.sleep(0.8)
         with pytest.raises(ExpiredError):
@@ -38,10 +33,7 @@ async def test_a_tab_that_froze_and_wakes_moves_nothing() -> None:
 
 @in_virtual_time
 async def test_what_waits_too_long_for_the_wire_is_not_sent() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(MOVE)
+    async with driven(MOVE) as (_, port, anna):
         anna.beats = False
         long_move = bytes.fromhex("5555650320e803" + "".join(f"{servo:02x}dc05" for servo in range(1, 33)))
         waiting = [anna.send(long_move) for _ in range(6)]
@@ -54,10 +46,8 @@ async def test_what_waits_too_long_for_the_wire_is_not_sent() -> None:
 
 @in_virtual_time
 async def test_a_driver_who_falls_silent_in_a_move_is_stopped_and_held_in_time() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna, bert = Client(control), Client(control)
-        await anna.send(MOVE)
+    async with driven(MOVE) as (control, port, anna):
+        bert = Client(control)
         await asyncio.sleep(MOVE_S)
         await anna.send(MOVE_ELSEWHERE)
         left_s = now()
@@ -77,10 +67,7 @@ async def test_a_driver_who_falls_silent_in_a_move_is_stopped_and_held_in_time()
 @in_virtual_time
 async def test_a_gateway_that_was_held_up_itself_asks_whether_its_driver_is_there() -> None:
     for is_there in (True, False):
-        port = FakePort()
-        async with gateway_on(port) as control:
-            anna = Client(control)
-            await anna.send(RUN)
+        async with driven(RUN) as (control, port, anna):
             anna.beats = is_there
             hold_up(2.5)
             await asyncio.sleep(0.4)
@@ -90,10 +77,7 @@ async def test_a_gateway_that_was_held_up_itself_asks_whether_its_driver_is_ther
 
 @in_virtual_time
 async def test_a_gateway_that_is_held_up_again_and_again_stops_for_a_lost_driver_all_the_same() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(RUN)
+    async with driven(RUN) as (control, _, anna):
         anna.beats = False
         hold_up(2.5)
         for _ in range(3):
@@ -105,10 +89,7 @@ async def test_a_gateway_that_is_held_up_again_and_again_stops_for_a_lost_driver
 
 @in_virtual_time
 async def test_a_group_outlives_its_drivers_silence_by_two_seconds_at_most() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(RUN)
+    async with driven(RUN) as (control, port, anna):
         anna.beats = False
         begun_s = now()
         await asyncio.sleep(1.7)
@@ -123,9 +104,8 @@ async def test_a_group_outlives_its_drivers_silence_by_two_seconds_at_most() -> 
 async def test_a_silent_driver_of_a_robot_at_rest_stops_nothing_and_loses_the_lease_after_ten_seconds() -> (
     None
 ):
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna, bert = Client(control), Client(control)
+    async with driven() as (control, port, anna):
+        bert = Client(control)
         await anna.send(MOVE)
         await asyncio.sleep(MOVE_S + 0.1)
         anna.beats = False
@@ -139,10 +119,8 @@ async def test_a_silent_driver_of_a_robot_at_rest_stops_nothing_and_loses_the_le
 @in_virtual_time
 async def test_a_driver_who_leaves_is_lost_at_once_and_what_moves_stops() -> None:
     for begun in (MOVE, RUN):
-        port = FakePort()
-        async with gateway_on(port) as control:
-            anna, bert = Client(control), Client(control)
-            await anna.send(begun)
+        async with driven(begun) as (control, port, anna):
+            bert = Client(control)
             control.leave(anna)
             await asyncio.sleep(0.5)
             assert port.packets() == [STOP, begun, *STOPS]
@@ -152,12 +130,7 @@ async def test_a_driver_who_leaves_is_lost_at_once_and_what_moves_stops() -> Non
 
 @in_virtual_time
 async def test_a_driver_who_leaves_a_robot_at_rest_stops_nothing() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(RUN)
-        await anna.send(STOP)
-        await anna.send(MOVE)
+    async with driven(RUN, STOP, MOVE) as (control, port, anna):
         await asyncio.sleep(MOVE_S)
         control.leave(anna)
         await asyncio.sleep(1)
@@ -167,10 +140,7 @@ async def test_a_driver_who_leaves_a_robot_at_rest_stops_nothing() -> None:
 
 @in_virtual_time
 async def test_a_driver_who_leaves_after_the_group_has_ended_stops_nothing() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(RUN)
+    async with driven(RUN) as (control, port, anna):
         await asyncio.sleep(1)
         port.say(STOP)  # from this board: finished by itself
         await asyncio.sleep(0.01)
@@ -181,9 +151,7 @@ async def test_a_driver_who_leaves_after_the_group_has_ended_stops_nothing() -> 
 
 @in_virtual_time
 async def test_what_a_leaving_client_had_waiting_is_never_sent() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
+    async with driven() as (control, port, anna):
         for _ in range(5):
             anna.send(MOVE)
         await asyncio.sleep(0.005)

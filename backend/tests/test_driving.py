@@ -15,26 +15,14 @@ from servodeck.errors import (
 from servodeck.hub import Seat
 from servodeck.messages import GiveMessage, ResumeMessage, StopMessage
 from servodeck.wire import Left
-from tests.client import Client, gateway_on
+from tests.client import Client, driven, gateway_on
 from tests.fake_port import FakePort
-from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, RUN, STOP
+from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, MOVE_S, RUN, STOP, STOPS, hold_at
 from tests.virtual_time import in_virtual_time
 
-STOPS = [STOP, STOP, STOP]
-# MOVE takes servo 1 to 2000 and MOVE_ELSEWHERE to 1500, in a second each.
-MOVE_S = 1.0
 GUEST = Caller("guest", "Bert", "viewer")
 PUPIL = Caller("pupil", "Anna", "driver")
 CARL = Caller("carl", "Carl", "driver")
-
-
-def hold_at(position: int, duration_ms: int = 20) -> bytes:
-    return (
-        bytes.fromhex("5555080301")
-        + duration_ms.to_bytes(2, "little")
-        + b"\x01"
-        + position.to_bytes(2, "little")
-    )
 
 
 @in_virtual_time
@@ -243,10 +231,7 @@ async def test_the_owner_takes_it_and_what_was_under_way_is_held() -> None:
 
 @in_virtual_time
 async def test_a_stop_without_a_pose_holds_where_the_gateway_knows_the_robot_to_be() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(MOVE)
+    async with driven(MOVE) as (control, port, anna):
         await asyncio.sleep(MOVE_S)
         await anna.send(MOVE_ELSEWHERE)
         await asyncio.sleep(0.5)
@@ -256,9 +241,7 @@ async def test_a_stop_without_a_pose_holds_where_the_gateway_knows_the_robot_to_
 
 @in_virtual_time
 async def test_a_servo_in_its_first_move_ends_it_slowly() -> None:
-    port = FakePort()
-    async with gateway_on(port) as control:
-        anna = Client(control)
+    async with driven() as (control, port, anna):
         other_servo = MOVE[:7] + b"\x02" + MOVE[8:]
         await anna.send(MOVE)
         await asyncio.sleep(MOVE_S)

@@ -2,85 +2,26 @@
 
 import asyncio
 import json
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import pytest
-from httpx2 import AsyncClient, Response
-from starlette.types import ASGIApp, Message
+from starlette.types import Message
 
-from servodeck import access
-from servodeck.app import create_app
-from servodeck.callers import THIS_COMPUTER, Caller, Role
-from servodeck.control import Control
-from servodeck.packets import FAMILIES, encode
+from servodeck.callers import THIS_COMPUTER
 from servodeck.told import ServoLimits
-from servodeck.values import Move, ServoTarget
 from tests.client import Client
-from tests.fake_port import FakePort, FakePorts
 from tests.knocking import scope_of
-from tests.running import DEVICE, NO_LIBRARY, PORT, client_of, entrance_to
-from tests.samples import ERASE, RUN, STOP, wire_ms
+from tests.running import PORT
+from tests.samples import STOPS, wire_ms
+from tests.scripted import (
+    ANNA,
+    move,
+    refusal,
+    script,
+)
 from tests.test_gate import headers_of
 from tests.virtual_time import at, in_virtual_time, now
-
-RUN_TAKEN = bytes.fromhex("55550206")
-RUN_ENDED = bytes.fromhex("55550207")
-ERASED = bytes.fromhex("55550208")
-STOPS = [STOP, STOP, STOP]
-ANNA = Caller("anna", "Anna", "driver")
-
-
-def move(time_ms: int, **positions: int) -> bytes:
-    targets = tuple(ServoTarget(int(name[1:]), position) for name, position in positions.items())
-    return encode(Move(time_ms, targets), FAMILIES["doc"])
-
-
-@dataclass
-class Scripted:
-    """A script with a token at a gateway on a LAN."""
-
-    client: AsyncClient
-    control: Control
-    port: FakePort
-    app: ASGIApp
-    owner: dict[str, str]
-    token_id: str
-
-    async def post(self, path: str, *, owner: bool = False, **body: Any) -> Response:
-        return await self.client.post(f"/api/{path}", json=body, headers=self.owner if owner else {})
-
-    async def move(
-        self, time_ms: int, *, take: bool = False, owner: bool = False, **positions: int
-    ) -> Response:
-        named = {name[1:]: position for name, position in positions.items()}
-        return await self.post("move", owner=owner, timeMs=time_ms, positions=named, take=take)
-
-    def sent(self) -> list[bytes]:
-        """Behind the stop at the opening."""
-        return self.port.packets()[1:]
-
-
-@asynccontextmanager
-async def script(role: Role = "driver") -> AsyncIterator[Scripted]:
-    port, entrance = FakePort(), entrance_to(access.lan(PORT), now)
-    _, owner = entrance.devices.admit("device", "Olga", "owner")
-    device, token = entrance.devices.admit("token", "Dance", role)
-    control = Control(FakePorts(port), now, "doc")
-    await control.use_port(DEVICE)
-    await asyncio.sleep(0.1)
-    app = create_app(control, NO_LIBRARY, entrance)
-    async with client_of(app) as client:
-        client.headers["authorization"] = f"Bearer {token}"
-        yield Scripted(client, control, port, app, {"authorization": f"Bearer {owner}"}, device.id)
-    await control.board.link.close()
-
-
-def refusal(answer: Response) -> tuple[int, str]:
-    return answer.status_code, answer.json()["code"]
 
 
 @in_virtual_time
@@ -186,101 +127,6 @@ async def test_whoever_takes_over_between_two_first_moves_ends_those_that_wait()
         assert refusal(await waiting) == (409, "cancelled")
         await asyncio.sleep(1)
         assert here.sent() == [move(1500, s1=2000), *STOPS]
-
-
-@in_virtual_time
-async def test_a_run_that_nobody_watches_is_stopped_after_two_seconds() -> None:
-    async with script() as here:
-        at(now() + 0.05, lambda: here.port.say(RUN_TAKEN))
-        assert (await here.post("slots/8/run", times=1)).json() == {"outcome": "acknowledged"}
-        assert here.sent() == [RUN]
-        begun_s = now()
-        await asyncio.sleep(2.5)
-        assert here.sent() == [RUN, *STOPS]
-        assert here.port.written[2][0] - begun_s <= 2.0
-        assert here.control.latch is True
-
-
-@in_virtual_time
-async def test_beats_keep_a_run_going_and_letting_go_ends_it_without_the_latch() -> None:
-    async with script() as here:
-        assert (await here.post("slots/8/run")).json() == {"outcome": "silent"}
-        for _ in range(10):
-            await asyncio.sleep(1)
-            assert (await here.post("lease", action="beat")).json()["drives"] is True
-        assert here.sent() == [RUN]
-        assert (await here.post("lease", action="release")).json()["driver"] is None
-        await asyncio.sleep(1)
-        assert here.sent() == [RUN, *STOPS]
-        assert here.control.latch is False
-
-
-@in_virtual_time
-async def test_another_run_ends_the_one_before_and_a_move_waits_for_its_end() -> None:
-    async with script() as here:
-        await here.post("slots/8/run")
-        assert refusal(await here.move(1500, s1=2000)) == (409, "busy")
-        await here.post("slots/8/run")
-        assert here.sent() == [RUN, *STOPS, RUN]
-        await asyncio.sleep(0.6)
-        here.port.say(RUN_ENDED)
-        await asyncio.sleep(0.1)
-        assert (await here.move(1500, s1=2000)).status_code == 200
-
-
-@in_virtual_time
-async def test_where_only_the_board_knows_the_end_letting_go_is_enough_and_nobody_has_to_resume() -> None:
-    async with script() as here:
-        await here.post("slots/8/run")
-        assert (await running(here)) == {"slot": 8, "times": 1, "endsInMs": None}
-        assert "let go" in (await here.move(1500, s1=2000)).json()["detail"]
-        await here.post("lease", action="release")
-        await asyncio.sleep(0.3)
-        assert (await here.move(1500, s1=2000)).status_code == 200
-        assert here.sent() == [RUN, *STOPS, move(1500, s1=2000)]
-
-
-@in_virtual_time
-async def test_of_a_group_that_the_gateway_stored_itself_it_says_how_long_it_may_take() -> None:
-    async with script() as here:
-        here.control.board.motion.stored(8, [2000])
-        await here.post("slots/8/run")
-        ends_in_ms = (await running(here))["endsInMs"]
-        assert 2000 < ends_in_ms < 3600
-        assert f"up to {ends_in_ms / 1000:.1f} s" in (await here.move(1500, s1=2000)).json()["detail"]
-        for _ in range(4):
-            await here.post("lease", action="beat")
-            await asyncio.sleep(ends_in_ms / 4000)
-        assert await running(here) is None
-        assert (await here.move(1500, s1=2000)).status_code == 200
-
-
-async def running(here: Scripted) -> Any:
-    return (await here.client.get("/api/status")).json()["running"]
-
-
-@in_virtual_time
-async def test_erasing_is_an_owners_needs_rest_and_waits_for_the_boards_word() -> None:
-    async with script() as here:
-        assert refusal(await here.post("erase")) == (403, "forbidden")
-        await here.move(1500, s1=2000)
-        assert refusal(await here.post("erase", owner=True)) == (409, "busy")
-        await asyncio.sleep(4)
-        at(now() + 0.4, lambda: here.port.say(ERASED))
-        assert (await here.post("erase", owner=True)).json() == {"erased": True}
-        assert refusal(await here.post("erase", owner=True)) == (504, "noAnswer")
-        assert here.sent()[1:] == [ERASE, ERASE]
-
-
-@in_virtual_time
-async def test_who_is_not_let_in_any_more_is_stopped() -> None:
-    async with script() as here:
-        await here.post("slots/8/run")
-        revoked = await here.client.delete(f"/api/people/{here.token_id}", headers=here.owner)
-        assert revoked.status_code == 204
-        await asyncio.sleep(0.5)
-        assert here.sent() == [RUN, *STOPS]
-        assert (await here.move(1500, s1=2000)).status_code == 401
 
 
 @in_virtual_time

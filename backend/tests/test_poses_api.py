@@ -11,7 +11,7 @@ from servodeck.library import Library
 from servodeck.library_messages import RobotFacts
 from tests.fake_port import FakePort, FakePorts
 from tests.running import http_to
-from tests.test_motion_api import move, refusal
+from tests.scripted import move, refusal
 
 
 def pose(number: int, name: str, unit: str = "us", **positions: int) -> dict[str, Any]:

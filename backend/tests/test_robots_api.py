@@ -8,7 +8,7 @@ from servodeck import access
 from servodeck.library import Library
 from tests.fake_port import FakePort, FakePorts
 from tests.running import PORT, entrance_to, http_to
-from tests.test_motion_api import refusal
+from tests.scripted import refusal
 
 
 def limits(top: int) -> list[dict[str, Any]]:

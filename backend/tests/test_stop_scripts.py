@@ -7,7 +7,7 @@ import random
 
 from tests.amount import named, seeds
 from tests.samples import STOP
-from tests.test_motion_api import Scripted, script
+from tests.scripted import Scripted, script
 from tests.virtual_time import in_virtual_time
 
 MOVE = 3

@@ -11,8 +11,8 @@ from servodeck.errors import CancelledError, NotDrivingError, OutOfRangeError
 from servodeck.messages import ContinueMessage, StopMessage
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
-from tests.samples import MOVE, RUN, STOP
-from tests.test_motion_api import RUN_ENDED, STOPS, refusal, script
+from tests.samples import MOVE, RUN, STOP, STOPS
+from tests.scripted import RUN_ENDED, refusal, script
 from tests.virtual_time import in_virtual_time, now
 
 ANNA = Caller("anna", "Anna", "driver")

@@ -110,8 +110,6 @@ export interface BeatMessage {
  * The first message on each connection.
  */
 export interface WelcomeMessage {
-  type: 'welcome';
-  version: string;
   board: string;
   port: PortState;
   latch: boolean;
@@ -119,12 +117,14 @@ export interface WelcomeMessage {
   stoppedBy: string | null;
   clients: number;
   unattended: UnattendedRun | null;
-  robot: RobotTold | null;
-  lease: LeaseState;
   brokenSlots: number[];
   slotVersions: {
     [k: string]: string;
   };
+  type: 'welcome';
+  version: string;
+  robot: RobotTold | null;
+  lease: LeaseState;
   job: JobState | null;
   motion: MotionTold;
 }
@@ -375,12 +375,9 @@ export interface ResumedMessage {
   by: string;
 }
 /**
- * Something of this changed. `brokenSlots` hold half a group: nobody may run them. `slotVersions` tell
- * what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
- * people call whoever pressed STOP, where that is known.
+ * Something of this changed.
  */
 export interface StateMessage {
-  type: 'state';
   board: string;
   port: PortState;
   latch: boolean;
@@ -392,6 +389,7 @@ export interface StateMessage {
   slotVersions: {
     [k: string]: string;
   };
+  type: 'state';
 }
 /**
  * Another robot stands on the board now, or any robot of the library has changed: look there.

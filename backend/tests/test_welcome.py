@@ -1,0 +1,85 @@
+"""What whoever joins is told: how everything stands, and where the servos are."""
+
+import asyncio
+
+from servodeck.control import Control
+from tests.client import Client, driven, gateway_on
+from tests.fake_port import FakePort, FakePorts
+from tests.samples import BATTERY, BATTERY_REPORT, MOVE
+from tests.virtual_time import in_virtual_time, now
+
+
+@in_virtual_time
+async def test_each_client_is_welcomed_and_the_others_hear_how_many_there_are() -> None:
+    async with gateway_on() as control:
+        anna = Client(control)
+        [welcome] = await anna.heard()
+        assert welcome["type"] == "welcome"
+        assert (welcome["board"], welcome["latch"], welcome["clients"]) == ("doc", False, 1)
+        assert welcome["port"]["status"] == "open"
+        bert = Client(control)
+        assert [message["type"] for message in await bert.heard()] == ["welcome"]
+        assert [(message["type"], message["clients"]) for message in await anna.heard()] == [("state", 2)]
+        control.leave(bert)
+        assert [(message["type"], message["clients"]) for message in await anna.heard()] == [("state", 1)]
+
+
+def port_status(control: Control) -> str:
+    return control.board.port.status
+
+
+async def told_of_servos(control: Control) -> list[int]:
+    """Whose place somebody hears who comes now."""
+    newcomer = Client(control)
+    [welcome] = await newcomer.heard()
+    control.leave(newcomer)
+    return [way["servo"] for way in welcome["motion"]["servos"]]
+
+
+@in_virtual_time
+async def test_whoever_comes_late_is_told_where_the_servos_are() -> None:
+    async with gateway_on() as control:
+        assert await told_of_servos(control) == []
+        await Client(control).send(MOVE)
+        await asyncio.sleep(2)
+        assert await told_of_servos(control) == [1]
+
+
+@in_virtual_time
+async def test_when_the_port_went_nobody_is_told_any_place_not_after_its_return_either() -> None:
+    first, second = FakePort(), FakePort()
+    async with gateway_on(first, second) as control:
+        await Client(control).send(MOVE)
+        first.unplug()
+        await asyncio.sleep(0.1)
+        assert port_status(control) == "lost"
+        assert await told_of_servos(control) == []
+        await asyncio.sleep(1)
+        assert port_status(control) == "open"
+        assert await told_of_servos(control) == []
+
+
+@in_virtual_time
+async def test_a_board_that_was_silent_may_stand_anywhere() -> None:
+    async with driven(BATTERY) as (control, port, anna):
+        port.say(BATTERY_REPORT)
+        await anna.send(MOVE)
+        for _ in range(2):
+            assert await told_of_servos(control) == [1]
+            await anna.send(BATTERY)
+            await asyncio.sleep(5)
+        port.say(BATTERY_REPORT)
+        await asyncio.sleep(0.1)
+        assert await told_of_servos(control) == []
+
+
+@in_virtual_time
+async def test_a_port_declared_as_simulated_is_told_so_and_only_that_one() -> None:
+    ports = FakePorts(FakePort(), FakePort())
+    control = Control(ports, now, "doc", "/dev/board", simulated=True)
+    await control.use_port("/dev/board")
+    [welcome] = await Client(control).heard()
+    assert welcome["port"]["simulated"] is True
+    await control.use_port("/dev/other")
+    assert control.board.port.simulated is False
+    await control.board.link.close()
