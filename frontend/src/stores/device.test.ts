@@ -2,6 +2,7 @@ import { describe, expect, test } from 'vitest';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
+import type { SessionEvents } from '#shared/session/state.ts';
 import { words } from '../words/words.ts';
 import { createDevice } from './device.ts';
 import { createNotices } from './notices.ts';
@@ -12,12 +13,22 @@ const FRAMES = [900, 1500, 2100].map((position) => ({
   targets: [{ servo: 1, position }],
 }));
 
-async function createDesk() {
+/** `listening` gets what the device hears of its session with. */
+async function createDesk(listening: (events: SessionEvents) => unknown = () => undefined) {
   const rig = await createRig();
+  const session = new Proxy(rig.session, {
+    get: (target, key) => {
+      if (key !== 'subscribe') return Reflect.get(target, key) as unknown;
+      return (events: SessionEvents) => {
+        listening(events);
+        return target.subscribe(events);
+      };
+    },
+  });
   const notices = createNotices(rig.clock);
   const robots = createRobots({ getItem: () => null, setItem: () => undefined }, notices);
   const device = createDevice({ family: FAMILIES.doc, clock: rig.clock, notices, robots });
-  device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
+  device.attach(session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
   const state = () => device.store.getState();
   const told = () => notices.store.getState().map((notice) => notice.text);
   /** Time passes with the page being drawn, as it is in a browser. */
@@ -267,6 +278,16 @@ describe('a device with a session', () => {
     await draw(6000);
     expect(state().snapshot.link.status).toBe('ready');
     expect(state().snapshot.latch).toMatchObject({ reason: 'reconnected' });
+  });
+
+  test('that the robot may move again is not said any more once it is stopped again', async () => {
+    let resumed: SessionEvents['resumed'] = () => undefined;
+    const { device, told, draw } = await createDesk((events) => (resumed = events.resumed));
+    resumed('Anna');
+    expect(told()).toEqual([words.stop.resumed('Anna')]);
+    device.halt();
+    await draw(400);
+    expect(told()).toEqual([]);
   });
 
   test('logs each packet and what becomes of the link, once and in order', async () => {

@@ -127,6 +127,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   let paused = false;
   let autoReconnect = true;
   let mayBegin: RunGuard = () => true;
+  let saidOfResume = '';
   let calibrated: number | null = null;
 
   const setPaused = (on: boolean): boolean => (paused = on);
@@ -186,6 +187,12 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     traffic.note(snapshot, clock.now(), snapshot.family.id);
     store.setState({ snapshot, family: snapshot.family });
     if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
+    if (snapshot.latch !== null) notices.takeBack(saidOfResume);
+  }
+
+  function noteResumed(by: string): void {
+    saidOfResume = words.stop.resumed(by);
+    notices.tell('info', saidOfResume);
   }
 
   function noteProblem(error: unknown): void {
@@ -273,7 +280,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
         state: noteState,
         traffic: (entry) => traffic.add(entry, next.state.family.id),
         problem: noteProblem,
-        resumed: (by) => notices.tell('info', words.stop.resumed(by)),
+        resumed: noteResumed,
       });
     },
     describe(described, way) {

@@ -28,6 +28,8 @@ export interface Notices {
   readonly said: StoreApi<string>;
   say(text: string): void;
   tell(tone: NoticeTone, text: string, action?: NoticeAction): void;
+  /** It holds no longer. */
+  takeBack(text: string): void;
   /** The sentence of a failure. What the person called off is no failure. */
   tellError(error: unknown): void;
   dismiss(id: number): void;
@@ -54,6 +56,7 @@ export function createNotices(clock: Clock): Notices {
 
   return {
     ...{ store, said, tell },
+    takeBack: (text) => store.setState((notices) => notices.filter((notice) => notice.text !== text), true),
     say: (text) => said.setState(text, true),
     tellError(error) {
       const { code, message, cause } = asLinkError(error);
