@@ -191,7 +191,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         {"secret": None, "code": "12345678", "stop": None, "name": "Anna's tablet"},
         ("pairingFailed", "pairingLocked"),
     ),
-    ("GET", "/api/people"): Example({"people": [PERSON], "openInvites": []}),
+    ("GET", "/api/people"): Example({"people": [PERSON], "openInvites": [], "openCodes": []}),
     ("PATCH", "/api/people/{person}"): Example(
         PERSON, {"name": "Anna's tablet", "role": "owner"}, ("notFound",)
     ),

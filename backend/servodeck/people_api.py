@@ -129,6 +129,7 @@ async def people(entrance: Entered, control: Controlled) -> People:
     return People(
         people=[person_of(one, control) for one in entrance.devices.all],
         open_invites=[invite.id for invite in entrance.pairing.open],
+        open_codes=[invite.id for invite in entrance.pairing.open if invite.code],
     )
 
 

@@ -63,8 +63,11 @@ class Person(Message):
 
 
 class People(Message):
+    """`openCodes`: the invitations whose digits still count; five wrong ones end that, not their links."""
+
     people: list[Person]
     open_invites: list[str]
+    open_codes: list[str]
 
 
 class PersonChange(Message):

@@ -126,6 +126,8 @@ async def test_after_five_wrong_codes_the_right_one_counts_no_more() -> None:
         assert codes == ["pairingFailed"] * 4 + ["pairingLocked"]
         refused = await Browser(client).pair(code=made["code"])
         assert (refused.status_code, refused.json()["code"]) == (429, "pairingLocked")
+        told = (await owner.ask("GET", "/api/people")).json()
+        assert (told["openInvites"], told["openCodes"]) == ([made["id"]], [])
         assert (await Browser(client).pair(secret=secret_of(made["link"]))).status_code == 200
 
 
@@ -134,7 +136,8 @@ async def test_an_invitation_ends_after_two_minutes_or_when_it_is_withdrawn() ->
     async with lan() as (_, client, owner):
         first, second = await owner.invite("viewer"), await owner.invite("viewer")
         assert (await owner.ask("DELETE", f"/api/invites/{second['id']}")).status_code == 204
-        assert (await owner.ask("GET", "/api/people")).json()["openInvites"] == [first["id"]]
+        told = (await owner.ask("GET", "/api/people")).json()
+        assert told["openInvites"] == told["openCodes"] == [first["id"]]
         await asyncio.sleep(121)
         for made in (first, second):
             assert (await Browser(client).pair(secret=secret_of(made["link"]))).status_code == 403

@@ -78,6 +78,23 @@ test('people come in by the digits, one after the other, until five were wrong',
   await expect(guesser.problem).toContainText('no code counts any more');
 });
 
+test('the code that is shown is one of the role that is chosen, also when that changes', async ({
+  newGateway,
+  ptyBoard,
+  browser,
+}) => {
+  const gateway = await newGateway({ serial: ptyBoard.device, lan: true });
+  const owner = await guest(browser, (await firstInvitation(gateway)).link);
+  const people = peopleOf(owner);
+  await people.opener.click();
+  const { link } = await people.invite('viewer', '');
+  await people.dialog.getByRole('combobox', { name: 'Role', exact: true }).selectOption('driver');
+  const shown = people.dialog.getByText(/#pair=/);
+  await expect(shown).not.toHaveText(link);
+  await guest(browser, await shown.innerText(), { name: 'Ben' });
+  await expect(people.person('Ben').getByRole('combobox')).toHaveValue('driver');
+});
+
 test('a stop-only link has one button, which stops the robot', async ({ newGateway, ptyBoard, browser }) => {
   const gateway = await newGateway({ serial: ptyBoard.device, lan: true });
   const owner = await guest(browser, (await firstInvitation(gateway)).link);

@@ -37,6 +37,7 @@ const peopleSchema: z.ZodMiniType<People> = z.object({
     }),
   ),
   openInvites: z.array(z.string()),
+  openCodes: z.array(z.string()),
 });
 const link = { id: z.string(), link: z.string(), picture: z.string() };
 const invitationSchema: z.ZodMiniType<Invitation> = z.object({

@@ -19,17 +19,17 @@ interface InviteCardProps {
 export function InviteCard({ invitation, wishes, now }: InviteCardProps) {
   const [role, setRole] = useState<PersonRole>('viewer');
   const [name, setName] = useState('');
+  /** A code that is shown is never one of another role than the one that stands above it. */
+  const choose = (wanted: PersonRole): void => {
+    setRole(wanted);
+    if (invitation !== null) wishes.invite(wanted, name.trim());
+  };
   const options = PERSON_ROLES.map((value) => ({ value, label: words.people.roles[value] }));
   return (
     <section className={styles.card} aria-label={words.people.invite.title}>
       <h3>{words.people.invite.title}</h3>
       <div className={styles.fields}>
-        <Select
-          label={words.people.invite.role}
-          value={role}
-          options={options}
-          onChange={(wanted) => setRole(wanted)}
-        />
+        <Select label={words.people.invite.role} value={role} options={options} onChange={choose} />
         <input
           className={cx(field.field, styles.input)}
           aria-label={words.people.invite.name}

@@ -44,9 +44,13 @@ export interface You {
   name: string;
   role: 'stopper' | 'viewer' | 'driver' | 'owner';
 }
+/**
+ * `openCodes`: the invitations whose digits still count; five wrong ones end that, not their links.
+ */
 export interface People {
   people: Person[];
   openInvites: string[];
+  openCodes: string[];
 }
 /**
  * A paired device, a script's token or a stop-only link. `here`: it has the page open now,

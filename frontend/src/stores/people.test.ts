@@ -11,10 +11,13 @@ function gateway() {
   let nextId = 1;
   const asked: string[] = [];
   const open = new Set<string>();
+  /** Those whose digits were not guessed at too often. */
+  const countsCodes = { is: true };
   const api: PeopleApi = {
     me: () => Promise.resolve(ANNA),
     sayName: (name) => Promise.resolve({ ...BEN, name }),
-    list: () => Promise.resolve({ people: [], openInvites: [...open] }),
+    list: () =>
+      Promise.resolve({ people: [], openInvites: [...open], openCodes: countsCodes.is ? [...open] : [] }),
     invite({ role, name = '' }) {
       const id = String(nextId++);
       asked.push(`invite ${role} ${name}`);
@@ -37,7 +40,7 @@ function gateway() {
     makeToken: ({ name }) => Promise.resolve({ id: 'token', token: `secret of ${name}` }),
     makeStopLink: () => Promise.resolve({ id: 'link', link: '#stop=x', picture: '' }),
   };
-  return { api, asked, open };
+  return { api, asked, open, countsCodes };
 }
 
 const settled = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
@@ -62,6 +65,17 @@ test('an invitation that was used is followed by a new one of that role, without
   await people.refresh();
   expect(robot.asked).toEqual(['invite driver Ben', 'invite driver ']);
   expect(people.store.getState().invitation).toMatchObject({ id: '2', role: 'driver' });
+});
+
+test('digits that count no more, because others guessed, are not shown; the link still holds', async () => {
+  people.invite('driver', '');
+  await settled();
+  await people.refresh();
+  expect(people.store.getState().invitation).toMatchObject({ code: '12345678' });
+  robot.countsCodes.is = false;
+  await people.refresh();
+  expect(people.store.getState().invitation).toMatchObject({ id: '1', link: '#pair=1', code: null });
+  expect(robot.asked).toHaveLength(1);
 });
 
 test('one that is over is not followed by another', async () => {

@@ -110,11 +110,13 @@ export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleSt
       if (now?.you) known(now.you);
       return;
     }
-    const { people, openInvites } = await api.list();
+    const { people, openInvites, openCodes } = await api.list();
     store.setState({ people });
     const { invitation } = store.getState();
     const isUsed = invitation !== null && now() < invitation.untilMs && !openInvites.includes(invitation.id);
     if (isUsed) await open(invitation.role, '');
+    else if (invitation !== null && !openCodes.includes(invitation.id))
+      store.setState({ invitation: { ...invitation, code: null } });
   }
 
   async function open(role: PersonRole, name: string): Promise<void> {
