@@ -19,6 +19,8 @@ interface Locale {
   readonly gap: string;
 }
 
+const TWO_MINUTES_MS = 120_000;
+
 const LONGER: readonly (readonly [Intl.RelativeTimeFormatUnit, number])[] = [
   ['day', 86_400_000],
   ['hour', 3_600_000],
@@ -41,6 +43,7 @@ export function numbersIn({ locale, units, gap }: Locale) {
     hourCycle: 'h23',
   });
   const seconds = new Intl.NumberFormat(locale, { style: 'unit', unit: 'second', ...digits(1) });
+  const minutes = new Intl.NumberFormat(locale, { style: 'unit', unit: 'minute' });
   const milliseconds = new Intl.NumberFormat(locale, {
     style: 'unit',
     unit: 'millisecond',
@@ -82,6 +85,9 @@ export function numbersIn({ locale, units, gap }: Locale) {
     /** Day and time, from milliseconds since 1970. */
     formatMoment: (epochMs: number): string => moment.format(epochMs),
     formatSeconds: (ms: number): string => seconds.format(ms / 1000),
+    /** `12.5 sec`, from two minutes on `3 min`: of what is known roughly. */
+    formatRoughly: (ms: number): string =>
+      ms < TWO_MINUTES_MS ? seconds.format(ms / 1000) : minutes.format(Math.round(ms / 60_000)),
     /** `4:05`, rounded up: of what is left. */
     formatMinutes: (ms: number): string => {
       const left = Math.max(0, Math.ceil(ms / 1000));

@@ -124,6 +124,7 @@ describe('Chinese', () => {
     expect(chinese.numbers.formatPosition(1500, 'us')).toBe('1500微秒');
     expect(chinese.numbers.formatMs(1500)).toBe('1500毫秒');
     expect(chinese.numbers.formatSeconds(4250)).toBe('4.3秒');
+    expect(chinese.numbers.formatRoughly(2_951_900)).toBe('49分钟');
     expect(chinese.numbers.formatAge(180_000)).toBe('3分钟前');
     expect(chinese.numbers.formatList([1, 2, 3])).toBe('1、2和3');
   });
@@ -166,6 +167,8 @@ describe('numbers', () => {
     expect(english.numbers.formatPosition(1500, 'us')).toBe('1500 µs');
     expect(english.numbers.formatPosition(500, 'steps')).toBe('500 steps');
     expect(english.numbers.formatSeconds(4250)).toBe('4.3 sec');
+    expect(english.numbers.formatRoughly(119_000)).toBe('119.0 sec');
+    expect(english.numbers.formatRoughly(2_951_900)).toBe('49 min');
   });
 
   test('ages are whole seconds, then minutes', () => {

@@ -8,6 +8,7 @@ import {
   formatDegrees,
   formatMs,
   formatPosition,
+  formatRoughly,
   formatSeconds,
   formatWhole,
   unitSymbol,
@@ -52,7 +53,7 @@ export const compileWords = {
   errorField: 'Largest error allowed on the board',
   frames: (count: number, limit: number): string => `${formatCount(count)} of ${counted(limit, 'frame')}`,
   bytes: (bytes: number): string => counted(bytes, 'byte'),
-  download: (ms: number): string => `about ${formatSeconds(ms)} to download`,
+  download: (ms: number): string => `about ${formatRoughly(ms)} to download`,
   exact: 'Exactly as written',
   worst: (units: number, unit: PositionUnit, degrees: number, servo: number, atMs: number): string =>
     `At most ${formatPosition(Math.round(units), unit)} (${formatDegrees(degrees, 1)}) off: servo ${formatWhole(servo)} at ${formatSeconds(atMs)}`,

@@ -3,7 +3,7 @@
 
 import type { Family } from '#shared/protocol/families.ts';
 import type { LinkState } from '#shared/session/state.ts';
-import { counted, formatAge, formatCount, formatSeconds, formatWhole, numbers } from './numbers.ts';
+import { counted, formatAge, formatCount, formatRoughly, formatWhole, numbers } from './numbers.ts';
 import { actionWords } from './actions.ts';
 import { batteryWords } from './battery.ts';
 import { calibrationWords } from './calibration.ts';
@@ -236,7 +236,7 @@ export const english = {
     progressText: (stored: number, count: number): string =>
       `${formatCount(stored)} of ${counted(count, 'frame')}`,
     bytes: (sent: number, total: number): string => `${formatCount(sent)} of ${counted(total, 'byte')}`,
-    left: (ms: number): string => `${formatSeconds(ms)} left`,
+    left: (ms: number): string => `${formatRoughly(ms)} left`,
     times: 'Times',
     untilStopped: 'Until stopped',
     untilStoppedHint: 'Repeats without end until you stop it.',

@@ -19,6 +19,7 @@ export const {
   formatNames,
   formatPercent,
   formatPosition,
+  formatRoughly,
   formatSeconds,
   formatTick,
   formatTimeOfDay,

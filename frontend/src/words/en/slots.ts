@@ -2,7 +2,7 @@
 
 import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
 import type { PadButton, SlotTrigger } from '#shared/protocol/slotMeanings.ts';
-import { counted, formatCount, formatNames, formatSeconds, formatWhole } from './numbers.ts';
+import { counted, formatCount, formatNames, formatRoughly, formatSeconds, formatWhole } from './numbers.ts';
 
 const slotName = (slot: number): string => `Slot ${formatWhole(slot)}`;
 const frameCount = (count: number): string => counted(count, 'frame');
@@ -92,7 +92,7 @@ export const slotWords = {
     slotOf: (name: string): string => `Slot for ${name}`,
     sameSlot: (slot: number): string => `${slotName(slot)} is wanted twice.`,
     total: (count: number, frames: number, downloadMs: number): string =>
-      `${counted(count, 'group')}, ${frameCount(frames)} on the board, about ${formatSeconds(downloadMs)} to download`,
+      `${counted(count, 'group')}, ${frameCount(frames)} on the board, about ${formatRoughly(downloadMs)} to download`,
     none: 'Tick the groups that shall go to the board.',
     download: 'Download these',
     back: 'Back to one slot',

@@ -16,7 +16,7 @@ import { leaseWords } from './lease.ts';
 import { libraryWords } from './library.ts';
 import { peopleWords } from './people.ts';
 import { macroWords } from './macros.ts';
-import { formatAge, formatCount, formatSeconds, formatWhole, numbers } from './numbers.ts';
+import { formatAge, formatCount, formatRoughly, formatWhole, numbers } from './numbers.ts';
 import { packetWords, timesWords } from './packets.ts';
 import { padWords } from './pad.ts';
 import { playWords } from './play.ts';
@@ -222,7 +222,7 @@ export const chinese: Words = {
     progress: '下载进度',
     progressText: (stored, count) => `${formatCount(stored)}/${formatCount(count)}帧`,
     bytes: (sent, total) => `${formatCount(sent)}/${formatCount(total)}字节`,
-    left: (ms) => `还需${formatSeconds(ms)}`,
+    left: (ms) => `还需${formatRoughly(ms)}`,
     times: '次数',
     untilStopped: '直到停止',
     untilStoppedHint: '一直重复，直到您停止它。',

@@ -8,6 +8,7 @@ import {
   formatDegrees,
   formatMs,
   formatPosition,
+  formatRoughly,
   formatSeconds,
   formatWhole,
   unitSymbol,
@@ -50,7 +51,7 @@ export const compileWords: typeof english = {
   errorField: '控制板上允许的最大误差',
   frames: (count, limit) => `${formatCount(count)}/${formatCount(limit)}帧`,
   bytes: (bytes) => `${formatCount(bytes)}字节`,
-  download: (ms) => `下载约需${formatSeconds(ms)}`,
+  download: (ms) => `下载约需${formatRoughly(ms)}`,
   exact: '与所写完全一致',
   worst: (units, unit, degrees, servo, atMs) =>
     `最多偏差${formatPosition(Math.round(units), unit)}（${formatDegrees(degrees, 1)}）：${servoNumber(servo)}，${formatSeconds(atMs)}`,

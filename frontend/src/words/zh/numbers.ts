@@ -21,6 +21,7 @@ export const {
   formatNames,
   formatPercent,
   formatPosition,
+  formatRoughly,
   formatSeconds,
   formatTick,
   formatTimeOfDay,

@@ -3,7 +3,7 @@
 import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
 import type { PadButton } from '#shared/protocol/slotMeanings.ts';
 import type { slotWords as english } from '../en/slots.ts';
-import { formatCount, formatNames, formatSeconds, formatWhole } from './numbers.ts';
+import { formatCount, formatNames, formatRoughly, formatSeconds, formatWhole } from './numbers.ts';
 
 const slotName = (slot: number): string => `槽位${formatWhole(slot)}`;
 const frameCount = (count: number): string => `${formatCount(count)}帧`;
@@ -91,7 +91,7 @@ export const slotWords: typeof english = {
     slotOf: (name) => `${name}的槽位`,
     sameSlot: (slot) => `${slotName(slot)}被用了两次。`,
     total: (count, frames, downloadMs) =>
-      `${formatCount(count)}个动作组，控制板上${frameCount(frames)}，下载约${formatSeconds(downloadMs)}`,
+      `${formatCount(count)}个动作组，控制板上${frameCount(frames)}，下载约${formatRoughly(downloadMs)}`,
     none: '勾选要下载到控制板的动作组。',
     download: '下载这些',
     back: '回到单个槽位',
