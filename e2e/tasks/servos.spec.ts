@@ -36,6 +36,9 @@ test('weighted, each turns by its share, and all stop where the first meets its 
   await dashboard.type(dashboard.target(1), 2300);
   await poll(() => lastTarget(robot.bus, 2)).toBe(2500);
   expect(await lastTarget(robot.bus, 1)).toBe(2000);
+  await expect(dashboard.notices).toContainText(
+    'All stopped where Wrist roll met its limit: it takes 500 µs to 2500 µs.',
+  );
 });
 
 test('positions are shown and typed in degrees from home', async ({ dashboard, robot, page }) => {

@@ -8,6 +8,7 @@ import { Estimate } from '../servos/Estimate.tsx';
 import { scaleOf } from '../servos/scale.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useStores } from '../stores/stores.ts';
+import { Mark } from '../ui/Chip.tsx';
 import { Icon } from '../ui/Icon.tsx';
 import { words } from '../words/words.ts';
 import type { PositionUnit } from '../words/numbers.ts';
@@ -53,8 +54,13 @@ export function CreepControl({ servo, reach, target, unit }: CreepControlProps) 
     <div className={styles.control}>
       {lower}
       <div className={styles.now}>
-        <output className={styles.value} aria-label={words.calibration.now} aria-live="off">
-          {value}
+        <output
+          className={styles.value}
+          aria-label={words.calibration.now}
+          aria-live="off"
+          title={words.truth.commanded}
+        >
+          <Mark truth="commanded" /> {value}
         </output>
         <Estimate servo={servo.servo} scale={scale} />
       </div>

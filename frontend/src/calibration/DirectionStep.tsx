@@ -2,15 +2,15 @@
 // tried, and the arrow says that side. It begins at home: going there is an act of its own.
 
 import { useEffect, useRef, useState } from 'react';
-import { JOINT } from '../body/pose.ts';
 import { changeServo } from '#shared/actions/robot/robotEdits.ts';
-import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { sightOf } from './sight.ts';
 import { awayFrom, sideOf, startTurning, type TurnPhase } from './turning.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
@@ -115,21 +115,6 @@ function useTurning(servo: RobotServo, away: number): { readonly phase: TurnPhas
     },
   };
 }
-
-/** Where one looks from, as the picture of the arm does; other bodies have no picture of a turn. */
-type Sight = 'gripper' | 'side' | 'above' | 'front' | 'horn';
-
-const ARM_SIGHTS: Readonly<Record<number, Sight>> = {
-  [JOINT.gripper]: 'gripper',
-  [JOINT.roll]: 'front',
-  [JOINT.wrist]: 'side',
-  [JOINT.elbow]: 'side',
-  [JOINT.shoulder]: 'side',
-  [JOINT.base]: 'above',
-};
-
-const sightOf = ({ body }: Robot, { servo }: RobotServo): Sight =>
-  (body === 'arm' ? ARM_SIGHTS[servo] : undefined) ?? 'horn';
 
 /** A horn and the way it turns; drawn the other way round it turns the other way. */
 function TurnArrow({ isClockwise }: { readonly isClockwise: boolean }) {

@@ -10,6 +10,7 @@ import { useDevice, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import { CreepControl } from './CreepControl.tsx';
+import { sightOf } from './sight.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
 
@@ -28,6 +29,7 @@ export function EndStep({ at, end }: EndStepProps) {
   // A servo that has just been crept to an end seldom rests there.
   const isHomeKept = end === 'home' && (target <= servo.min || target >= servo.max);
   const isAwayFromHome = end === 'home' && target !== servo.home;
+  const endsFor = sightOf(robot, servo) === 'gripper' ? 'gripperEnds' : 'ends';
   const keepAndGo = (): void => {
     device.creep(servo.home, GENTLE_MOVE_MS);
     keep();
@@ -39,7 +41,7 @@ export function EndStep({ at, end }: EndStepProps) {
       : (['primary', 'quiet'] as const);
   return (
     <>
-      <p className={styles.ask}>{words.calibration.ends[end]}</p>
+      <p className={styles.ask}>{words.calibration[endsFor][end]}</p>
       <CreepControl servo={servo} reach={reach} target={target} unit={unit} />
       <ReachBar servo={servo} reach={reach} unit={unit} />
       <p className={styles.dim}>

@@ -67,7 +67,7 @@ function Selected({ selected }: SelectedProps) {
   const isGang = selected.length > 1;
   return (
     <div className={styles.line}>
-      <Button tone="quiet" icon="close" onPress={() => edit((view) => select(view, []))}>
+      <Button tone="quiet" onPress={() => edit((view) => select(view, []))}>
         {isGang ? words.servoPanel.unbind : words.servoPanel.clear}
       </Button>
       {isGang ? (

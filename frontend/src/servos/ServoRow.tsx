@@ -1,7 +1,7 @@
 // One servo: dial, name, slider, value. Its target and its estimate are drawn past React, so that dozens may move in each frame.
 
 import { memo, useRef } from 'react';
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
+import { servoOf, type RobotServo } from '#shared/actions/robot/robot.ts';
 import { mayBrush, motionHindrance, tellsPositions } from '../stores/readiness.ts';
 import { isHeld } from '../stores/servoView.ts';
 import { useDevice, useGuess, useServoView, useSnapshot, useStores, useView } from '../stores/stores.ts';
@@ -100,7 +100,10 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
       <TargetField
         {...{ servo: own, scale, guess, blocked }}
         onStep={move}
-        onLeap={leap}
+        onTyped={(position) => {
+          touch();
+          return hand.place(servo, position);
+        }}
         onRefused={() => (isRefused.current = true)}
       />
       <div className={styles.readings}>
@@ -117,15 +120,25 @@ interface TargetFieldProps {
   readonly guess: number | null;
   readonly blocked: boolean;
   onStep(position: number): void;
-  onLeap(position: number): void;
+  /** Gives back who of those that move along stopped them at its limit, if any did. */
+  onTyped(position: number): number | null;
   onRefused(): void;
 }
 
-function TargetField({ servo: own, scale, guess, blocked, onStep, onLeap, onRefused }: TargetFieldProps) {
-  const { notices } = useStores();
+function TargetField({ servo: own, scale, guess, blocked, onStep, onTyped, onRefused }: TargetFieldProps) {
+  const { device, notices, robots, view } = useStores();
   const [target, readAgain] = useReadTarget(own.servo);
+  const tellStop = (first: number): void => {
+    const met = servoOf(robots.current().robot, first);
+    if (met === undefined) return;
+    const read = scaleOf(met, device.store.getState().family, view.getState().positionsIn);
+    notices.tell('warning', words.servoPanel.stoppedBy(nameOf(met), read.text(met.min), read.text(met.max)));
+  };
   const take = (shown: number, isStep: boolean): void => {
-    (isStep ? onStep : onLeap)(scale.position(shown));
+    const position = scale.position(shown);
+    const first = isStep ? null : onTyped(position);
+    if (isStep) onStep(position);
+    if (first !== null) tellStop(first);
     readAgain();
   };
   const refuse = (shown: number): void => {
@@ -136,7 +149,7 @@ function TargetField({ servo: own, scale, guess, blocked, onStep, onLeap, onRefu
     <NumberField
       label={words.servos.target(own.servo)}
       size="large"
-      title={words.truth.commanded}
+      truth={target === null ? undefined : { mark: 'commanded', title: words.truth.commanded }}
       value={target === null ? null : scale.shown(target)}
       {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals, step: scale.step }}
       placeholder={
@@ -154,7 +167,9 @@ function TargetField({ servo: own, scale, guess, blocked, onStep, onLeap, onRefu
   );
 }
 
-function refusal({ servo, name }: RobotServo, shown: number, { min, max, unit }: Scale) {
+function refusal(servo: RobotServo, shown: number, { min, max, unit }: Scale) {
   const text = (value: number): string => (unit === '°' ? `${value}°` : `${value}`);
-  return words.servoPanel.refused(name || words.servos.name(servo), text(shown), text(min), text(max));
+  return words.servoPanel.refused(nameOf(servo), text(shown), text(min), text(max));
 }
+
+const nameOf = ({ servo, name }: RobotServo): string => name || words.servos.name(servo);

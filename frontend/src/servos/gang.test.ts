@@ -47,6 +47,14 @@ describe('servos that move together', () => {
     expect(told([member(1), near], 1, 2000, { 1: 1000, 2: 1500 })).toEqual({ 1: 1100, 2: 1600 });
   });
 
+  test('who meets its limit first is told, and nobody where all of them get there', () => {
+    const members = [member(1), member(2, 1, { max: 1600 }), member(3, 1, { max: 1550 })];
+    const first = (position: number) =>
+      moveGang(members, 1, position, { 1: 1000, 2: 1500, 3: 1500 }, null).first;
+    expect(first(2000)).toBe(3);
+    expect(first(1050)).toBeNull();
+  });
+
   test('start from home where nobody knows where they are', () => {
     expect(told([member(1), member(2)], 1, 1600, { 1: 1500 })).toEqual({ 1: 1600, 2: 1600 });
   });

@@ -20,6 +20,8 @@ export interface Member {
 export interface GangMove {
   readonly targets: readonly ServoTarget[];
   readonly gang: Gang;
+  /** Who meets its limit first and so stops them all; null: they get there. */
+  readonly first: number | null;
 }
 
 /** In which share each member turns, seen from the one that is moved. */
@@ -46,16 +48,16 @@ export function moveGang(
     servo,
     degrees: servo.servo === moved ? turn * (weight || 1) : turn * weight,
   }));
-  const share = Math.min(
-    1,
-    ...turns.map(({ servo, degrees }) => shareWithin(servo, startOf(servo, from), degrees)),
-  );
+  const shares = turns.map(({ servo, degrees }) => shareWithin(servo, startOf(servo, from), degrees));
+  const share = Math.min(1, ...shares);
+  const isShort = turns.some(({ servo, degrees }) => isBeyond(servo, wantedAt(servo, from, degrees)));
   const targets = turns.map(({ servo, degrees }) => ({
     servo: servo.servo,
-    position: turnedBy(servo, startOf(servo, from), degrees * share),
+    position: within(servo, wantedAt(servo, from, degrees * share)),
   }));
   const told = Object.fromEntries(targets.map(({ servo, position: at }) => [servo, at]));
-  return { targets, gang: { from, told: { ...now, ...told } } };
+  const first = isShort ? (turns[shares.indexOf(share)]?.servo.servo ?? null) : null;
+  return { targets, gang: { from, told: { ...now, ...told } }, first };
 }
 
 const startOf = ({ servo, home }: RobotServo, from: Stand): number => from[servo] ?? home;
@@ -63,10 +65,12 @@ const startOf = ({ servo, home }: RobotServo, from: Stand): number => from[servo
 const turnTo = (servo: RobotServo, from: Stand, position: number): number =>
   degreesOf(servo, position) - degreesOf(servo, startOf(servo, from));
 
-function turnedBy(servo: RobotServo, start: number, degrees: number): number {
-  const wanted = positionOf(servo, degreesOf(servo, start) + degrees);
-  return Math.min(servo.max, Math.max(servo.min, wanted));
-}
+const wantedAt = (servo: RobotServo, from: Stand, degrees: number): number =>
+  positionOf(servo, degreesOf(servo, startOf(servo, from)) + degrees);
+
+const isBeyond = ({ min, max }: RobotServo, position: number): boolean => position < min || position > max;
+
+const within = ({ min, max }: RobotServo, position: number): number => Math.min(max, Math.max(min, position));
 
 /** How much of a turn the servo can take before its limit, 0 to 1. */
 function shareWithin(servo: RobotServo, start: number, degrees: number): number {

@@ -5,12 +5,14 @@ import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Pace } from '../stores/moveTime.ts';
 import { guessesNow, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
 import { isHeld, type ServoView } from '../stores/servoView.ts';
-import { moveGang, weightOf, type Gang, type Member } from './gang.ts';
+import { moveGang, weightOf, type Gang, type GangMove, type Member } from './gang.ts';
 
 export interface Hand {
   move(servo: number, position: number): void;
   /** To a place that no hand leads it to: its own time, unless one is set. */
   leap(servo: number, position: number): void;
+  /** The same to a figure that was typed; who of those that move along keeps it from getting there, if any does. */
+  place(servo: number, position: number): number | null;
   /** The same between two frames, while a pointer holds the slider. */
   drag(servo: number, position: number): void;
   /** Each to its own home; `durationMs` is left out for a leap. */
@@ -20,9 +22,14 @@ export interface Hand {
 export function useHand(): Hand {
   const stores = useStores();
   return {
-    move: (servo, position) => send(stores, 'move', together(stores, servo, position), 'hand'),
-    leap: (servo, position) => send(stores, 'move', together(stores, servo, position), 'leap'),
-    drag: (servo, position) => send(stores, 'drag', together(stores, servo, position), 'hand'),
+    move: (servo, position) => send(stores, 'move', together(stores, servo, position).targets, 'hand'),
+    leap: (servo, position) => send(stores, 'move', together(stores, servo, position).targets, 'leap'),
+    place(servo, position) {
+      const { targets, first } = together(stores, servo, position);
+      send(stores, 'move', targets, 'leap');
+      return first;
+    },
+    drag: (servo, position) => send(stores, 'drag', together(stores, servo, position).targets, 'hand'),
     home: (servos, durationMs) => send(stores, 'move', homes(stores, servos), durationMs ?? 'leap'),
   };
 }
@@ -41,14 +48,14 @@ function membersOf({ robots }: Stores, view: ServoView, moved: number): readonly
   });
 }
 
-function together(stores: Stores, servo: number, position: number): readonly ServoTarget[] {
+function together(stores: Stores, servo: number, position: number): Pick<GangMove, 'targets' | 'first'> {
   const view = servoViewOf(stores);
   const members = membersOf(stores, view, servo);
-  if (members === null) return [{ servo, position }];
+  if (members === null) return { targets: [{ servo, position }], first: null };
   const now = { ...guessesNow(stores), ...stores.device.targetsNow() };
-  const { targets, gang } = moveGang(members, servo, position, now, gangs.get(view) ?? null);
-  gangs.set(view, gang);
-  return targets;
+  const move = moveGang(members, servo, position, now, gangs.get(view) ?? null);
+  gangs.set(view, move.gang);
+  return move;
 }
 
 function homes({ robots }: Stores, servos: readonly number[]): readonly ServoTarget[] {

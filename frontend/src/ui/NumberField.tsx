@@ -3,6 +3,7 @@
 // A bare input: a library's number field costs a millisecond each time its value changes, and 32 of them change at once.
 
 import { useState, type KeyboardEvent } from 'react';
+import { Mark, type Truth } from './Chip.tsx';
 import { cx } from './cx.ts';
 import styles from './NumberField.module.css';
 
@@ -16,8 +17,8 @@ export interface NumberFieldProps {
   readonly decimals?: 0 | 1;
   readonly unit?: string;
   readonly placeholder?: string;
-  /** What kind of number it is, for whoever points at it. */
-  readonly title?: string;
+  /** What kind of number it is: its sign before it, and its word for whoever points at it. */
+  readonly truth?: { readonly mark: Truth; readonly title: string } | undefined;
   /** Where steps begin while the value is not known. */
   readonly start?: number;
   readonly size?: 'plain' | 'large' | 'small';
@@ -60,8 +61,13 @@ export function NumberField(props: NumberFieldProps) {
     <div
       className={cx(styles.field, styles[size])}
       data-disabled={isDisabled || isReadOnly}
-      title={props.title}
+      title={props.truth?.title}
     >
+      {props.truth !== undefined && (
+        <span className={styles.mark}>
+          <Mark truth={props.truth.mark} />
+        </span>
+      )}
       <input
         type="text"
         inputMode={props.decimals === 1 ? 'decimal' : 'numeric'}

@@ -18,7 +18,7 @@ export const actionWords = {
   captureHere: 'Capture',
   captureEndHint: 'Adds the commanded pose at the end of the action group',
   captured: (number: number): string => `Frame ${formatWhole(number)} is captured.`,
-  nothingKnown: 'Move a servo first: nothing is known of the pose yet.',
+  nothingKnown: 'Move a servo first.',
   frame: (number: number): string => `Frame ${formatWhole(number)}`,
   frameAbout: (number: number, durationMs: number, changed: readonly number[]): string => {
     const moved = changed.length === 0 ? 'moves nothing' : `moves servo ${formatList(changed)}`;

@@ -32,9 +32,14 @@ export const calibrationWords = {
   } satisfies Record<CalibrationStep, string>,
   isDone: (step: string): string => `${step}, done`,
   ends: {
-    min: 'Hold − or + until it has come to one end of its way, closed for a gripper. Let go before it hums or touches anything.',
+    min: 'Hold − or + until it has come to one end of its way. Let go before it hums or touches anything.',
     max: 'Now the other end. Which of the two is the higher figure does not matter.',
-    home: 'Bring it to where it rests: straight, level or half open.',
+    home: 'Bring it to where it rests: straight or level.',
+  },
+  gripperEnds: {
+    min: 'Hold − or + until it is closed. Let go before it hums or pinches anything.',
+    max: 'Now wide open. Which of the two is the higher figure does not matter.',
+    home: 'Bring it to where it rests: half open.',
   },
   set: {
     min: 'Set lowest here',

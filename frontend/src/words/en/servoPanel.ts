@@ -52,6 +52,8 @@ export const servoPanelWords = {
   noGroup: 'Others',
   refused: (name: string, value: string, min: string, max: string): string =>
     `${name}: ${value} is out of range; it takes ${min} to ${max}.`,
+  stoppedBy: (name: string, min: string, max: string): string =>
+    `All stopped where ${name} met its limit: it takes ${min} to ${max}.`,
   sending: (packetsPerSecond: number, waiting: number): string =>
     `${counted(packetsPerSecond, 'packet')}/s, ${formatWhole(waiting)} waiting`,
   sendingHint: 'Packets sent in the last second; servos whose newest target has not left yet',

@@ -18,7 +18,7 @@ export const actionWords: typeof english = {
   captureHere: '记录',
   captureEndHint: '把目标姿态加到动作组的末尾',
   captured: (number) => `已记录第${formatWhole(number)}帧。`,
-  nothingKnown: '请先移动一个舵机：现在还不知道任何姿态。',
+  nothingKnown: '请先移动一个舵机。',
   frame: (number) => `第${formatWhole(number)}帧`,
   frameAbout: (number, durationMs, changed) => {
     const moved = changed.length === 0 ? '没有舵机移动' : `移动${formatList(changed)}号舵机`;

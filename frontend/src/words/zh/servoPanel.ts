@@ -45,6 +45,7 @@ export const servoPanelWords: typeof english = {
   fold: (group, count) => `${group}，${formatCount(count)}个舵机`,
   noGroup: '其他',
   refused: (name, value, min, max) => `${name}：${value}超出范围，应在${min}到${max}之间。`,
+  stoppedBy: (name, min, max) => `${name}到了极限，全部停在这里：它应在${min}到${max}之间。`,
   sending: (packetsPerSecond, waiting) =>
     `每秒${formatWhole(packetsPerSecond)}包，${formatWhole(waiting)}个等待`,
   sendingHint: '最近一秒发送的数据包；最新目标尚未发出的舵机数',
