@@ -25,6 +25,7 @@ from servodeck.parts import Part
 from servodeck.ports import OpenPort
 from servodeck.silence import Silence
 from servodeck.slot_memory import SlotMemory
+from servodeck.stop_again import StopAgain
 from servodeck.told import JobState, PortState
 from servodeck.unattended import Unattended
 from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire
@@ -74,6 +75,7 @@ class Board:
         self.jobs = Jobs(self, self.answers, now, slot_memory)
         self._motion = Motion(self.family)
         self._silence = Silence()
+        self._stop_again = StopAgain(now, lambda: self._motion.deaf_until_s, self._stop_unheard)
         self.unattended = Unattended(now, events.time_alone_over, events.board_changed)
         self.halts = 0
         """How often what was under way has been ended."""
@@ -187,9 +189,15 @@ class Board:
         self.jobs.judge_idle()
         return self.link.wire().send(packet, self)
 
+    def _stop_unheard(self) -> None:
+        if self.may_move():
+            with contextlib.suppress(GatewayError):
+                self.halt(None, CancelledError("The board was stopped once more: it may not have heard it."))
+
     def _forget_motion(self) -> None:
         self._motion = Motion(self.family)
         self._silence = Silence()
+        self._stop_again.void()
         self.unattended.follow(None)
 
     def _make_wire(self, port: OpenPort) -> Wire:
@@ -201,6 +209,10 @@ class Board:
         self.motion.left(packet, at_s)
         if is_harmless(packet) and packet[COMMAND_AT] != STOP:
             self._silence.asked(packet[COMMAND_AT], at_s)
+        if packet[COMMAND_AT] == STOP:
+            self._stop_again.stopped(at_s)
+        elif not (is_harmless(packet) or self.link.wire().is_halting):
+            self._stop_again.void()
         self.unattended.follow(self.motion.run)
         self.jobs.left(parse_command(packet), at_s, self.link.place)
         is_told = packet[COMMAND_AT] == STOP or not is_harmless(packet)
@@ -217,6 +229,7 @@ class Board:
             self.link.wire().answered(event.packet.command)
         report = parse_report(event.packet, self.family)
         self.motion.heard(report, self._now())
+        self._stop_again.heard()
         self._silence.heard(event.packet.command)  # behind it: what was forgotten in the silence stays so
         self.unattended.follow(self.motion.run)
         self.battery.heard(report)

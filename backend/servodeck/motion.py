@@ -83,6 +83,11 @@ class Motion:
     def unstored(self, slot: int) -> None:
         self._passes_s.pop(slot, None)
 
+    @property
+    def deaf_until_s(self) -> float:
+        """The board may not hear what leaves before."""
+        return self._hearing.deaf_until_s
+
     def group_may_run(self, now: float) -> bool:
         return self.run is not None and now < self._run_end_s
 

@@ -145,6 +145,10 @@ class Wire:
         self._work.set()
         return self._halt.left
 
+    @property
+    def is_halting(self) -> bool:
+        return self._halt is not None
+
     def answered(self, command: int) -> None:
         """The board has answered a packet of that command number: if it left last, the gap is over."""
         if command == self._last_command:

@@ -1,0 +1,70 @@
+"""A stop that fell into the board's flash work: said once more when the board hears again."""
+
+import asyncio
+
+from servodeck.callers import THIS_COMPUTER
+from tests.client import Client, driven
+from tests.samples import ERASE, GAP_MS, MOVE, MOVE_S, RUN, STOP, STOPS
+from tests.scripted import ERASED, RUN_TAKEN
+from tests.virtual_time import in_virtual_time, now
+
+# Erasing is over by then for sure, and the gateway takes a run, but the board has not said so.
+UNTIL_RUN_S = 1.1
+LONGEST_DEAF_S = 2.5
+
+
+async def run_unheard(driver: Client) -> None:
+    await asyncio.sleep(UNTIL_RUN_S)
+    await driver.send(RUN)
+
+
+@in_virtual_time
+async def test_it_is_said_again_when_the_longest_work_is_over() -> None:
+    async with driven(ERASE) as (control, port, anna):
+        await run_unheard(anna)
+        run_s = now()
+        await control.stop(None)
+        await asyncio.sleep(2)
+        assert port.packets() == [STOP, ERASE, RUN, *STOPS]
+        assert control.board.may_move()
+        await asyncio.sleep(1)
+        assert port.packets() == [STOP, ERASE, RUN, *STOPS, *STOPS]
+        assert port.written[6][0] - run_s <= LONGEST_DEAF_S + 0.001
+        await asyncio.sleep(10)
+        assert (port.packets()[9:], control.board.may_move(), control.latch) == ([], False, True)
+
+
+@in_virtual_time
+async def test_it_is_said_again_as_soon_as_the_board_has_answered() -> None:
+    async with driven(ERASE) as (control, port, anna):
+        await run_unheard(anna)
+        await control.stop(None)
+        await asyncio.sleep(0.1)
+        port.say(ERASED)
+        port.say(RUN_TAKEN)
+        answered_s = now()
+        await asyncio.sleep(0.3)
+        assert port.packets() == [STOP, ERASE, RUN, *STOPS, *STOPS]
+        assert port.written[6][0] - answered_s <= GAP_MS / 1000 + 0.01
+        assert not control.board.may_move()
+
+
+@in_virtual_time
+async def test_what_somebody_has_begun_since_is_not_stopped_by_it() -> None:
+    async with driven(ERASE) as (control, port, anna):
+        await run_unheard(anna)
+        await control.stop(None)
+        control.resume(THIS_COMPUTER)
+        await anna.send(RUN)
+        await asyncio.sleep(5)
+        assert port.packets() == [STOP, ERASE, RUN, *STOPS, RUN]
+
+
+@in_virtual_time
+async def test_what_was_heard_is_not_said_again() -> None:
+    async with driven(MOVE) as (control, port, _):
+        await asyncio.sleep(MOVE_S)
+        await control.stop(None)
+        before = port.packets()
+        await asyncio.sleep(5)
+        assert port.packets() == before
