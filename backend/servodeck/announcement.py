@@ -54,7 +54,7 @@ class Announcement:
                 if addresses := self._addresses():
                     self._announce(addresses)
                     continue  # the addresses are others now
-            except Exception:
+            except Exception:  # no network, or whatever a library raises that nobody here can name
                 log.warning("this computer cannot be announced", exc_info=True)
             self._ended.wait(self._look_again_s)
 

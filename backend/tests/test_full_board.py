@@ -1,4 +1,4 @@
-"""A full board: each slot filled with as much as it takes, handed over in as many requests as that needs."""
+"""A full board: each slot filled, handed over in as many requests as that needs."""
 
 from itertools import repeat
 from typing import Any
@@ -18,11 +18,13 @@ DOC = FAMILIES["doc"]
 SLOTS = range(DOC.slot.min, DOC.slot.max + 1)
 SERVOS = range(1, DOC.servos_per_frame + 1)
 STORED_MS = (3.0,)
+# All of them would take minutes.
+LONGEST_EACH = 8 if TIMES > 1 else len(SLOTS)
 
 
 def frame_count(slot: int) -> int:
-    """Each is as long as it can be in a long run, else one of them."""
-    return DOC.frames_per_group if TIMES > 1 or slot == SLOTS[0] else 8
+    """Some are as long as can be, more of them in a long run."""
+    return DOC.frames_per_group if slot % LONGEST_EACH == 0 else 8
 
 
 def position(slot: int, index: int, servo: int) -> int:
