@@ -21,6 +21,7 @@ from servodeck.config import PREFIX, commands_of, settings_of, take_file, toml_l
 from servodeck.describe import describe
 from servodeck.download_cli import download
 from servodeck.families import UNKNOWN
+from servodeck.library_cli import library, pose, poses
 from servodeck.logs import Form, Level
 from servodeck.options_cli import Token, TokenFile, asked, remote_at
 from servodeck.packets import FAMILIES, PacketError
@@ -44,7 +45,7 @@ app = typer.Typer(
 )
 
 
-for command in (*COMMANDS, download):
+for command in (*COMMANDS, pose, poses, download, library):
     app.command()(command)
 
 

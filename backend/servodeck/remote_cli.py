@@ -78,7 +78,11 @@ def move(
     """Move servos together, in the board's unit."""
     body = {"timeMs": time_ms, "positions": positions_in(targets), "take": take}
     answer = asked(remote, "POST", "/api/move", body, wait_s=MOVE_WAIT_S)
-    show(answer, as_json, lambda begun: f"On its way, over in {begun['overInMs'] / 1000:.1f} s.")
+    show(answer, as_json, begun_words)
+
+
+def begun_words(begun: dict[str, Any]) -> str:
+    return f"On its way, over in {begun['overInMs'] / 1000:.1f} s."
 
 
 def positions_in(targets: list[str]) -> dict[str, int]:
@@ -121,6 +125,19 @@ def watch(remote: Remote) -> None:
 
 
 @asking
+def erase(
+    remote: Remote,
+    sure: Annotated[bool, typer.Option("--yes", help="Without being asked again.")] = False,
+    take: Take = False,
+    as_json: AsJson = False,
+) -> None:
+    """Erase every slot of the board, for good. An owner's."""
+    if not sure:
+        typer.confirm("Every group on the board goes for good. Erase them?", abort=True)
+    show(asked(remote, "POST", "/api/erase", {"take": take}), as_json, lambda _: "Every slot is empty.")
+
+
+@asking
 def battery(remote: Remote, as_json: AsJson = False) -> None:
     """Ask the board for its battery voltage."""
     answer = asked(remote, "GET", "/api/battery")
@@ -141,4 +158,4 @@ def events(remote: Remote) -> None:
         raise typer.Exit(INTERRUPTED) from None
 
 
-COMMANDS: tuple[Callable[..., None], ...] = (status, stop, resume, move, run, battery, events)
+COMMANDS: tuple[Callable[..., None], ...] = (status, stop, resume, move, run, erase, battery, events)
