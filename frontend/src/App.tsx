@@ -57,7 +57,7 @@ function Dashboard({ page }: { readonly page: Page }) {
   useBatteryTab();
   useUndoKeys(useWritten());
   useEachFrame(() => {
-    device.refreshTargets();
+    device.refresh();
     pad.frame();
     playback.frame();
   });

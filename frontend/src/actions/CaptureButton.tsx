@@ -23,4 +23,4 @@ export function CaptureButton({ label, hint, onPress }: CaptureButtonProps) {
   );
 }
 
-export const useKnowsPose = (): boolean => useDevice(({ targets }) => Object.keys(targets).length > 0);
+export const useKnowsPose = (): boolean => useDevice(({ known }) => known.length > 0);

@@ -11,7 +11,6 @@ import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { captureFrame } from './capture.ts';
 import { useKnowsPose } from './CaptureButton.tsx';
 import { copy, cut, duplicate, moveBy, paste, removeFrames, together, type FrameIds } from './frameVerbs.ts';
-import { commandedPose } from './pose.ts';
 import styles from './FrameTools.module.css';
 
 const INSERTS = [
@@ -41,7 +40,7 @@ export function FrameTools() {
   const update = (): void =>
     document.edit(
       () => words.actions.steps.update(index + 1),
-      (before) => setTargets(before, id, commandedPose(device.store.getState().targets)),
+      (before) => setTargets(before, id, device.pose()),
     );
   return (
     <div className={styles.tools} role="group" aria-label={words.actions.tools}>

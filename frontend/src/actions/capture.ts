@@ -6,7 +6,6 @@ import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
-import { commandedPose } from './pose.ts';
 
 const USUAL_FRAME_MS = 1000;
 
@@ -14,8 +13,7 @@ type Side = 'before' | 'after' | 'end';
 type Group = Pick<Stores, 'document' | 'view'>;
 
 export function captureFrame({ device, ...group }: Group & Pick<Stores, 'device'>, side: Side): void {
-  const { targets, family } = device.store.getState();
-  const pose = { targets: commandedPose(targets), unit: family.unit };
+  const pose = { targets: device.pose(), unit: device.store.getState().family.unit };
   putFrame(group, side, pose, () => words.actions.steps.capture);
 }
 

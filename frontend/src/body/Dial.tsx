@@ -10,6 +10,7 @@ import { Drawing } from './Drawing.tsx';
 import { paintHands } from './hands.ts';
 import { motionInFrame } from './motionInFrame.ts';
 import { dialDegrees, halfDegree } from './pose.ts';
+import hands from './hands.module.css';
 import styles from './Dial.module.css';
 
 export function Dial({ servo, family }: { readonly servo: number; readonly family: Family }) {
@@ -20,14 +21,14 @@ export function Dial({ servo, family }: { readonly servo: number; readonly famil
     <span className={styles.place}>
       <DialFace servo={servo} />
       <Drawing
-        className={styles.hands}
+        className={hands.over}
         shown={() => {
           const { target, estimated } = motionInFrame(device, servo);
           return [turn(target), turn(estimated)] as const;
         }}
         paint={({ ctx, look, size }, [target, needle]) => {
-          const spot = { x: size.width / 2, y: size.height / 2, diameter: size.width };
-          paintHands(ctx, look, spot, { target, needle, preview: null });
+          const spot = { x: size.width / 2, y: size.height / 2 };
+          paintHands(ctx, look, size.width, [{ spot, hands: { target, needle, preview: null } }]);
         }}
       />
     </span>
@@ -45,7 +46,7 @@ export function DialFace({ servo }: { readonly servo: number }) {
       aria-label={words.body.gaugeFigure(servo)}
     >
       <path className={styles.rim} d={RIM} />
-      {!isKnown && <Unknown />}
+      {isKnown ? <circle className={styles.hub} r={4} /> : <Unknown />}
     </svg>
   );
 }

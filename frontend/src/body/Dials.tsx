@@ -13,6 +13,7 @@ import { paintHands, type Spot } from './hands.ts';
 import { motionInFrame } from './motionInFrame.ts';
 import { dialDegrees, halfDegree, type Pose } from './pose.ts';
 import { usePreview } from './usePreview.ts';
+import hands from './hands.module.css';
 import styles from './Dials.module.css';
 
 /** So many find room at a size that is read across the room. */
@@ -45,6 +46,13 @@ export function Dials() {
   );
 }
 
+/** Where the faces are: they move with the size of the board alone. */
+interface Faces {
+  readonly size: Size | null;
+  readonly diameter: number;
+  readonly spots: readonly Spot[];
+}
+
 interface AllHandsProps {
   readonly list: React.RefObject<HTMLElement | null>;
   readonly servos: readonly number[];
@@ -54,24 +62,20 @@ interface AllHandsProps {
 function AllHands({ list, servos, family }: AllHandsProps) {
   const { device } = useStores();
   const pose = useRef<Pose | null>(null);
-  const spots = useRef<{ readonly size: Size | null; readonly all: readonly Spot[] }>({
-    size: null,
-    all: [],
-  });
+  const faces = useRef<Faces>({ size: null, diameter: 0, spots: [] });
   usePreview((now) => (pose.current = now));
   const turn = (position: number | null): number | null =>
     position === null ? null : halfDegree(dialDegrees(position, family));
 
-  /** Where the faces are: they move with the size of the board alone. */
-  function spotsIn(size: Size): readonly Spot[] {
-    if (spots.current.size !== size || spots.current.all.length !== servos.length)
-      spots.current = { size, all: list.current === null ? [] : facesIn(list.current) };
-    return spots.current.all;
+  function facesAt(size: Size): Faces {
+    const isMeasured = faces.current.size === size && faces.current.spots.length === servos.length;
+    if (!isMeasured && list.current !== null) faces.current = { size, ...facesIn(list.current) };
+    return faces.current;
   }
 
   return (
     <Drawing
-      className={styles.hands}
+      className={hands.over}
       shown={() =>
         servos.flatMap((servo) => {
           const { target, estimated } = motionInFrame(device, servo);
@@ -79,19 +83,23 @@ function AllHands({ list, servos, family }: AllHandsProps) {
         })
       }
       paint={({ ctx, look, size }, shown) => {
-        for (const [index, spot] of spotsIn(size).entries()) {
+        const { diameter, spots } = facesAt(size);
+        const dials = spots.map((spot, index) => {
           const [target = null, needle = null, preview = null] = shown.slice(3 * index, 3 * index + 3);
-          paintHands(ctx, look, spot, { target, needle, preview });
-        }
+          return { spot, hands: { target, needle, preview } };
+        });
+        paintHands(ctx, look, diameter, dials);
       }}
     />
   );
 }
 
-function facesIn(list: HTMLElement): readonly Spot[] {
+function facesIn(list: HTMLElement): Pick<Faces, 'diameter' | 'spots'> {
   const from = list.getBoundingClientRect();
-  return [...list.querySelectorAll('svg')].map((face) => {
-    const { left, top, width, height } = face.getBoundingClientRect();
-    return { x: left - from.left + width / 2, y: top - from.top + height / 2, diameter: width };
-  });
+  const boxes = [...list.querySelectorAll('svg')].map((face) => face.getBoundingClientRect());
+  const spots = boxes.map(({ left, top, width, height }) => ({
+    x: left - from.left + width / 2,
+    y: top - from.top + height / 2,
+  }));
+  return { diameter: boxes[0]?.width ?? 0, spots };
 }

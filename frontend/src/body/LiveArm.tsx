@@ -9,7 +9,7 @@ import { ArmFigure, drawArm } from './ArmFigure.tsx';
 import { BaseView, drawBase, drawHand, HandView, type InsetLook } from './insets.tsx';
 import { armPicture, JOINT, samePicture, type ArmPicture, type Pose } from './pose.ts';
 import { usePreview } from './usePreview.ts';
-import { useMotions } from './useMotion.ts';
+import { useMotions } from './useMotions.ts';
 import styles from './LiveArm.module.css';
 
 const ARM_SERVOS = Object.values(JOINT);

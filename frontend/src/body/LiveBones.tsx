@@ -10,7 +10,7 @@ import { words } from '../words/words.ts';
 import { BoneFigure, drawBones } from './BoneFigure.tsx';
 import { bonesOf, type BonePicture } from './bones.ts';
 import { usePreview } from './usePreview.ts';
-import { useMotions } from './useMotion.ts';
+import { useMotions } from './useMotions.ts';
 import styles from './LiveBones.module.css';
 
 const SHOWN = ['estimated', 'target'] as const;

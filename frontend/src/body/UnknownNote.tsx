@@ -25,10 +25,10 @@ export function UnknownNote() {
   const { device } = useStores();
   const robot = useRobot();
   // Moved by nobody, and nothing told by the board: the motion changes with the store.
-  const text = useDevice(({ targets, snapshot }) =>
+  const text = useDevice(({ known, snapshot }) =>
     snapshot.waitingToStart.length > 0
       ? words.firstMoves.waiting(snapshot.waitingToStart)
-      : textOf(unknownOf(robot, targets, device), robot.servos.length),
+      : textOf(unknownOf(robot, known, device), robot.servos.length),
   );
   const isOffered = useIsGuessing();
   return (
@@ -60,10 +60,10 @@ function guessed(stores: Stores): readonly ServoTarget[] {
     .filter(({ servo }) => !isHeld(view, servo));
 }
 
-function unknownOf({ servos }: Robot, targets: DeviceState['targets'], device: Device): readonly number[] {
+function unknownOf({ servos }: Robot, known: DeviceState['known'], device: Device): readonly number[] {
   return servos
     .map(({ servo }) => servo)
-    .filter((servo) => targets[servo] === undefined && device.motion(servo).estimated === null);
+    .filter((servo) => !known.includes(servo) && device.motion(servo).estimated === null);
 }
 
 function textOf(unknown: readonly number[], count: number): string {

@@ -1,10 +1,10 @@
-// The hands of a dial: their corners as they point straight up, turned, and drawn on a canvas. Draws what it is given.
+// The hands of dials: their corners as they point straight up, turned, and drawn on a canvas. All hands of a kind are one path: a
+// canvas is drawn in as many strokes as there are kinds of hands, however many dials are on it. Draws what it is given.
 
 import type { Look } from '../timeline/look.ts';
 
 /** Units across a dial's drawing. */
 const FACE = 48;
-const HUB = 4;
 
 type Corners = readonly (readonly [x: number, y: number])[];
 const TARGET: Corners = [
@@ -12,22 +12,17 @@ const TARGET: Corners = [
   [4, -22.5],
   [0, -15.5],
 ];
+/** From within the ring of the hub, which is part of the face. */
 const NEEDLE: Corners = [
-  [-2.5, 4],
+  [-1.8, -4],
   [-1, -14],
   [1, -14],
-  [2.5, 4],
+  [1.8, -4],
 ];
 const PREVIEW: Corners = [
   [0, -6],
   [0, -19],
 ];
-
-function turnedBy(corners: Corners, degrees: number): Corners {
-  const radians = (degrees * Math.PI) / 180;
-  const [sin, cos] = [Math.sin(radians), Math.cos(radians)];
-  return corners.map(([x, y]) => [x * cos - y * sin, x * sin + y * cos] as const);
-}
 
 /** In degrees from straight up; null: not there. */
 export interface Hands {
@@ -36,46 +31,71 @@ export interface Hands {
   readonly preview: number | null;
 }
 
+/** The middle of a dial. */
 export interface Spot {
   readonly x: number;
   readonly y: number;
-  readonly diameter: number;
 }
 
+export interface HandsAt {
+  readonly spot: Spot;
+  readonly hands: Hands;
+}
+
+/** On dials of one size. */
 export function paintHands(
   ctx: CanvasRenderingContext2D,
   look: Look,
-  { x, y, diameter }: Spot,
-  { target, needle, preview }: Hands,
+  diameter: number,
+  dials: readonly HandsAt[],
 ): void {
-  ctx.save();
-  ctx.translate(x, y);
-  ctx.scale(diameter / FACE, diameter / FACE);
+  const scale = diameter / FACE;
   ctx.lineJoin = 'round';
-  if (target !== null) {
-    outline(ctx, turnedBy(TARGET, target));
+  if (outline(ctx, scale, dials, 'target', TARGET)) {
     fill(ctx, look.panel);
-    stroke(ctx, look.commanded, 1.5);
+    stroke(ctx, look.commanded, 1.5 * scale);
   }
-  if (needle !== null) {
-    outline(ctx, turnedBy(NEEDLE, needle));
-    fill(ctx, look.estimated);
-    ctx.beginPath();
-    ctx.arc(0, 0, HUB, 0, 2 * Math.PI);
-    fill(ctx, look.panel);
-    stroke(ctx, look.estimated, 1.75);
+  if (outline(ctx, scale, dials, 'needle', NEEDLE)) fill(ctx, look.estimated);
+  if (outline(ctx, scale, dials, 'preview', PREVIEW)) {
+    ctx.setLineDash([2 * scale, 2 * scale]);
+    stroke(ctx, look.ink, 2 * scale);
+    ctx.setLineDash([]);
   }
-  if (preview !== null) {
-    outline(ctx, turnedBy(PREVIEW, preview));
-    ctx.setLineDash([2, 2]);
-    stroke(ctx, look.ink, 2);
-  }
-  ctx.restore();
 }
 
-function outline(ctx: CanvasRenderingContext2D, corners: Corners): void {
+/** Of one hand on all dials; false where none has it. */
+function outline(
+  ctx: CanvasRenderingContext2D,
+  scale: number,
+  dials: readonly HandsAt[],
+  which: keyof Hands,
+  corners: Corners,
+): boolean {
+  let isAny = false;
   ctx.beginPath();
-  for (const corner of corners) ctx.lineTo(...corner);
+  for (const { spot, hands } of dials) {
+    const degrees = hands[which];
+    if (degrees === null) continue;
+    isAny = true;
+    turned(ctx, spot, scale, degrees, corners);
+  }
+  return isAny;
+}
+
+function turned(
+  ctx: CanvasRenderingContext2D,
+  { x, y }: Spot,
+  scale: number,
+  degrees: number,
+  corners: Corners,
+): void {
+  const radians = (degrees * Math.PI) / 180;
+  const [sin, cos] = [scale * Math.sin(radians), scale * Math.cos(radians)];
+  for (const [index, [right, down]] of corners.entries()) {
+    const [atX, atY] = [x + right * cos - down * sin, y + right * sin + down * cos];
+    if (index === 0) ctx.moveTo(atX, atY);
+    else ctx.lineTo(atX, atY);
+  }
   if (corners.length > 2) ctx.closePath();
 }
 

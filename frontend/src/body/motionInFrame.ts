@@ -2,9 +2,10 @@
 
 import type { ServoMotion } from '#shared/session/state.ts';
 import type { Device } from '../stores/device.ts';
+import { frameAtHand } from '../ui/useEachFrame.ts';
 
 interface Seen {
-  readonly atMs: CSSNumberish | null;
+  readonly frame: number;
   readonly motions: Map<number, ServoMotion>;
 }
 
@@ -19,12 +20,11 @@ export function motionInFrame(device: Device, servo: number): ServoMotion {
   return motion;
 }
 
-/** The document's time stands still within a frame. */
 function motionsOf(device: Device): Map<number, ServoMotion> {
-  const atMs = document.timeline.currentTime;
+  const frame = frameAtHand();
   const before = seen.get(device);
-  if (before?.atMs === atMs) return before.motions;
+  if (before?.frame === frame) return before.motions;
   const motions = new Map<number, ServoMotion>();
-  seen.set(device, { atMs, motions });
+  seen.set(device, { frame, motions });
   return motions;
 }

@@ -95,10 +95,7 @@ function useCreeping(servo: number, reach: Range): Creep {
     end,
     start(direction) {
       end();
-      const motion = () => ({
-        target: device.store.getState().targets[servo] ?? null,
-        estimated: device.motion(servo).estimated,
-      });
+      const motion = () => device.motion(servo);
       const mayMove = (): boolean => motionHindrance(device.store.getState().snapshot) === null;
       ending.current = startCreeping(
         { clock: device.clock, reach, motion, mayMove, move: device.creep },

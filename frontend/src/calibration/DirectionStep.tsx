@@ -5,6 +5,7 @@ import { useEffect, useRef, useState } from 'react';
 import { changeServo } from '#shared/actions/robot/robotEdits.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
+import { useTarget } from '../servos/useTarget.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { motionHindrance } from '../stores/readiness.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
@@ -46,7 +47,7 @@ function TooLittleRoom({ at: { robot, servo, isFinished, keep, go } }: At) {
 function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away: number }) {
   const { device } = useStores();
   const { phase, turn } = useTurning(servo, away);
-  const target = useDevice(({ targets }) => targets[servo.servo]);
+  const [target] = useTarget(servo.servo);
   const isMoving = useDevice((state) => state.isMoving);
   // That something moves is known a moment after it was asked to.
   const { estimated } = device.motion(servo.servo);

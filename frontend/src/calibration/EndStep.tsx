@@ -6,7 +6,8 @@ import { changeServo, reachOf } from '#shared/actions/robot/robotEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { ReachBar } from '../robots/ReachBar.tsx';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
-import { useDevice, useStores } from '../stores/stores.ts';
+import { useTarget } from '../servos/useTarget.ts';
+import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import { CreepControl } from './CreepControl.tsx';
@@ -22,10 +23,10 @@ export interface EndStepProps {
 export function EndStep({ at, end }: EndStepProps) {
   const { robot, servo, progress, isFinished, keep } = at;
   const { device } = useStores();
-  const target = useDevice(({ targets }) => targets[servo.servo]);
+  const [target] = useTarget(servo.servo);
   const { unit } = FAMILIES[robot.board];
   const reach = reachOf(robot, servo);
-  if (target === undefined) return null;
+  if (target === null) return null;
   // A servo that has just been crept to an end seldom rests there.
   const isHomeKept = end === 'home' && (target <= servo.min || target >= servo.max);
   const isAwayFromHome = end === 'home' && target !== servo.home;

@@ -22,10 +22,10 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
   const { device } = useStores();
   const hindrance = useSnapshot(motionHindrance);
   const lease = useSnapshot((snapshot) => snapshot.lease);
-  const targets = useDevice((state) => state.targets);
-  const isKnown = targets[servo.servo] !== undefined;
+  const known = useDevice((state) => state.known);
+  const isKnown = known.includes(servo.servo);
   const homes = robot.servos
-    .filter((one) => targets[one.servo] === undefined)
+    .filter((one) => !known.includes(one.servo))
     .map((one) => ({ servo: one.servo, position: one.home }));
   if (hindrance === 'latched') {
     return (

@@ -100,7 +100,7 @@ function connect(
   if (way !== null && positions !== undefined)
     lastPoses.setState({ [nameOf(way)]: { family: board, positions } });
   if (way !== null) device.attach(frozenSession(family, state, motionsOf(board, pose)), way);
-  device.refreshTargets();
+  device.refresh();
   if (pose !== 'unknown') for (const entry of SAMPLE_TRAFFIC) device.traffic.add(entry, family.id);
   if (way === null || nickname === undefined) return;
   boards.remember(way, board);

@@ -70,7 +70,7 @@ function storesOf({ state = READY, isUnknown = false, place = 'browser', at, lim
     () => words.robots.steps.add,
     at === undefined || limits === undefined ? robot : changeServo(robot, at.servo, limits),
   );
-  device.refreshTargets();
+  device.refresh();
   if (at !== undefined)
     view.setState({ calibration: { robotId: robots.current().id, progress: { ...at, done: [] } } });
   return stores;

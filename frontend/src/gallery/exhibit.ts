@@ -40,6 +40,6 @@ export function standing({
   const family = FAMILIES[board];
   const stores = specimenStores(family, pad, place);
   stores.device.attach(frozenSession(family, state, motionsOf(board, pose)), way);
-  stores.device.refreshTargets();
+  stores.device.refresh();
   return stores;
 }

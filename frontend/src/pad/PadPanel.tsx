@@ -64,15 +64,13 @@ function FirstMoves() {
   const { device } = useStores();
   const { servos } = useRobot();
   const { bindings } = useMapping();
-  const targets = useDevice((state) => state.targets);
+  const known = useDevice((state) => state.known);
   const isDriving = usePad((state) => state.isDriving);
   const reported = useSnapshot((snapshot) => snapshot.reported);
   // A servo that was let go of is unknown again, whatever was read before.
   const isTold = (servo: number): boolean => servo in reported && device.motion(servo).estimated !== null;
   const bound = new Set(bindings.map(servoBoundBy));
-  const unknown = servos.filter(
-    ({ servo }) => bound.has(servo) && targets[servo] === undefined && !isTold(servo),
-  );
+  const unknown = servos.filter(({ servo }) => bound.has(servo) && !known.includes(servo) && !isTold(servo));
   if (!isDriving || unknown.length === 0) return null;
   const goHome = (): void => {
     const homes = unknown.map(({ servo, home }) => ({ servo, position: home }));

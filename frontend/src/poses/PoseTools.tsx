@@ -6,7 +6,6 @@ import { duplicatePose, markRest, movePose, removePose, setPose } from '#shared/
 import { flippedTargets, mirroredTargets } from '#shared/actions/poses/poseShapes.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { putFrame } from '../actions/capture.ts';
-import { commandedPose } from '../actions/pose.ts';
 import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
 import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
@@ -57,7 +56,7 @@ function Shapes() {
   const { device, poses, notices, macros, document, view } = useStores();
   const pose = useSelectedPose();
   const robot = useRobot();
-  const knowsPose = useDevice((state) => Object.keys(state.targets).length > 0);
+  const knowsPose = useDevice((state) => state.known.length > 0);
   const unit = useDevice((state) => state.family.unit);
   const restId = usePoses(({ present }) => present.restId);
   const isRest = restId !== null && restId === pose?.id;
@@ -78,7 +77,7 @@ function Shapes() {
   const update = (): void =>
     edit(
       (name) => words.poses.steps.update(name),
-      (book, id) => setPose(book, id, commandedPose(device.store.getState().targets), unit),
+      (book, id) => setPose(book, id, device.pose(), unit),
     );
 
   const reshape = (label: PoseLabel, shape: typeof mirroredTargets) => (): void => {

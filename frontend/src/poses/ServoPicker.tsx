@@ -8,16 +8,16 @@ import { words } from '../words/words.ts';
 import styles from './PosesPanel.module.css';
 
 export function ServoPicker({ pose }: { readonly pose: Pose }) {
-  const { poses } = useStores();
+  const { device, poses } = useStores();
   const { servos } = useRobot();
-  const commanded = useDevice((state) => state.targets);
+  const known = useDevice((state) => state.known);
   const sameUnit = useDevice((state) => state.family.unit === pose.unit);
   const included = new Set(pose.targets.map(({ servo }) => servo));
 
   function choose(servo: number, isIn: boolean): void {
-    const position = commanded[servo];
+    const { target: position } = device.motion(servo);
     const others = pose.targets.filter((target) => target.servo !== servo);
-    const targets = isIn && position !== undefined ? [...others, { servo, position }] : others;
+    const targets = isIn && position !== null ? [...others, { servo, position }] : others;
     poses.book.edit(
       () => words.poses.steps.servos(pose.name),
       (book) => setPose(book, pose.id, targets),
@@ -36,7 +36,7 @@ export function ServoPicker({ pose }: { readonly pose: Pose }) {
               <input
                 type="checkbox"
                 checked={isIn}
-                disabled={isIn ? isLast : !sameUnit || commanded[servo] === undefined}
+                disabled={isIn ? isLast : !sameUnit || !known.includes(servo)}
                 onChange={({ target }) => choose(servo, target.checked)}
               />
               {name}

@@ -1,15 +1,14 @@
 // Keeps the pose that the robot was asked for in the book of poses, under a name of its own. Moves nothing.
 
 import { addPose } from '#shared/actions/poses/poseEdits.ts';
-import { commandedPose } from '../actions/pose.ts';
 import type { Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 
 /** Returns its name. */
 export function capturePose({ device, poses, view }: Pick<Stores, 'device' | 'poses' | 'view'>): string {
-  const { targets, family } = device.store.getState();
+  const { family } = device.store.getState();
   const { nextId } = poses.book.store.getState().present;
-  const pose = { name: words.poses.newName(nextId), unit: family.unit, targets: commandedPose(targets) };
+  const pose = { name: words.poses.newName(nextId), unit: family.unit, targets: device.pose() };
   poses.book.edit(
     () => words.poses.steps.capture(pose.name),
     (book) => addPose(book, pose),

@@ -3,6 +3,7 @@
 // meanwhile.
 
 import { useRef, type KeyboardEvent } from 'react';
+import { motionInFrame } from '../body/motionInFrame.ts';
 import { fraction } from '../body/pose.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Family, Range } from '#shared/protocol/families.ts';
@@ -49,7 +50,7 @@ export function PositionSlider({
   const input = useRef<HTMLInputElement>(null);
   const { min, max, home } = servo;
   const { device } = useStores();
-  const asked = (): number => device.targetsNow()[servo.servo] ?? guess ?? home;
+  const asked = (): number => targetOf(device, servo.servo) ?? guess ?? home;
 
   const hold = useDrag(input, {
     shown: asked,
@@ -75,7 +76,7 @@ export function PositionSlider({
   /** Where the thumb is drawn. */
   function shown(): number {
     if (hold.current === 'held' && input.current !== null) return input.current.valueAsNumber;
-    return targetOf(device, servo.servo) ?? guess ?? home;
+    return motionInFrame(device, servo.servo).target ?? guess ?? home;
   }
 
   /** Blocked, it keeps the focus and its place, and takes nothing. Without a pointer on it, it was Home or End. */

@@ -15,7 +15,7 @@ import { Reported } from './Reported.tsx';
 import { scaleOf, stepped, type Scale } from './scale.ts';
 import { ServoName } from './ServoName.tsx';
 import { useHand } from './useHand.ts';
-import { targetOf, useReadTarget } from './useTarget.ts';
+import { READ_EACH_MS, targetOf, useTarget } from './useTarget.ts';
 import { useWheelSteps } from './useWheelSteps.ts';
 import styles from './ServoRow.module.css';
 
@@ -46,7 +46,7 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
   const { device } = useStores();
   const hand = useHand();
   const family = useDevice((state) => state.family);
-  const isKnown = useDevice((state) => state.targets[servo] !== undefined);
+  const isKnown = useDevice((state) => state.known.includes(servo));
   const guess = useGuess(own);
   const scale = scaleOf(
     own,
@@ -127,7 +127,7 @@ interface TargetFieldProps {
 
 function TargetField({ servo: own, scale, guess, blocked, onStep, onTyped, onRefused }: TargetFieldProps) {
   const { device, notices, robots, view } = useStores();
-  const [target, readAgain] = useReadTarget(own.servo);
+  const [target, readAgain] = useTarget(own.servo, READ_EACH_MS);
   const tellStop = (first: number): void => {
     const met = servoOf(robots.current().robot, first);
     if (met === undefined) return;

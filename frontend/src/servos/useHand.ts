@@ -3,8 +3,8 @@
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Pace } from '../stores/moveTime.ts';
-import { guessesNow, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
-import { isHeld, type ServoView } from '../stores/servoView.ts';
+import { guessNow, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
+import { isHeld, type ServoView, type Stand } from '../stores/servoView.ts';
 import { moveGang, weightOf, type Gang, type GangMove, type Member } from './gang.ts';
 
 export interface Hand {
@@ -52,10 +52,19 @@ function together(stores: Stores, servo: number, position: number): Pick<GangMov
   const view = servoViewOf(stores);
   const members = membersOf(stores, view, servo);
   if (members === null) return { targets: [{ servo, position }], first: null };
-  const now = { ...guessesNow(stores), ...stores.device.targetsNow() };
-  const move = moveGang(members, servo, position, now, gangs.get(view) ?? null);
+  const move = moveGang(members, servo, position, standOf(stores, members), gangs.get(view) ?? null);
   gangs.set(view, move.gang);
   return move;
+}
+
+/** Where each was asked to be, else where it may stand. */
+function standOf(stores: Stores, members: readonly Member[]): Stand {
+  const stand: Record<number, number> = {};
+  for (const { servo } of members) {
+    const at = stores.device.motion(servo.servo).target ?? guessNow(stores, servo);
+    if (at !== null) stand[servo.servo] = at;
+  }
+  return stand;
 }
 
 function homes({ robots }: Stores, servos: readonly number[]): readonly ServoTarget[] {

@@ -55,7 +55,7 @@ export async function createDesk(
   async function draw(ms: number): Promise<void> {
     for (let passed = 0; passed < ms; passed += 20) {
       await clock.advance(20);
-      device.refreshTargets();
+      device.refresh();
       playback.frame();
     }
   }

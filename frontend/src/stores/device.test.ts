@@ -1,4 +1,4 @@
-import { describe, expect, test } from 'vitest';
+import { describe, expect, test, vi } from 'vitest';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
@@ -30,38 +30,39 @@ async function createDesk(listening: (events: SessionEvents) => unknown = () => 
   const device = createDevice({ family: FAMILIES.doc, clock: rig.clock, notices, robots });
   device.attach(session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
   const state = () => device.store.getState();
+  const targets = () => Object.fromEntries(device.pose().map(({ servo, position }) => [servo, position]));
   const told = () => notices.store.getState().map((notice) => notice.text);
   /** Time passes with the page being drawn, as it is in a browser. */
   async function draw(ms: number) {
     for (let passed = 0; passed < ms; passed += 20) {
       await rig.clock.advance(20);
-      device.refreshTargets();
+      device.refresh();
     }
   }
-  return { ...rig, robots, device, state, told, draw };
+  return { ...rig, robots, device, state, targets, told, draw };
 }
 
 describe('a device with a session', () => {
   test('shows what was asked for at once and never the value before it again', async () => {
-    const { device, state, clock } = await createDesk();
+    const { device, clock, targets } = await createDesk();
     device.move([{ servo: 3, position: 1700 }], 500);
-    expect(state().targets[3]).toBe(1700);
+    expect(targets()[3]).toBe(1700);
     for (let step = 0; step < 40; step++) {
       await clock.advance(5);
-      device.refreshTargets();
-      expect(state().targets).toEqual({ 3: 1700 });
+      device.refresh();
+      expect(targets()).toEqual({ 3: 1700 });
     }
   });
 
-  test('sends a drag at once and shows it with the next frame', async () => {
-    const { device, state, clock, transport } = await createDesk();
+  test('sends a drag at once, and the store has what comes of it with the next frame', async () => {
+    const { device, state, targets, clock, transport } = await createDesk();
     device.drag([{ servo: 3, position: 1700 }], 500);
-    expect(state().targets).toEqual({});
-    expect(device.targetsNow()).toEqual({ 3: 1700 });
+    expect(targets()).toEqual({ 3: 1700 });
+    expect(state().known).toEqual([]);
     await clock.advance(15);
     expect(transport.board.target(3)).toBe(1700);
-    device.refreshTargets();
-    expect(state().targets).toEqual({ 3: 1700 });
+    device.refresh();
+    expect(state().known).toEqual([3]);
   });
 
   test('moves from the first packet until the servo is there, and a stream of drags is one motion', async () => {
@@ -96,42 +97,50 @@ describe('a device with a session', () => {
   });
 
   test('shows what was asked of a servo for as long as it waits for its first move', async () => {
-    const { device, state, draw } = await createDesk();
+    const { device, state, draw, targets } = await createDesk();
     device.move(
       [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 1600 })),
       300,
     );
     for (let step = 0; step < 100; step++) {
       await draw(20);
-      expect(state().targets[6]).toBe(1600);
+      expect(targets()[6]).toBe(1600);
     }
     expect(state().snapshot.waitingToStart).toEqual([]);
   });
 
   test('knows nothing of a servo that nobody moved', async () => {
-    const { device, state } = await createDesk();
-    expect(state().targets).toEqual({});
+    const { device, targets } = await createDesk();
+    expect(targets()).toEqual({});
     expect(device.motion(1)).toEqual({ target: null, estimated: null });
   });
 
-  test('keeps the very same targets while nothing changes, so that nothing is drawn again', async () => {
-    const { device, state, draw } = await createDesk();
-    device.move([{ servo: 1, position: 1600 }], 300);
+  test('wakes nobody who listens while a drag goes on', async () => {
+    const { device, draw } = await createDesk();
+    const woken = vi.fn();
+    async function dragTo(from: number, to: number) {
+      for (let position = from; position < to; position += 10) {
+        device.drag([{ servo: 1, position }], 'hand');
+        await draw(20);
+      }
+    }
+    device.move([{ servo: 1, position: 1000 }], 300);
     await draw(2500);
-    const before = state().targets;
-    await draw(200);
-    expect(state().targets).toBe(before);
+    await dragTo(1000, 1300);
+    device.store.subscribe(woken);
+    await dragTo(1300, 1900);
+    expect(woken).not.toHaveBeenCalled();
   });
 
   test('drops what was only wished for when STOP comes first', async () => {
-    const { device, state, draw } = await createDesk();
+    const { device, state, draw, targets } = await createDesk();
     device.move([{ servo: 1, position: 1600 }], 300);
     await draw(2500);
     device.move([{ servo: 1, position: 2400 }], 3000);
     device.halt();
     await draw(500);
     expect(state().snapshot.latch).toMatchObject({ reason: 'pressed' });
-    expect(state().targets[1]).toBeLessThan(2400);
+    expect(targets()[1]).toBeLessThan(2400);
   });
 
   test('refuses to move while stopped and says so; Resume moves nothing', async () => {
@@ -148,10 +157,10 @@ describe('a device with a session', () => {
   });
 
   test('tells the name and the range of a servo that shall not go there, and keeps the target', async () => {
-    const { device, state, told } = await createDesk();
+    const { device, told, targets } = await createDesk();
     device.move([{ servo: 1, position: 2600 }], 300);
     expect(told()[0]).toContain('Gripper: 2600 is out of range');
-    expect(state().targets).toEqual({});
+    expect(targets()).toEqual({});
   });
 
   describe('with a robot of its own limits and trim', () => {
@@ -169,16 +178,16 @@ describe('a device with a session', () => {
     }
 
     test('the board gets the trim on top; the page goes on in what was meant', async () => {
-      const { device, state, draw, ofKind } = await createElbowDesk();
+      const { device, draw, ofKind, targets } = await createElbowDesk();
       device.move([{ servo: 4, position: 1000 }], 0);
       await draw(2000);
       expect(ofKind('move')[0]?.targets).toEqual([{ servo: 4, position: 1040 }]);
-      expect(state().targets).toEqual({ 4: 1000 });
+      expect(targets()).toEqual({ 4: 1000 });
       expect(device.motion(4)).toEqual({ target: 1000, estimated: 1000 });
     });
 
     test('only the servo that is calibrated creeps past its limits, as far as the board goes', async () => {
-      const { device, told, draw, ofKind, state } = await createElbowDesk();
+      const { device, told, draw, ofKind, targets } = await createElbowDesk();
       device.creep(2400, 100);
       device.calibrate(4);
       device.creep(2400, 100);
@@ -189,7 +198,7 @@ describe('a device with a session', () => {
       device.creep(2410, 100);
       await draw(2000);
       expect(ofKind('move').map(({ targets }) => targets)).toEqual([[{ servo: 4, position: 2440 }]]);
-      expect(state().targets).toEqual({ 4: 2400 });
+      expect(targets()).toEqual({ 4: 2400 });
       expect(told()).toEqual([
         expect.stringContaining('Elbow: 2400 is out of range'),
         expect.stringContaining('2520'),
@@ -241,7 +250,7 @@ describe('a device with a session', () => {
   });
 
   test('playing to the end is told, pausing is not', async () => {
-    const { device, state, draw } = await createDesk();
+    const { device, state, draw, targets } = await createDesk();
     let finished = 0;
     device.play(FRAMES, 1, (isDone) => (finished += Number(isDone)));
     await draw(1600);
@@ -252,7 +261,7 @@ describe('a device with a session', () => {
     device.play(FRAMES, 1, (isDone) => (finished += Number(isDone)));
     await draw(4000);
     expect(finished).toBe(1);
-    expect(state().targets[1]).toBe(2100);
+    expect(targets()[1]).toBe(2100);
   });
 
   test('playing that STOP ended was not played to the end', async () => {
@@ -267,13 +276,13 @@ describe('a device with a session', () => {
   });
 
   test('a lost link keeps no position and comes back latched', async () => {
-    const { device, state, draw, transport } = await createDesk();
+    const { device, state, draw, transport, targets } = await createDesk();
     device.move([{ servo: 1, position: 1600 }], 300);
     await draw(2500);
     transport.unplug();
     await draw(100);
     expect(state().snapshot.link).toMatchObject({ status: 'lost' });
-    expect(state().targets).toEqual({});
+    expect(targets()).toEqual({});
     transport.plugIn();
     await draw(6000);
     expect(state().snapshot.link.status).toBe('ready');

@@ -1,7 +1,9 @@
-// The robot as the page sees it: wraps one session at a time, keeps its latest snapshot and each servo's target, and turns
-// intents of the panels into calls whose failures become notices. Live, never undoable; knows no transport and no panel.
+// The robot as the page sees it: wraps one session at a time, keeps its latest snapshot, and turns intents of the panels into
+// calls whose failures become notices. Live, never undoable; knows no transport and no panel. What changes in each frame is asked
+// for and not in the store: whoever listens to that would be woken for it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
+import { sameList } from '#shared/actions/group/groupEdits.ts';
 import { fromBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
@@ -18,7 +20,7 @@ import { moveDurationMs, type Pace } from './moveTime.ts';
 import { createMovingWatch } from './movingWatch.ts';
 import type { Notices } from './notices.ts';
 import type { RobotStore } from './robots.ts';
-import { createTargetBook, type Targets } from './targetBook.ts';
+import { createTargetBook } from './targetBook.ts';
 import { createTrafficLog, type TrafficLog } from './traffic.ts';
 
 /** Which way leads to the robot, and the name of the port or machine for people. */
@@ -33,8 +35,8 @@ export interface DeviceState {
   readonly family: Family;
   readonly way: Way | null;
   readonly snapshot: SessionState;
-  /** What each servo was last asked for; a servo without an entry is where nobody knows. */
-  readonly targets: Targets;
+  /** Servos that were asked for something; where another one is nobody knows. */
+  readonly known: readonly number[];
   /** A servo is on its way, so far as anybody can know; looked at now and then, and kept for a moment between two moves. */
   readonly isMoving: boolean;
 }
@@ -48,20 +50,21 @@ export interface Device {
   /** What the session's way leads to became known. */
   describe(session: Session, way: Way): void;
   detach(): Promise<void>;
+  /** What it was last asked for, from the moment on that it was, and where it is by now. */
   motion(servo: number): ServoMotion;
+  /** What the robot was last asked for, without servos that nobody asked for anything. */
+  pose(): readonly ServoTarget[];
   /** Nothing moves and nothing is under way, so far as anybody can know. */
   isAtRest(): boolean;
   /** From now on each run and each playing asks first; `anyway` begins what was refused, once. */
   guardRuns(mayBegin: RunGuard): void;
-  /** Takes the session's targets over; to be called while the page is drawn, once a frame. */
-  refreshTargets(): void;
+  /** Looks what became of the motion; to be called while the page is drawn, once a frame. */
+  refresh(): void;
   /** Servos whose newest target has not left yet. */
   waiting(): number;
-  /** What each servo was last asked for, as of now; the store has it once a frame. */
-  targetsNow(): Targets;
   /** False where it was refused; then the person was told why. */
   move(targets: readonly ServoTarget[], pace: Pace): boolean;
-  /** As `move`, between two frames: the page shows it with its next one. */
+  /** As `move`, between two frames: the store has what comes of it with the next one. */
   drag(targets: readonly ServoTarget[], pace: Pace): boolean;
   /** This servo's limits are looked for: `creep` moves it, past the present ones too. null: no longer. */
   calibrate(servo: number | null): void;
@@ -105,7 +108,7 @@ export type Settled = (isDone: boolean) => void;
 /** Whether something may begin to run now. Where not, it tells the person and may offer to begin it anyway. */
 export type RunGuard = (anyway: () => void) => boolean;
 
-const NOTHING = { way: null, snapshot: INITIAL_STATE, targets: {}, isMoving: false } as const;
+const NOTHING = { way: null, snapshot: INITIAL_STATE, known: [], isMoving: false } as const;
 
 const NO_MOTION: ServoMotion = { target: null, estimated: null };
 
@@ -132,6 +135,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
 
   const setPaused = (on: boolean): boolean => (paused = on);
   const robot = (): Robot => robots.current().robot;
+  const meant = (servo: number, onBoardAt: number): number => fromBoard(robot(), servo, onBoardAt);
   const gate = createLimitGate(robot, (refusal) => notices.tell('warning', refusal));
 
   /** On a link of one's own it is the last one described for such a board. */
@@ -144,8 +148,19 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   function motion(servo: number): ServoMotion {
     if (session === null) return NO_MOTION;
     const { target, estimated } = session.motion(servo);
-    const meant = (at: number | null): number | null => (at === null ? null : fromBoard(robot(), servo, at));
-    return { target: meant(target), estimated: meant(estimated) };
+    const sent = target === null ? null : Math.round(meant(servo, target));
+    return {
+      target: book.target(servo, sent, session.state.waitingToStart.includes(servo)),
+      estimated: estimated === null ? null : meant(servo, estimated),
+    };
+  }
+
+  function pose(): readonly ServoTarget[] {
+    const asked = robot().servos.flatMap(({ servo }) => {
+      const { target } = motion(servo);
+      return target === null ? [] : [{ servo, position: target }];
+    });
+    return asked.toSorted((one, other) => one.servo - other.servo);
   }
 
   function isAtRest(): boolean {
@@ -160,23 +175,22 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     });
   }
 
-  function targetsNow(): Targets {
-    const { targets, snapshot } = store.getState();
+  function refresh(): void {
+    const before = store.getState();
     const servos = robot().servos.map(({ servo }) => servo);
-    return book.read(servos, motion, snapshot.waitingToStart, targets);
-  }
-
-  function refreshTargets(): void {
-    const targets = targetsNow();
-    if (targets !== store.getState().targets) store.setState({ targets });
+    const known = sameList(
+      before.known,
+      servos.filter((servo) => motion(servo).target !== null),
+    );
+    if (known !== before.known) store.setState({ known });
     const isMoving = watch.isMoving();
-    if (isMoving !== store.getState().isMoving) store.setState({ isMoving });
+    if (isMoving !== before.isMoving) store.setState({ isMoving });
   }
 
   /** What a latch or a failure swallowed will not come. */
   function forgetWishes(): void {
     book.clear();
-    refreshTargets();
+    refresh();
   }
 
   function noteState(snapshot: SessionState): void {
@@ -243,10 +257,11 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
 
   async function detach(): Promise<void> {
     const former = session;
-    session = null;
     unsubscribe();
-    book.clear();
+    // Whoever hears of it still finds where the robot was sent.
     store.setState(NOTHING);
+    session = null;
+    book.clear();
     traffic.note(INITIAL_STATE, clock.now(), store.getState().family.id);
     await former?.close();
   }
@@ -288,14 +303,14 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     },
     detach,
     motion,
+    pose,
     isAtRest,
     guardRuns: (guard) => (mayBegin = guard),
-    refreshTargets,
+    refresh,
     waiting: book.waiting,
-    targetsNow,
     move(targets, pace) {
       const isSent = drag(targets, pace);
-      if (isSent) refreshTargets();
+      if (isSent) refresh();
       return isSent;
     },
     drag,
@@ -304,7 +319,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       session?.calibrate(servo);
     },
     creep(position, durationMs) {
-      if (calibrated !== null && send([{ servo: calibrated, position }], durationMs)) refreshTargets();
+      if (calibrated !== null && send([{ servo: calibrated, position }], durationMs)) refresh();
     },
     halt: () => attempt((current) => current.halt()),
     resume: () => attempt((current) => current.resume()),

@@ -25,7 +25,7 @@ async function visit(texts: Map<string, string>, way: Way) {
   async function draw(ms: number) {
     for (let passed = 0; passed < ms; passed += 20) {
       await rig.clock.advance(20);
-      device.refreshTargets();
+      device.refresh();
     }
   }
   const guesses = () => guessesOf(poses.getState(), device.store.getState(), robots.current().robot);
@@ -43,7 +43,7 @@ test('a board is guessed where it was last sent, at the next visit, and nothing 
   await next.draw(5_000);
   expect(next.guesses()).toEqual({ 1: 1_800, 2: 1_800, 3: 1_800 });
   expect(next.device.motion(1)).toEqual({ target: null, estimated: null });
-  expect(next.device.store.getState().targets).toEqual({});
+  expect(next.device.pose()).toEqual([]);
   expect(next.heard).toEqual([]);
   next.device.move([{ servo: 2, position: 1_500 }], 0);
   expect(next.guesses()).toEqual({ 1: 1_800, 3: 1_800 });

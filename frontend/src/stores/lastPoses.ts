@@ -3,6 +3,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
+import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { nameOf } from './boards.ts';
 import type { Device, DeviceState } from './device.ts';
@@ -21,7 +22,7 @@ type Poses = Readonly<Record<string, LastPose>>;
 export type LastPoses = StoreApi<Poses>;
 
 const KEY = 'servodeck.lastPoses';
-/** A drag changes targets at each frame; storage is slow. */
+/** A drag sends dozens of packets a second; storage is slow. */
 const KEEP_AFTER_MS = 500;
 
 export function createLastPoses(storage: TextStorage, device: Device): LastPoses {
@@ -31,8 +32,12 @@ export function createLastPoses(storage: TextStorage, device: Device): LastPoses
 
   function keep(): void {
     if (latest === null) return;
-    store.setState(withPoseOf(latest, store.getState()), true);
-    if (latest.snapshot.waitingToStart.length > 0) keeping.ask();
+    // A group on the board goes on without a packet.
+    if (latest.isMoving || latest.snapshot.waitingToStart.length > 0) keeping.ask();
+    const before = store.getState();
+    const after = withPose(before, latest, device.pose());
+    if (after === before) return;
+    store.setState(after, true);
     try {
       storage.setItem(KEY, JSON.stringify(store.getState()));
     } catch {
@@ -43,31 +48,36 @@ export function createLastPoses(storage: TextStorage, device: Device): LastPoses
   device.store.subscribe((state, before) => {
     if (remembered(state) !== null) latest = state;
     else if (latest !== null) {
-      // The link ended, and with it what was known.
+      // The link ends, and with it what is known.
       keep();
       latest = null;
     }
-    if (state.targets !== before.targets) keeping.ask();
+    if (state.known !== before.known || state.isMoving !== before.isMoving) keeping.ask();
   });
+  device.traffic.store.subscribe(keeping.ask);
   return store;
 }
 
-function withPoseOf(state: DeviceState, poses: Poses): Poses {
+/** The very same poses where the board is kept so already. */
+function withPose(poses: Poses, state: DeviceState, asked: readonly ServoTarget[]): Poses {
   const name = remembered(state);
   const family = state.family.id;
-  const sent = sentOf(state);
-  if (name === null || family === 'unknown' || Object.keys(sent).length === 0) return poses;
-  const known = poses[name];
-  return {
-    ...poses,
-    [name]: { family, positions: { ...(known?.family === family && known.positions), ...sent } },
-  };
+  if (name === null || family === 'unknown') return poses;
+  const kept = poses[name]?.family === family ? poses[name].positions : {};
+  const { waitingToStart } = state.snapshot;
+  // What was asked of a servo that still waits for its first move has not happened.
+  const news = asked.filter(
+    ({ servo, position }) => !waitingToStart.includes(servo) && kept[servo] !== position,
+  );
+  if (news.length === 0) return poses;
+  const positions = { ...kept, ...Object.fromEntries(news.map(({ servo, position }) => [servo, position])) };
+  return { ...poses, [name]: { family, positions } };
 }
 
 /** Where this servo may stand, or null where that is known better, or where the robot must not go now. */
 export function guessOf(poses: Poses, state: DeviceState, { servo, min, max }: RobotServo): number | null {
   const name = remembered(state);
-  if (name === null || state.targets[servo] !== undefined || servo in state.snapshot.reported) return null;
+  if (name === null || state.known.includes(servo) || servo in state.snapshot.reported) return null;
   const pose = poses[name];
   const position = pose?.family === state.family.id ? pose.positions[servo] : undefined;
   return position === undefined || position < min || position > max ? null : position;
@@ -86,12 +96,6 @@ export function guessesOf(poses: Poses, state: DeviceState, { servos }: Robot): 
 /** What its pose is kept under; null where none is kept. */
 function remembered({ way, snapshot }: DeviceState): string | null {
   return way === null || way.isSimulated || snapshot.link.status !== 'ready' ? null : nameOf(way);
-}
-
-/** What was asked of a servo that still waits for its first move has not happened. */
-function sentOf({ targets, snapshot }: DeviceState): Stand {
-  const waiting = new Set(snapshot.waitingToStart);
-  return Object.fromEntries(Object.entries(targets).filter(([servo]) => !waiting.has(Number(servo))));
 }
 
 /** Whatever else stands there was not written here and is passed over. */

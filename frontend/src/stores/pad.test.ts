@@ -28,7 +28,7 @@ async function createDesk({ drives = true } = {}) {
   device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
   const told = () => notices.store.getState().map((notice) => notice.text);
   const moves = () => rig.ofKind('move').length;
-  const target = (servo = 1) => device.store.getState().targets[servo];
+  const target = (servo = 1) => device.motion(servo).target ?? undefined;
 
   function hold(...pressed: readonly number[]): void {
     const value = (button: number) => ({ value: pressed.includes(button) ? 1 : 0 });
@@ -37,7 +37,7 @@ async function createDesk({ drives = true } = {}) {
   async function frames(ms: number): Promise<void> {
     for (let passed = 0; passed < ms; passed += 16) {
       await rig.clock.advance(16);
-      device.refreshTargets();
+      device.refresh();
       pad.frame();
     }
   }

@@ -145,12 +145,7 @@ export function createPad({ device, robots, mappings, notices, clock, readPads }
 
   function obey(dtMs: number): void {
     const { robot } = robots.current();
-    const { targets } = device.store.getState();
-    const place = (servo: number) => ({
-      target: targets[servo] ?? null,
-      estimated: device.motion(servo).estimated,
-    });
-    const moment = step({ mapping: mapping(), robot, place }, inputs, dtMs, driven);
+    const moment = step({ mapping: mapping(), robot, place: device.motion }, inputs, dtMs, driven);
     driven = moment.state;
     if (moment.moves.length > 0) device.move(moment.moves, 'hand');
     for (const slot of moment.runs) device.run(slot, 1);

@@ -122,6 +122,10 @@ export function useIsGuessing(): boolean {
   return useDevice((state) => Object.keys(guessesOf(lastPoses.getState(), state, robot)).length > 0);
 }
 
+export function guessNow({ lastPoses, device }: Pick<Stores, 'lastPoses' | 'device'>, servo: RobotServo) {
+  return guessOf(lastPoses.getState(), device.store.getState(), servo);
+}
+
 export function guessesNow({
   lastPoses,
   device,

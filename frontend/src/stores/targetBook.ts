@@ -1,42 +1,34 @@
-// Each servo's target as the page shows it: what the session says was sent, and before that what was just asked for, so that
-// a value does not jump back while its packet waits for the wire. Knows no session.
+// What each servo was just asked for, until the session says that it was sent: a value does not jump back while its packet waits
+// for the wire. Knows no session.
 
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import type { ServoMotion } from '#shared/session/state.ts';
-
-export type Targets = Readonly<Record<number, number>>;
 
 export interface TargetBook {
   wish(targets: readonly ServoTarget[]): void;
   clear(): void;
-  /** How many servos were asked for something, at the last reading, that has not left yet. */
+  /** How many servos were asked for something that has not left yet, as far as they were looked at since. */
   waiting(): number;
-  /** Targets of these servos; the very same object where nothing changed. Those that `queue` for their turn wait longer. */
-  read(
-    servos: readonly number[],
-    motion: (servo: number) => ServoMotion,
-    queue: readonly number[],
-    before: Targets,
-  ): Targets;
+  /** A servo's target, where the session says that it was `sent` there. One that `isQueued` for its turn waits longer. */
+  target(servo: number, sent: number | null, isQueued: boolean): number | null;
 }
 
 /** Longer than any packet waits for the wire once its turn has come; a wish that has not left by then was dropped. */
 const WISH_LASTS_MS = 1000;
 
+interface Wish {
+  readonly position: number;
+  untilMs: number;
+}
+
 export function createTargetBook(clock: Clock): TargetBook {
-  const wishes = new Map<number, { readonly position: number; readonly untilMs: number }>();
+  const wishes = new Map<number, Wish>();
 
-  function prolong(servo: number): void {
-    const wish = wishes.get(servo);
-    if (wish !== undefined) wishes.set(servo, { ...wish, untilMs: clock.now() + WISH_LASTS_MS });
-  }
-
-  function targetOf(servo: number, sent: number | null): number | null {
-    const wish = wishes.get(servo);
-    if (wish !== undefined && wish.position !== sent && clock.now() < wish.untilMs) return wish.position;
-    wishes.delete(servo);
-    return sent === null ? null : Math.round(sent);
+  function isOpen(wish: Wish, sent: number | null, isQueued: boolean): boolean {
+    if (wish.position === sent) return false;
+    const nowMs = clock.now();
+    if (isQueued) wish.untilMs = nowMs + WISH_LASTS_MS;
+    return nowMs < wish.untilMs;
   }
 
   return {
@@ -46,22 +38,11 @@ export function createTargetBook(clock: Clock): TargetBook {
     },
     clear: () => wishes.clear(),
     waiting: () => wishes.size,
-    read(servos, motion, queue, before) {
-      queue.forEach(prolong);
-      const next: Record<number, number> = {};
-      for (const servo of servos) {
-        const target = targetOf(servo, motion(servo).target);
-        if (target !== null) next[servo] = target;
-      }
-      return sameTargets(before, next) ? before : next;
+    target(servo, sent, isQueued) {
+      const wish = wishes.get(servo);
+      if (wish !== undefined && isOpen(wish, sent, isQueued)) return wish.position;
+      wishes.delete(servo);
+      return sent;
     },
   };
-}
-
-function sameTargets(one: Targets, other: Targets): boolean {
-  const servos = Object.keys(one);
-  return (
-    servos.length === Object.keys(other).length &&
-    servos.every((servo) => one[Number(servo)] === other[Number(servo)])
-  );
 }

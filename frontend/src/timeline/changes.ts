@@ -59,7 +59,7 @@ function positionNow({ times, stores, group, family }: Desk, servo: number, atMs
   const onItsWay = track === undefined ? null : positionAt(track, atMs);
   if (onItsWay !== null) return onItsWay;
   const fits = group.unit === family.unit || group.frames.length === 0;
-  return fits ? (stores.device.store.getState().targets[servo] ?? null) : null;
+  return fits ? stores.device.motion(servo).target : null;
 }
 
 export function remove(desk: Desk): void {

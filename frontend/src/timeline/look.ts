@@ -20,22 +20,28 @@ const NAMES = [
 export type LookName = (typeof NAMES)[number];
 export type Look = Readonly<Record<LookName, string>> & { readonly font: string };
 
-/** What the page's colours depend on. */
+/** What the page's colours depend on, beside its theme. */
 export const SCHEMES = [
   '(prefers-color-scheme: dark)',
   '(prefers-contrast: more)',
   '(forced-colors: active)',
 ];
 let schemes: readonly MediaQueryList[] | undefined;
-let latest: { readonly key: string; readonly look: Look } | undefined;
+let latest: { readonly theme: string | null; readonly look: Look } | undefined;
 
-/** Asked for at each repaint, and worked out only when it may be another: reading styles makes the browser compute them all. */
+/** Asked for in each frame, and worked out only when it may be another: reading styles makes the browser compute them all. */
 export function lookOf(element: Element): Look {
-  schemes ??= SCHEMES.map((scheme) => matchMedia(scheme));
-  const { theme = '' } = document.documentElement.dataset;
-  const key = [theme, ...schemes.map(({ matches }) => matches)].join();
-  if (latest?.key !== key) latest = { key, look: readLook(element) };
+  schemes ??= SCHEMES.map(watched);
+  const theme = document.documentElement.getAttribute('data-theme');
+  if (latest?.theme !== theme) latest = { theme, look: readLook(element) };
   return latest.look;
+}
+
+/** The browser says so before the next frame is drawn. */
+function watched(scheme: string): MediaQueryList {
+  const query = matchMedia(scheme);
+  query.addEventListener('change', () => (latest = undefined));
+  return query;
 }
 
 function readLook(element: Element): Look {

@@ -9,8 +9,13 @@ type Draw = (nowMs: number) => void;
 
 const drawers = new Set<Draw>();
 let request = 0;
+let frame = 0;
+
+/** A number for all that is drawn before the next frame. */
+export const frameAtHand = (): number => frame;
 
 function drawAll(nowMs: number): void {
+  frame += 1;
   request = requestAnimationFrame(drawAll);
   // What they tell React is laid out with what they draw, not in a frame of its own.
   flushSync(() => {

@@ -81,7 +81,11 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
       memory.setSpeed(command.slot, isHeard ? command.percent : null);
     },
     heard: (report) => (motion = afterReport(motion, report, clock.now(), board)),
-    motion: (servo) => ({ target: targetOf(now(), servo), estimated: positionAt(now(), servo, clock.now()) }),
+    motion(servo) {
+      const nowMs = clock.now();
+      motion = advance(motion, nowMs, board);
+      return { target: targetOf(motion, servo), estimated: positionAt(motion, servo, nowMs) };
+    },
     isUnknown,
     softened(move) {
       const servos = move.targets.map(({ servo }) => servo);
