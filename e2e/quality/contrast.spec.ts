@@ -39,6 +39,39 @@ for (const forcedColors of ['none', 'active'] as const) {
   });
 }
 
+/** Of what is said beside, and of all that is not. */
+const inksOf = (page: Page) =>
+  page.getByText('Press names to move servos together.').evaluate((hint) => ({
+    hint: getComputedStyle(hint).color,
+    body: getComputedStyle(document.body).color,
+  }));
+
+for (const colorScheme of ['dark', 'light'] as const) {
+  test.describe(`more contrast in ${colorScheme}`, () => {
+    test.use({ colorScheme, contextOptions: { contrast: 'more' } });
+
+    test('what is said beside is as dark as the rest', async ({ page, servers }) => {
+      await page.goto((await servers.files()).url);
+      const { hint, body } = await inksOf(page);
+      expect(hint).toBe(body);
+    });
+  });
+}
+
+test.describe('in dark', () => {
+  test.use({ colorScheme: 'dark' });
+
+  test('paper is light, where the page is dark by choice too', async ({ page, servers }) => {
+    await page.goto((await servers.files()).url);
+    const inDark = await inksOf(page);
+    await page.emulateMedia({ media: 'print' });
+    const onPaper = await inksOf(page);
+    expect(onPaper).not.toEqual(inDark);
+    await page.evaluate(() => (document.documentElement.dataset.theme = 'dark'));
+    expect(await inksOf(page)).toEqual(onPaper);
+  });
+});
+
 test.describe('where nothing is to move by itself', () => {
   test.use({ contextOptions: { reducedMotion: 'reduce' } });
 

@@ -15,14 +15,15 @@ export function ImportRobot({ connected }: { readonly connected: FamilyId | null
 
   async function take(files: readonly File[]): Promise<void> {
     const read = await Promise.all(files.map(async (file) => ({ file: file.name, text: await file.text() })));
-    setOutcomes(read.map(({ file, text }) => imported(file, text)));
+    setOutcomes(read.flatMap(({ file, text }) => imported(file, text) ?? []));
   }
 
-  function imported(file: string, text: string): string {
+  /** null where the store says itself why not. */
+  function imported(file: string, text: string): string | null {
     const found = robotFromText(text);
     if ('problem' in found) return words.robots.notImported(file, found.problem);
-    const { name, board } = found.robot;
-    robots.add(() => words.robots.steps.import, found.robot);
+    if (!robots.add(() => words.robots.steps.import, found.robot)) return null;
+    const { name, board } = robots.current().robot;
     return connected === null || board === connected
       ? words.robots.imported(name)
       : words.robots.importedElsewhere(name, words.boardName(FAMILIES[board]));

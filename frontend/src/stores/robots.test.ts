@@ -72,6 +72,32 @@ describe('robots', () => {
     expect(later.current().id).not.toBe(id);
   });
 
+  test('a new one gets a name that tells it from the others', () => {
+    const { robots, names } = shelf();
+    const arm = robots.current().robot;
+    robots.add(() => 'add', arm);
+    robots.add(() => 'add', arm);
+    robots.duplicate();
+    robots.add(() => 'add', { ...arm, name: 'Crane' });
+    expect(names()).toEqual([
+      'Arm, 6 servos',
+      'Arm, 6 servos (2)',
+      'Arm, 6 servos (3)',
+      'Arm, 6 servos (3), copy',
+      'Crane',
+    ]);
+  });
+
+  test('a copy of one with the longest name is there at the next visit, and so are the others', () => {
+    const { robots, storage } = shelf();
+    robots.edit(() => 'rename', named('a'.repeat(64)));
+    robots.duplicate();
+    robots.duplicate();
+    const { names, told } = shelf(storage);
+    expect(names()).toEqual(['a'.repeat(64), `${'a'.repeat(60)} (2)`, `${'a'.repeat(60)} (3)`]);
+    expect(told()).toEqual([]);
+  });
+
   test('duplicates and removals are steps; the last robot stays', () => {
     const { robots, names } = shelf();
     robots.duplicate();

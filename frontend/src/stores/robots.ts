@@ -13,7 +13,7 @@ import {
   type Label,
 } from '#shared/actions/history.ts';
 import { readyRobot, usualRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
-import { flawOf, type Robot } from '#shared/actions/robot/robot.ts';
+import { flawOf, NAME_LENGTH, type Robot } from '#shared/actions/robot/robot.ts';
 import { robotFromText, robotToText } from '#shared/actions/robot/robotText.ts';
 import type { FamilyId } from '#shared/protocol/families.ts';
 import { words } from '../words/words.ts';
@@ -39,7 +39,8 @@ export interface RobotStore {
   /** The robot on such a board: the one at hand, else the last one described for it, else the usual one, made now. */
   takeUpFor(board: FamilyId): void;
   takeUp(id: number): void;
-  add(label: Label, robot: Robot): void;
+  /** By a name that tells it from the others. False where that may not be now; the person is told why. */
+  add(label: Label, robot: Robot): boolean;
   /** False where the edit would leave a robot that cannot be; the person is told why. */
   edit(label: Label, change: (robot: Robot) => Robot): boolean;
   duplicate(): void;
@@ -122,7 +123,9 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
       if (id !== present().currentId) change(rebase(commit(store.getState()), chosen));
     },
     add(label, robot) {
-      if (!isRefused()) step(label, withRobot(present(), robot));
+      if (isRefused()) return false;
+      step(label, withRobot(present(), { ...robot, name: unusedName(present(), robot.name) }));
+      return true;
     },
     edit(label, edit) {
       const { id, robot } = current();
@@ -138,7 +141,7 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
       const { robot } = current();
       step(
         () => words.robots.steps.duplicate,
-        withRobot(present(), { ...robot, name: words.robots.copyOf(robot.name) }),
+        withRobot(present(), { ...robot, name: unusedName(present(), words.robots.copyOf(robot.name)) }),
       );
     },
     remove(id) {
@@ -172,6 +175,17 @@ const valuesOf = ({ past, present, future }: History<Robots>): readonly Robots[]
 /** In no step, so that one that is taken back gives nobody another's number. */
 const unusedId = (history: History<Robots>): number =>
   Math.max(...valuesOf(history).map(({ nextId }) => nextId));
+
+/** With the first number that tells it from the others; no longer than a name may be. */
+function unusedName({ own }: Robots, name: string): string {
+  const names = new Set(own.map(({ robot }) => robot.name));
+  let found = name.slice(0, NAME_LENGTH).trim();
+  for (let number = 2; names.has(found); number += 1) {
+    const room = NAME_LENGTH - words.robots.numbered('', number).length;
+    found = words.robots.numbered(name.slice(0, room).trim(), number);
+  }
+  return found;
+}
 
 const robotIn = ({ own }: Robots, id: number): Robot | undefined => own.find((one) => one.id === id)?.robot;
 

@@ -107,6 +107,7 @@ export const robotWords = {
   othersHands: (driver: string): string =>
     `${driver} drives: which robot it is and its limits change only under the hands of whoever drives.`,
   copyOf: (name: string): string => `${name}, copy`,
+  numbered: (name: string, number: number): string => `${name} (${formatWhole(number)})`,
   steps: {
     duplicate: 'duplicate robot',
     remove: 'remove robot',

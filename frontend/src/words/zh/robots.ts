@@ -113,6 +113,7 @@ export const robotWords: typeof english = {
   onlyLooking: '观看者看到的是别人描述的机器人，不能更改。',
   othersHands: (driver) => `${driver}正在控制：使用哪个机器人以及它的限位，只能由控制者更改。`,
   copyOf: (name) => `${name}（副本）`,
+  numbered: (name, number) => `${name}（${formatWhole(number)}）`,
   steps: {
     duplicate: '复制机器人',
     remove: '删除机器人',
