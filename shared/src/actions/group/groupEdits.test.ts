@@ -82,6 +82,10 @@ describe('edits of an action group', () => {
     expect(rename(group, 'Wave')).toBe(group);
   });
 
+  test('a name is no longer than it may be', () => {
+    expect(rename(groupOf(1000), 'a'.repeat(70)).name).toBe('a'.repeat(64));
+  });
+
   test('what is said of the whole group is said at once or in part', () => {
     const said = setMeta(groupOf(1000), { name: 'Bow', tags: ['dance'], slot: 3, times: 2, robot: 'Mine' });
     expect(said).toMatchObject({ name: 'Bow', tags: ['dance'], slot: 3, times: 2, robot: 'Mine' });

@@ -2,10 +2,11 @@
 // very same object, so that a history can leave it out. Frames are named by id, places by index.
 
 import type { Frame, ServoTarget } from '../../protocol/commands.ts';
-import { sortedTargets, type ActionGroup, type GroupFrame } from './group.ts';
+import { GROUP_NAME_LENGTH, sortedTargets, type ActionGroup, type GroupFrame } from './group.ts';
 
+/** As much of the name as one may be long. */
 export function rename(group: ActionGroup, name: string): ActionGroup {
-  return changed(group, { name });
+  return changed(group, { name: name.slice(0, GROUP_NAME_LENGTH) });
 }
 
 /** What is said of the group as a whole. */

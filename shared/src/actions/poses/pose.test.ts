@@ -130,6 +130,7 @@ describe('edits of the book', () => {
   test('add, copy, move, rename and remove', () => {
     expect(named(three)).toEqual(['Wave', 'Bow', 'Sit']);
     expect(named(duplicatePose(three, 1, 'Wave 2'))).toEqual(['Wave', 'Wave 2', 'Bow', 'Sit']);
+    expect(named(duplicatePose(three, 1, 'a'.repeat(70)))[1]).toBe('a'.repeat(64));
     expect(named(movePose(three, 1, 2))).toEqual(['Bow', 'Sit', 'Wave']);
     expect(named(renamePose(three, 2, 'Nod'))).toEqual(['Wave', 'Nod', 'Sit']);
     expect(named(removePose(three, 2))).toEqual(['Wave', 'Sit']);

@@ -3,6 +3,7 @@
 
 import type { ServoTarget } from '../../protocol/commands.ts';
 import { sortedTargets } from '../group/group.ts';
+import { NAME_LENGTH } from '../robot/robot.ts';
 import { poseOf, type Pose, type PoseBook, type PoseRef } from './pose.ts';
 import { sameTargets } from './poseShapes.ts';
 
@@ -12,9 +13,10 @@ export function addPose(book: PoseBook, pose: NewPose): PoseBook {
   return insertPose(book, book.poses.length, pose);
 }
 
-/** Puts a copy right behind the pose. */
-export function duplicatePose(book: PoseBook, id: number, name: string): PoseBook {
+/** Puts a copy right behind the pose, by as much of the name as a name may be long. */
+export function duplicatePose(book: PoseBook, id: number, wanted: string): PoseBook {
   const pose = poseOf(book, id);
+  const name = wanted.slice(0, NAME_LENGTH).trim();
   return pose === undefined ? book : insertPose(book, book.poses.indexOf(pose) + 1, { ...pose, name });
 }
 
