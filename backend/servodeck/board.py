@@ -28,6 +28,7 @@ from servodeck.slot_memory import SlotMemory
 from servodeck.stop_again import StopAgain
 from servodeck.told import JobState, PortState
 from servodeck.unattended import Unattended
+from servodeck.values import RunAccepted, RunStarted
 from servodeck.wire import STOP_PACKET, Job, Left, Owner, Wire
 
 DRAIN_S = 0.5
@@ -49,6 +50,9 @@ class BoardEvents(Protocol):
         """The run that was let go on may not any more."""
 
     def received(self, event: DecoderEvent) -> None: ...
+
+    def run_told(self) -> None:
+        """The board says that a group runs."""
 
     def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
         """That packet moves, ends or stores something, and its last bit leaves then."""
@@ -128,6 +132,10 @@ class Board:
         self.halts += 1
         return self.link.wire().halt(hold or self.motion.hold(self._now()), reason, owner)
 
+    def halt_again(self) -> None:
+        with contextlib.suppress(GatewayError):
+            self.halt(None, CancelledError("The board was stopped once more: it may not have heard it."))
+
     async def end_motion(self) -> None:
         """Without the latch: what moves ends, because its driver begins something else."""
         if self.may_move():
@@ -191,8 +199,7 @@ class Board:
 
     def _stop_unheard(self) -> None:
         if self.may_move():
-            with contextlib.suppress(GatewayError):
-                self.halt(None, CancelledError("The board was stopped once more: it may not have heard it."))
+            self.halt_again()
 
     def _forget_motion(self) -> None:
         self._motion = Motion(self.family)
@@ -235,6 +242,8 @@ class Board:
         self.battery.heard(report)
         self.jobs.heard(report, self.link.place)
         self.answers.heard(report, self._now())
+        if isinstance(report, RunAccepted | RunStarted):
+            self._events.run_told()
 
 
 def is_no_stop(job: Job) -> bool:

@@ -253,6 +253,11 @@ class Control:
         text = event.bytes.hex()
         self._telling.everybody(ReceivedMessage(packet=text) if is_packet else NoiseMessage(bytes=text))
 
+    def run_told(self) -> None:
+        """Behind a stop it is one that the board kept while its flash worked, however long that took."""
+        if self.latch:
+            self.board.halt_again()
+
     def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
         self._relay.leaving(owner, packet, at_s)
 

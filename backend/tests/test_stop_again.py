@@ -50,6 +50,19 @@ async def test_it_is_said_again_as_soon_as_the_board_has_answered() -> None:
 
 
 @in_virtual_time
+async def test_a_run_that_the_board_takes_behind_it_is_stopped_however_long_it_was_deaf() -> None:
+    async with driven(ERASE) as (control, port, anna):
+        await run_unheard(anna)
+        await control.stop(None)
+        await asyncio.sleep(10)
+        before = len(port.packets())
+        port.say(ERASED)
+        port.say(RUN_TAKEN)
+        await asyncio.sleep(0.3)
+        assert port.packets()[before:] == [*STOPS]
+
+
+@in_virtual_time
 async def test_what_somebody_has_begun_since_is_not_stopped_by_it() -> None:
     async with driven(ERASE) as (control, port, anna):
         await run_unheard(anna)

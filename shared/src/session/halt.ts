@@ -23,6 +23,8 @@ export interface Halt {
   released(): void;
   /** The link is back after a loss: end what may still run, wait for a person. */
   stopAfterReturn(): void;
+  /** The board says that a group runs: behind a stop it is one that it kept while its flash worked, which drops stops (S9, S41). */
+  runTold(): void;
   confirmed(): void;
 }
 
@@ -57,6 +59,7 @@ export function createHalt(options: HaltOptions): Halt {
   const { clock, store, lanes, transport, holdPacket, dropAll, sentByOthers } = options;
 
   let underWay: Promise<void> = Promise.resolve();
+  let stopsFollow = false;
 
   function latch(value: Latch): void {
     store.update({ latch: value });
@@ -79,10 +82,11 @@ export function createHalt(options: HaltOptions): Halt {
    */
   async function haltOwnLink(): Promise<void> {
     let holds = 0;
+    stopsFollow = true;
     await repeatStop(clock, async () => {
       await lanes.stop(STOP_PACKET);
       if (holds++ === 0) await sendHold();
-    });
+    }).finally(() => (stopsFollow = false));
     await sendHold();
   }
 
@@ -126,6 +130,13 @@ export function createHalt(options: HaltOptions): Halt {
     stopAfterReturn() {
       // Its failure is the latch's `failed`; there is no caller to tell.
       send(() => repeatStop(clock, () => lanes.stop(STOP_PACKET))).catch(() => undefined);
+    },
+    runTold() {
+      const { latch: current } = store.state;
+      // A shared link has its own eye on it.
+      if (current === null || stopsFollow || transport.halt !== undefined) return;
+      store.update({ latch: { ...current, stop: 'sending' } });
+      void underWay.then(() => send(haltOwnLink)).catch(() => undefined);
     },
     confirmed: () => note('confirmed'),
   };

@@ -214,6 +214,7 @@ export function createSession(options: SessionOptions): Session {
     driver.groups.heard(report);
     driver.readings.heard(report);
     if (report.kind === 'runStopped') halt.confirmed();
+    if (report.kind === 'runAccepted' || report.kind === 'runStarted') halt.runTold();
     identification.heard(report, bytes);
   }
 

@@ -1,6 +1,7 @@
 // F6 of safety.md section 5: the chip takes 0 to 30 s for a sector, or never answers. Every wait has a named end.
 
 import { expect, test } from 'vitest';
+import { createFlashChip, type FlashChip } from '../../simulator/flashChip.ts';
 import { createRandom } from '../../simulator/random.ts';
 import { LinkError } from '../linkError.ts';
 import { createRig, type Rig } from '../rig.ts';
@@ -72,6 +73,36 @@ async function stopWhileStoring(sectorMs: number): Promise<void> {
   expect(rig.session.state).toMatchObject({ activity: { kind: 'idle' }, brokenSlots: [SLOT] });
 }
 
+const STORED_SLOT = 8;
+const LONGEST_SECTOR_MS = 2_500;
+
+async function chipWithGroup(): Promise<FlashChip> {
+  const flash = createFlashChip();
+  const { session, clock } = await createRig({ flash });
+  const stored = session.download([{ slot: STORED_SLOT, frames: FRAMES }]);
+  await clock.advance(3_000);
+  await stored;
+  return flash;
+}
+
+/** Stopped right behind its run, while the chip may still be at work on the download before. Says how many stops that took. */
+async function stopBehindRun(seed: number): Promise<number> {
+  const random = createRandom(seed);
+  const sectorMs = random() * LONGEST_SECTOR_MS;
+  const flash = await chipWithGroup();
+  const rig = await createRig({ flash, faults: [{ name: 'slowErase', sectorMs }] });
+  const { session, clock, transport } = rig;
+  const stored = session.download([{ slot: SLOT, frames: FRAMES }]).catch(() => undefined);
+  await clock.advance(random() * 1_000);
+  await Promise.all([session.cancelDownload(), stored, clock.advance(3_000)]);
+  session.run(STORED_SLOT, 0).catch(() => undefined);
+  await clock.advance(random() * 60);
+  session.halt().catch(() => undefined);
+  await clock.advance(5 * LONGEST_SECTOR_MS);
+  expect(transport.board.runningSlot()).toBeNull();
+  return rig.ofKind('stop').length;
+}
+
 test('an erase is shown and ends with a name however long it takes', () => eachPace(erase));
 test('a download stores what was asked or ends with a name', () => eachPace(store));
 test('STOP is served while the chip is at work', () => eachPace(stopWhileStoring));
@@ -86,4 +117,11 @@ test('a download after an interrupted one does not take its late answer for its 
   await clock.advance(30_000);
   await again;
   expect(FRAMES.map((_, at) => transport.board.storedFrame(SLOT, at))).toEqual(FRAMES);
+});
+
+test('STOP ends also a run that the board kept while its chip was at work', async () => {
+  const stops: number[] = [];
+  for (const seed of seeds(60))
+    await named(FILE, seed, 'kept run', async () => void stops.push(await stopBehindRun(seed)));
+  expect(Math.max(...stops)).toBe(6);
 });
