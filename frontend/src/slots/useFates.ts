@@ -21,11 +21,10 @@ export function useFates(): (slot: number) => SlotFate {
   const arriving = useSnapshot(({ activity }) => (activity.kind === 'downloading' ? activity.slot : null));
   const latest = useCompiled((state) => state.latest);
   const documentId = useLibrary((state) => state.openId);
-  const name = useDocument(({ present }) => present.name);
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   // What a group comes to is worked out a little later than it is there: that of another one says nothing about it.
   const isOfThis = useDocument((history) => holds(history, latest.source.group));
   const fingerprint = isOfThis ? latest.fingerprint : '';
-  const onPage = isEmpty ? null : { name, documentId, fingerprint };
+  const onPage = isEmpty ? null : { documentId, fingerprint };
   return (slot) => fateOf(book, { broken, arriving }, slot, onPage);
 }

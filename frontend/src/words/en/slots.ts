@@ -18,7 +18,7 @@ const about: Readonly<Record<SlotFate, string>> = {
   broken: 'Broken: its download did not finish',
   same: 'This group, as it is now',
   older: 'This group, an older version',
-  other: 'Another group',
+  other: 'Not this group as it is now',
   empty: 'Empty since everything was erased',
   unknown: 'Unknown: nothing was downloaded from here',
 };
@@ -30,7 +30,7 @@ const holds = (fate: SlotFate, name: string): string =>
     broken: 'Its download did not finish. Download again before running it.',
     same: 'Holds this group, as it is now.',
     older: 'Holds an older version of this group.',
-    other: `Holds ${name === '' ? 'another group' : `“${name}”`}, not the group that is open.`,
+    other: `Holds ${name === '' ? 'another group' : `“${name}”`}, not this group as it is now.`,
     empty: 'Empty since everything was erased.',
     unknown: 'What it holds is unknown; boards cannot be read.',
   })[fate];

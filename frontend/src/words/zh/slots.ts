@@ -20,7 +20,7 @@ const about: Readonly<Record<SlotFate, string>> = {
   broken: '已损坏：下载没有完成',
   same: '这个动作组，与现在一致',
   older: '这个动作组的旧版本',
-  other: '另一个动作组',
+  other: '不是这个动作组现在的样子',
   empty: '全部擦除后是空的',
   unknown: '未知：没有从这里下载过',
 };
@@ -31,7 +31,7 @@ const holds = (fate: SlotFate, name: string): string =>
     broken: '下载没有完成。运行前请重新下载。',
     same: '存有这个动作组，是现在的版本。',
     older: '存有这个动作组的旧版本。',
-    other: `存有${name === '' ? '另一个动作组' : `“${name}”`}，不是打开的这个。`,
+    other: `存有${name === '' ? '另一个动作组' : `“${name}”`}，不是这个动作组现在的样子。`,
     empty: '全部擦除以后一直是空的。',
     unknown: '里面有什么未知；控制板不能读取。',
   })[fate];

@@ -112,19 +112,15 @@ export function fateOf(
   book: SlotBook,
   { broken, arriving }: SlotsNow,
   slot: number,
-  group: Pick<SlotRecord, 'name' | 'documentId' | 'fingerprint'> | null,
+  group: Pick<SlotRecord, 'documentId' | 'fingerprint'> | null,
 ): SlotFate {
   if (slot === arriving) return 'arriving';
   if (broken.includes(slot)) return 'broken';
   const record = recordOf(book, slot);
   if (record === undefined) return book.isEmptied ? 'empty' : 'unknown';
   if (record.fingerprint === group?.fingerprint) return 'same';
-  return group !== null && isOf(record, group) ? 'older' : 'other';
-}
-
-/** A name may change, and two may have the same. */
-function isOf(record: SlotRecord, group: Pick<SlotRecord, 'name' | 'documentId'>): boolean {
-  return record.documentId === null ? record.name === group.name : record.documentId === group.documentId;
+  // A name says nothing: it may change, and two groups may have the same.
+  return record.documentId !== null && record.documentId === group?.documentId ? 'older' : 'other';
 }
 
 export function slotBookToText({ stored, erased, isEmptied, begun }: SlotBook): string {

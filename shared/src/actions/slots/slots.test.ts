@@ -63,7 +63,7 @@ describe('a fingerprint', () => {
 });
 
 describe('the book of slots', () => {
-  const group = { name: 'Wave', documentId: 'id of Wave', fingerprint: fingerprintOf(WAVE) };
+  const group = { documentId: 'id of Wave', fingerprint: fingerprintOf(WAVE) };
   const edited = { ...group, fingerprint: 'another' };
 
   test('says of a slot what anybody can know', () => {
@@ -77,13 +77,12 @@ describe('the book of slots', () => {
     expect(fateOf(book, NOW, 5, null)).toBe('other');
   });
 
-  test('knows a group that was renamed, and one that only has the name', () => {
+  test('knows a group from one that only has the name', () => {
     const book = withStored(EMPTY_SLOT_BOOK, record(5));
-    expect(fateOf(book, NOW, 5, { ...edited, name: 'Greeting' })).toBe('older');
     expect(fateOf(book, NOW, 5, { ...edited, documentId: 'id of another' })).toBe('other');
   });
 
-  test('of an earlier version is read, and goes by names', () => {
+  test('of an earlier version is read, and takes no group of the same name for an older version', () => {
     const book = { stored: [{ ...record(5), frames: [[400, 1, 1000]] }], erased: [], isEmptied: false };
     const text = JSON.stringify(
       { format: 'servodeck-slots', version: 1, content: book },
@@ -91,7 +90,8 @@ describe('the book of slots', () => {
     );
     const read = slotBookFromText(text);
     if (!('value' in read)) throw new Error(read.problem);
-    expect(fateOf(read.value, NOW, 5, edited)).toBe('older');
+    expect(fateOf(read.value, NOW, 5, group)).toBe('same');
+    expect(fateOf(read.value, NOW, 5, edited)).toBe('other');
     expect(JSON.parse(slotBookToText(read.value))).toEqual(JSON.parse(text));
   });
 
