@@ -77,7 +77,7 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
         <PoseThumb pose={pose} changed={changed} family={family} />
       </button>
       <div className={styles.foot}>
-        <FrameTime frame={frame} number={number} isTabStop={isTabStop} />
+        <FrameTime id={frame.id} durationMs={frame.durationMs} number={number} isTabStop={isTabStop} />
         <span className={card.grip} aria-hidden="true" onPointerDown={startDrag}>
           <Icon name="grip" />
         </span>
@@ -86,7 +86,13 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
   );
 });
 
-function FrameTime({ frame, number, isTabStop }: { frame: GroupFrame; number: number; isTabStop: boolean }) {
+interface FrameTimeProps extends Pick<GroupFrame, 'id' | 'durationMs'> {
+  readonly number: number;
+  readonly isTabStop: boolean;
+}
+
+const FrameTime = memo(function FrameTime({ id, durationMs, number, isTabStop }: FrameTimeProps) {
+  useWords();
   const { document, notices } = useStores();
   const { min, max } = useDevice((state) => state.family.durationMs);
   const label = words.actions.time(number);
@@ -94,19 +100,19 @@ function FrameTime({ frame, number, isTabStop }: { frame: GroupFrame; number: nu
     <NumberField
       label={label}
       size="small"
-      value={frame.durationMs}
+      value={durationMs}
       min={min}
       max={max}
       step={100}
       unit={words.servos.ms}
       excludeFromTabOrder={!isTabStop}
-      onChange={(durationMs) =>
+      onChange={(wantedMs) =>
         document.edit(
           () => words.actions.steps.time(number),
-          (group) => setDuration(group, frame.id, durationMs, { ripple: true }),
+          (group) => setDuration(group, id, wantedMs, { ripple: true }),
         )
       }
       onRefused={(value) => notices.tell('warning', words.refused(label, value, min, max))}
     />
   );
-}
+});

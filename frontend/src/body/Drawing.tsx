@@ -3,7 +3,7 @@
 
 import { useEffectEvent, useLayoutEffect, useRef } from 'react';
 import { lookOf, type Look } from '../timeline/look.ts';
-import { watchSize } from '../ui/onScreen.ts';
+import { watchNearness, watchSize } from '../ui/onScreen.ts';
 import { useSight } from '../ui/sight.ts';
 import { useFollow } from '../ui/useFollow.ts';
 
@@ -37,6 +37,7 @@ interface Picture<Shown> {
 export function Drawing<Shown extends readonly unknown[]>({ className, shown, paint }: DrawingProps<Shown>) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const size = useRef<Size>({ width: 0, height: 0 });
+  const isNear = useRef(true);
   const sight = useSight(canvas);
 
   function read(): Picture<Shown> | null {
@@ -46,7 +47,7 @@ export function Drawing<Shown extends readonly unknown[]>({ className, shown, pa
   }
 
   function draw(picture: Picture<Shown> | null): void {
-    if (canvas.current === null || picture === null) return;
+    if (canvas.current === null || picture === null || !isNear.current) return;
     const ctx = cleanContext(canvas.current, picture);
     if (ctx !== null) paint({ ctx, look: picture.look, size: picture.size }, picture.shown);
   }
@@ -57,6 +58,11 @@ export function Drawing<Shown extends readonly unknown[]>({ className, shown, pa
   }
 
   const drawNow = useEffectEvent(() => draw(read()));
+  const come = useEffectEvent((nearer: boolean) => {
+    isNear.current = nearer;
+    if (nearer) draw(read());
+    else leave();
+  });
 
   useLayoutEffect(() => {
     if (canvas.current === null) return undefined;
@@ -64,6 +70,10 @@ export function Drawing<Shown extends readonly unknown[]>({ className, shown, pa
       size.current = { width, height };
       drawNow();
     });
+  }, []);
+  useLayoutEffect(() => {
+    if (canvas.current === null) return undefined;
+    return watchNearness(canvas.current, ({ isIntersecting }) => come(isIntersecting));
   }, []);
   useFollow({ read, isSame, draw, sight, leave });
   return <canvas ref={canvas} className={className} aria-hidden="true" />;

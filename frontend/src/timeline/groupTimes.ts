@@ -3,7 +3,9 @@
 import type { GroupFrame } from '#shared/actions/group/group.ts';
 import { sameList } from '#shared/actions/group/groupEdits.ts';
 import {
+  arePlacedAlike,
   frameEnds,
+  keyIn,
   repositioned,
   tracksOf,
   type Key,
@@ -12,9 +14,13 @@ import {
 } from '#shared/actions/group/tracks.ts';
 import { refsOf, type KeySet } from '../stores/keySet.ts';
 
-export interface GroupTimes {
+export interface GroupTimes extends Places {
   readonly frames: readonly GroupFrame[];
   readonly tracks: Tracks;
+}
+
+/** All of it is the very same as long as no key came, went or moved in time. */
+interface Places {
   /** Those with a key, in ascending order. */
   readonly servos: readonly number[];
   /** When each frame is done. */
@@ -30,17 +36,24 @@ let latest: GroupTimes | undefined;
 export function timesOf({ frames }: { readonly frames: readonly GroupFrame[] }): GroupTimes {
   const before = known.get(frames);
   if (before !== undefined) return before;
-  const ends = frameEnds(frames);
-  const tracks = (latest && repositioned(frames, latest)) ?? tracksOf({ frames }, latest?.tracks);
-  const times = {
-    ...{ frames, tracks, ends },
-    servos: sameList(latest?.servos ?? [], [...tracks.keys()]),
-    lengthMs: ends.at(-1) ?? 0,
-    places: placesOf(frames, latest),
-  };
+  const times =
+    latest !== undefined && arePlacedAlike(frames, latest.frames)
+      ? { ...latest, frames, tracks: repositioned(frames, latest) ?? tracksOf({ frames }, latest.tracks) }
+      : placedAnew(frames, latest);
   latest = times;
   known.set(frames, times);
   return times;
+}
+
+function placedAnew(frames: readonly GroupFrame[], before: GroupTimes | undefined): GroupTimes {
+  const ends = frameEnds(frames);
+  const tracks = tracksOf({ frames }, before?.tracks);
+  return {
+    ...{ frames, tracks, ends },
+    servos: sameList(before?.servos ?? [], [...tracks.keys()]),
+    lengthMs: ends.at(-1) ?? 0,
+    places: placesOf(frames, before),
+  };
 }
 
 /** The very same ones where the frames are the same by name, as they are after most edits. */
@@ -73,12 +86,9 @@ export function keysOfFrame(
     .map((target) => ({ ...target, frameId, atMs, easing: frame.easing }));
 }
 
-export function keyOf({ frames, ends, places }: GroupTimes, { frameId, servo }: KeyRef): Key | undefined {
-  const place = places.get(frameId) ?? -1;
-  const [frame, atMs] = [frames[place], ends[place]];
-  const target = frame?.targets.find((one) => one.servo === servo);
-  if (frame === undefined || atMs === undefined || target === undefined) return undefined;
-  return { ...target, frameId, atMs, easing: frame.easing };
+export function keyOf(times: GroupTimes, ref: KeyRef): Key | undefined {
+  const atMs = endOfFrame(times, ref.frameId);
+  return atMs === null ? undefined : keyIn(times.tracks, ref, atMs);
 }
 
 const selections = new WeakMap<GroupTimes, WeakMap<KeySet, readonly Key[]>>();

@@ -7,7 +7,7 @@ import { endOfFrame, selectedKeys, timesOf } from './groupTimes.ts';
 import { fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
 import { paged, xOf } from '../stores/timeScale.ts';
 import { ALL_ROW, type TimelineState } from '../stores/timeline.ts';
-import { keyName, keySet, refsOf, withKeys } from '../stores/keySet.ts';
+import { keyName, keySet, withKeys } from '../stores/keySet.ts';
 
 export function keepInStep(stores: DeskStores): () => void {
   const { document, view, timeline } = stores;
@@ -101,5 +101,5 @@ function takeUpFrame(stores: DeskStores): void {
 function isTakenUp(desk: Desk, frame: number): boolean {
   const { selected, cursor } = desk.state;
   if (shownKeys(desk, frame).length === 0) return selected.size === 0 && cursor.frameId === frame;
-  return refsOf(selected).some(({ frameId }) => frameId === frame);
+  return selectedKeys(desk.times, selected).some(({ frameId }) => frameId === frame);
 }

@@ -1,6 +1,6 @@
 // The keys of a row in the order of time, and those within a stretch of it. Pure; knows no screen.
 
-import { isPlacedAlike, type Key } from '#shared/actions/group/tracks.ts';
+import type { Key } from '#shared/actions/group/tracks.ts';
 import type { GroupTimes } from './groupTimes.ts';
 import type { Row } from './rows.ts';
 
@@ -13,38 +13,15 @@ export function keysInRow(row: Row, times: GroupTimes): readonly Key[] {
   return summaryKeys(row, times);
 }
 
-interface Summary {
-  readonly frames: GroupTimes['frames'];
-  readonly keys: readonly Key[];
-}
+/** By the ends of the frames, which are the very same as long as no key came, went or moved in time. */
+const summaries = new WeakMap<GroupTimes['ends'], WeakMap<Row['servos'], readonly Key[]>>();
 
-const summaries = new WeakMap<GroupTimes, Map<string, Summary>>();
-const latest = new Map<string, Summary>();
-
-/** The very same list as before where no key came, went or moved in time. */
 function summaryKeys(row: Row, times: GroupTimes): readonly Key[] {
-  const known = summaries.get(times) ?? new Map<string, Summary>();
-  summaries.set(times, known);
-  const name = `${row.id} ${row.servos.join(' ')}`;
-  const there = known.get(name);
-  if (there !== undefined) return there.keys;
-  const before = latest.get(name);
-  const isSame = before !== undefined && sameShape(before.frames, times.frames);
-  const summary = { frames: times.frames, keys: isSame ? before.keys : newSummary(row, times) };
-  known.set(name, summary);
-  latest.set(name, summary);
-  return summary.keys;
-}
-
-/** The same but for positions. */
-function sameShape(before: GroupTimes['frames'], after: GroupTimes['frames']): boolean {
-  return (
-    before.length === after.length &&
-    before.every((one, index) => {
-      const other = after[index];
-      return one === other || (other !== undefined && isPlacedAlike(one, other));
-    })
-  );
+  const known = summaries.get(times.ends) ?? new WeakMap<Row['servos'], readonly Key[]>();
+  summaries.set(times.ends, known);
+  const keys = known.get(row.servos) ?? newSummary(row, times);
+  known.set(row.servos, keys);
+  return keys;
 }
 
 function newSummary(row: Row, times: GroupTimes): readonly Key[] {

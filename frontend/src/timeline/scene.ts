@@ -2,10 +2,9 @@
 
 import type { Marker } from '#shared/actions/group/group.ts';
 import { positionRange, type Family, type Range } from '#shared/protocol/families.ts';
-import { refsOf } from '../stores/keySet.ts';
 import { isHeld, isSilent } from '../stores/servoView.ts';
 import { ALL_ROW, type TimelineState } from '../stores/timeline.ts';
-import type { GroupTimes } from './groupTimes.ts';
+import { selectedKeys, type GroupTimes } from './groupTimes.ts';
 import type { Desk } from './desk.ts';
 import { placedRows, seenRows, type PlacedRow, type Row } from './rows.ts';
 import { topOfAll, topOfRows, type Sizes } from './sizes.ts';
@@ -41,7 +40,7 @@ export function sceneOf(desk: Desk, sizes: Sizes): Scene {
     rows: rowsInSight(rest, state, sizes),
     held: isOf((servo) => isHeld(servoView, servo)),
     muted: isOf((servo) => isSilent(servoView, servo)),
-    selectedFrames: new Set(refsOf(state.selected).map(({ frameId }) => frameId)),
+    selectedFrames: new Set(selectedKeys(times, state.selected).map(({ frameId }) => frameId)),
   };
 }
 

@@ -3,19 +3,20 @@
 
 import { sameList } from '#shared/actions/group/groupEdits.ts';
 import type { Key } from '#shared/actions/group/tracks.ts';
-import { refsOf, type KeySet } from '../stores/keySet.ts';
+import type { KeySet } from '../stores/keySet.ts';
 import { useDocument, useTimeline } from '../stores/stores.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { useRows } from './useRows.ts';
 
 /** In the order of time. A frame without a key to select goes with the frames on both sides of it. */
 export function wholeFrames(
-  { frames, places }: Pick<GroupTimes, 'frames' | 'places'>,
+  times: GroupTimes,
   selected: KeySet,
   shownServos: ReadonlySet<number>,
 ): readonly number[] {
+  const { frames, places } = times;
   const counts = new Map<number, number>();
-  for (const { frameId, servo } of refsOf(selected)) {
+  for (const { frameId, servo } of selectedKeys(times, selected)) {
     const place = shownServos.has(servo) ? places.get(frameId) : undefined;
     if (place !== undefined) counts.set(place, (counts.get(place) ?? 0) + 1);
   }

@@ -33,3 +33,10 @@ export const watchSize = shared<ResizeObserverEntry>(
 export const watchSight = shared<IntersectionObserverEntry>(
   (hear) => new IntersectionObserver((entries) => hear(entries)),
 );
+
+/** In sight, or so near that a turn of the wheel may bring it there. A browser without `scrollMargin` counts what is in sight alone. */
+const NEAR = { rootMargin: '50%', scrollMargin: '50%' };
+
+export const watchNearness = shared<IntersectionObserverEntry>(
+  (hear) => new IntersectionObserver((entries) => hear(entries), NEAR),
+);

@@ -52,24 +52,25 @@ export function tracksOf({ frames }: Pick<ActionGroup, 'frames'>, before = NO_TR
 }
 
 /**
- * The tracks of frames of which a few have other positions than `before`, and nothing else is another; null where something is.
- * What an arrow key does to a key need not have thousands of others read.
+ * The tracks of frames that are placed like those `before`; null where more than a few positions are others. What an arrow key does
+ * to a key need not have thousands of others read.
  */
 export function repositioned(
   frames: readonly GroupFrame[],
-  before: { readonly frames: readonly GroupFrame[]; readonly tracks: Tracks },
+  before: {
+    readonly frames: readonly GroupFrame[];
+    readonly ends: readonly number[];
+    readonly tracks: Tracks;
+  },
 ): Tracks | null {
-  if (frames.length !== before.frames.length) return null;
   const moved: PlacedKey[] = [];
-  let atMs = 0;
   for (const [index, frame] of frames.entries()) {
-    atMs += frame.durationMs;
-    const was = before.frames[index];
-    if (was === frame) continue;
-    if (was === undefined || !isPlacedAlike(frame, was) || moved.length > FEW_KEYS) return null;
+    const [was, atMs] = [before.frames[index], before.ends[index]];
+    if (was === frame || was === undefined || atMs === undefined) continue;
     for (const [place, target] of frame.targets.entries())
       if (target.position !== was.targets[place]?.position)
         moved.push({ ...target, frameId: frame.id, atMs });
+    if (moved.length > FEW_KEYS) return null;
   }
   const tracks = new Map(before.tracks);
   for (const key of moved) reposition(tracks, key);
@@ -78,6 +79,17 @@ export function repositioned(
 
 /** Each of them has its servo's keys copied. */
 const FEW_KEYS = 32;
+
+/** The same but for positions, and what is said of them. */
+export function arePlacedAlike(some: readonly GroupFrame[], others: readonly GroupFrame[]): boolean {
+  return (
+    some.length === others.length &&
+    some.every((one, index) => {
+      const other = others[index];
+      return one === other || (other !== undefined && isPlacedAlike(one, other));
+    })
+  );
+}
 
 /** The same but for positions, and what is said of it. */
 export function isPlacedAlike(one: GroupFrame, other: GroupFrame): boolean {
@@ -92,10 +104,22 @@ export function isPlacedAlike(one: GroupFrame, other: GroupFrame): boolean {
 
 function reposition(tracks: Map<number, Track>, { frameId, servo, atMs, position }: PlacedKey): void {
   const keys = tracks.get(servo)?.keys ?? [];
-  let index = keysUntil(keys, atMs) - 1;
-  while (index >= 0 && keys[index]?.frameId !== frameId) index -= 1; // several may be at one instant
+  const index = placeOfKey(keys, frameId, atMs);
   const key = keys[index];
   if (key !== undefined) tracks.set(servo, { servo, keys: keys.with(index, { ...key, position }) });
+}
+
+/** -1 where the frame, which ends at `atMs`, has no key of this servo. */
+function placeOfKey(keys: readonly Key[], frameId: number, atMs: number): number {
+  let place = keysUntil(keys, atMs) - 1;
+  while (place >= 0 && keys[place]?.frameId !== frameId) place -= 1; // several may be at one instant
+  return place;
+}
+
+/** The key that the servo has in the frame, which ends at `atMs`. */
+export function keyIn(tracks: Tracks, { frameId, servo }: KeyRef, atMs: number): Key | undefined {
+  const keys = tracks.get(servo)?.keys ?? [];
+  return keys[placeOfKey(keys, frameId, atMs)];
 }
 
 function addKeys(
