@@ -7,6 +7,7 @@ import { isTouch } from '../ui/touch.ts';
 import { words } from '../words/words.ts';
 import { cellName } from './cellName.ts';
 import type { StatusName } from './gesture.ts';
+import { changeable, whyHeld } from './desk.ts';
 import { selectedKeys } from './groupTimes.ts';
 import { servoAtHand } from './moving.ts';
 import { turnText } from './positions.ts';
@@ -53,6 +54,7 @@ function textOf(desk: SeenDesk, status: StatusName | null): string {
   const [only] = keys;
   if (only === undefined || servo === undefined)
     return isTouch() ? words.timeline.byTouch.nothing : words.timeline.status.nothing;
+  if (changeable(desk).length === 0) return words.timeline.held[whyHeld(desk)];
   const about =
     keys.length === 1
       ? cellName(desk, { row: servoRowId(servo), frameId: only.frameId })

@@ -174,6 +174,7 @@ export function turnRound(desk: Desk): void {
 export function mirrorFrames(desk: Desk): void {
   const frameIds = selectedFrames(desk);
   const { group, held } = mirror(desk.group, desk.robot, frameIds);
+  if (group === desk.group) desk.stores.notices.tell('info', words.timeline.nothingToMirror);
   if (held.length > 0)
     desk.stores.notices.tell('warning', words.timeline.heldAtLimit(held.map(({ servo }) => servo)));
   apply(desk, { label: () => words.timeline.steps.mirror, edit: () => group });

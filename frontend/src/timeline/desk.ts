@@ -48,13 +48,15 @@ export function deskOf(stores: DeskStores): Desk {
 export const rowOf = ({ rows }: Pick<Desk, 'rows'>, id: string): Row | undefined =>
   rows.find((row) => row.id === id);
 
+type Chosen = Pick<Desk, 'times' | 'servoView'> & { readonly state: Pick<TimelineState, 'selected'> };
+
 /** Selected, and not locked. */
-export function changeable({ times, state, servoView }: Desk): readonly KeyRef[] {
+export function changeable({ times, state, servoView }: Chosen): readonly KeyRef[] {
   return selectedKeys(times, state.selected).filter(({ servo }) => !isHeld(servoView, servo));
 }
 
 /** Of selected keys that nothing changes: a row that alone is played and changed holds all others. */
-export function whyHeld({ times, state, servoView }: Desk): 'locked' | 'beside' {
+export function whyHeld({ times, state, servoView }: Chosen): 'locked' | 'beside' {
   const servos = selectedKeys(times, state.selected).map(({ servo }) => servo);
   return servos.every((servo) => servoView.locked.includes(servo)) ? 'locked' : 'beside';
 }

@@ -235,6 +235,17 @@ describe('dragging other things', () => {
     ]);
   });
 
+  test('a head with Shift selects all frames up to it, with Ctrl one beside others', async () => {
+    const { click, selected } = await createTimelineDesk();
+    const frames = () => [...new Set(selected().map(([frameId]) => frameId))];
+    click({ x: 25, y: HEADS_Y });
+    click({ x: 125, y: HEADS_Y }, { shift: true });
+    expect(frames()).toEqual([1, 2, 3]);
+    click({ x: 25, y: HEADS_Y });
+    click({ x: 125, y: HEADS_Y }, { ctrl: true });
+    expect(frames()).toEqual([1, 3]);
+  });
+
   test('the handle behind a selected stretch makes it longer', async () => {
     const { drag, select, keys, stores } = await createTimelineDesk();
     select([1, 1], [2, 1]);

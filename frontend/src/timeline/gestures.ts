@@ -17,6 +17,7 @@ import {
   type Press,
 } from './gesture.ts';
 import { hitAt, keysInBox, type Hit, type Spot } from './hit.ts';
+import { pressFrame } from './inStep.ts';
 import { keyGesture } from './keyGesture.ts';
 import { lookAt, selectFrame, setTime } from './looking.ts';
 import { sceneOf } from './scene.ts';
@@ -133,7 +134,8 @@ function stretchGesture(press: Press, desk: Desk, { end, span }: Hit & { kind: '
 /** The frames that the pointer goes over come along. */
 function headGesture(press: Press, desk: Desk, frameId: number): Gesture {
   const before = desk.state.selected;
-  selectFrame(desk, frameId, modeOf(press.held));
+  if (press.held.shift || press.held.ctrl) pressFrame(press.stores, frameId, press.held);
+  else selectFrame(desk, frameId, 'replaces');
   return {
     status: 'box',
     tells: () => toldOfBox(press.stores),

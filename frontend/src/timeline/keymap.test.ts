@@ -196,6 +196,15 @@ describe('keys', () => {
     expect(told()).toEqual(['The selected keys are on locked rows.']);
   });
 
+  test('where nothing has a partner on the other side, mirroring says so', async () => {
+    const { key, select, steps, told } = await createTimelineDesk();
+    const before = steps();
+    select([1, 1]);
+    key('x');
+    expect(steps()).toBe(before);
+    expect(told()).toEqual(['These frames are the same when left and right change places.']);
+  });
+
   test('nothing is pasted that the robot must not do', async () => {
     const { stores, desk, group, told } = await createTimelineDesk();
     const targets = [{ servo: 1, position: 2600 }];

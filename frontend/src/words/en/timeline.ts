@@ -185,6 +185,7 @@ export const timelineWords = {
   },
   nothingToSet: 'Nothing is known of these servos yet. Move them first.',
   nothingToPaste: 'Copy some keys first.',
+  nothingToMirror: 'These frames are the same when left and right change places.',
   notPasted: (problem: PasteProblem): string => `Not pasted: ${pasteProblem(problem)}.`,
   swingsTooFar: (servo: number): string =>
     `Not scaled: servo ${formatWhole(servo)} would go beyond its limits.`,

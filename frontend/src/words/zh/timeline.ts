@@ -162,6 +162,7 @@ export const timelineWords: typeof english = {
   },
   nothingToSet: '这些舵机的位置还未知。请先移动它们。',
   nothingToPaste: '请先复制关键帧。',
+  nothingToMirror: '左右对调后，这些帧没有变化。',
   notPasted: (problem) => `没有粘贴：${pasteProblem(problem)}。`,
   swingsTooFar: (servo) => `没有缩放：${formatWhole(servo)}号舵机会超出限位。`,
   heldAtLimit: (servos) => `${formatList(servos)}号舵机会超出限位，停在限位处。`,
