@@ -1,4 +1,4 @@
-// The whole group in one line: where its keys are, what of it is in sight, where the playhead is. Dragged, it shows another part.
+// The whole group in one line: where its keys are, and what of it is in sight. Dragged, it shows another part.
 
 import type { PointerEvent } from 'react';
 import { Drawing, type Pen } from '../body/Drawing.tsx';
