@@ -47,7 +47,7 @@ function TooLittleRoom({ at: { robot, servo, isFinished, keep, go } }: At) {
 function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away: number }) {
   const { device } = useStores();
   const { phase, turn } = useTurning(servo, away);
-  const [target] = useTarget(servo.servo);
+  const target = useTarget(servo.servo);
   const isMoving = useDevice((state) => state.isMoving);
   // That something moves is known a moment after it was asked to.
   const { estimated } = device.motion(servo.servo);

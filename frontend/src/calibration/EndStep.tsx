@@ -23,7 +23,7 @@ export interface EndStepProps {
 export function EndStep({ at, end }: EndStepProps) {
   const { robot, servo, progress, isFinished, keep } = at;
   const { device } = useStores();
-  const [target] = useTarget(servo.servo);
+  const target = useTarget(servo.servo);
   const { unit } = FAMILIES[robot.board];
   const reach = reachOf(robot, servo);
   if (target === null) return null;

@@ -4,7 +4,7 @@ import { useState } from 'react';
 import { useStores, useView } from '../stores/stores.ts';
 import { Button as AriaButton } from 'react-aria-components/Button';
 import { Icon } from '../ui/Icon.tsx';
-import { useFollow } from '../ui/useFollow.ts';
+import { READABLE_MS, useFollow } from '../ui/useFollow.ts';
 import { words } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import { LogPanel } from './LogPanel.tsx';
@@ -35,13 +35,10 @@ export function LogDrawer() {
   );
 }
 
-/** A drag sends fifty packets a second. */
-const READ_EACH_MS = 100;
-
 function Latest() {
   const { traffic } = useStores().device;
   const [nextId, show] = useState(traffic.store.getState().nextId);
-  useFollow({ read: () => traffic.store.getState().nextId, draw: show, eachMs: READ_EACH_MS });
+  useFollow({ read: () => traffic.store.getState().nextId, draw: show, eachMs: READABLE_MS });
   // It may have been cleared since.
   const { oldestId } = traffic.store.getState();
   if (nextId <= oldestId) return <span className={styles.latest}>{words.log.empty}</span>;

@@ -4,11 +4,10 @@
 import { motionInFrame } from '../body/motionInFrame.ts';
 import { useStores } from '../stores/stores.ts';
 import { LiveText } from '../ui/LiveText.tsx';
+import { READABLE_MS } from '../ui/useFollow.ts';
 import { words } from '../words/words.ts';
 import type { Scale } from './scale.ts';
 import styles from './Estimate.module.css';
-
-const WRITE_EACH_MS = 100;
 
 export function Estimate({ servo, scale }: { readonly servo: number; readonly scale: Scale }) {
   const { device } = useStores();
@@ -21,7 +20,7 @@ export function Estimate({ servo, scale }: { readonly servo: number; readonly sc
       isSilent
       isFixed
       text={text}
-      eachMs={WRITE_EACH_MS}
+      eachMs={READABLE_MS}
       className={styles.estimate}
       title={words.truth.estimated}
     />

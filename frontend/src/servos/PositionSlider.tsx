@@ -1,6 +1,5 @@
 // A native range input between the servo's limits, on a track as wide as the board allows. It is the control and has no picture
-// of its own: its marks are drawn. The input is uncontrolled so that a finger on it is never pushed about by what the session says
-// meanwhile.
+// of its own: its marks are drawn, and its value is written past React.
 
 import { useRef, type KeyboardEvent } from 'react';
 import { motionInFrame } from '../body/motionInFrame.ts';
@@ -51,33 +50,20 @@ export function PositionSlider({
   const { min, max, home } = servo;
   const { device } = useStores();
   const asked = (): number => targetOf(device, servo.servo) ?? guess ?? home;
+  const write = (position: number): void => {
+    if (input.current !== null) input.current.value = String(position);
+  };
 
   const hold = useDrag(input, {
     shown: asked,
-    drag,
+    drag: (position) => blocked || onDrag(position),
     release: () => write(asked()),
     pressTwice: () => blocked || onHome(),
   });
   useReadableTarget(servo.servo, (target) => {
-    if (hold.current !== 'held') write(target ?? guess ?? home);
+    write(target ?? guess ?? home);
     if (input.current !== null) input.current.ariaValueText = valueText(scale, target, guess);
   });
-
-  function write(position: number): void {
-    if (input.current !== null) input.current.value = String(position);
-  }
-
-  function drag(position: number): void {
-    if (blocked) return;
-    write(position);
-    onDrag(position);
-  }
-
-  /** Where the thumb is drawn. */
-  function shown(): number {
-    if (hold.current === 'held' && input.current !== null) return input.current.valueAsNumber;
-    return motionInFrame(device, servo.servo).target ?? guess ?? home;
-  }
 
   /** Blocked, it keeps the focus and its place, and takes nothing. Without a pointer on it, it was Home or End. */
   function moved(element: HTMLInputElement): void {
@@ -100,7 +86,7 @@ export function PositionSlider({
       {guess !== null && <GuessMark share={fraction(guess, family.position)} />}
       <SliderMarks
         {...{ servo: servo.servo, range: family.position, isKnown, isBlocked: blocked }}
-        thumbAt={shown}
+        thumbAt={() => motionInFrame(device, servo.servo).target ?? guess ?? home}
         isHeld={() => hold.current === 'held'}
       />
       <input

@@ -15,7 +15,7 @@ import { Reported } from './Reported.tsx';
 import { scaleOf, stepped, type Scale } from './scale.ts';
 import { ServoName } from './ServoName.tsx';
 import { useHand } from './useHand.ts';
-import { READ_EACH_MS, targetOf, useTarget } from './useTarget.ts';
+import { targetOf } from './useTarget.ts';
 import { useWheelSteps } from './useWheelSteps.ts';
 import styles from './ServoRow.module.css';
 
@@ -98,7 +98,7 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
         onHome={() => hand.home([servo])}
       />
       <TargetField
-        {...{ servo: own, scale, guess, blocked }}
+        {...{ servo: own, scale, isKnown, guess, blocked }}
         onStep={move}
         onTyped={(position) => {
           touch();
@@ -117,6 +117,7 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
 interface TargetFieldProps {
   readonly servo: RobotServo;
   readonly scale: Scale;
+  readonly isKnown: boolean;
   readonly guess: number | null;
   readonly blocked: boolean;
   onStep(position: number): void;
@@ -125,39 +126,38 @@ interface TargetFieldProps {
   onRefused(): void;
 }
 
-function TargetField({ servo: own, scale, guess, blocked, onStep, onTyped, onRefused }: TargetFieldProps) {
+function TargetField(props: TargetFieldProps) {
+  const { servo: own, scale, isKnown, guess, blocked, onStep, onTyped, onRefused } = props;
   const { device, notices, robots, view } = useStores();
-  const [target, readAgain] = useTarget(own.servo, READ_EACH_MS);
+  const shown = (): number | null => {
+    const target = targetOf(device, own.servo);
+    return target === null ? null : scale.shown(target);
+  };
   const tellStop = (first: number): void => {
     const met = servoOf(robots.current().robot, first);
     if (met === undefined) return;
     const read = scaleOf(met, device.store.getState().family, view.getState().positionsIn);
     notices.tell('warning', words.servoPanel.stoppedBy(nameOf(met), read.text(met.min), read.text(met.max)));
   };
-  const take = (shown: number, isStep: boolean): void => {
-    const position = scale.position(shown);
+  const take = (wanted: number, isStep: boolean): void => {
+    const position = scale.position(wanted);
     const first = isStep ? null : onTyped(position);
     if (isStep) onStep(position);
     if (first !== null) tellStop(first);
-    readAgain();
   };
-  const refuse = (shown: number): void => {
-    notices.tell('warning', refusal(own, shown, scale));
+  const refuse = (wanted: number): void => {
+    notices.tell('warning', refusal(own, wanted, scale));
     onRefused();
   };
   return (
     <NumberField
       label={words.servos.target(own.servo)}
       size="large"
-      truth={target === null ? undefined : { mark: 'commanded', title: words.truth.commanded }}
-      value={target === null ? null : scale.shown(target)}
+      truth={isKnown ? { mark: 'commanded', title: words.truth.commanded } : undefined}
+      value={shown}
       {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals, step: scale.step }}
       placeholder={
-        target !== null
-          ? ''
-          : guess === null
-            ? words.servos.unknown
-            : words.firstMoves.guessed(scale.digits(guess))
+        isKnown ? '' : guess === null ? words.servos.unknown : words.firstMoves.guessed(scale.digits(guess))
       }
       start={scale.shown(guess ?? own.home)}
       isReadOnly={blocked}

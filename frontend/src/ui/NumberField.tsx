@@ -2,15 +2,16 @@
 // Alt by one. Nothing is clamped silently: a value out of range goes to `onRefused` and the field shows the old one again.
 // A bare input: a library's number field costs a millisecond each time its value changes, and 32 of them change at once.
 
-import { useState, type KeyboardEvent } from 'react';
+import { useRef, useState, type KeyboardEvent } from 'react';
 import { Mark, type Truth } from './Chip.tsx';
 import { cx } from './cx.ts';
 import styles from './NumberField.module.css';
+import { READABLE_MS, useFollow } from './useFollow.ts';
 
 export interface NumberFieldProps {
   readonly label: string;
-  /** null: not known; the field is empty and shows `placeholder`. */
-  readonly value: number | null;
+  /** null: not known; the field is empty and shows `placeholder`. One that changes by itself is asked for, and written past React. */
+  readonly value: number | null | (() => number | null);
   readonly min: number;
   readonly max: number;
   readonly step?: number;
@@ -32,15 +33,23 @@ export interface NumberFieldProps {
 }
 
 export function NumberField(props: NumberFieldProps) {
-  const { label, value, unit, placeholder, size = 'plain', isDisabled = false, isReadOnly = false } = props;
+  const { label, unit, placeholder, size = 'plain', isDisabled = false, isReadOnly = false } = props;
+  const input = useRef<HTMLInputElement>(null);
   /** What is being typed; null while it is the value. */
   const [draft, setDraft] = useState<string | null>(null);
+  const isLive = typeof props.value === 'function';
+  const value = (): number | null => (typeof props.value === 'function' ? props.value() : props.value);
+  const text = (): string => draft ?? value()?.toFixed(props.decimals ?? 0) ?? '';
+  const write = (now: string): void => {
+    if (input.current !== null && input.current.value !== now) input.current.value = now;
+  };
 
   function take(wanted: number, isStep: boolean): void {
     setDraft(null);
-    if (Number.isNaN(wanted) || wanted === value) return;
+    if (Number.isNaN(wanted) || wanted === value()) return;
     if (wanted < props.min || wanted > props.max) props.onRefused(wanted);
     else props.onChange(wanted, isStep);
+    if (isLive && isStep) write(text());
   }
 
   function commit(): void {
@@ -53,7 +62,7 @@ export function NumberField(props: NumberFieldProps) {
     if (change === 0 || isDisabled || isReadOnly) return;
     event.preventDefault();
     event.stopPropagation();
-    const from = value ?? props.start ?? props.min;
+    const from = value() ?? props.start ?? props.min;
     take(Math.min(props.max, Math.max(props.min, from + change)), true);
   }
 
@@ -68,13 +77,15 @@ export function NumberField(props: NumberFieldProps) {
           <Mark truth={props.truth.mark} />
         </span>
       )}
+      {isLive && <Live text={text} write={write} />}
       <input
+        ref={input}
         type="text"
         inputMode={props.decimals === 1 ? 'decimal' : 'numeric'}
         autoComplete="off"
         aria-label={label}
         className={cx(styles.value, styles.input)}
-        value={draft ?? value?.toFixed(props.decimals ?? 0) ?? ''}
+        value={text()}
         placeholder={placeholder ?? ''}
         disabled={isDisabled}
         readOnly={isReadOnly}
@@ -90,6 +101,17 @@ export function NumberField(props: NumberFieldProps) {
       )}
     </div>
   );
+}
+
+interface LiveProps {
+  text(): string;
+  write(text: string): void;
+}
+
+/** No part of the field itself: most fields have nothing to follow. */
+function Live({ text, write }: LiveProps) {
+  useFollow({ read: text, draw: write, eachMs: READABLE_MS });
+  return null;
 }
 
 /** What may stand there on the way to a number. */

@@ -1,7 +1,7 @@
 // Draws what changes by itself, past React: in sight as it changes, out of sight once it has come to rest. Dozens of servos move
 // at once, and what nobody sees would cost as much as the rest. Knows no servo.
 
-import { use, useRef } from 'react';
+import { use, useLayoutEffect, useRef } from 'react';
 import { Sight, type InSight } from './sight.ts';
 import { useEachFrame } from './useEachFrame.ts';
 
@@ -10,7 +10,7 @@ export interface Follow<T> {
   read(): T;
   isSame?(one: T, other: T): boolean;
   draw(value: T): void;
-  /** No more often than it can be read; left out: in each frame. */
+  /** Left out: in each frame. */
   readonly eachMs?: number;
   /** Left out: that of the part of the page around it. */
   readonly sight?: InSight;
@@ -18,6 +18,8 @@ export interface Follow<T> {
   leave?(): void;
 }
 
+/** No more often can a number be read. */
+export const READABLE_MS = 100;
 /** Longer than a slow drag takes from one value to the next; no more often is looked at what is out of sight. */
 const REST_MS = 250;
 
@@ -26,6 +28,8 @@ export function useFollow<T>({ read, isSame = Object.is, draw, eachMs = 0, sight
   const latest = useRef<{ readonly value: T } | null>(null);
   const drawn = useRef<{ readonly value: T } | null>(null);
   const readIn = useRef(-1);
+  // Whatever React wrote meanwhile is another thing than what was drawn.
+  useLayoutEffect(() => void (drawn.current = null));
   useEachFrame((nowMs) => {
     const beat = beatOf(nowMs, isInSight.current ? eachMs : REST_MS);
     if (beat === readIn.current) return;
