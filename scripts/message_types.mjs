@@ -9,7 +9,7 @@ import { SetupProblem, at, main, mustRun, say } from './steps.mjs';
 const TARGETS = [
   { module: 'messages', target: 'frontend/src/transports/messages.generated.ts' },
   { module: 'library_messages', target: 'frontend/src/keepers/library.generated.ts' },
-  { module: 'people_messages', target: 'frontend/src/stores/people.generated.ts' },
+  { module: 'people_messages', target: 'frontend/src/stores/people/people.generated.ts' },
 ];
 
 /** @param {string} module @returns {Promise<string>} */

@@ -1,8 +1,8 @@
 // What can be done with the selected frames, in words. Always in its place, so that nothing jumps when a frame is selected.
 
 import { indexOfFrame, setTargets } from '#shared/actions/group/groupEdits.ts';
-import { motionHindrance } from '../stores/readiness.ts';
-import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { motionHindrance } from '../stores/device/readiness.ts';
+import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useDevice, useDocument, useSnapshot, useStores, useTimeline, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { ToggleButton } from '../ui/ToggleButton.tsx';

@@ -4,7 +4,7 @@
 import { copyFrames, pasteFrames, type Clip } from '#shared/actions/group/clip.ts';
 import { deleteFrames, duplicateFrames, moveFrames } from '#shared/actions/group/groupEdits.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { ALL_ROW } from '../stores/timeline.ts';
+import { ALL_ROW } from '../stores/timeline/timeline.ts';
 import { deskOf, rangeOf, rowOf, type DeskStores } from '../timeline/desk.ts';
 import { showFrame, showFrames } from '../timeline/inStep.ts';
 import { wholeFrames } from '../timeline/wholeFrames.ts';

@@ -3,7 +3,7 @@
 import { useState } from 'react';
 import { isPlain, readingKind } from '#shared/actions/battery/batteryGauge.ts';
 import { percentOf } from '#shared/actions/battery/batterySupply.ts';
-import { canReadBattery } from '../stores/batteryPoll.ts';
+import { canReadBattery } from '../stores/battery/batteryPoll.ts';
 import { useBattery, useDevice, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';

@@ -1,7 +1,7 @@
 // What is done with the board in every round of trying a motion: choose the slot, download to it, run it, end it. Between the
 // two, what is known of the slot, or how far a download or a run has come.
 
-import { obstacles } from '../stores/compiled.ts';
+import { obstacles } from '../stores/group/compiled.ts';
 import { useCompiled, useDevice, useDocument, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { FATE_TRUTH, useFates } from '../slots/useFates.ts';
 import { Chip } from '../ui/Chip.tsx';

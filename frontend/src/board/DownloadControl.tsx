@@ -1,7 +1,7 @@
 // Stores the group of this page, as it was compiled, in the chosen slot.
 
-import { obstacles } from '../stores/compiled.ts';
-import { startHindrance } from '../stores/readiness.ts';
+import { obstacles } from '../stores/group/compiled.ts';
+import { startHindrance } from '../stores/device/readiness.ts';
 import { useCompiled, useDevice, useDocument, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';

@@ -1,7 +1,7 @@
 // Where the group at hand belongs and how often it is run, as it says itself; what is chosen above can be kept in it.
 
 import { setMeta } from '#shared/actions/group/groupEdits.ts';
-import { chosenPlace } from '../stores/groupPlace.ts';
+import { chosenPlace } from '../stores/slots/groupPlace.ts';
 import { useDocument, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';

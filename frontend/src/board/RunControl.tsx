@@ -1,7 +1,7 @@
 // Runs the chosen slot, and ends the group that runs.
 
-import { runAsChosen } from '../stores/goOn.ts';
-import { motionHindrance } from '../stores/readiness.ts';
+import { runAsChosen } from '../stores/playing/goOn.ts';
+import { motionHindrance } from '../stores/device/readiness.ts';
 import { useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';

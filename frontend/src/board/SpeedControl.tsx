@@ -2,7 +2,7 @@
 // the field shows what will be set.
 
 import { useState } from 'react';
-import { motionHindrance } from '../stores/readiness.ts';
+import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';

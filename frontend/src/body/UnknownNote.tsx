@@ -3,9 +3,9 @@
 
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import type { Device, DeviceState } from '../stores/device.ts';
-import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
-import { motionHindrance } from '../stores/readiness.ts';
+import type { Device, DeviceState } from '../stores/device/device.ts';
+import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
+import { motionHindrance } from '../stores/device/readiness.ts';
 import { isHeld } from '../stores/servoView.ts';
 import {
   guessesNow,

@@ -1,7 +1,7 @@
 // A servo's motion as of the frame that is being drawn: asked of the session once, however many needles show it.
 
 import type { ServoMotion } from '#shared/session/state.ts';
-import type { Device } from '../stores/device.ts';
+import type { Device } from '../stores/device/device.ts';
 import { frameAtHand } from '../ui/useEachFrame.ts';
 
 interface Seen {

@@ -6,7 +6,7 @@ import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Range } from '#shared/protocol/families.ts';
 import { Estimate } from '../servos/Estimate.tsx';
 import { scaleOf } from '../servos/scale.ts';
-import { motionHindrance } from '../stores/readiness.ts';
+import { motionHindrance } from '../stores/device/readiness.ts';
 import { useStores } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { Icon } from '../ui/Icon.tsx';

@@ -5,7 +5,7 @@ import { endFound, noteFound, type Calibration } from '#shared/actions/robot/rob
 import { changeServo, reachOf } from '#shared/actions/robot/robotEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { ReachBar } from '../robots/ReachBar.tsx';
-import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useTarget } from '../servos/useTarget.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import { freshRobot } from '../stores/robots.ts';
+import { freshRobot } from '../stores/robots/robots.ts';
 import { awayFrom, startTurning, type TurnPhase } from './turning.ts';
 
 function bench() {

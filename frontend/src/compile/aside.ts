@@ -2,7 +2,7 @@
 
 import { groupToText } from '#shared/actions/group/groupText.ts';
 import { framesOf } from '#shared/actions/slots/frameNumbers.ts';
-import type { Source, WorkedOut } from '../stores/workedOut.ts';
+import type { Source, WorkedOut } from '../stores/group/workedOut.ts';
 import type { Answer, Order } from './asideWorker.ts';
 
 /** Rejects where no worker can be had. */

@@ -2,7 +2,7 @@
 
 import { groupFromText } from '#shared/actions/group/groupText.ts';
 import { numbersOf } from '#shared/actions/slots/frameNumbers.ts';
-import { workedOut, type Source, type WorkedOut } from '../stores/workedOut.ts';
+import { workedOut, type Source, type WorkedOut } from '../stores/group/workedOut.ts';
 
 export interface Order {
   readonly groupText: string;

@@ -3,7 +3,7 @@
 
 import { useState, type ReactNode } from 'react';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
-import type { Way } from '../stores/device.ts';
+import type { Way } from '../stores/device/device.ts';
 import { Button } from '../ui/Button.tsx';
 import { ThisBoard } from '../identity/ThisBoard.tsx';
 import { Chip } from '../ui/Chip.tsx';

@@ -2,9 +2,9 @@
 // address leaves it at once, so that neither history nor a screenshot keeps it.
 
 import type { StoreApi } from 'zustand/vanilla';
-import type { DeviceState } from '../stores/device.ts';
-import { PeopleError } from '../stores/people.ts';
-import type { Me, PairWish, You } from '../stores/people.generated.ts';
+import type { DeviceState } from '../stores/device/device.ts';
+import { PeopleError } from '../stores/people/people.ts';
+import type { Me, PairWish, You } from '../stores/people/people.generated.ts';
 import { pair, readMe } from './peopleApi.ts';
 
 export interface Arrival {

@@ -8,11 +8,11 @@ import { STOP_PACKET } from '#shared/session/halt.ts';
 import { createSession, type Session } from '#shared/session/session.ts';
 import { isProfileName } from '#shared/simulator/profiles.ts';
 import type { Transport } from '#shared/session/transport.ts';
-import type { Boards } from '../stores/boards.ts';
-import type { Device, Way } from '../stores/device.ts';
-import type { TextStorage } from '../stores/document.ts';
+import type { Boards } from '../stores/device/boards.ts';
+import type { Device, Way } from '../stores/device/device.ts';
+import type { TextStorage } from '../stores/textStorage.ts';
 import type { Notices } from '../stores/notices.ts';
-import type { You } from '../stores/people.generated.ts';
+import type { You } from '../stores/people/people.generated.ts';
 import { createGatewayTransport } from '../transports/gateway.ts';
 import { createSimulatedTransport } from '../transports/simulated.ts';
 import {

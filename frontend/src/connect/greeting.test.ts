@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { refusedTarget } from '#shared/actions/robot/robot.ts';
 import { changeServo } from '#shared/actions/robot/robotEdits.ts';
-import { freshRobot } from '../stores/robots.ts';
+import { freshRobot } from '../stores/robots/robots.ts';
 import { greetingOf } from './greeting.ts';
 
 test('the arm rises within the limits that were set', () => {

@@ -2,7 +2,7 @@
 
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import type { Transport } from '#shared/session/transport.ts';
-import type { TextStorage } from '../stores/document.ts';
+import type { TextStorage } from '../stores/textStorage.ts';
 
 export interface LastWay {
   readonly kind: Transport['kind'];

@@ -3,8 +3,16 @@
 
 import * as z from 'zod/mini';
 import { OWN_PAGE } from '../keepers/ownPage.ts';
-import { PeopleError, type PeopleApi, type PeopleErrorCode } from '../stores/people.ts';
-import type { Invitation, Me, PairWish, People, StopLink, Token, You } from '../stores/people.generated.ts';
+import { PeopleError, type PeopleApi, type PeopleErrorCode } from '../stores/people/people.ts';
+import type {
+  Invitation,
+  Me,
+  PairWish,
+  People,
+  StopLink,
+  Token,
+  You,
+} from '../stores/people/people.generated.ts';
 
 const ANSWER_WITHIN_MS = 4000;
 /** Who does not say so is taken for absent, and the page simulates a robot of its own: a busy gateway takes its time. */

@@ -3,7 +3,7 @@
 
 import type { SlotMemory } from '#shared/session/slotMemory.ts';
 import type { Transport } from '#shared/session/transport.ts';
-import type { TextStorage } from '../stores/document.ts';
+import type { TextStorage } from '../stores/textStorage.ts';
 
 const KEY = 'servodeck.brokenSlots';
 

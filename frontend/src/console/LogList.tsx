@@ -2,7 +2,7 @@
 // the lines, Enter copies one.
 
 import { memo, useLayoutEffect, useRef, type KeyboardEvent } from 'react';
-import type { LogEntry } from '../stores/traffic.ts';
+import type { LogEntry } from '../stores/device/traffic.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { cx } from '../ui/cx.ts';
 import { useWords, words } from '../words/words.ts';

@@ -4,7 +4,7 @@
 import { useDeferredValue, useMemo, useState, useSyncExternalStore } from 'react';
 import { useStore } from 'zustand';
 import { useStores, useView } from '../stores/stores.ts';
-import type { LogEntry } from '../stores/traffic.ts';
+import type { LogEntry } from '../stores/device/traffic.ts';
 import type { LogKind } from '../stores/view.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { useWords, words } from '../words/words.ts';

@@ -8,7 +8,7 @@ import { writeLine } from '#shared/recording/line.ts';
 import { trafficOf } from '#shared/recording/recorder.ts';
 import type { Entry } from '#shared/recording/recording.ts';
 import type { Traffic } from '#shared/session/state.ts';
-import type { LogEntry } from '../stores/traffic.ts';
+import type { LogEntry } from '../stores/device/traffic.ts';
 import type { LogKind } from '../stores/view.ts';
 import { words as spoken, type Words } from '../words/words.ts';
 

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { CAPACITY } from '#shared/recording/tape.ts';
-import { createTrafficLog, type LogEntry } from '../stores/traffic.ts';
+import { createTrafficLog, type LogEntry } from '../stores/device/traffic.ts';
 import { createLogView } from './logView.ts';
 
 /** A log in which every second packet is a stop, the others ask for the battery. */

@@ -1,7 +1,7 @@
 // What of the log is looked at: the newest entries that pass a test, and how many do and do not. Reads each entry once, so that
 // a long log costs nothing more with each packet. Knows no page; React reads it as an external store.
 
-import type { LogEntry, TrafficLog } from '../stores/traffic.ts';
+import type { LogEntry, TrafficLog } from '../stores/device/traffic.ts';
 
 export interface LogView {
   /** The newest of those that pass, oldest first. */

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { readRecording } from '#shared/recording/text.ts';
-import { createTrafficLog } from '../stores/traffic.ts';
+import { createTrafficLog } from '../stores/device/traffic.ts';
 import { logFile } from './savedLog.ts';
 
 test('a log is saved with board and date in its name, each packet in its own words, and can be read back', () => {

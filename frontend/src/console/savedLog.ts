@@ -3,7 +3,7 @@
 import { family, type BoardId } from '#shared/protocol/families.ts';
 import { writeRecording } from '#shared/recording/text.ts';
 import type { Entry } from '#shared/recording/recording.ts';
-import type { TrafficLog } from '../stores/traffic.ts';
+import type { TrafficLog } from '../stores/device/traffic.ts';
 import type { TextFile } from '../ui/saveFile.ts';
 import { version } from '../../../package.json';
 import { meaning } from './describe.ts';

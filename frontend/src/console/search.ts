@@ -1,6 +1,6 @@
 // Finds a line of the log by words or by bytes. Pure.
 
-import type { LogEntry } from '../stores/traffic.ts';
+import type { LogEntry } from '../stores/device/traffic.ts';
 import { words as spoken, type Words } from '../words/words.ts';
 import { bytesText, meaning } from './describe.ts';
 

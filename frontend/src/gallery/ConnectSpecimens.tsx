@@ -1,6 +1,6 @@
 // The connect dialog's content in each of its cases.
 
-import type { Way } from '../stores/device.ts';
+import type { Way } from '../stores/device/device.ts';
 import type { ConnectState } from '../connect/connector.ts';
 import { ConnectWays } from '../connect/ConnectWays.tsx';
 import type { Exhibit } from './exhibit.ts';

@@ -2,7 +2,7 @@
 
 import type { Binding } from '#shared/actions/mapping/mapping.ts';
 import { PadPanel } from '../pad/PadPanel.tsx';
-import type { Gamepadlike } from '../stores/pad.ts';
+import type { Gamepadlike } from '../stores/driving/pad.ts';
 import { useStores, type Stores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { words } from '../words/words.ts';

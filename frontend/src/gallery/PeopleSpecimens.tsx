@@ -6,7 +6,7 @@ import { OwnView } from '../people/OwnView.tsx';
 import { PairCard } from '../people/PairCard.tsx';
 import { PeopleView } from '../people/PeopleView.tsx';
 import { StopFace, type StopOutcome } from '../people/StopPage.tsx';
-import { PeopleError, type PeopleState } from '../stores/people.ts';
+import { PeopleError, type PeopleState } from '../stores/people/people.ts';
 import type { Exhibit } from './exhibit.ts';
 
 /** No QR code that anybody could use. */

@@ -8,7 +8,7 @@ import type { SessionState } from '#shared/session/state.ts';
 import { CalibrationWizard } from '../calibration/CalibrationWizard.tsx';
 import { RobotEditor } from '../robots/RobotEditor.tsx';
 import { RobotList } from '../robots/RobotList.tsx';
-import { freshRobot } from '../stores/robots.ts';
+import { freshRobot } from '../stores/robots/robots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { standing, type Exhibit } from './exhibit.ts';
 import { READY, SIMULATED } from './states.ts';

@@ -2,7 +2,7 @@
 
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import type { FamilyId } from '#shared/protocol/families.ts';
-import { freshRobot } from '../stores/robots.ts';
+import { freshRobot } from '../stores/robots/robots.ts';
 import type { ServoView } from '../stores/servoView.ts';
 import type { ViewState } from '../stores/view.ts';
 

@@ -6,7 +6,7 @@ import { identityFrom } from '#shared/session/identity.ts';
 import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
 import type { Latch, SessionState } from '#shared/session/state.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
-import type { Way } from '../stores/device.ts';
+import type { Way } from '../stores/device/device.ts';
 import { SERVO_SPECIMENS, type ServoSpecimen } from './servoSpecimens.ts';
 import {
   BATTERY_TOLD,

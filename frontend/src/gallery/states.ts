@@ -7,7 +7,7 @@ import type { Lease, Unattended } from '#shared/session/lease.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
-import type { Way } from '../stores/device.ts';
+import type { Way } from '../stores/device/device.ts';
 
 /** What feeds the robot, and what was read until now, one reading every five seconds. */
 export interface BatteryFeed {

@@ -1,6 +1,6 @@
 // Firmware and trims of boards that can tell them, once a person has asked.
 
-import { mayAsk } from '../stores/readiness.ts';
+import { mayAsk } from '../stores/device/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';

@@ -1,7 +1,7 @@
 // The board at hand: the name the person gave it, what it is taken for and why, and the way to say otherwise.
 
 import { useStore } from 'zustand';
-import { nameOf, NICKNAME_LENGTH } from '../stores/boards.ts';
+import { nameOf, NICKNAME_LENGTH } from '../stores/device/boards.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';

@@ -2,8 +2,8 @@
 
 import type { Macro } from '#shared/actions/macros/macro.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
-import type { MacroProgress } from '../stores/macroRun.ts';
-import { poseName } from '../stores/poses.ts';
+import type { MacroProgress } from '../stores/driving/macroRun.ts';
+import { poseName } from '../stores/driving/poses.ts';
 import { useDevice, usePoses, useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import styles from './Macros.module.css';

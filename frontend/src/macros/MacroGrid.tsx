@@ -2,7 +2,7 @@
 
 import { useStore } from 'zustand';
 import type { Macro } from '#shared/actions/macros/macro.ts';
-import { startHindrance } from '../stores/readiness.ts';
+import { startHindrance } from '../stores/device/readiness.ts';
 import { useMacros, useSnapshot, useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { MacroFace } from './MacroFace.tsx';

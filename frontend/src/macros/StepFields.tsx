@@ -3,7 +3,7 @@
 import { MOVE_MS, SLOT, SLOT_TIMES, WAIT_MS, type MacroStep } from '#shared/actions/macros/macro.ts';
 import { POSE_VERBS, type PoseRef } from '#shared/actions/poses/pose.ts';
 import type { Range } from '#shared/protocol/families.ts';
-import { poseName } from '../stores/poses.ts';
+import { poseName } from '../stores/driving/poses.ts';
 import { usePoses, useStores } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Select } from '../ui/Select.tsx';

@@ -3,7 +3,7 @@
 import type { Macro, MacroStep } from '#shared/actions/macros/macro.ts';
 import { addStep, moveStep, removeStep, setStep } from '#shared/actions/macros/macroEdits.ts';
 import type { MacroPage } from '#shared/actions/macros/macro.ts';
-import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';

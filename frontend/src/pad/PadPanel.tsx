@@ -2,8 +2,8 @@
 
 import { servoBoundBy } from '#shared/actions/mapping/mapping.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
-import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
-import { motionHindrance } from '../stores/readiness.ts';
+import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
+import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useMapping, usePad, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';

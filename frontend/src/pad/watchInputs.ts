@@ -1,7 +1,7 @@
 // Hands keys to whoever drives by them, before any panel hears of them, and tells it when the page is not looked at. Knows the
 // browser's events and no robot; a text field keeps its letters.
 
-import type { Pad } from '../stores/pad.ts';
+import type { Pad } from '../stores/driving/pad.ts';
 import { isTextField } from '../ui/textField.ts';
 
 type Listener = Pick<Pad, 'keyDown' | 'keyUp' | 'leave' | 'comeBack'>;

@@ -1,7 +1,7 @@
 // The form of whoever stands outside: what it is about, its fields, what went wrong, and one press that goes on.
 
 import { useId, type InputHTMLAttributes, type ReactNode, type SyntheticEvent } from 'react';
-import type { PeopleError } from '../stores/people.ts';
+import type { PeopleError } from '../stores/people/people.ts';
 import { Button } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';

@@ -1,7 +1,12 @@
 // The invitation that is open, as QR code, link and eight digits, with the time that is left.
 
 import { useState } from 'react';
-import { PERSON_ROLES, type OpenInvitation, type PeopleWishes, type PersonRole } from '../stores/people.ts';
+import {
+  PERSON_ROLES,
+  type OpenInvitation,
+  type PeopleWishes,
+  type PersonRole,
+} from '../stores/people/people.ts';
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';
 import { useNow } from '../ui/useNow.ts';

@@ -1,7 +1,7 @@
 // What a link's guest sees first: what the others shall call them, filled in, so that one press goes on.
 
 import { useState } from 'react';
-import type { PeopleError } from '../stores/people.ts';
+import type { PeopleError } from '../stores/people/people.ts';
 import { words } from '../words/words.ts';
 import { EntryCard, EntryField, NAME_INPUT, nameOr } from './EntryCard.tsx';
 

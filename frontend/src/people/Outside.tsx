@@ -2,8 +2,8 @@
 
 import { useState, type ReactNode } from 'react';
 import { I18nProvider } from 'react-aria-components/I18nProvider';
-import { PeopleError } from '../stores/people.ts';
-import type { PairWish } from '../stores/people.generated.ts';
+import { PeopleError } from '../stores/people/people.ts';
+import type { PairWish } from '../stores/people/people.generated.ts';
 import { useSpokenLocale } from '../ui/useSpokenLocale.ts';
 import { NameCard } from './NameCard.tsx';
 import { PairCard } from './PairCard.tsx';

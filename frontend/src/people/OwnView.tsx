@@ -1,6 +1,6 @@
 // Who somebody is here who lets nobody in: their name, which is theirs to change, and what they may do.
 
-import type { Me } from '../stores/people.generated.ts';
+import type { Me } from '../stores/people/people.generated.ts';
 import { NameField } from '../ui/NameField.tsx';
 import { words } from '../words/words.ts';
 import { AddressNotes } from './AddressNotes.tsx';

@@ -1,8 +1,8 @@
 // What a device that is not paired sees: one card to type the eight digits into. A reload afterwards opens the page as ever.
 
 import { useState } from 'react';
-import type { PeopleError } from '../stores/people.ts';
-import type { PairWish } from '../stores/people.generated.ts';
+import type { PeopleError } from '../stores/people/people.ts';
+import type { PairWish } from '../stores/people/people.generated.ts';
 import { words } from '../words/words.ts';
 import { EntryCard, EntryField, NAME_INPUT, nameOr } from './EntryCard.tsx';
 

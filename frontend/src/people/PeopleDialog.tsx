@@ -3,8 +3,8 @@
 
 import { useEffect } from 'react';
 import { useStore } from 'zustand';
-import { letsIn } from '../stores/people.ts';
-import type { Me } from '../stores/people.generated.ts';
+import { letsIn } from '../stores/people/people.ts';
+import type { Me } from '../stores/people/people.generated.ts';
 import { useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';

@@ -1,7 +1,12 @@
 // Whom an owner lets in and who may come in already. Plain values in, wishes out; so every case can be shown.
 
-import type { Person } from '../stores/people.generated.ts';
-import { PERSON_ROLES, type PeopleState, type PeopleWishes, type PersonRole } from '../stores/people.ts';
+import type { Person } from '../stores/people/people.generated.ts';
+import {
+  PERSON_ROLES,
+  type PeopleState,
+  type PeopleWishes,
+  type PersonRole,
+} from '../stores/people/people.ts';
 import type { Candidate } from '#shared/session/lease.ts';
 import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';

@@ -1,7 +1,7 @@
 // Tokens for scripts and stop-only QR codes: made here, shown once.
 
 import { useState } from 'react';
-import type { PeopleWishes, Shown } from '../stores/people.ts';
+import type { PeopleWishes, Shown } from '../stores/people/people.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import { cx } from '../ui/cx.ts';

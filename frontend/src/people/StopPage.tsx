@@ -1,7 +1,7 @@
 // The page of whoever may only stop: one button. It acts on press, as everywhere, and Esc does the same.
 
 import { useEffect, useState } from 'react';
-import type { PeopleError } from '../stores/people.ts';
+import type { PeopleError } from '../stores/people/people.ts';
 import { words } from '../words/words.ts';
 import styles from './Outside.module.css';
 

@@ -3,10 +3,10 @@
 
 import { useShallow } from 'zustand/react/shallow';
 import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
-import { chosenPlace } from '../stores/groupPlace.ts';
-import { SPEED_PERCENT, type PlaybackPhase } from '../stores/playback.ts';
+import { chosenPlace } from '../stores/slots/groupPlace.ts';
+import { SPEED_PERCENT, type PlaybackPhase } from '../stores/playing/playback.ts';
 import { useFates } from '../slots/useFates.ts';
-import { motionHindrance, startHindrance } from '../stores/readiness.ts';
+import { motionHindrance, startHindrance } from '../stores/device/readiness.ts';
 import { isSilent } from '../stores/servoView.ts';
 import {
   useDevice,

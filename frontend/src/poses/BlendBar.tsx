@@ -6,7 +6,7 @@ import type { Pose } from '#shared/actions/poses/pose.ts';
 import { addPose } from '#shared/actions/poses/poseEdits.ts';
 import { blended } from '#shared/actions/poses/poseShapes.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
-import { motionHindrance } from '../stores/readiness.ts';
+import { motionHindrance } from '../stores/device/readiness.ts';
 import { useBlend, useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';

@@ -3,7 +3,7 @@
 import type { Pose } from '#shared/actions/poses/pose.ts';
 import { movePose, renamePose } from '#shared/actions/poses/poseEdits.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
-import { motionHindrance } from '../stores/readiness.ts';
+import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useRobot, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';

@@ -3,7 +3,7 @@
 import type { Pose } from '#shared/actions/poses/pose.ts';
 import { movePose, removePose } from '#shared/actions/poses/poseEdits.ts';
 import { useCards } from '../actions/useCards.ts';
-import { poseName } from '../stores/poses.ts';
+import { poseName } from '../stores/driving/poses.ts';
 import { usePoses, useStores, useView } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { PoseCard } from './PoseCard.tsx';

@@ -6,7 +6,7 @@ import { duplicatePose, markRest, movePose, removePose, setPose } from '#shared/
 import { flippedTargets, mirroredTargets } from '#shared/actions/poses/poseShapes.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { putFrame } from '../actions/capture.ts';
-import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Toggle } from '../ui/Toggle.tsx';

@@ -2,8 +2,8 @@
 
 import { POSE_VERBS } from '#shared/actions/poses/pose.ts';
 import { CaptureButton } from '../actions/CaptureButton.tsx';
-import { poseName } from '../stores/poses.ts';
-import { motionHindrance } from '../stores/readiness.ts';
+import { poseName } from '../stores/driving/poses.ts';
+import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';

@@ -4,7 +4,7 @@ import { useId } from 'react';
 import { Button } from 'react-aria-components/Button';
 import { READY_ROBOTS, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
-import { freshRobot } from '../stores/robots.ts';
+import { freshRobot } from '../stores/robots/robots.ts';
 import { useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { PRODUCTS } from './products.ts';

@@ -4,7 +4,7 @@
 import { useId } from 'react';
 import { useStore } from 'zustand';
 import { FAMILIES } from '#shared/protocol/families.ts';
-import { currentOf, type OwnRobot } from '../stores/robots.ts';
+import { currentOf, type OwnRobot } from '../stores/robots/robots.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';

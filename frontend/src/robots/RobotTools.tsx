@@ -1,7 +1,7 @@
 // What can be done with the robot at hand.
 
 import { robotToText } from '#shared/actions/robot/robotText.ts';
-import type { OwnRobot } from '../stores/robots.ts';
+import type { OwnRobot } from '../stores/robots/robots.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { saveFile } from '../ui/saveFile.ts';

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { flawOf, type Robot } from '#shared/actions/robot/robot.ts';
-import { freshRobot } from '../stores/robots.ts';
+import { freshRobot } from '../stores/robots/robots.ts';
 import { COLUMNS, type ColumnId } from './columns.ts';
 
 const HUMANOID = freshRobot('humanoid16', 'lsc-32');

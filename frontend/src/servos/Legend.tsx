@@ -1,6 +1,6 @@
 // The marks of a position in words, once, where they are used most, and the unit positions are shown in.
 
-import { tellsPositions } from '../stores/readiness.ts';
+import { tellsPositions } from '../stores/device/readiness.ts';
 import { useDevice, useIsGuessing, useStores, useView } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { Choice } from '../ui/Toggle.tsx';

@@ -1,6 +1,6 @@
 // What is selected, how it moves together, and what can be done with it. Keeps its height when nothing is.
 
-import { motionHindrance } from '../stores/readiness.ts';
+import { motionHindrance } from '../stores/device/readiness.ts';
 import { isHeld, select, toggled, TOGETHER, type ServoView } from '../stores/servoView.ts';
 import { editServoView, useRobot, useServoView, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';

@@ -2,7 +2,7 @@
 
 import { memo, useRef } from 'react';
 import { servoOf, type RobotServo } from '#shared/actions/robot/robot.ts';
-import { mayBrush, motionHindrance, tellsPositions } from '../stores/readiness.ts';
+import { mayBrush, motionHindrance, tellsPositions } from '../stores/device/readiness.ts';
 import { isHeld } from '../stores/servoView.ts';
 import { useDevice, useGuess, useServoView, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';

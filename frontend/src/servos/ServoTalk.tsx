@@ -1,6 +1,6 @@
 // Asking servos where they stand, and letting go of them, where the board can: most cannot, and their owners see nothing of it.
 
-import { mayAsk, motionHindrance, tellsPositions } from '../stores/readiness.ts';
+import { mayAsk, motionHindrance, tellsPositions } from '../stores/device/readiness.ts';
 import { useDevice, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Confirm } from '../ui/Confirm.tsx';

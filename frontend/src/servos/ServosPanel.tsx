@@ -3,8 +3,8 @@
 
 import { BodyMap } from '../body/BodyMap.tsx';
 import { Body } from '../body/Body.tsx';
-import { motionHindrance } from '../stores/readiness.ts';
-import { GENTLE_MOVE_MS } from '../stores/moveTime.ts';
+import { motionHindrance } from '../stores/device/readiness.ts';
+import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useRobot, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';

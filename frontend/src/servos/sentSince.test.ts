@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { createTrafficLog } from '../stores/traffic.ts';
+import { createTrafficLog } from '../stores/device/traffic.ts';
 import { sentSince } from './sentSince.ts';
 
 test('counts what was sent since then, and nothing that was received', () => {

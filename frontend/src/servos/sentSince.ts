@@ -1,6 +1,6 @@
 // Counts packets in the log, newest first, so that a long visit costs nothing. Knows no screen.
 
-import type { TrafficLog } from '../stores/traffic.ts';
+import type { TrafficLog } from '../stores/device/traffic.ts';
 
 export function sentSince({ store, at }: Pick<TrafficLog, 'store' | 'at'>, sinceMs: number): number {
   const { oldestId, nextId } = store.getState();

@@ -2,7 +2,7 @@
 
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import type { Pace } from '../stores/moveTime.ts';
+import type { Pace } from '../stores/device/moveTime.ts';
 import { guessNow, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
 import { isHeld, type ServoView, type Stand } from '../stores/servoView.ts';
 import { moveGang, weightOf, type Gang, type GangMove, type Member } from './gang.ts';

@@ -2,7 +2,7 @@
 
 import { useLayoutEffect, useState } from 'react';
 import { motionInFrame } from '../body/motionInFrame.ts';
-import type { Device } from '../stores/device.ts';
+import type { Device } from '../stores/device/device.ts';
 import { useStores } from '../stores/stores.ts';
 import { READABLE_MS, useFollow } from '../ui/useFollow.ts';
 

@@ -4,7 +4,7 @@ import { useEffect, useMemo, useState } from 'react';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Listed } from '#shared/actions/library/keeper.ts';
 import { DownloadProgress } from '../board/DownloadProgress.tsx';
-import { startHindrance } from '../stores/readiness.ts';
+import { startHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useLibrary, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';

@@ -5,7 +5,7 @@ import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { recordOf } from '#shared/actions/slots/slotBook.ts';
 import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
 import { DownloadControl } from '../board/DownloadControl.tsx';
-import { motionHindrance, startHindrance } from '../stores/readiness.ts';
+import { motionHindrance, startHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSlots, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';

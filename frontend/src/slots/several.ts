@@ -2,8 +2,8 @@
 
 import type { SlotBook } from '#shared/actions/slots/slotBook.ts';
 import type { Range } from '#shared/protocol/families.ts';
-import { obstacles, type CompiledGroup } from '../stores/compiled.ts';
-import type { SlotDownload } from '../stores/slots.ts';
+import { obstacles, type CompiledGroup } from '../stores/group/compiled.ts';
+import type { SlotDownload } from '../stores/slots/slots.ts';
 import { words } from '../words/words.ts';
 
 export interface Wanted {

@@ -2,7 +2,7 @@
 // nothing modal can take it away. A click without a pointer (detail 0) comes from a screen reader. Esc does the same from anywhere, a text field or a dialog included.
 
 import { useEffect, type KeyboardEvent as ReactKeyboardEvent } from 'react';
-import type { Device } from '../stores/device.ts';
+import type { Device } from '../stores/device/device.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import styles from './StopButton.module.css';

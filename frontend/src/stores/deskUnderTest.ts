@@ -2,20 +2,20 @@
 
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
-import { createBlend } from './blend.ts';
-import { createCompiled } from './compiled.ts';
-import { createDevice, type Way } from './device.ts';
-import { createDocument } from './document.ts';
-import { createMacroRun } from './macroRun.ts';
-import { createMacros } from './macros.ts';
-import { createMotionTape } from './motionTape.ts';
+import { createBlend } from './driving/blend.ts';
+import { createCompiled } from './group/compiled.ts';
+import { createDevice, type Way } from './device/device.ts';
+import { createDocument } from './group/document.ts';
+import { createMacroRun } from './driving/macroRun.ts';
+import { createMacros } from './robots/macros.ts';
+import { createMotionTape } from './playing/motionTape.ts';
 import { createNotices } from './notices.ts';
-import { createPlayback } from './playback.ts';
-import { createPlayhead } from './playhead.ts';
-import { createPoses } from './poses.ts';
-import { createRobots } from './robots.ts';
-import { createSlots } from './slots.ts';
-import { createTimeline } from './timeline.ts';
+import { createPlayback } from './playing/playback.ts';
+import { createPlayhead } from './playing/playhead.ts';
+import { createPoses } from './driving/poses.ts';
+import { createRobots } from './robots/robots.ts';
+import { createSlots } from './slots/slots.ts';
+import { createTimeline } from './timeline/timeline.ts';
 import { createView } from './view.ts';
 
 const SIMULATED: Way = { kind: 'simulated', label: 'Simulated board', isSimulated: true };

@@ -4,8 +4,8 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Calibration } from '#shared/actions/robot/robotCalibration.ts';
 import { LANGUAGES, type Language } from '../words/words.ts';
-import type { TextStorage } from './document.ts';
-import { GENTLE_MOVE_MS, type MoveTime } from './moveTime.ts';
+import type { TextStorage } from './textStorage.ts';
+import { GENTLE_MOVE_MS, type MoveTime } from './device/moveTime.ts';
 import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
 
 /** On a wide screen all but the buttons are side by side. */

@@ -2,7 +2,7 @@
 // Escape does not (and stops the robot, as everywhere). Before it is asked for, the value of the selected key stands there.
 
 import { useStores, useTimeline } from '../stores/stores.ts';
-import type { Ask } from '../stores/timeline.ts';
+import type { Ask } from '../stores/timeline/timeline.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
 import { answer, ASKED } from './asks.ts';
@@ -11,7 +11,7 @@ import { endOfFrame, selectedKeys } from './groupTimes.ts';
 import { sizesNow } from './lanes.ts';
 import { scaleAt } from './positions.ts';
 import { sceneOf } from './scene.ts';
-import { xOf } from '../stores/timeScale.ts';
+import { xOf } from '../stores/timeline/timeScale.ts';
 import { useDesk, type SeenDesk } from './useDesk.ts';
 import styles from './AskBox.module.css';
 

@@ -6,7 +6,7 @@ import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { timesOf, type GroupTimes } from './groupTimes.ts';
 import { setTime } from './looking.ts';
-import { panned, seenSpan } from '../stores/timeScale.ts';
+import { panned, seenSpan } from '../stores/timeline/timeScale.ts';
 import styles from './Minimap.module.css';
 
 export function Minimap({ lanes }: { readonly lanes: string }) {

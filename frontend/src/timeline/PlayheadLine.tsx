@@ -3,7 +3,7 @@
 
 import { Drawing, type Pen } from '../body/Drawing.tsx';
 import { useStores } from '../stores/stores.ts';
-import { xOf } from '../stores/timeScale.ts';
+import { xOf } from '../stores/timeline/timeScale.ts';
 import styles from './Timeline.module.css';
 
 const LINE_PX = 1.5;

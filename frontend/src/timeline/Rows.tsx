@@ -3,7 +3,7 @@
 
 import { memo } from 'react';
 import { useDevice, useDocument, useRobot, useStores, useTimeline, useView } from '../stores/stores.ts';
-import { keyName, type KeySet } from '../stores/keySet.ts';
+import { keyName, type KeySet } from '../stores/timeline/keySet.ts';
 import { cx } from '../ui/cx.ts';
 import { useWords } from '../words/words.ts';
 import { nameOfKey } from './cellName.ts';
@@ -13,7 +13,7 @@ import type { Row } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';
 import { keyY, placedInSight } from './scene.ts';
 import type { Sizes } from './sizes.ts';
-import { seenSpan, xOf } from '../stores/timeScale.ts';
+import { seenSpan, xOf } from '../stores/timeline/timeScale.ts';
 import styles from './Rows.module.css';
 
 /** With more keys in sight only the cursor's row has cells, near the cursor. */

@@ -7,7 +7,7 @@ import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Hint } from '../ui/Hint.tsx';
 import { Select } from '../ui/Select.tsx';
-import type { KeySet } from '../stores/keySet.ts';
+import type { KeySet } from '../stores/timeline/keySet.ts';
 import { ToggleButton } from '../ui/ToggleButton.tsx';
 import { useWords, words } from '../words/words.ts';
 import { ease } from './changes.ts';

@@ -5,7 +5,7 @@ import { GROUP_NAME_LENGTH, NOTE_LENGTH } from '#shared/actions/group/group.ts';
 import { scaleAmplitude, setPositions } from '#shared/actions/group/keyEdits.ts';
 import { setNote } from '#shared/actions/group/frameEdits.ts';
 import { insertTime, stretch } from '#shared/actions/group/timeEdits.ts';
-import type { Ask } from '../stores/timeline.ts';
+import type { Ask } from '../stores/timeline/timeline.ts';
 import { numberIn } from '../ui/NumberField.tsx';
 import type { Scale } from '../servos/scale.ts';
 import { words } from '../words/words.ts';

@@ -1,6 +1,6 @@
 // What a row and a cell of the grid are called, for ears.
 
-import type { Cursor } from '../stores/timeline.ts';
+import type { Cursor } from '../stores/timeline/timeline.ts';
 import { words } from '../words/words.ts';
 import type { Desk } from './desk.ts';
 import { keysOfFrame } from './groupTimes.ts';

@@ -9,7 +9,7 @@ import { deleteMarker } from '#shared/actions/group/markerEdits.ts';
 import { deleteTime, reverse } from '#shared/actions/group/timeEdits.ts';
 import type { Label } from '#shared/actions/history.ts';
 import { keysAt, positionAt, type KeyRef } from '#shared/actions/group/tracks.ts';
-import { keySet, NO_KEYS } from '../stores/keySet.ts';
+import { keySet, NO_KEYS } from '../stores/timeline/keySet.ts';
 import { isHeld } from '../stores/servoView.ts';
 import { words } from '../words/words.ts';
 import {

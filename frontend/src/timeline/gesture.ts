@@ -3,12 +3,12 @@
 
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Label } from '#shared/actions/history.ts';
-import type { SelectMode } from '../stores/keySet.ts';
+import type { SelectMode } from '../stores/timeline/keySet.ts';
 import type { Words } from '../words/words.ts';
 import type { Desk, DeskStores } from './desk.ts';
 import type { Spot } from './hit.ts';
 import type { Sizes } from './sizes.ts';
-import { msAt } from '../stores/timeScale.ts';
+import { msAt } from '../stores/timeline/timeScale.ts';
 import { snapped } from './snap.ts';
 
 export type StatusName = keyof Words['timeline']['status'];

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { addMarker } from '#shared/actions/group/markerEdits.ts';
 import { editServoView } from '../stores/stores.ts';
-import type { Timeline } from '../stores/timeline.ts';
+import type { Timeline } from '../stores/timeline/timeline.ts';
 import { words } from '../words/words.ts';
 import { createTimelineDesk, smallGroup } from './timelineUnderTest.ts';
 

@@ -3,7 +3,7 @@
 
 import { moveMarker } from '#shared/actions/group/markerEdits.ts';
 import { setDuration, stretch, stretchBack } from '#shared/actions/group/timeEdits.ts';
-import { withKeys } from '../stores/keySet.ts';
+import { withKeys } from '../stores/timeline/keySet.ts';
 import { words } from '../words/words.ts';
 import { deskOf, select, type Desk } from './desk.ts';
 import {
@@ -22,7 +22,7 @@ import { keyGesture } from './keyGesture.ts';
 import { lookAt, selectFrame, setTime } from './looking.ts';
 import { sceneOf } from './scene.ts';
 import { toldOfBox, toldOfFrame, toldOfMarker, toldOfRange } from './told.ts';
-import { msAt, panned, seenSpan, xOf } from '../stores/timeScale.ts';
+import { msAt, panned, seenSpan, xOf } from '../stores/timeline/timeScale.ts';
 
 export function gestureOf(press: Press): Gesture {
   const desk = deskOf(press.stores);

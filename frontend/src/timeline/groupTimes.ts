@@ -12,7 +12,7 @@ import {
   type KeyRef,
   type Tracks,
 } from '#shared/actions/group/tracks.ts';
-import { refsOf, type KeySet } from '../stores/keySet.ts';
+import { refsOf, type KeySet } from '../stores/timeline/keySet.ts';
 
 export interface GroupTimes extends Places {
   readonly frames: readonly GroupFrame[];

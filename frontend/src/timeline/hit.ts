@@ -1,13 +1,13 @@
 // What is under the pointer. Pure; the same geometry as the painting.
 
-import type { KeySet } from '../stores/keySet.ts';
-import type { TimelineState } from '../stores/timeline.ts';
+import type { KeySet } from '../stores/timeline/keySet.ts';
+import type { TimelineState } from '../stores/timeline/timeline.ts';
 import type { KeyRef } from '#shared/actions/group/tracks.ts';
 import { keysOfFrame, selectedKeys, spanOf, type GroupTimes } from './groupTimes.ts';
 import type { PlacedRow, Row } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';
 import { keyY, type Scene } from './scene.ts';
-import { msAt, xOf, type Span } from '../stores/timeScale.ts';
+import { msAt, xOf, type Span } from '../stores/timeline/timeScale.ts';
 
 export type Hit =
   | { readonly kind: 'ruler'; readonly atMs: number }

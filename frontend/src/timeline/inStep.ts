@@ -5,9 +5,9 @@
 import { deskOf, select, type Desk, type DeskStores } from './desk.ts';
 import { endOfFrame, selectedKeys, timesOf } from './groupTimes.ts';
 import { fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
-import { paged, xOf } from '../stores/timeScale.ts';
-import { ALL_ROW, type TimelineState } from '../stores/timeline.ts';
-import { keyName, keySet, withKeys } from '../stores/keySet.ts';
+import { paged, xOf } from '../stores/timeline/timeScale.ts';
+import { ALL_ROW, type TimelineState } from '../stores/timeline/timeline.ts';
+import { keyName, keySet, withKeys } from '../stores/timeline/keySet.ts';
 
 export function keepInStep(stores: DeskStores): () => void {
   const { document, view, timeline } = stores;

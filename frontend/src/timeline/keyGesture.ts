@@ -1,7 +1,7 @@
 // A press on a key: it selects, asks for a number, or drags all selected keys in time and value.
 
 import type { KeyRef } from '#shared/actions/group/tracks.ts';
-import { keySet, withKeys } from '../stores/keySet.ts';
+import { keySet, withKeys } from '../stores/timeline/keySet.ts';
 import { words } from '../words/words.ts';
 import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
 import { draggedTo, edits, modeOf, nothing, type Gesture, type Held, type Press } from './gesture.ts';

@@ -6,14 +6,14 @@ import { deskOf, select, type DeskStores } from './desk.ts';
 import type { StatusName } from './gesture.ts';
 import { hasAll, hitAt, type Spot } from './hit.ts';
 import { hoverAt } from './hover.ts';
-import { keySet } from '../stores/keySet.ts';
+import { keySet } from '../stores/timeline/keySet.ts';
 import { lookOf, SCHEMES, type Look } from './look.ts';
 import { setTime } from './looking.ts';
 import { paint } from './paint.ts';
 import { followPointer } from './pointer.ts';
 import { sceneOf, type Scene } from './scene.ts';
 import { sizesOf, type Sizes } from './sizes.ts';
-import { panned, pinched, zoomedAt } from '../stores/timeScale.ts';
+import { panned, pinched, zoomedAt } from '../stores/timeline/timeScale.ts';
 import { isTouch } from '../ui/touch.ts';
 import { followWheel } from './wheel.ts';
 

@@ -1,12 +1,12 @@
 // The verbs that change what is looked at: playhead, cursor, zoom, loop range. None of them changes the group.
 
 import type { Key } from '#shared/actions/group/tracks.ts';
-import { ALL_ROW, type Cursor, type TimeView } from '../stores/timeline.ts';
-import { withKeys, type SelectMode } from '../stores/keySet.ts';
+import { ALL_ROW, type Cursor, type TimeView } from '../stores/timeline/timeline.ts';
+import { withKeys, type SelectMode } from '../stores/timeline/keySet.ts';
 import { setChanged } from '../stores/setChanged.ts';
 import { rowOf, select, type Desk } from './desk.ts';
 import { allKeys, endOfFrame, keysOfFrame, selectedKeys, spanOf } from './groupTimes.ts';
-import { fitted, showing, zoomedAt, type Span } from '../stores/timeScale.ts';
+import { fitted, showing, zoomedAt, type Span } from '../stores/timeline/timeScale.ts';
 import { beside, walked, type Cell, type Direction, type Grid } from './walk.ts';
 
 const ZOOM = 1.5;

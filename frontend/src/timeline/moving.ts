@@ -4,7 +4,7 @@ import { moveKeys, boundedMove, type KeyMove } from '#shared/actions/group/keyEd
 import { keysAt, type Key, type KeyRef } from '#shared/actions/group/tracks.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { words } from '../words/words.ts';
-import type { Cursor } from '../stores/timeline.ts';
+import type { Cursor } from '../stores/timeline/timeline.ts';
 import { cellName } from './cellName.ts';
 import { apply, changeable, hasChangeable, rangeOf, rowOf, type Desk } from './desk.ts';
 import { keyOf, timesOf, type GroupTimes } from './groupTimes.ts';

@@ -2,7 +2,7 @@
 
 import type { Key } from '#shared/actions/group/tracks.ts';
 import { CURVES } from '#shared/actions/group/easings.ts';
-import { keyName } from '../stores/keySet.ts';
+import { keyName } from '../stores/timeline/keySet.ts';
 import { handleX, HANDLES, stretchOf } from './hit.ts';
 import type { Brush } from './brush.ts';
 import type { Look } from './look.ts';
@@ -11,7 +11,7 @@ import { changedStretch, isWithin, wholeOf, type Stretch } from './repaint.ts';
 import type { PlacedRow } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';
 import { keyY, type Scene } from './scene.ts';
-import { msAt, seenSpan, xOf } from '../stores/timeScale.ts';
+import { msAt, seenSpan, xOf } from '../stores/timeline/timeScale.ts';
 import { topOfRows } from './sizes.ts';
 import { keysOfFrame } from './groupTimes.ts';
 

@@ -5,7 +5,7 @@ import { hasAll } from './hit.ts';
 import { colourOf } from './look.ts';
 import { marksWithin, markStep } from './marks.ts';
 import type { Brush } from './brush.ts';
-import { seenSpan, xOf } from '../stores/timeScale.ts';
+import { seenSpan, xOf } from '../stores/timeline/timeScale.ts';
 
 /** Narrower heads carry no number. */
 const NUMBER_PX = 22;

@@ -5,7 +5,7 @@ import type { GroupFrame } from '#shared/actions/group/group.ts';
 import type { PlacedRow } from './rows.ts';
 import { keysInRow } from './rowKeys.ts';
 import type { Scene } from './scene.ts';
-import { xOf } from '../stores/timeScale.ts';
+import { xOf } from '../stores/timeline/timeScale.ts';
 
 export interface Stretch {
   readonly left: number;

@@ -3,7 +3,7 @@
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
 import type { ServoView } from '../stores/servoView.ts';
-import { ALL_ROW } from '../stores/timeline.ts';
+import { ALL_ROW } from '../stores/timeline/timeline.ts';
 
 export interface Row {
   readonly id: string;

@@ -3,7 +3,7 @@
 import type { Marker } from '#shared/actions/group/group.ts';
 import { positionRange, type Family, type Range } from '#shared/protocol/families.ts';
 import { isHeld, isSilent } from '../stores/servoView.ts';
-import { ALL_ROW, type TimelineState } from '../stores/timeline.ts';
+import { ALL_ROW, type TimelineState } from '../stores/timeline/timeline.ts';
 import { selectedKeys, type GroupTimes } from './groupTimes.ts';
 import type { Desk } from './desk.ts';
 import { placedRows, seenRows, type PlacedRow, type Row } from './rows.ts';

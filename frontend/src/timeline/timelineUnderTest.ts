@@ -4,9 +4,9 @@
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { createDesk } from '../stores/deskUnderTest.ts';
-import { createDocument } from '../stores/document.ts';
-import { refsOf, keySet } from '../stores/keySet.ts';
-import { createTimeline } from '../stores/timeline.ts';
+import { createDocument } from '../stores/group/document.ts';
+import { refsOf, keySet } from '../stores/timeline/keySet.ts';
+import { createTimeline } from '../stores/timeline/timeline.ts';
 import { createView } from '../stores/view.ts';
 import { deskOf, select } from './desk.ts';
 import type { Held } from './gesture.ts';
@@ -14,7 +14,7 @@ import { gestureOf } from './gestures.ts';
 import { actionOf } from './keymap.ts';
 import { keyY, sceneOf } from './scene.ts';
 import { sizesOf } from './sizes.ts';
-import { xOf } from '../stores/timeScale.ts';
+import { xOf } from '../stores/timeline/timeScale.ts';
 
 const at = (...positions: readonly (number | null)[]) =>
   positions.flatMap((position, index) => (position === null ? [] : [{ servo: index + 1, position }]));

@@ -1,6 +1,6 @@
 // What is dragged, in words: where it is by now. Read while the hand is still on it; changes nothing.
 
-import type { Cursor } from '../stores/timeline.ts';
+import type { Cursor } from '../stores/timeline/timeline.ts';
 import { words } from '../words/words.ts';
 import { cellName } from './cellName.ts';
 import { deskOf, type DeskStores } from './desk.ts';

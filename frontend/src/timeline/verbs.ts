@@ -1,7 +1,7 @@
 // The verbs of the timeline by name, each with what it needs: toolbar, menu and keys all lead here.
 
 import type { IconName } from '../ui/Icon.tsx';
-import type { Ask, TimelineState } from '../stores/timeline.ts';
+import type { Ask, TimelineState } from '../stores/timeline/timeline.ts';
 import type { Words } from '../words/words.ts';
 import {
   copy,

@@ -1,6 +1,6 @@
 // Where the arrow keys lead in the grid: along a row from key to key, across the rows to the key that is nearest in time. Pure.
 
-import type { Cursor } from '../stores/timeline.ts';
+import type { Cursor } from '../stores/timeline/timeline.ts';
 
 export type Direction = 'left' | 'right' | 'up' | 'down';
 

@@ -3,7 +3,7 @@
 
 import { sameList } from '#shared/actions/group/groupEdits.ts';
 import type { Key } from '#shared/actions/group/tracks.ts';
-import type { KeySet } from '../stores/keySet.ts';
+import type { KeySet } from '../stores/timeline/keySet.ts';
 import { useDocument, useTimeline } from '../stores/stores.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { useRows } from './useRows.ts';

@@ -1,7 +1,7 @@
 // The slim bar: which robot, how it is linked, what goes on, the battery. The right end is kept free for STOP.
 
 import { useStore } from 'zustand';
-import { nameOf } from '../stores/boards.ts';
+import { nameOf } from '../stores/device/boards.ts';
 import { useDevice, useStores, useView } from '../stores/stores.ts';
 import type { Theme } from '../stores/view.ts';
 import { RobotButton } from '../robots/RobotButton.tsx';

@@ -18,9 +18,10 @@ import {
   type Stored,
 } from '#shared/actions/library/keeper.ts';
 import { words } from '../../words/words.ts';
-import type { Document, TextStorage } from '../document.ts';
+import type { Document } from '../group/document.ts';
+import type { TextStorage } from '../textStorage.ts';
 import type { Notices } from '../notices.ts';
-import type { RobotStore } from '../robots.ts';
+import type { RobotStore } from '../robots/robots.ts';
 import type { View } from '../view.ts';
 import { groupOf } from './groupOf.ts';
 import { createLibraryFiles, type LibraryFiles } from './libraryFiles.ts';

@@ -3,9 +3,9 @@
 import type { Keeper } from '#shared/actions/library/keeper.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import type { VirtualClock } from '#shared/simulator/virtualClock.ts';
-import { createDocument } from '../document.ts';
+import { createDocument } from '../group/document.ts';
 import { createNotices } from '../notices.ts';
-import { createRobots } from '../robots.ts';
+import { createRobots } from '../robots/robots.ts';
 import { createView } from '../view.ts';
 import { createLibrary } from './library.ts';
 

@@ -4,7 +4,7 @@ import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { groupToText } from '#shared/actions/group/groupText.ts';
 import type { Keeper, Version } from '#shared/actions/library/keeper.ts';
 import { words } from '../../words/words.ts';
-import type { Document } from '../document.ts';
+import type { Document } from '../group/document.ts';
 import type { Notices } from '../notices.ts';
 import { groupOf } from './groupOf.ts';
 

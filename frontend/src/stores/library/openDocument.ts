@@ -5,7 +5,8 @@ import * as z from 'zod/mini';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { sameGroup } from '#shared/actions/group/groupText.ts';
 import { record, startHistory, type History, type Label } from '#shared/actions/history.ts';
-import type { Document, TextStorage } from '../document.ts';
+import type { Document } from '../group/document.ts';
+import type { TextStorage } from '../textStorage.ts';
 
 export interface OpenDocument {
   id(): string;

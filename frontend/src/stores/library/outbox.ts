@@ -3,7 +3,7 @@
 
 import * as z from 'zod/mini';
 import type { Stored } from '#shared/actions/library/keeper.ts';
-import type { TextStorage } from '../document.ts';
+import type { TextStorage } from '../textStorage.ts';
 
 export interface Outbox {
   entries(): readonly (readonly [id: string, unkept: Stored])[];

@@ -1,0 +1,106 @@
+// What a low battery brings about, as the person chose for the robot: they are told, new runs are refused, the robot goes to
+// rest and is stopped. The one place where the battery acts, only on readings that agree and are fresh, and on
+// a shared robot only where it is driven from.
+
+import { isActionable, type Level } from '#shared/actions/battery/batteryGauge.ts';
+import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
+import { words } from '../../words/words.ts';
+import type { BatteryStore } from './battery.ts';
+import type { Device } from '../device/device.ts';
+import type { Notices } from '../notices.ts';
+import { motionHindrance } from '../device/readiness.ts';
+import type { RobotStore } from '../robots/robots.ts';
+
+export interface BatteryPolicyOptions {
+  readonly device: Device;
+  readonly battery: BatteryStore;
+  readonly robots: RobotStore;
+  readonly notices: Notices;
+}
+
+/** Time to step back, or to press Stop. */
+export const REST_WARNING_MS = 5000;
+export const REST_MOVE_MS = 3000;
+const LOOK_EVERY_MS = 200;
+/** Whatever keeps it from its rest, it is stopped by then. */
+const REST_LIMIT_MS = 4 * REST_MOVE_MS;
+
+export function applyBatteryPolicy({ device, battery, robots, notices }: BatteryPolicyOptions): void {
+  const { clock } = device;
+  let toldLevel: Level = 'good';
+  let restIsDue = false;
+  let cancelRest: (() => void) | null = null;
+
+  const policy = (): BatteryPolicy => robots.current().robot.batteryCare.policy;
+  const volts = (): string => words.battery.volts(battery.getState().gauge.restMv ?? 0);
+  const isAlarm = (): boolean => actionableLevel() === 'danger';
+  const hindrance = () => motionHindrance(device.store.getState().snapshot);
+
+  function actionableLevel(): Level | null {
+    const { gauge, supply } = battery.getState();
+    return isActionable(gauge, supply, clock.now()) ? gauge.level : null;
+  }
+
+  function judge(): void {
+    if (battery.getState().gauge.level === null) toldLevel = 'good';
+    const level = actionableLevel();
+    if (level === null) return;
+    if (SEVERITY[level] > SEVERITY[toldLevel]) cross(level);
+    toldLevel = level;
+    if (level !== 'danger') restIsDue = false;
+    if (restIsDue && cancelRest === null && mayRest()) announceRest();
+  }
+
+  function cross(level: Level): void {
+    restIsDue = level === 'danger' && policy() === 'rest';
+    if (level !== 'danger') notices.tell('warning', words.battery.warned(volts()));
+    else if (policy() === 'tell') notices.tell('danger', words.battery.alarmed(volts()));
+    else notices.tell('danger', words.battery.alarmedRefusing(volts()));
+  }
+
+  const mayRest = (): boolean =>
+    policy() === 'rest' && isAlarm() && hindrance() === null && device.isAtRest();
+
+  function announceRest(): void {
+    notices.tell('danger', words.battery.goingToRest(REST_WARNING_MS));
+    cancelRest = clock.after(REST_WARNING_MS, () => {
+      cancelRest = null;
+      if (mayRest()) goToRest();
+    });
+  }
+
+  /** Servos that nobody moved in this visit stay: where they would come from, nobody knows. */
+  function goToRest(): void {
+    restIsDue = false;
+    const known = robots.current().robot.servos.filter(({ servo }) => device.motion(servo).target !== null);
+    const homes = known.map(({ servo, home }) => ({ servo, position: home }));
+    if (homes.length > 0) device.move(homes, REST_MOVE_MS);
+    const untilMs = clock.now() + REST_LIMIT_MS;
+    const hasArrived = (): boolean =>
+      homes.every(({ servo, position }) => device.motion(servo).estimated === position);
+    cancelRest = clock.after(LOOK_EVERY_MS, function look() {
+      const isThere = hasArrived() || clock.now() >= untilMs;
+      cancelRest = isThere ? null : clock.after(LOOK_EVERY_MS, look);
+      if (isThere) device.halt();
+    });
+  }
+
+  /** A stop or a lost link ends it: a person looks first. */
+  function giveUpWhereStopped(): void {
+    const why = hindrance();
+    if (why === null || why === 'busy') return;
+    restIsDue = false;
+    cancelRest?.();
+    cancelRest = null;
+  }
+
+  battery.subscribe(judge);
+  device.store.subscribe(giveUpWhereStopped);
+  device.guardRuns((anyway) => {
+    if (policy() === 'tell' || !isAlarm()) return true;
+    notices.tell('warning', words.battery.runRefused(volts()), { label: words.battery.anyway, act: anyway });
+    return false;
+  });
+}
+
+const SEVERITY: Readonly<Record<Level, number>> = { good: 0, warning: 1, danger: 2 };

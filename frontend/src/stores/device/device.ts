@@ -1,0 +1,376 @@
+// The robot as the page sees it: wraps one session at a time, keeps its latest snapshot, and turns intents of the panels into
+// calls whose failures become notices. Live, never undoable; knows no transport and no panel. What changes in each frame is asked
+// for and not in the store: whoever listens to that would be woken for it.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import { sameList } from '#shared/actions/group/groupEdits.ts';
+import { fromBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
+import type { Clock } from '#shared/clock.ts';
+import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
+import type { Family } from '#shared/protocol/families.ts';
+import type { LeaseAction } from '#shared/session/lease.ts';
+import { LinkError } from '#shared/session/linkError.ts';
+import type { Session } from '#shared/session/session.ts';
+import { INITIAL_STATE } from '#shared/session/store.ts';
+import type { ServoMotion, SessionState } from '#shared/session/state.ts';
+import type { SlotGroup, Transport } from '#shared/session/transport.ts';
+import { words } from '../../words/words.ts';
+import { createLimitGate } from './limitGate.ts';
+import { moveDurationMs, type Pace } from './moveTime.ts';
+import { createMovingWatch } from './movingWatch.ts';
+import type { Notices } from '../notices.ts';
+import type { RobotStore } from '../robots/robots.ts';
+import { createTargetBook } from './targetBook.ts';
+import { createTrafficLog, type TrafficLog } from './traffic.ts';
+
+/** Which way leads to the robot, and the name of the port or machine for people. */
+export interface Way {
+  readonly kind: Transport['kind'];
+  readonly label: string;
+  /** Nothing real moves, whichever way leads there. */
+  readonly isSimulated: boolean;
+}
+
+export interface DeviceState {
+  readonly family: Family;
+  readonly way: Way | null;
+  readonly snapshot: SessionState;
+  /** Servos that were asked for something; where another one is nobody knows. */
+  readonly known: readonly number[];
+  /** A servo is on its way, so far as anybody can know; looked at now and then, and kept for a moment between two moves. */
+  readonly isMoving: boolean;
+}
+
+export interface Device {
+  readonly store: StoreApi<DeviceState>;
+  readonly traffic: TrafficLog;
+  readonly clock: Clock;
+  /** Takes the session over and closes the one before it. */
+  attach(session: Session, way: Way): void;
+  /** What the session's way leads to became known. */
+  describe(session: Session, way: Way): void;
+  detach(): Promise<void>;
+  /** What it was last asked for, from the moment on that it was, and where it is by now. */
+  motion(servo: number): ServoMotion;
+  /** What the robot was last asked for, without servos that nobody asked for anything. */
+  pose(): readonly ServoTarget[];
+  /** Nothing moves and nothing is under way, so far as anybody can know. */
+  isAtRest(): boolean;
+  /** From now on each run and each playing asks first; `anyway` begins what was refused, once. */
+  guardRuns(mayBegin: RunGuard): void;
+  /** Looks what became of the motion; to be called while the page is drawn, once a frame. */
+  refresh(): void;
+  /** Servos whose newest target has not left yet. */
+  waiting(): number;
+  /** False where it was refused; then the person was told why. */
+  move(targets: readonly ServoTarget[], pace: Pace): boolean;
+  /** As `move`, between two frames: the store has what comes of it with the next one. */
+  drag(targets: readonly ServoTarget[], pace: Pace): boolean;
+  /** This servo's limits are looked for: `creep` moves it, past the present ones too. null: no longer. */
+  calibrate(servo: number | null): void;
+  /** Moves the servo that is calibrated, as far as its board can. */
+  creep(position: number, durationMs: number): void;
+  halt(): void;
+  resume(): void;
+  /** About who drives a robot that is shared. */
+  lease(action: LeaseAction): void;
+  /** The run under way may go on without this page, for so long at most; null: it may not. */
+  letGoOn(forMs: number | null): void;
+  retryNow(): void;
+  /** Holds for later sessions too. */
+  setAutoReconnect(enabled: boolean): void;
+  identify(): void;
+  choose(family: Family): void;
+  /** `settled` hears whether the board took it, as far as anybody can know. */
+  run(slot: number, times: number, settled?: Settled): void;
+  stopGroup(): void;
+  /** `settled` hears whether the board said so. */
+  erase(settled?: Settled): void;
+  readBattery(): void;
+  /** Unasked, so nobody is told that it failed: another screen's question may have met this one on the board (S52). */
+  watchBattery(): void;
+  readPositions(servos: readonly number[]): void;
+  /** Firmware and trims, one question after the other. */
+  readDetails(): void;
+  setSpeed(slot: number | null, percent: number): void;
+  release(servos: readonly number[]): void;
+  sendRaw(packet: Uint8Array): void;
+  /** One after the other. `settled` hears whether all of them are stored. */
+  download(groups: readonly SlotGroup[], settled?: Settled): void;
+  cancelDownload(): void;
+  /** `times` 0: until stopped. `settled` hears whether the last frame was played: not after a pause, a stop or a failure. */
+  play(frames: readonly Frame[], times: number, settled: Settled): void;
+  stopPlaying(): void;
+}
+
+export type Settled = (isDone: boolean) => void;
+
+/** Whether something may begin to run now. Where not, it tells the person and may offer to begin it anyway. */
+export type RunGuard = (anyway: () => void) => boolean;
+
+const NOTHING = { way: null, snapshot: INITIAL_STATE, known: [], isMoving: false } as const;
+
+const NO_MOTION: ServoMotion = { target: null, estimated: null };
+
+export interface DeviceOptions {
+  readonly family: Family;
+  readonly clock: Clock;
+  readonly notices: Notices;
+  /** Whose limits and trims hold for everything that moves. */
+  readonly robots: RobotStore;
+}
+
+export function createDevice({ family, clock, notices, robots }: DeviceOptions): Device {
+  const store = createStore<DeviceState>(() => ({ family, ...NOTHING }));
+  const traffic = createTrafficLog();
+  const book = createTargetBook(clock);
+  const watch = createMovingWatch(clock, isUnderWay);
+  let session: Session | null = null;
+  let unsubscribe = (): void => undefined;
+  let paused = false;
+  let autoReconnect = true;
+  let mayBegin: RunGuard = () => true;
+  let saidOfResume = '';
+  let calibrated: number | null = null;
+
+  const setPaused = (on: boolean): boolean => (paused = on);
+  const robot = (): Robot => robots.current().robot;
+  const meant = (servo: number, onBoardAt: number): number => fromBoard(robot(), servo, onBoardAt);
+  const gate = createLimitGate(robot, (refusal) => notices.tell('warning', refusal));
+
+  /** On a link of one's own it is the last one described for such a board. */
+  function takeUpRobot({ family: connected, robotOnBoard }: SessionState): void {
+    if (robotOnBoard === null && connected.id !== 'unknown') robots.takeUpFor(connected.id);
+  }
+
+  robots.store.subscribe(() => takeUpRobot(store.getState().snapshot));
+
+  function motion(servo: number): ServoMotion {
+    if (session === null) return NO_MOTION;
+    const { target, estimated } = session.motion(servo);
+    const sent = target === null ? null : Math.round(meant(servo, target));
+    return {
+      target: book.target(servo, sent, session.state.waitingToStart.includes(servo)),
+      estimated: estimated === null ? null : meant(servo, estimated),
+    };
+  }
+
+  function pose(): readonly ServoTarget[] {
+    const asked = robot().servos.flatMap(({ servo }) => {
+      const { target } = motion(servo);
+      return target === null ? [] : [{ servo, position: target }];
+    });
+    return asked.toSorted((one, other) => one.servo - other.servo);
+  }
+
+  function isAtRest(): boolean {
+    return store.getState().snapshot.activity.kind === 'idle' && !isUnderWay();
+  }
+
+  function isUnderWay(): boolean {
+    return robot().servos.some(({ servo }) => {
+      const { target, estimated } = motion(servo);
+      // Without a target we moved it nowhere, even where the board told of it.
+      return target !== null && target !== estimated;
+    });
+  }
+
+  function refresh(): void {
+    const before = store.getState();
+    const servos = robot().servos.map(({ servo }) => servo);
+    const known = sameList(
+      before.known,
+      servos.filter((servo) => motion(servo).target !== null),
+    );
+    if (known !== before.known) store.setState({ known });
+    const isMoving = watch.isMoving();
+    if (isMoving !== before.isMoving) store.setState({ isMoving });
+  }
+
+  /** What a latch or a failure swallowed will not come. */
+  function forgetWishes(): void {
+    book.clear();
+    refresh();
+  }
+
+  function noteState(snapshot: SessionState): void {
+    const wasReady = store.getState().snapshot.link.status === 'ready';
+    takeUpRobot(snapshot);
+    if (!wasReady && snapshot.link.status === 'ready' && calibrated !== null) session?.calibrate(calibrated);
+    // First into the log: whoever hears of the state may send something at once.
+    traffic.note(snapshot, clock.now(), snapshot.family.id);
+    store.setState({ snapshot, family: snapshot.family });
+    if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
+    if (snapshot.latch !== null) notices.takeBack(saidOfResume);
+  }
+
+  function noteResumed(by: string): void {
+    saidOfResume = words.stop.resumed(by);
+    notices.tell('info', saidOfResume);
+  }
+
+  function noteProblem(error: unknown): void {
+    forgetWishes();
+    notices.tellError(error);
+  }
+
+  /** False where it was refused; then the person was told why. */
+  function send(targets: readonly ServoTarget[], pace: Pace): boolean {
+    if (session === null) return false;
+    try {
+      session.move(onBoard(robot(), targets), moveDurationMs(pace, targets, session.state.family, motion));
+      book.wish(targets);
+      return true;
+    } catch (error) {
+      notices.tellError(error);
+      return false;
+    }
+  }
+
+  function drag(targets: readonly ServoTarget[], pace: Pace): boolean {
+    return session !== null && gate.targets(targets) !== null && send(targets, pace);
+  }
+
+  function attempt(work: (session: Session) => Promise<unknown>, settled: Settled = () => undefined): void {
+    if (session === null) return settled(false);
+    work(session).then(
+      (isDone) => settled(isDone !== false),
+      (error: unknown) => {
+        notices.tellError(error);
+        settled(false);
+      },
+    );
+  }
+
+  /** As `attempt`, where nothing forbids that something runs. */
+  function attemptRun(
+    work: (session: Session) => Promise<unknown>,
+    settled: Settled = () => undefined,
+  ): void {
+    const asked = session;
+    const anyway = (): void => {
+      if (session === asked) attempt(work);
+    };
+    if (session !== null && mayBegin(anyway)) attempt(work, settled);
+    else settled(false);
+  }
+
+  async function detach(): Promise<void> {
+    const former = session;
+    unsubscribe();
+    // Whoever hears of it still finds where the robot was sent.
+    store.setState(NOTHING);
+    session = null;
+    book.clear();
+    traffic.note(INITIAL_STATE, clock.now(), store.getState().family.id);
+    await former?.close();
+  }
+
+  /** False where it was called off. */
+  async function downloadTo(current: Session, groups: readonly SlotGroup[]): Promise<boolean> {
+    const slots = groups.map(({ slot }) => slot);
+    try {
+      await current.download(groups);
+      notices.tell('info', words.board.downloaded(slots));
+      return true;
+    } catch (error) {
+      if (!(error instanceof LinkError && error.code === 'cancelled')) throw error;
+      const broken = slots.find((slot) => current.state.brokenSlots.includes(slot));
+      notices.tell('warning', words.board.downloadCancelled(broken ?? null));
+      return false;
+    }
+  }
+
+  return {
+    store,
+    traffic,
+    clock,
+    attach(next, way) {
+      void detach();
+      session = next;
+      session.setAutoReconnect(autoReconnect);
+      store.setState({ way });
+      noteState(next.state);
+      unsubscribe = next.subscribe({
+        state: noteState,
+        traffic: (entry) => traffic.add(entry, next.state.family.id),
+        problem: noteProblem,
+        resumed: noteResumed,
+      });
+    },
+    describe(described, way) {
+      if (described === session) store.setState({ way });
+    },
+    detach,
+    motion,
+    pose,
+    isAtRest,
+    guardRuns: (guard) => (mayBegin = guard),
+    refresh,
+    waiting: book.waiting,
+    move(targets, pace) {
+      const isSent = drag(targets, pace);
+      if (isSent) refresh();
+      return isSent;
+    },
+    drag,
+    calibrate(servo) {
+      calibrated = servo;
+      session?.calibrate(servo);
+    },
+    creep(position, durationMs) {
+      if (calibrated !== null && send([{ servo: calibrated, position }], durationMs)) refresh();
+    },
+    halt: () => attempt((current) => current.halt()),
+    resume: () => attempt((current) => current.resume()),
+    lease: (action) => session?.lease(action),
+    letGoOn: (forMs) => session?.letGoOn(forMs),
+    retryNow: () => session?.retryNow(),
+    setAutoReconnect(enabled) {
+      autoReconnect = enabled;
+      session?.setAutoReconnect(enabled);
+    },
+    identify: () => attempt((current) => current.identify()),
+    choose: (chosen) => attempt((current) => current.choose(chosen)),
+    run: (slot, times, settled) => attemptRun((current) => current.run(slot, times), settled),
+    stopGroup: () => attempt((current) => current.stopGroup()),
+    erase: (settled) =>
+      attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased)), settled),
+    readBattery: () => attempt((current) => current.readBattery()),
+    watchBattery: () => void session?.readBattery().catch(() => undefined),
+    readPositions: (servos) => attempt((current) => current.readPositions(servos)),
+    readDetails: () => attempt((current) => current.readVersion().then(() => current.readOffsets())),
+    setSpeed: (slot, percent) =>
+      attempt((current) =>
+        current
+          .setSpeed(slot, percent)
+          .then(() => notices.tell('info', words.board.speedSent(slot, percent))),
+      ),
+    release: (servos) => attempt((current) => current.release(servos)),
+    download(groups, settled = () => undefined) {
+      const onIt = gate.groups(groups);
+      if (onIt === null) settled(false);
+      else attempt((current) => downloadTo(current, onIt), settled);
+    },
+    sendRaw(packet) {
+      if (gate.lets(packet)) attempt((current) => current.sendRaw(packet));
+    },
+    cancelDownload: () => attempt((current) => current.cancelDownload()),
+    play(frames, times, settled) {
+      const onIt = gate.frames(frames);
+      if (onIt === null) {
+        settled(false);
+        return;
+      }
+      attemptRun(async (current) => {
+        setPaused(false);
+        await current.play(onIt, { times });
+        return !paused && current.state.latch === null && current.state.link.status === 'ready';
+      }, settled);
+    },
+    stopPlaying() {
+      setPaused(true);
+      session?.stopPlaying();
+    },
+  };
+}

@@ -1,0 +1,154 @@
+import { describe, expect, test } from 'vitest';
+import { addMacro } from '#shared/actions/macros/macroEdits.ts';
+import { macroOf, type Macro, type MacroStep } from '#shared/actions/macros/macro.ts';
+import { addPose } from '#shared/actions/poses/poseEdits.ts';
+import { createDesk } from '../deskUnderTest.ts';
+
+const GO = (pose: number, durationMs = 1500): MacroStep => ({ kind: 'pose', pose, durationMs });
+const WAIT: MacroStep = { kind: 'wait', waitMs: 1000 };
+const RUN: MacroStep = { kind: 'slot', slot: 5, times: 1 };
+
+async function deskWith(...steps: readonly MacroStep[]) {
+  const desk = await createDesk();
+  const at = (position: number) => ({ unit: 'us' as const, targets: [{ servo: 1, position }] });
+  desk.poses.book.edit(
+    () => 'capture',
+    (book) => addPose(book, { name: 'Wave', ...at(1800) }),
+  );
+  desk.poses.book.edit(
+    () => 'capture',
+    (book) => addPose(book, { name: 'Bow', ...at(1200) }),
+  );
+  desk.macros.edit(
+    () => 'add',
+    (page) => addMacro(page, 'Greet', steps),
+  );
+  const greet: Macro = macroOf(desk.macros.store.getState().present, 1)!;
+  const positions = () => desk.moves().map(({ targets }) => targets[0]?.position);
+  const step = () => desk.macroRun.store.getState()?.stepIndex ?? null;
+  return { ...desk, greet, positions, step };
+}
+
+describe('a button', () => {
+  test('does its steps one after another and then is done', async () => {
+    const { macroRun, greet, positions, step, clock, book } = await deskWith(GO(1), WAIT, GO(2, 500));
+    macroRun.start(greet);
+    await clock.advance(1400);
+    expect([positions(), step()]).toEqual([[1800], 0]);
+    await clock.advance(1000);
+    expect([positions(), step()]).toEqual([[1800], 1]);
+    await clock.advance(400);
+    expect([positions(), step()]).toEqual([[1800, 1200], 2]);
+    await clock.advance(600);
+    expect(step()).toBeNull();
+    expect(book().applied).toBe(2);
+  });
+
+  test('waits for a first move, which is slow whatever was asked for', async () => {
+    const { macroRun, greet, positions, clock } = await deskWith(GO(1, 100), GO(2, 100));
+    macroRun.start(greet);
+    await clock.advance(1400);
+    expect(positions()).toEqual([1800]);
+    await clock.advance(200);
+    expect(positions()).toEqual([1800, 1200]);
+  });
+
+  test('goes on behind a slot once the board says that the group has ended', async () => {
+    const { macroRun, greet, positions, step, clock, device, ofKind } = await deskWith(RUN, GO(2));
+    device.download([
+      {
+        slot: 5,
+        frames: [
+          { durationMs: 2000, targets: [{ servo: 1, position: 1600 }] },
+          { durationMs: 2000, targets: [{ servo: 1, position: 1500 }] },
+        ],
+      },
+    ]);
+    await clock.advance(4000);
+    macroRun.start(greet);
+    await clock.advance(2000);
+    expect(ofKind('run')).toEqual([{ kind: 'run', slot: 5, times: 1 }]);
+    expect([positions(), step()]).toEqual([[], 0]);
+    await clock.advance(4000);
+    expect(positions()).toEqual([1200]);
+  });
+
+  test.each([
+    ['STOP', (desk: Awaited<ReturnType<typeof deskWith>>) => desk.device.halt()],
+    ['a pulled cable', (desk: Awaited<ReturnType<typeof deskWith>>) => desk.transport.unplug()],
+    ['another robot', (desk: Awaited<ReturnType<typeof deskWith>>) => desk.robots.duplicate()],
+    ['its second press', (desk: Awaited<ReturnType<typeof deskWith>>) => desk.macroRun.end()],
+  ])('is ended for good by %s, also after Resume', async (_, end) => {
+    const desk = await deskWith(WAIT, { kind: 'pose', pose: 'home', durationMs: 500 });
+    desk.macroRun.start(desk.greet);
+    await desk.clock.advance(500);
+    end(desk);
+    await desk.clock.advance(300);
+    expect(desk.step()).toBeNull();
+    desk.device.resume();
+    await desk.clock.advance(5000);
+    expect(desk.positions()).toEqual([]);
+  });
+
+  test('ended during a slot, the group on the board is ended too', async () => {
+    const { macroRun, greet, clock, device, ofKind } = await deskWith(RUN, GO(2));
+    device.download([
+      {
+        slot: 5,
+        frames: [
+          { durationMs: 5000, targets: [{ servo: 1, position: 1600 }] },
+          { durationMs: 5000, targets: [{ servo: 1, position: 1500 }] },
+        ],
+      },
+    ]);
+    await clock.advance(4000);
+    macroRun.start(greet);
+    await clock.advance(500);
+    macroRun.end();
+    await clock.advance(12_000);
+    expect(ofKind('stop').length).toBeGreaterThan(0);
+    expect(ofKind('move')).toEqual([]);
+  });
+
+  test('goes no further where the run of its slot is refused', async () => {
+    const { macroRun, greet, step, clock, device, heard } = await deskWith(RUN, GO(2));
+    device.guardRuns(() => false);
+    macroRun.start(greet);
+    await clock.advance(5000);
+    expect(step()).toBeNull();
+    expect(heard).toEqual([]);
+  });
+
+  test('never begins while stopped, while another is at work, or without steps', async () => {
+    const { macroRun, greet, step, clock, device, told, positions } = await deskWith(GO(1, 3000));
+    macroRun.start({ ...greet, steps: [] });
+    device.halt();
+    await clock.advance(500);
+    macroRun.start(greet);
+    expect(step()).toBeNull();
+    expect(told()).toEqual(['This button has no steps yet.', 'Stopped. Resume to move.']);
+    device.resume();
+    await clock.advance(500);
+    macroRun.start(greet);
+    macroRun.start({ ...greet, id: 9, steps: [GO(2)] });
+    await clock.advance(5000);
+    expect(positions()).toEqual([1800]);
+  });
+
+  test('with a step that cannot be, begins none of its steps', async () => {
+    const desk = await deskWith(GO(1), GO(2));
+    desk.robots.edit(
+      () => 'limits',
+      (robot) => ({
+        ...robot,
+        servos: robot.servos.map((servo) => (servo.servo === 1 ? { ...servo, min: 1300 } : servo)),
+      }),
+    );
+    desk.macroRun.start(desk.greet);
+    desk.macroRun.start({ ...desk.greet, steps: [GO(1), GO(7)] });
+    await desk.clock.advance(5000);
+    expect(desk.positions()).toEqual([]);
+    expect(desk.told()[0]).toContain('Gripper: 1200 is out of range');
+    expect(desk.told()[1]).toContain('This pose is gone');
+  });
+});

@@ -1,0 +1,211 @@
+// Driving by pad and keys: reads them once a frame and sends what the robot's mapping makes of them. Off until a person switches
+// it on, and off again with STOP, the link, the pad or the robot gone. Knows no panel and no browser event.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { Clock } from '#shared/clock.ts';
+import type { Input, Mapping } from '#shared/actions/mapping/mapping.ts';
+import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/actions/mapping/mappingInputs.ts';
+import { AT_REST, step, type DriveState } from '#shared/actions/mapping/mappingStep.ts';
+import { servoOf } from '#shared/actions/robot/robot.ts';
+import { words } from '../../words/words.ts';
+import type { Device } from '../device/device.ts';
+import type { Notices } from '../notices.ts';
+import { motionHindrance } from '../device/readiness.ts';
+import type { RobotStore } from '../robots/robots.ts';
+import type { Undoable } from '../undoable.ts';
+
+/** What is needed of a pad of the browser. */
+export interface Gamepadlike {
+  readonly id: string;
+  readonly index: number;
+  readonly mapping: string;
+  readonly axes: readonly number[];
+  readonly buttons: readonly { readonly value: number }[];
+}
+
+export interface PadState {
+  readonly isDriving: boolean;
+  /** null: none is there, or none was touched yet; browsers hide it until then. */
+  readonly pad: { readonly name: string; readonly isStandard: boolean } | null;
+}
+
+export interface Pad {
+  readonly store: StoreApi<PadState>;
+  /** As they were at the last frame, for pictures. */
+  inputs(): Inputs;
+  /** To be called once a frame, while the page is drawn. */
+  frame(): void;
+  drive(isDriving: boolean): void;
+  /** True where the key is meant for this, and nobody else should hear of it. */
+  keyDown(code: string, isRepeat: boolean): boolean;
+  /** Letting go of any key lets go of all: a key-up that never came cannot leave one stuck. */
+  keyUp(): void;
+  /** Nobody looks, or the keys go elsewhere: everything rests until the page is looked at again. */
+  leave(): void;
+  comeBack(): void;
+  /** The next input that is moved is told instead of being obeyed. Returns how to give up waiting. */
+  listen(heard: (input: Input) => void): () => void;
+}
+
+export interface PadOptions {
+  readonly device: Device;
+  readonly robots: RobotStore;
+  readonly mappings: Pick<Undoable<Mapping>, 'store'>;
+  readonly notices: Notices;
+  readonly clock: Clock;
+  /** The browser's pads; may throw where a page must not see them. */
+  readPads(): readonly (Gamepadlike | null)[];
+}
+
+/** A frame that came late must not make up for it in one leap. */
+const LONGEST_STEP_MS = 100;
+/** Stopping, walking through the page and changing what other keys mean. */
+const RESERVED_KEY = /^(Escape|Tab|CapsLock|(Shift|Control|Alt|Meta)(Left|Right))$/;
+
+export function createPad({ device, robots, mappings, notices, clock, readPads }: PadOptions): Pad {
+  const store = createStore<PadState>(() => ({ isDriving: false, pad: null }));
+  const keys = new Set<string>();
+  let inputs = NO_INPUTS;
+  let driven: DriveState = AT_REST;
+  let lastMs = clock.now();
+  let isAway = false;
+  /** Servos that were meant and stayed, because nobody knows where they are. */
+  let unknown: readonly number[] = [];
+  let stopWasPressed = false;
+  let seenPad: string | null = null;
+  let listener: { readonly before: Inputs; heard(input: Input): void } | null = null;
+
+  const hindrance = () => motionHindrance(device.store.getState().snapshot);
+  const mapping = () => mappings.store.getState().present;
+
+  function rest(): void {
+    driven = AT_REST;
+    unknown = [];
+    keys.clear();
+  }
+
+  function drive(isDriving: boolean): void {
+    rest();
+    const wasDriving = store.getState().isDriving;
+    const isAllowed = isDriving && hindrance() === null;
+    if (isAllowed !== wasDriving) store.setState({ isDriving: isAllowed });
+  }
+
+  function findPad(): Gamepadlike | null {
+    try {
+      return readPads().find((pad) => pad !== null) ?? null;
+    } catch {
+      return null;
+    }
+  }
+
+  function readInputs(): void {
+    const pad = findPad();
+    const name = pad && `${pad.index} ${pad.id}`;
+    if (name !== seenPad) notePad(pad, name);
+    inputs = {
+      axes: pad?.axes ?? [],
+      buttons: pad?.buttons.map(({ value }) => value) ?? [],
+      keys: new Set(keys),
+    };
+  }
+
+  function notePad(pad: Gamepadlike | null, name: string | null): void {
+    const isGone = seenPad !== null;
+    seenPad = name;
+    store.setState({
+      pad: pad && { name: pad.id.replace(/ *\(.*/, ''), isStandard: pad.mapping === 'standard' },
+    });
+    rest();
+    if (isGone && store.getState().isDriving) {
+      drive(false);
+      notices.tell('warning', words.pad.gone);
+    }
+  }
+
+  function tellListener(input: Input): void {
+    const heard = listener?.heard;
+    listener = null;
+    // The finger is still there; only its next press means what was bound.
+    stopWasPressed = true;
+    rest();
+    heard?.(input);
+  }
+
+  /** Stop needs no switch: whoever has a pad in hand may stop. */
+  function obeyStop(): void {
+    const stops = mapping().bindings.filter(({ action }) => action.kind === 'stop');
+    const isStopPressed = stops.some(({ input }) => isPressed(input, inputs));
+    if (isStopPressed && !stopWasPressed) {
+      drive(false);
+      device.halt();
+    }
+    stopWasPressed = isStopPressed;
+  }
+
+  function obey(dtMs: number): void {
+    const { robot } = robots.current();
+    const moment = step({ mapping: mapping(), robot, place: device.motion }, inputs, dtMs, driven);
+    driven = moment.state;
+    if (moment.moves.length > 0) device.move(moment.moves, 'hand');
+    for (const slot of moment.runs) device.run(slot, 1);
+    const asked = moment.unknown.filter((servo) => !unknown.includes(servo));
+    for (const servo of asked) notices.tell('warning', words.pad.unknown(servoOf(robot, servo)?.name ?? ''));
+    unknown = moment.unknown;
+  }
+
+  device.store.subscribe(() => {
+    const why = hindrance();
+    if (why !== null && why !== 'busy' && store.getState().isDriving) drive(false);
+  });
+  let robotId = robots.current().id;
+  robots.store.subscribe(() => {
+    const { id } = robots.current();
+    if (id !== robotId) drive(false);
+    robotId = id;
+  });
+  // Places in the list mean other bindings now.
+  mappings.store.subscribe(rest);
+
+  return {
+    store,
+    inputs: () => inputs,
+    frame() {
+      const dtMs = Math.min(LONGEST_STEP_MS, clock.now() - lastMs);
+      lastMs = clock.now();
+      readInputs();
+      if (listener !== null) {
+        const moved = movedInput(listener.before, inputs);
+        if (moved !== null) tellListener(moved);
+        return;
+      }
+      obeyStop();
+      if (!store.getState().isDriving || isAway) return;
+      if (hindrance() === null) obey(dtMs);
+      else rest();
+    },
+    drive,
+    keyDown(code, isRepeat) {
+      if (RESERVED_KEY.test(code)) return false;
+      if (listener !== null) {
+        tellListener({ kind: 'key', code });
+        return true;
+      }
+      const isBound = mapping().bindings.some(({ input }) => input.kind === 'key' && input.code === code);
+      const isTaken = isBound && store.getState().isDriving;
+      if (isTaken && !isRepeat) keys.add(code);
+      return isTaken;
+    },
+    keyUp: () => keys.clear(),
+    leave() {
+      isAway = true;
+      rest();
+    },
+    comeBack: () => void (isAway = false),
+    listen(heard) {
+      rest();
+      listener = { before: inputs, heard };
+      return () => (listener = null);
+    },
+  };
+}

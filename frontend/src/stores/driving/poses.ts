@@ -1,0 +1,107 @@
+// The poses of the robot at hand, and the way to them: by the device, in its limits, slowly unless asked otherwise. To go to
+// a pose is noted as a step of the book; undoing it changes the note and moves nothing.
+
+import type { Label } from '#shared/actions/history.ts';
+import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/actions/poses/pose.ts';
+import { markApplied, withPosesOf } from '#shared/actions/poses/poseEdits.ts';
+import { homeTargets } from '#shared/actions/poses/poseShapes.ts';
+import { poseBookFromText, poseBookToText } from '#shared/actions/poses/poseText.ts';
+import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { words } from '../../words/words.ts';
+import type { Device } from '../device/device.ts';
+import type { TextStorage } from '../textStorage.ts';
+import { limitRefusal } from '../device/limits.ts';
+import type { Notices } from '../notices.ts';
+import { createRobotDocument, type RobotDocument } from '../robots/robotDocument.ts';
+import type { RobotStore } from '../robots/robots.ts';
+
+export interface Poses {
+  readonly book: RobotDocument<PoseBook>;
+  /** null where there is no such pose, or none in the unit of the board at hand. */
+  targetsOf(ref: PoseRef): readonly ServoTarget[] | null;
+  /** False where it was refused; then the person was told why. */
+  apply(ref: PoseRef, durationMs: number): boolean;
+  /** Somewhere between poses. */
+  applyBlend(label: Label, targets: readonly ServoTarget[], durationMs: number): void;
+  /** Adds the poses of a file, all or none. */
+  importText(text: string): void;
+}
+
+export interface PosesOptions {
+  readonly storage: TextStorage;
+  readonly notices: Notices;
+  readonly robots: RobotStore;
+  readonly device: Device;
+}
+
+export function createPoses({ storage, notices, robots, device }: PosesOptions): Poses {
+  const book = createRobotDocument({
+    ...{
+      storage,
+      notices,
+      robots,
+      key: 'servodeck.poses',
+      notSaved: () => words.poses.notSaved,
+      unreadable: () => words.poses.unreadable,
+    },
+    ...{ fresh: () => EMPTY_BOOK, toText: poseBookToText, fromText: poseBookFromText },
+    shared: { of: withoutPlace, onto: onPlaceOf },
+  });
+  const present = (): PoseBook => book.store.getState().present;
+
+  function targetsOf(ref: PoseRef): readonly ServoTarget[] | null {
+    const id = ref === 'rest' ? present().restId : ref;
+    if (id === 'home' || id === null) return homeTargets(robots.current().robot);
+    const pose = poseOf(present(), id);
+    return pose?.unit === device.store.getState().family.unit ? pose.targets : null;
+  }
+
+  /** Of the poses together, because none is taken without the others. */
+  function flawOfImport({ poses }: PoseBook): string | null {
+    return limitRefusal(
+      robots.current().robot,
+      poses.flatMap(({ targets }) => targets),
+    );
+  }
+
+  return {
+    book,
+    targetsOf,
+    apply(ref, durationMs) {
+      const targets = targetsOf(ref);
+      if (targets === null) notices.tell('warning', words.poses.gone);
+      if (targets === null || !device.move(targets, durationMs)) return false;
+      const name = poseName(present(), ref);
+      book.edit(
+        () => words.poses.steps.apply(name),
+        (before) => markApplied(before, ref),
+      );
+      return true;
+    },
+    applyBlend(label, targets, durationMs) {
+      if (device.move(targets, durationMs)) book.edit(label, (before) => markApplied(before, null));
+    },
+    importText(text) {
+      const read = poseBookFromText(text);
+      const problem = 'problem' in read ? words.poses.importFailed(read.problem) : flawOfImport(read.value);
+      if (problem !== null) notices.tell('warning', problem);
+      else if ('value' in read)
+        book.edit(
+          () => words.poses.steps.import,
+          (before) => withPosesOf(before, read.value),
+        );
+    },
+  };
+}
+
+/** Where the robot went last is told by the robot, not by the book. */
+const withoutPlace = (book: PoseBook): PoseBook => ({ ...book, applied: null });
+
+function onPlaceOf({ applied }: PoseBook, book: PoseBook): PoseBook {
+  return typeof applied === 'number' && poseOf(book, applied) === undefined ? book : { ...book, applied };
+}
+
+export function poseName(book: PoseBook, ref: PoseRef): string {
+  if (typeof ref === 'string') return words.poses.verbs[ref];
+  return poseOf(book, ref)?.name ?? words.poses.missing;
+}

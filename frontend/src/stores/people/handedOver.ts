@@ -1,0 +1,15 @@
+// Tells from whom the robot was handed to this page: whoever has not asked for it may be looking elsewhere.
+
+import { words } from '../../words/words.ts';
+import type { Device } from '../device/device.ts';
+import type { Notices } from '../notices.ts';
+
+export function tellHandedOver(
+  store: Pick<Device['store'], 'subscribe'>,
+  notices: Pick<Notices, 'tell'>,
+): void {
+  store.subscribe(({ snapshot: { lease } }, { snapshot: before }) => {
+    const giver = lease?.givenBy ?? null;
+    if (giver !== null && giver !== before.lease?.givenBy) notices.tell('info', words.lease.given(giver));
+  });
+}

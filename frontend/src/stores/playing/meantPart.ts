@@ -1,0 +1,86 @@
+// What playing means now: which part of the group, from where, how often, and which servos hear of it. Plays nothing.
+
+import { totalDurationMs } from '#shared/actions/group/group.ts';
+import { passageOf, type Passage } from '#shared/actions/group/passage.ts';
+import { poseAtMs, tracksOf } from '#shared/actions/group/tracks.ts';
+import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
+import type { CompiledGroup } from '../group/compiled.ts';
+import type { Device } from '../device/device.ts';
+import type { Document } from '../group/document.ts';
+import type { FollowedPose } from '../driving/follower.ts';
+import { chosenPlace } from '../slots/groupPlace.ts';
+import type { Playhead } from './playhead.ts';
+import type { RobotStore } from '../robots/robots.ts';
+import { isSilent, servoViewFor } from '../servoView.ts';
+import type { View } from '../view.ts';
+
+export interface MeantPart {
+  /** Where the playhead is within what is meant; null: it begins at the beginning, as a loop always does. */
+  within(): number | null;
+  /** What was marked, or all of it. */
+  part(): { readonly fromMs: number; readonly toMs: number };
+  /** As often as the group is run on its board; from within it, the rest once. 0: until stopped. */
+  passes(): number;
+  /** What goes to the robot of it. */
+  passage(group: CompiledGroup): Passage;
+  /** Of the servos that hear of it. */
+  poseAt(atMs: number): FollowedPose;
+}
+
+export interface MeantPartOptions {
+  readonly device: Device;
+  readonly document: Document;
+  readonly view: View;
+  readonly playhead: Playhead;
+  readonly robots: RobotStore;
+  chosen(): { readonly loops: boolean; readonly speedPercent: number };
+}
+
+export function createMeantPart(options: MeantPartOptions): MeantPart {
+  const { device, document, view, playhead, robots, chosen } = options;
+
+  function within(): number | null {
+    const { fromMs, toMs } = part();
+    const at = playhead.at();
+    return at > fromMs && at < toMs && !chosen().loops ? at : null;
+  }
+
+  function part(): { readonly fromMs: number; readonly toMs: number } {
+    const { frames } = document.store.getState().present;
+    return playhead.range() ?? { fromMs: 0, toMs: totalDurationMs(frames) };
+  }
+
+  function passes(): number {
+    if (chosen().loops) return 0;
+    return within() === null ? chosenPlace(view.getState()).times : 1;
+  }
+
+  /** Rows that are muted, or beside those that play alone, are not sent. */
+  function isSent({ servo }: Pick<ServoTarget, 'servo'>): boolean {
+    return !isSilent(servoViewFor(view.getState().servos, robots.current().id), servo);
+  }
+
+  const heard = (frame: Frame): Frame => ({ ...frame, targets: frame.targets.filter(isSent) });
+
+  function passage({ frames, source }: CompiledGroup): Passage {
+    const range = playhead.range();
+    return passageOf(frames.map(heard), {
+      fromMs: within() ?? range?.fromMs ?? 0,
+      toMs: range?.toMs ?? null,
+      longestMs: source.family.durationMs.max,
+      speedPercent: chosen().speedPercent,
+      strangers: source.robot.servos
+        .map(({ servo }) => servo)
+        .filter((servo) => device.motion(servo).estimated === null),
+    });
+  }
+
+  function poseAt(atMs: number): FollowedPose {
+    const pose = poseAtMs(tracksOf(document.store.getState().present), atMs);
+    return new Map(
+      [...pose].flatMap(([servo, position]) => (isSent({ servo }) ? [[servo, Math.round(position)]] : [])),
+    );
+  }
+
+  return { within, part, passes, passage, poseAt };
+}

@@ -1,0 +1,21 @@
+// The page of buttons of the robot at hand. Never moves anything; macroRun.ts does what a button says.
+
+import { EMPTY_PAGE, type MacroPage } from '#shared/actions/macros/macro.ts';
+import { macroPageFromText, macroPageToText } from '#shared/actions/macros/macroText.ts';
+import { words } from '../../words/words.ts';
+import type { TextStorage } from '../textStorage.ts';
+import type { Notices } from '../notices.ts';
+import { createRobotDocument, type RobotDocument } from './robotDocument.ts';
+import type { RobotStore } from './robots.ts';
+
+export function createMacros(
+  storage: TextStorage,
+  notices: Notices,
+  robots: RobotStore,
+): RobotDocument<MacroPage> {
+  return createRobotDocument({
+    ...{ storage, notices, robots, key: 'servodeck.buttons' },
+    ...{ notSaved: () => words.macros.notSaved, unreadable: () => words.macros.unreadable },
+    ...{ fresh: () => EMPTY_PAGE, toText: macroPageToText, fromText: macroPageFromText },
+  });
+}

@@ -1,0 +1,23 @@
+// What pad and keys do to the robot at hand; a robot without an entry has its ready mapping. Moves nothing; pad.ts does what a
+// mapping says.
+
+import type { Mapping } from '#shared/actions/mapping/mapping.ts';
+import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
+import { mappingFromText, mappingToText } from '#shared/actions/mapping/mappingText.ts';
+import { words } from '../../words/words.ts';
+import type { TextStorage } from '../textStorage.ts';
+import type { Notices } from '../notices.ts';
+import { createRobotDocument, type RobotDocument } from './robotDocument.ts';
+import type { RobotStore } from './robots.ts';
+
+export function createMappings(
+  storage: TextStorage,
+  notices: Notices,
+  robots: RobotStore,
+): RobotDocument<Mapping> {
+  return createRobotDocument({
+    ...{ storage, notices, robots, key: 'servodeck.mapping' },
+    ...{ notSaved: () => words.pad.notSaved, unreadable: () => words.pad.unreadable },
+    ...{ fresh: readyMapping, toText: mappingToText, fromText: mappingFromText },
+  });
+}
