@@ -8,8 +8,8 @@ import { SetupProblem, at, main, mustRun, say } from './steps.mjs';
 
 const TARGETS = [
   { module: 'messages', target: 'frontend/src/transports/messages.generated.ts' },
-  { module: 'library_messages', target: 'frontend/src/keepers/library.generated.ts' },
-  { module: 'people_messages', target: 'frontend/src/stores/people/people.generated.ts' },
+  { module: 'library.library_messages', target: 'frontend/src/keepers/library.generated.ts' },
+  { module: 'web.people_messages', target: 'frontend/src/stores/people/people.generated.ts' },
 ];
 
 /** @param {string} module @returns {Promise<string>} */
@@ -21,7 +21,7 @@ async function generate(module) {
   return compile(parsed, parsed.title, {
     bannerComment:
       "// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change " +
-      `backend/servodeck/${module}.py instead.`,
+      `backend/servodeck/${module.replaceAll('.', '/')}.py instead.`,
     additionalProperties: false,
     ignoreMinAndMaxItems: true,
     unreachableDefinitions: true,

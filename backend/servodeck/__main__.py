@@ -9,14 +9,14 @@ import sys
 def main() -> None:
     if sys.argv[1:] == ["stop"] and is_stopped():
         return
-    from servodeck.cli import main as command_line
+    from servodeck.cli.cli import main as command_line
 
     command_line()
 
 
 def is_stopped() -> bool:
     """Where anything goes wrong the command line tries again, which does no harm, and explains it."""
-    from servodeck.remote import HERE, Remote
+    from servodeck.cli.remote import HERE, Remote
 
     try:
         token = os.environ.get("SERVODECK_TOKEN") or token_in(os.environ.get("SERVODECK_TOKEN_FILE"))

@@ -5,7 +5,7 @@ One registry for the process: whoever has something to count does it here in one
 
 from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, ProcessCollector
 
-from servodeck.packets import COMMAND_NUMBER
+from servodeck.protocol.packets import COMMAND_NUMBER
 
 REGISTRY = CollectorRegistry()
 ProcessCollector(registry=REGISTRY)  # memory, time, open files

@@ -5,8 +5,8 @@ import socket
 from collections.abc import Callable
 
 from servodeck.errors import PortError, PortLostError, PortMissingError
-from servodeck.ports import OpenPort
-from servodeck.whereabouts import UsbDevice
+from servodeck.port.ports import OpenPort
+from servodeck.port.whereabouts import UsbDevice
 
 
 class FakePort:

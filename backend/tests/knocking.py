@@ -9,13 +9,13 @@ from fastapi import FastAPI
 from fastapi.routing import APIRoute
 from starlette.types import ASGIApp, Message, Scope
 
-from servodeck.app import create_app
+from servodeck.access.entrance import Entrance
+from servodeck.access.guard import Guard
+from servodeck.access.roles import named_roles
 from servodeck.callers import Role
-from servodeck.control import Control
-from servodeck.entrance import Entrance
+from servodeck.driving.control import Control
 from servodeck.errors import PortMissingError
-from servodeck.guard import Guard
-from servodeck.roles import named_roles
+from servodeck.run.app import create_app
 from tests.fake_port import FakePorts
 from tests.running import NO_LIBRARY, PORT, entrance_to
 

@@ -12,18 +12,18 @@ from pathlib import Path
 from httpx2 import ASGITransport, AsyncClient
 from starlette.types import ASGIApp
 
-from servodeck import access
-from servodeck.access import Access
-from servodeck.app import create_app
-from servodeck.control import Control
-from servodeck.devices import Devices, NoShelf
-from servodeck.entrance import Entrance
-from servodeck.library import Library, wall_clock_ms
-from servodeck.library_api import robots_in
-from servodeck.link import Ports
-from servodeck.page import STATIC
-from servodeck.remembered import Remembered
-from servodeck.server import Server
+from servodeck.access import access
+from servodeck.access.access import Access
+from servodeck.access.devices import Devices, NoShelf
+from servodeck.access.entrance import Entrance
+from servodeck.driving.control import Control
+from servodeck.files.remembered import Remembered
+from servodeck.library.library import Library, wall_clock_ms
+from servodeck.port.link import Ports
+from servodeck.run.app import create_app
+from servodeck.run.server import Server
+from servodeck.web.library_api import robots_in
+from servodeck.web.page import STATIC
 
 PORT = 8300
 DEVICE = "/dev/board"

@@ -9,12 +9,12 @@ from typing import Any
 from httpx2 import AsyncClient, Response
 from starlette.types import ASGIApp
 
-from servodeck import access
-from servodeck.app import create_app
+from servodeck.access import access
 from servodeck.callers import Caller, Role
-from servodeck.control import Control
-from servodeck.packets import FAMILIES, encode
-from servodeck.values import Move, ServoTarget
+from servodeck.driving.control import Control
+from servodeck.protocol.packets import FAMILIES, encode
+from servodeck.protocol.values import Move, ServoTarget
+from servodeck.run.app import create_app
 from tests.fake_port import FakePort, FakePorts
 from tests.running import DEVICE, NO_LIBRARY, PORT, client_of, entrance_to
 from tests.virtual_time import now

@@ -2,8 +2,8 @@
 
 import pytest
 
-from servodeck import access, links
-from servodeck.access import bracketed, lan_addresses
+from servodeck.access import access, links
+from servodeck.access.access import bracketed, lan_addresses
 
 
 def test_one_computer_on_its_own_answers_to_loopback_names_only() -> None:

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 import pytest
 from zeroconf import ServiceInfo, Zeroconf
 
-from servodeck.announcement import SERVICE, Announcement
+from servodeck.run.announcement import SERVICE, Announcement
 
 # A gateway that runs beside the tests has the real one.
 NAME = "servodeck-under-test.local"
@@ -42,7 +42,7 @@ pytestmark = [
 
 @pytest.fixture(autouse=True)
 def _name(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("servodeck.announcement.MDNS_NAME", NAME)
+    monkeypatch.setattr("servodeck.run.announcement.MDNS_NAME", NAME)
 
 
 @contextmanager

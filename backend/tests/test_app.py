@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from servodeck.app import create_app
-from servodeck.control import Control
+from servodeck.driving.control import Control
 from servodeck.errors import PortMissingError
+from servodeck.run.app import create_app
 from tests.fake_port import FakePorts
 from tests.knocking import knock, roles_of_routes, scope_of
 from tests.running import NO_LIBRARY, PORT, entrance_to, http_to

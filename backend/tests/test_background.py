@@ -5,7 +5,7 @@ import threading
 
 import pytest
 
-from servodeck.background import in_thread
+from servodeck.port.background import in_thread
 
 
 async def test_what_it_gives_is_heard() -> None:

@@ -1,9 +1,9 @@
 """Of which family the board at a place is, said once and gone by after the next start."""
 
+from servodeck.access.hub import Seat
 from servodeck.callers import THIS_COMPUTER
-from servodeck.control import Control
-from servodeck.hub import Seat
-from servodeck.remembered import Remembered
+from servodeck.driving.control import Control
+from servodeck.files.remembered import Remembered
 from tests.fake_port import FakePort, FakePorts
 from tests.virtual_time import in_virtual_time, now
 

@@ -17,8 +17,8 @@ from urllib.request import Request, urlopen
 import pytest
 from typer.testing import CliRunner, Result
 
-from servodeck.cli import app
-from servodeck.remembered import FILE
+from servodeck.cli.cli import app
+from servodeck.files.remembered import FILE
 from tests.samples import STOP
 from tests.test_ports import Pty
 

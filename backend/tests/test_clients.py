@@ -12,12 +12,12 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
-from servodeck import impatient
+from servodeck.access import impatient
+from servodeck.access.hub import Seat
 from servodeck.callers import THIS_COMPUTER
-from servodeck.clients import read_all
-from servodeck.control import Control
+from servodeck.driving.control import Control
 from servodeck.errors import PortMissingError
-from servodeck.hub import Seat
+from servodeck.web.clients import read_all
 from tests.client import deaf_at
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on

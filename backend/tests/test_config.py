@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from typer.testing import CliRunner, Result
 
-from servodeck import config
-from servodeck.cli import app
-from servodeck.config import Setting, toml_line
+from servodeck.cli import config
+from servodeck.cli.cli import app
+from servodeck.cli.config import Setting, toml_line
 
 NOWHERE = Path("/nowhere")
 

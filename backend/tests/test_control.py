@@ -4,8 +4,9 @@ import asyncio
 
 import pytest
 
+from servodeck.access.hub import OUTBOX_MESSAGES
 from servodeck.callers import THIS_COMPUTER
-from servodeck.control import Control
+from servodeck.driving.control import Control
 from servodeck.errors import (
     CancelledError,
     ClosedError,
@@ -16,8 +17,7 @@ from servodeck.errors import (
     PortLostError,
     PortMissingError,
 )
-from servodeck.hub import OUTBOX_MESSAGES
-from servodeck.inbox import SILENCE_S
+from servodeck.port.inbox import SILENCE_S
 from tests.client import Client, driven, gateway_on
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, BATTERY_REPORT, DOWNLOAD, ERASE, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms

@@ -8,10 +8,27 @@ from random import Random
 
 import pytest
 
-from servodeck.decoder import COMMAND_SHAPES, REPORT_SHAPES, Decoder, DecoderEvent, PacketEvent, Shapes
-from servodeck.families import DOC
-from servodeck.packets import encode
-from servodeck.values import Command, Download, Erase, Frame, Move, ReadBattery, Run, ServoTarget, Stop
+from servodeck.protocol.decoder import (
+    COMMAND_SHAPES,
+    REPORT_SHAPES,
+    Decoder,
+    DecoderEvent,
+    PacketEvent,
+    Shapes,
+)
+from servodeck.protocol.families import DOC
+from servodeck.protocol.packets import encode
+from servodeck.protocol.values import (
+    Command,
+    Download,
+    Erase,
+    Frame,
+    Move,
+    ReadBattery,
+    Run,
+    ServoTarget,
+    Stop,
+)
 from tests.amount import named, replay, seeds
 
 FILE = "test_damage.py"

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.decoder import (
+from servodeck.protocol.decoder import (
     COMMAND_SHAPES,
     REPORT_SHAPES,
     Decoder,

@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from servodeck.describe import describe
-from servodeck.limits import PacketError
+from servodeck.protocol.describe import describe
+from servodeck.protocol.limits import PacketError
 
 
 @pytest.mark.parametrize(

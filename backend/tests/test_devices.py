@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from servodeck.device_file import FILE, DeviceFile
-from servodeck.devices import MAX_DEVICES, Devices, NoShelf
+from servodeck.access.device_file import FILE, DeviceFile
+from servodeck.access.devices import MAX_DEVICES, Devices, NoShelf
 from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError, StorageError
 
 

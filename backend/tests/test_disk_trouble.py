@@ -15,7 +15,7 @@ import httpx2
 import pytest
 from websockets.sync.client import connect
 
-from servodeck.library import Library
+from servodeck.library.library import Library
 from tests.client import lease_of
 from tests.samples import MOVE
 from tests.test_cli import Served

@@ -9,13 +9,13 @@ from typing import Any
 
 import pytest
 
-from servodeck import download, jobs
+from servodeck.board import download, jobs
+from servodeck.board.parts import Group, made_of, packets_of
 from servodeck.callers import Caller
-from servodeck.control import Control
-from servodeck.parts import Group, made_of, packets_of
+from servodeck.driving.control import Control
+from servodeck.port.wire import wire_s
+from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.told import JobState
-from servodeck.values import Frame, ServoTarget
-from servodeck.wire import wire_s
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import STOP

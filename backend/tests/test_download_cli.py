@@ -12,8 +12,8 @@ from typing import Any
 import httpx2
 import pytest
 
-from servodeck.options_cli import REFUSED, USAGE
-from servodeck.wire import wire_s
+from servodeck.cli.options_cli import REFUSED, USAGE
+from servodeck.port.wire import wire_s
 from tests.samples import DOWNLOAD
 from tests.test_cli import Served, run
 

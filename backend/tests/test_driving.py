@@ -4,17 +4,17 @@ import asyncio
 
 import pytest
 
+from servodeck.access.hub import Seat
 from servodeck.callers import Caller
-from servodeck.clients import take
 from servodeck.errors import (
     BusyError,
     ExpiredError,
     ForbiddenError,
     NotDrivingError,
 )
-from servodeck.hub import Seat
 from servodeck.messages import GiveMessage, ResumeMessage, StopMessage
-from servodeck.wire import Left
+from servodeck.port.wire import Left
+from servodeck.web.clients import take
 from tests.client import Client, driven, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, MOVE_S, RUN, STOP, STOPS, hold_at

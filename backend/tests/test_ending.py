@@ -15,8 +15,8 @@ import httpx2
 import pytest
 from websockets.sync.client import connect
 
-from servodeck.library_file import FILE
-from servodeck.server import FORCED
+from servodeck.library.library_file import FILE
+from servodeck.run.server import FORCED
 from tests.client import lease_of
 from tests.samples import MOVE, STOP
 from tests.test_cli import END_S, Served

@@ -12,12 +12,12 @@ from typing import Any
 from httpx2 import AsyncClient
 from starlette.types import Message
 
-from servodeck import access
-from servodeck.app import create_app
-from servodeck.control import Control
-from servodeck.events_api import SILENCE_S
-from servodeck.hub import OUTBOX_MESSAGES
-from servodeck.impatient import ABORT
+from servodeck.access import access
+from servodeck.access.hub import OUTBOX_MESSAGES
+from servodeck.access.impatient import ABORT
+from servodeck.driving.control import Control
+from servodeck.run.app import create_app
+from servodeck.web.events_api import SILENCE_S
 from tests.fake_port import FakePort, FakePorts
 from tests.knocking import scope_of
 from tests.running import DEVICE, NO_LIBRARY, PORT, entrance_to, server_on

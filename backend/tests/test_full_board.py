@@ -3,10 +3,10 @@
 from itertools import repeat
 from typing import Any
 
-from servodeck.download_cli import portions_of
-from servodeck.guard import body_bytes
-from servodeck.packets import FAMILIES, encode
-from servodeck.values import Download, Frame, ServoTarget
+from servodeck.access.guard import body_bytes
+from servodeck.cli.download_cli import portions_of
+from servodeck.protocol.packets import FAMILIES, encode
+from servodeck.protocol.values import Download, Frame, ServoTarget
 from tests.amount import TIMES
 from tests.fake_port import FakePorts
 from tests.running import http_to

@@ -4,20 +4,20 @@ from contextlib import AbstractContextManager, nullcontext
 
 import pytest
 
-from servodeck import access
+from servodeck.access import access
+from servodeck.access.gate import (
+    judge_handshake,
+    judge_hold,
+    judge_latch,
+    judge_packet,
+    judge_script,
+)
 from servodeck.errors import (
     ForbiddenError,
     LatchedError,
     MalformedError,
     NotSupportedError,
     OutOfRangeError,
-)
-from servodeck.gate import (
-    judge_handshake,
-    judge_hold,
-    judge_latch,
-    judge_packet,
-    judge_script,
 )
 from tests.samples import BATTERY, DOWNLOAD, ERASE, MOVE, RUN, STOP
 

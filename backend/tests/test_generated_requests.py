@@ -23,9 +23,9 @@ from schemathesis.checks import (
 from schemathesis.schemas import APIOperation
 
 from servodeck.errors import PortBusyError
-from servodeck.library import Library
-from servodeck.ports import OpenPort
-from servodeck.whereabouts import UsbDevice
+from servodeck.library.library import Library
+from servodeck.port.ports import OpenPort
+from servodeck.port.whereabouts import UsbDevice
 from tests.amount import TIMES
 from tests.fake_port import FakePort
 from tests.running import DEVICE, Running, server_on

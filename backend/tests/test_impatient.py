@@ -6,7 +6,8 @@ import time
 import pytest
 from websockets.asyncio.client import connect
 
-from servodeck import impatient, server
+from servodeck.access import impatient
+from servodeck.run import server
 from tests.client import upgrade_at
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on

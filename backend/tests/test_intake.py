@@ -5,7 +5,7 @@ import asyncio
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.intake import Intake, Rate
+from servodeck.access.intake import Intake, Rate
 from servodeck.messages import AnyClientMessage, ResumeMessage, SendMessage, StopMessage
 from tests.virtual_time import in_virtual_time, now
 

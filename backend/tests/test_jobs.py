@@ -4,8 +4,9 @@ import asyncio
 
 import pytest
 
+from servodeck.board.parts import Group, made_of, packets_of
 from servodeck.callers import THIS_COMPUTER, Caller
-from servodeck.control import Control
+from servodeck.driving.control import Control
 from servodeck.errors import (
     ExpiredError,
     GatewayError,
@@ -16,9 +17,8 @@ from servodeck.errors import (
     OutOfRangeError,
     SlotBrokenError,
 )
-from servodeck.packets import FAMILIES, encode
-from servodeck.parts import Group, made_of, packets_of
-from servodeck.values import Frame, Run, ServoTarget
+from servodeck.protocol.packets import FAMILIES, encode
+from servodeck.protocol.values import Frame, Run, ServoTarget
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, DOWNLOAD, ERASE, MOVE, RUN, STOP

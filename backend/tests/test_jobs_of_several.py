@@ -11,13 +11,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.control import Control
+from servodeck.board.parts import Group, made_of, packets_of, part_of
+from servodeck.board.tally import Progress, Tally
+from servodeck.driving.control import Control
 from servodeck.errors import CancelledError, NotDrivingError, NotFoundError, OutOfRangeError
-from servodeck.packets import FAMILIES, encode
-from servodeck.parts import Group, made_of, packets_of, part_of
-from servodeck.tally import Progress, Tally
-from servodeck.values import Frame, Run, ServoTarget
-from servodeck.wire import wire_s
+from servodeck.port.wire import wire_s
+from servodeck.protocol.packets import FAMILIES, encode
+from servodeck.protocol.values import Frame, Run, ServoTarget
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePorts
 from tests.running import http_to

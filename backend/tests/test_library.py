@@ -18,8 +18,8 @@ from servodeck.errors import (
     StorageError,
     StorageFullError,
 )
-from servodeck.library import MAX_VERSIONS, TRASH_MS, Library, Listed, Version
-from servodeck.library_file import FILE, STEPS
+from servodeck.library.library import MAX_VERSIONS, TRASH_MS, Library, Listed, Version
+from servodeck.library.library_file import FILE, STEPS
 
 DAY_MS = 24 * 3600 * 1000
 
@@ -144,7 +144,7 @@ def test_a_full_disk_refuses_and_keeps_what_was_there(tmp_path: Path) -> None:
 def test_a_file_that_another_program_holds_is_busy_and_free_again(
     library: Library, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("servodeck.library_file.BUSY_S", 0.0)
+    monkeypatch.setattr("servodeck.library.library_file.BUSY_S", 0.0)
     library.write("a", "one", "f", 0)
     with closing(sqlite3.connect(tmp_path / FILE, isolation_level=None)) as other:
         other.execute("BEGIN IMMEDIATE")

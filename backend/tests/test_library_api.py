@@ -11,8 +11,8 @@ import pytest
 from httpx2 import AsyncClient
 
 from servodeck.errors import PortMissingError
-from servodeck.library import Library
-from servodeck.library_messages import MAX_TEXT
+from servodeck.library.library import Library
+from servodeck.library.library_messages import MAX_TEXT
 from tests.fake_port import FakePorts
 from tests.running import http_to
 

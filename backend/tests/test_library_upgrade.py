@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from servodeck.errors import StorageError
-from servodeck.library import Library, Listed, Version
-from servodeck.library_file import FILE, STEPS
+from servodeck.library.library import Library, Listed, Version
+from servodeck.library.library_file import FILE, STEPS
 
 FILES = sorted((Path(__file__).parent / "library_files").glob("version-*.sql"))
 LATER: Sequence[Sequence[str]] = [

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 import pytest
 
 from servodeck.errors import CancelledError, ClosedError, PortBusyError, PortLostError, PortMissingError
-from servodeck.link import Link, Ports
-from servodeck.ports import OpenPort
+from servodeck.port.link import Link, Ports
+from servodeck.port.ports import OpenPort
+from servodeck.port.wire import Wire
 from servodeck.told import PortState
-from servodeck.wire import Wire
 from tests.fake_port import FakePort, FakePorts
 from tests.virtual_time import at, in_virtual_time, now
 

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from websockets.sync.client import connect
 
-from servodeck.logs import LINES_WAITING, set_up_logs
+from servodeck.run.logs import LINES_WAITING, set_up_logs
 from tests.client import lease_of
 from tests.samples import MOVE
 from tests.test_cli import Served

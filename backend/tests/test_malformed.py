@@ -8,11 +8,11 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from servodeck.access.gate import judge_hold, judge_packet
 from servodeck.callers import THIS_COMPUTER
-from servodeck.clients import hear, intake_of
 from servodeck.errors import GatewayError
-from servodeck.gate import judge_hold, judge_packet
 from servodeck.messages import SendMessage, StopMessage, client_message
+from servodeck.web.clients import hear, intake_of
 from tests.amount import TIMES
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort

@@ -7,10 +7,10 @@ from itertools import product
 import pytest
 from fastapi import FastAPI
 
-from servodeck import access, roles
-from servodeck.access import Access, Mode
+from servodeck.access import access, roles
+from servodeck.access.access import Access, Mode
+from servodeck.access.entrance import Entrance
 from servodeck.callers import RANKS, Role
-from servodeck.entrance import Entrance
 from tests.knocking import all_routes, app_at, knock, roles_of_routes, scope_of
 from tests.running import PORT, entrance_to
 from tests.test_gate import headers_of

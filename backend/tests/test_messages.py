@@ -8,10 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from servodeck.access.hub import Seat
 from servodeck.callers import THIS_COMPUTER
-from servodeck.clients import hear, intake_of
-from servodeck.control import Control
-from servodeck.hub import Seat
+from servodeck.driving.control import Control
 from servodeck.messages import (
     ResumeMessage,
     SendMessage,
@@ -23,8 +22,9 @@ from servodeck.messages import (
     gateway_message,
     json_schema,
 )
-from servodeck.packets import FAMILIES
+from servodeck.protocol.packets import FAMILIES
 from servodeck.told import PortState
+from servodeck.web.clients import hear, intake_of
 from tests.amount import TIMES
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, MOVE, RUN, STOP

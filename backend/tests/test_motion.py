@@ -3,9 +3,9 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.motion import END_GRACE_S, Motion
-from servodeck.packets import FAMILIES, encode, parse_command
-from servodeck.values import (
+from servodeck.board.motion import END_GRACE_S, Motion
+from servodeck.protocol.packets import FAMILIES, encode, parse_command
+from servodeck.protocol.values import (
     Command,
     Move,
     Positions,

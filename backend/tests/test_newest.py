@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from servodeck.clients import take
+from servodeck.driving.lease import COMMAND_S
 from servodeck.errors import ExpiredError, GatewayError, LatchedError, MalformedError
-from servodeck.lease import COMMAND_S
 from servodeck.messages import SendMessage
-from servodeck.wire import QUEUE_PER_OWNER, Left
+from servodeck.port.wire import QUEUE_PER_OWNER, Left
+from servodeck.web.clients import take
 from tests.amount import TIMES
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort

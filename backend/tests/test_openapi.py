@@ -9,11 +9,11 @@ from fastapi.routing import APIRoute
 from jsonschema_rs import validator_for
 from pydantic import TypeAdapter
 
-from servodeck.api_examples import EXAMPLES, PROBLEMS
 from servodeck.callers import Role
-from servodeck.docs import docs_page
 from servodeck.errors import ErrorCode
-from servodeck.openapi import SCHEMES, STATUS_OF, described, operations
+from servodeck.web.api_examples import EXAMPLES, PROBLEMS
+from servodeck.web.docs import docs_page
+from servodeck.web.openapi import SCHEMES, STATUS_OF, described, operations
 from tests.knocking import app_at
 from tests.test_matrix import ROLES
 

@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.decoder import Decoder, DecoderEvent, Packet, PacketEvent
-from servodeck.families import DOC, FAMILIES, Family, Range
-from servodeck.limits import PacketError
-from servodeck.packets import check_command, encode, parse_command, parse_report
-from servodeck.values import (
+from servodeck.protocol.decoder import Decoder, DecoderEvent, Packet, PacketEvent
+from servodeck.protocol.families import DOC, FAMILIES, Family, Range
+from servodeck.protocol.limits import PacketError
+from servodeck.protocol.packets import check_command, encode, parse_command, parse_report
+from servodeck.protocol.values import (
     AllPositions,
     Battery,
     Command,

@@ -2,8 +2,8 @@
 
 import pytest
 
+from servodeck.access.pairing import CODE_TRIES, MAX_OPEN, Pairing
 from servodeck.errors import BusyError, NotFoundError, PairingError, PairingLockedError
-from servodeck.pairing import CODE_TRIES, MAX_OPEN, Pairing
 
 
 class Time:

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 from httpx2 import AsyncClient, Response
 
-from servodeck import access
+from servodeck.access import access
+from servodeck.access.entrance import Entrance
 from servodeck.callers import Caller, Role
-from servodeck.control import Control
-from servodeck.entrance import Entrance
+from servodeck.driving.control import Control
 from servodeck.messages import LeaseAction
 from tests.client import Client
 from tests.knocking import NOWHERE

@@ -7,7 +7,7 @@ import pytest
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from servodeck import access
+from servodeck.access import access
 from servodeck.callers import Role
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on

@@ -16,10 +16,10 @@ import pytest
 from serial.tools import list_ports
 from typer.testing import CliRunner
 
-from servodeck.cli import app
+from servodeck.cli.cli import app
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
-from servodeck.ports import explain, list_devices, list_usb, open_port
-from servodeck.whereabouts import Whereabouts
+from servodeck.port.ports import explain, list_devices, list_usb, open_port
+from servodeck.port.whereabouts import Whereabouts
 
 NOBODY = 65534
 
@@ -176,7 +176,7 @@ class FakeDev:
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         self.folder = folder
         self._ports: list[SimpleNamespace] = []
-        monkeypatch.setattr("servodeck.ports.LASTING", folder / "serial")
+        monkeypatch.setattr("servodeck.port.ports.LASTING", folder / "serial")
         monkeypatch.setattr(list_ports, "comports", lambda: self._ports)
 
     def plug(

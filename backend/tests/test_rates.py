@@ -5,10 +5,10 @@ import asyncio
 import pytest
 from httpx2 import AsyncClient, Response
 
-from servodeck import access
+from servodeck.access import access
+from servodeck.access.entrance import Entrance
+from servodeck.access.rates import OF_DRIVERS, OF_VIEWERS, PAGE_BURST
 from servodeck.callers import Role
-from servodeck.entrance import Entrance
-from servodeck.rates import OF_DRIVERS, OF_VIEWERS, PAGE_BURST
 from tests.knocking import NOWHERE
 from tests.running import PORT, entrance_to, http_to
 from tests.test_people_api import Browser, lan, secret_of

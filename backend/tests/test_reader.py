@@ -7,8 +7,8 @@ from collections.abc import AsyncIterator
 import pytest
 
 from servodeck.errors import PortLostError
-from servodeck.ports import OpenPort, open_port
-from servodeck.reader import Stop, read_in_thread, start_reading
+from servodeck.port.ports import OpenPort, open_port
+from servodeck.port.reader import Stop, read_in_thread, start_reading
 from tests.test_ports import Pty
 
 

@@ -5,7 +5,7 @@ import asyncio
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.relay import newest
+from servodeck.driving.relay import newest
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, RUN, STOP

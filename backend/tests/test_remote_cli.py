@@ -11,7 +11,7 @@ from pathlib import Path
 import httpx2
 import pytest
 
-from servodeck.options_cli import INTERRUPTED, REFUSED, UNREACHABLE, USAGE
+from servodeck.cli.options_cli import INTERRUPTED, REFUSED, UNREACHABLE, USAGE
 from tests.samples import BATTERY, RUN, STOP
 from tests.test_cli import Served, run
 

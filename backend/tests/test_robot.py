@@ -4,14 +4,14 @@ import json
 
 import pytest
 
+from servodeck.access.hub import Seat
+from servodeck.board.parts import Group
 from servodeck.callers import Caller
-from servodeck.clients import hear, intake_of
-from servodeck.control import Control
+from servodeck.driving.control import Control
 from servodeck.errors import OutOfRangeError
-from servodeck.hub import Seat
-from servodeck.parts import Group
+from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.told import ServoLimits
-from servodeck.values import Frame, ServoTarget
+from servodeck.web.clients import hear, intake_of
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import MOVE, MOVE_ELSEWHERE, RUN, STOP

@@ -10,11 +10,11 @@ from typing import Any
 import pytest
 
 from servodeck.callers import Caller
-from servodeck.control import Control
+from servodeck.driving.control import Control
 from servodeck.errors import ConflictError, MovingError, NotFoundError, OutOfRangeError
-from servodeck.library_messages import RobotFacts
-from servodeck.remembered import FILE, Remembered
-from servodeck.small_file import write_whole
+from servodeck.files.remembered import FILE, Remembered
+from servodeck.files.small_file import write_whole
+from servodeck.library.library_messages import RobotFacts
 from servodeck.told import ServoLimits
 from tests.client import Client
 from tests.fake_port import FakePort, FakePorts

@@ -4,8 +4,8 @@ import time
 from pathlib import Path
 from typing import Any
 
-from servodeck import access
-from servodeck.library import Library
+from servodeck.access import access
+from servodeck.library.library import Library
 from tests.fake_port import FakePort, FakePorts
 from tests.running import PORT, entrance_to, http_to
 from tests.scripted import refusal

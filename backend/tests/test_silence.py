@@ -1,6 +1,6 @@
 """When a board that has answered before counts as silent."""
 
-from servodeck.silence import Silence
+from servodeck.port.silence import Silence
 
 BATTERY, POSITIONS = 15, 21
 

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from servodeck.control import Control
+from servodeck.board.parts import Group
+from servodeck.board.slot_memory import FILE, OLD_FILE, SlotMemory
+from servodeck.driving.control import Control
 from servodeck.errors import SlotChangedError
-from servodeck.parts import Group
-from servodeck.slot_memory import FILE, OLD_FILE, SlotMemory
-from servodeck.values import Frame, ServoTarget
+from servodeck.protocol.values import Frame, ServoTarget
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort, FakePorts
 from tests.running import http_to

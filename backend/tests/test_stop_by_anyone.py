@@ -5,13 +5,13 @@ import random
 
 import pytest
 
+from servodeck.access.intake import Intake
+from servodeck.board.parts import Group
 from servodeck.callers import THIS_COMPUTER, Caller
-from servodeck.clients import hear, intake_of, take
 from servodeck.errors import GatewayError, LatchedError, PortLostError
-from servodeck.intake import Intake
 from servodeck.messages import StopMessage
-from servodeck.parts import Group
-from servodeck.values import Frame, ServoTarget
+from servodeck.protocol.values import Frame, ServoTarget
+from servodeck.web.clients import hear, intake_of, take
 from tests.amount import named, seeds
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from servodeck.background import BackgroundPorts
-from servodeck.library import Library
-from servodeck.library_messages import NamedPose, PoseTarget, RobotFacts
-from servodeck.packets import FAMILIES, encode
-from servodeck.values import Move, Run, ServoTarget
+from servodeck.library.library import Library
+from servodeck.library.library_messages import NamedPose, PoseTarget, RobotFacts
+from servodeck.port.background import BackgroundPorts
+from servodeck.protocol.packets import FAMILIES, encode
+from servodeck.protocol.values import Move, Run, ServoTarget
 from tests.running import Running, server_on
 from tests.test_with_simulator import ROOT, Board, board, pytestmark
 

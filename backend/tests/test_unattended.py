@@ -5,10 +5,10 @@ import asyncio
 import pytest
 
 from servodeck.callers import Caller
-from servodeck.clients import take
-from servodeck.control import Control
+from servodeck.driving.control import Control
 from servodeck.errors import CancelledError, NotDrivingError, OutOfRangeError
 from servodeck.messages import ContinueMessage, StopMessage
+from servodeck.web.clients import take
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import MOVE, RUN, STOP, STOPS

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from serial.tools import list_ports
 
 from servodeck.errors import ErrorCode, PortError
-from servodeck.ports import list_usb
-from servodeck.whereabouts import UsbDevice, Whereabouts
+from servodeck.port.ports import list_usb
+from servodeck.port.whereabouts import UsbDevice, Whereabouts
 from tests.fake_port import FakeBus
 from tests.test_link import link_to
 from tests.virtual_time import at, in_virtual_time

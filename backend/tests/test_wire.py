@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from servodeck.errors import BusyError, ClosedError, GatewayError, LatchedError, PortLostError
-from servodeck.wire import QUEUE_PER_OWNER, Wire
+from servodeck.port.wire import QUEUE_PER_OWNER, Wire
 from tests.amount import TIMES
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, GAP_MS, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms

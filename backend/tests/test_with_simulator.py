@@ -17,7 +17,7 @@ from typing import Any
 import pytest
 from websockets.asyncio.client import ClientConnection, connect
 
-from servodeck.background import BackgroundPorts
+from servodeck.port.background import BackgroundPorts
 from tests.running import Running, server_on
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, MOVE_ELSEWHERE, RUN, STOP
 from tests.test_clients import drive, hear, hear_until, say

@@ -4,7 +4,7 @@ import { LinkError } from '#shared/session/linkError.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
 import type { JobState } from './messages.generated.ts';
 
-/** As backend/servodeck/guard.py has it. */
+/** As backend/servodeck/access/guard.py has it. */
 const READ_BYTES = 512 * 1024;
 const FRAMES = [{ durationMs: 200, targets: [{ servo: 1, position: 1500 }] }];
 const RUNNING: JobState = {

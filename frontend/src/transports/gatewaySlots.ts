@@ -11,7 +11,7 @@ import type { JobState } from './messages.generated.ts';
 /** As large as half a megabyte, which a slow network takes a while for. */
 const TAKEN_WITHIN_MS = 8_000;
 
-/** What the gateway reads at once (backend/servodeck/guard.py), with room for what stands around the groups. */
+/** What the gateway reads at once (backend/servodeck/access/guard.py), with room for what stands around the groups. */
 const PORTION_BYTES = 500 * 1024;
 
 export interface GatewaySlots extends SharedSlots {

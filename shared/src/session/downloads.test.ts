@@ -1,5 +1,5 @@
 // A download against shared/vectors/downloads.json: when a board says what, and each packet that follows from it. The gateway's
-// own loop (backend/servodeck/download.py) runs the same file.
+// own loop (backend/servodeck/board/download.py) runs the same file.
 
 import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';

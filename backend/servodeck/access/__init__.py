@@ -1,0 +1,1 @@
+"""Who comes in, from where, as what, and how fast they may ask."""

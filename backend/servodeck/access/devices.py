@@ -1,0 +1,132 @@
+"""Who may come in: paired devices, script tokens and stop-only links, held in memory and written behind.
+
+Knows no request and no invitation. Of a secret only its SHA-256 is kept. Whoever is found waits for no disk.
+"""
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal, Protocol
+
+from servodeck.access.credentials import digest_of, make_id, make_secret, matches
+from servodeck.callers import Caller, Role
+from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError
+from servodeck.port.background import in_thread
+
+Kind = Literal["device", "token", "stopLink"]
+MAX_DEVICES = 500
+MAX_NAME = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Device:
+    """`last_seen_ms` is None until it came once."""
+
+    id: str
+    kind: Kind
+    name: str
+    role: Role
+    digest: bytes
+    paired_at_ms: int
+    last_seen_ms: int | None = None
+
+    @property
+    def caller(self) -> Caller:
+        return Caller(self.id, self.name, self.role)
+
+
+class Shelf(Protocol):
+    def load(self) -> list[Device]: ...
+
+    def save(self, devices: Callable[[], list[Device]]) -> None:
+        """In place of what was there. May be called from any thread. Raises a StorageError."""
+
+
+class NoShelf:
+    """Where nobody needs to be paired."""
+
+    def load(self) -> list[Device]:
+        return []
+
+    def save(self, devices: Callable[[], list[Device]]) -> None:
+        """Nothing is kept."""
+
+
+class Devices:
+    def __init__(self, shelf: Shelf, now_ms: Callable[[], int]) -> None:
+        """Raises a StorageError where the shelf cannot be read: nobody shall come in by an old list."""
+        self._shelf = shelf
+        self._now_ms = now_ms
+        self._devices = {one.id: one for one in shelf.load()}
+
+    @property
+    def all(self) -> list[Device]:
+        return list(self._devices.values())
+
+    def admit(self, kind: Kind, name: str, role: Role) -> tuple[Device, str]:
+        """A new one and its credential, which nobody can tell again."""
+        if len(self._devices) >= MAX_DEVICES:
+            raise OutOfRangeError(f"{MAX_DEVICES} devices are paired and no more can be. Revoke some.")
+        secret = make_secret()
+        device = Device(make_id(), kind, self._told_apart(name), role, digest_of(secret), self._now_ms())
+        self._put(device)
+        return device, f"{device.id}.{secret}"
+
+    def find(self, credential: str) -> Device | None:
+        """Whose credential that is; it was seen now."""
+        name, _, secret = credential.partition(".")
+        device = self._devices.get(name)
+        if device is None or not matches(secret, device.digest):
+            return None
+        seen = replace(device, last_seen_ms=self._now_ms())
+        self._devices[name] = seen
+        return seen
+
+    def change(self, device: str, name: str | None, role: Role | None) -> Device:
+        present = self.get(device)
+        if role not in (None, present.role):
+            if present.kind == "stopLink":
+                raise ForbiddenError("A stop-only link can only stop.")
+            self._keep_an_owner(present)
+        own = self._told_apart(name, present) if name else present.name
+        changed = replace(present, name=own, role=role or present.role)
+        self._put(changed)
+        return changed
+
+    def revoke(self, device: str) -> None:
+        present = self.get(device)
+        self._keep_an_owner(present)
+        self._devices = {one.id: one for one in self.all if one.id != device}
+
+    async def keep(self) -> None:
+        """Writes what holds now. Raises a StorageError; in memory it holds all the same."""
+        await in_thread(lambda: self._shelf.save(lambda: self.all), undo=lambda _: None)
+
+    def close(self) -> None:
+        """Writes when each was last seen. Raises a StorageError."""
+        self._shelf.save(lambda: self.all)
+
+    def get(self, device: str) -> Device:
+        found = self._devices.get(device)
+        if found is None:
+            raise NotFoundError("No such device is paired.")
+        return found
+
+    def _told_apart(self, name: str, but: Device | None = None) -> str:
+        """With a number behind it where somebody else is called so: a class has more than one Android."""
+        taken = {one.name for one in self.all if one is not but}
+        names = (name if count == 1 else f"{name[: MAX_NAME - 4]} {count}" for count in itertools.count(1))
+        return next(one for one in names if one not in taken)
+
+    def _put(self, device: Device) -> None:
+        # Another dictionary each time: a thread that writes may be going through the one before.
+        self._devices = {**self._devices, device.id: device}
+
+    def _keep_an_owner(self, leaving: Device) -> None:
+        others = [one for one in self.all if is_owners(one) and one.id != leaving.id]
+        if is_owners(leaving) and not others:
+            raise ForbiddenError("This is the last owner: make somebody else an owner first.")
+
+
+def is_owners(device: Device) -> bool:
+    return device.kind == "device" and device.role == "owner"

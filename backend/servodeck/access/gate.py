@@ -1,0 +1,173 @@
+"""Decides who may ask and what may go on the wire. Pure functions: no socket, no port, no clock, no state.
+
+Denies by default: only the names of `access` pass, the page served under them, and programs, which have no
+Origin.
+"""
+
+from collections.abc import Iterable
+
+from servodeck.access.access import Access
+from servodeck.callers import Role
+from servodeck.errors import (
+    ForbiddenError,
+    GatewayError,
+    LatchedError,
+    MalformedError,
+    NotSupportedError,
+    OutOfRangeError,
+    WrongTypeError,
+)
+from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.packets import FAMILIES, PacketError, check_command, encode
+from servodeck.protocol.values import Download
+
+MOVE, RUN, STOP, ERASE, DOWNLOAD = 3, 6, 7, 8, 25
+BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
+HARMLESS = frozenset({STOP, BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS})
+
+FORWARDING = frozenset(
+    {b"forwarded", b"via", b"x-real-ip", b"x-client-ip", b"true-client-ip", b"cf-connecting-ip"}
+)
+FORWARDING_PREFIX = b"x-forwarded-"
+BODY_METHODS = frozenset({"POST", "PUT", "PATCH", "DELETE"})
+
+Headers = Iterable[tuple[bytes, bytes]]
+
+
+def judge_handshake(headers: Headers, access: Access, own_address: str | None) -> str:
+    """The Host of an acceptable request or upgrade that came in at `own_address`. Raises ForbiddenError with
+    the reason.
+    """
+    found = list(headers)
+    if access.mode != "proxy":
+        judge_forwarding(found)
+    host = only(found, b"host")
+    if host is None or host not in access.hosts_at(own_address):
+        raise ForbiddenError(
+            "This gateway answers only to its own address on this computer; the Host header names another."
+            if access.mode == "local"
+            else "This gateway answers only to its own names and addresses; the Host header names another."
+        )
+    origin = only(found, b"origin")
+    if origin is not None and origin != access.scheme.encode() + b"://" + host:
+        raise ForbiddenError(
+            "Only the page that this gateway serves may ask; the Origin header names another."
+        )
+    judge_site(found)
+    return host.decode("ascii")
+
+
+def judge_forwarding(headers: list[tuple[bytes, bytes]]) -> None:
+    for name, _ in headers:
+        if name in FORWARDING or name.startswith(FORWARDING_PREFIX):
+            raise ForbiddenError(
+                "This gateway was not told of a proxy (--public-url); "
+                f"the header {name.decode('latin-1')} says that one passed the request on."
+            )
+
+
+def judge_body_type(method: str, headers: Headers) -> None:
+    """Raises WrongTypeError for a body that is not called JSON: a form of another site cannot call it so."""
+    found = list(headers)
+    has_body = only(found, b"transfer-encoding") or only(found, b"content-length") not in (None, b"0")
+    kind = (only(found, b"content-type") or b"").partition(b";")[0].strip().lower()
+    if method in BODY_METHODS and has_body and kind != b"application/json":
+        raise WrongTypeError("A body has to be application/json.")
+
+
+def judge_site(headers: list[tuple[bytes, bytes]]) -> None:
+    """A browser may leave Origin out of a plain GET, but says whether another site asks. Following a link is
+    fine.
+    """
+    site = only(headers, b"sec-fetch-site")
+    if site in (None, b"same-origin", b"none") or only(headers, b"sec-fetch-mode") == b"navigate":
+        return
+    raise ForbiddenError(
+        "Only the page that this gateway serves may ask; the browser says another site does."
+    )
+
+
+def judge_script(headers: Headers) -> None:
+    """For routes that act: not even a link of another site may lead here."""
+    if only(list(headers), b"sec-fetch-site") not in (None, b"same-origin", b"none"):
+        raise ForbiddenError(
+            "Only the page that this gateway serves may ask; a link of another site led here."
+        )
+
+
+def only(headers: list[tuple[bytes, bytes]], name: bytes) -> bytes | None:
+    """The header's one value. Raises ForbiddenError for several: who knows which one counts."""
+    values = [value for key, value in headers if key == name]
+    if len(values) > 1:
+        raise ForbiddenError(f"The header {name.decode('ascii')} came more than once.")
+    return values[0] if values else None
+
+
+def judge_packet(text: str, board: str) -> bytes:
+    """The packet in `text` (hex) when it is one command that board can take. Raises what is wrong with it."""
+    try:
+        packet = bytes.fromhex(text)
+    except ValueError:
+        raise MalformedError("The packet is not written in hex digits.") from None
+    try:
+        check_command(packet, FAMILIES[board])
+    except PacketError as error:
+        raise refusal_of(error) from error
+    return packet
+
+
+def judge_frame(command: Download, board: str) -> bytes:
+    """The packet that stores it. Raises what that board cannot take of it."""
+    try:
+        return encode(command, FAMILIES[board])
+    except PacketError as error:
+        raise refusal_of(error) from error
+
+
+def judge_by_hand(packet: bytes) -> None:
+    """A frame alone only breaks the slot it goes to (S33, S35). Raises NotSupportedError."""
+    if packet[COMMAND_AT] == DOWNLOAD:
+        raise NotSupportedError("Groups are stored as a whole: POST /api/download.")
+
+
+def judge_newest(packet: bytes, newest: bool) -> None:
+    """Nothing but a move is made void by a later one. Raises MalformedError."""
+    if newest and packet[COMMAND_AT] != MOVE:
+        raise MalformedError("Only a move can give way to a newer one.")
+
+
+def refusal_of(error: PacketError) -> GatewayError:
+    if error.code == "malformed":
+        return MalformedError(error.detail)
+    return (NotSupportedError if error.field == "command" else OutOfRangeError)(error.detail)
+
+
+def judge_hold(text: str | None, board: str) -> bytes | None:
+    """The pose to hold after a stop: one move packet."""
+    if text is None:
+        return None
+    packet = judge_packet(text, board)
+    if packet[COMMAND_AT] != MOVE:
+        raise MalformedError("Only a move can hold the pose after a stop.")
+    return packet
+
+
+def is_harmless(packet: bytes) -> bool:
+    """It moves nothing and stores nothing: nobody has to drive for it."""
+    return packet[COMMAND_AT] in HARMLESS
+
+
+def role_for(packet: bytes) -> Role:
+    """Who may send it at least: questions harm nobody, an erased board is empty for all."""
+    command = packet[COMMAND_AT]
+    if command == STOP:
+        return "stopper"
+    if is_harmless(packet):
+        return "viewer"
+    return "owner" if command == ERASE else "driver"
+
+
+def judge_latch(packet: bytes, latch: bool) -> None:
+    """While stopped, only what moves nothing and stores nothing passes. Raises LatchedError."""
+    if latch and not is_harmless(packet):
+        raise LatchedError("Stopped. Motion waits for Resume.")

@@ -1,0 +1,43 @@
+"""What the terminal says of who may come in: addresses, the first owner's link, and who can listen in.
+
+Knows words and the entrance; prints nothing itself.
+"""
+
+from servodeck.access.access import Access
+from servodeck.access.devices import is_owners
+from servodeck.access.entrance import Entrance
+from servodeck.access.links import drawn_for_terminal, pair_link
+
+OVERHEARD = (
+    "Plain http can be overheard by others on this network: whoever listens can take a paired device's\n"
+    "place. On a network that is not yours use Tailscale or an SSH tunnel, or put Caddy with https in front\n"
+    "and start with --public-url."
+)
+
+
+def greeting(entrance: Entrance, urls: list[str], *, invites: bool) -> str:
+    """`urls` are the addresses for others, the best first; `invites` one more owner where there is one."""
+    lines = [f"Others reach it at {' or '.join(urls)}"]
+    if invites or needs_owner(entrance):
+        lines += invitation(entrance, urls)
+    if not entrance.access.is_secure:
+        lines.append(OVERHEARD)
+    return "\n".join(lines)
+
+
+def needs_owner(entrance: Entrance) -> bool:
+    return not any(is_owners(one) for one in entrance.devices.all)
+
+
+def invitation(entrance: Entrance, urls: list[str]) -> list[str]:
+    invite = entrance.pairing.invite("owner", "")
+    code = invite.code or ""
+    begin = f"Within two minutes, type {code[:4]} {code[4:]} there, or open"
+    link = pair_link(urls[0], invite.secret)
+    return ["To come in as its owner:", f"{begin} {link}", drawn_for_terminal(link)]
+
+
+def urls_for_others(access: Access, addresses: list[str], own_url: str) -> list[str]:
+    if access.mode == "proxy":
+        return [access.url_of(name) for name in access.names]
+    return [access.url_of(address) for address in addresses] or [own_url]

@@ -1,0 +1,92 @@
+"""Stands before everything the gateway serves: asks `gate` about each request and upgrade, adds the security
+headers.
+
+Pure ASGI, because ordinary middleware does not see WebSockets. Knows no route.
+"""
+
+import re
+
+from starlette.datastructures import MutableHeaders
+from starlette.exceptions import HTTPException
+from starlette.responses import JSONResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from servodeck.access.access import Access
+from servodeck.access.gate import judge_body_type, judge_handshake
+from servodeck.errors import GatewayError
+
+BODY_BYTES = 16 * 1024
+LARGER_BODIES = (
+    # A document as text inside JSON, where every quote of it takes two characters.
+    (re.compile(r"/api/library/.*"), 3 * 1024 * 1024),
+    # Reading one takes 15 ms, in which a stop waits. The largest group there is, or 90 of the usual size.
+    (re.compile(r"/api/download"), 512 * 1024),
+)
+STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
+
+CONTENT_POLICY = (
+    # The page's SQLite is WebAssembly of its own origin; this allows no other evaluation.
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
+    "img-src 'self' data:; font-src 'self'; connect-src 'self' {socket}; "
+    "worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+FIXED_HEADERS = {
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Permissions-Policy": "serial=(self), hid=(self)",
+}
+
+
+class Guard:
+    def __init__(self, app: ASGIApp, access: Access) -> None:
+        self.app = app
+        self._access = access
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "lifespan":
+            return await self.app(scope, receive, send)
+        own_address = scope["server"][0] if scope.get("server") else None
+        try:
+            host = judge_handshake(scope["headers"], self._access, own_address)
+            if scope["type"] == "http":
+                judge_body_type(scope["method"], scope["headers"])
+        except GatewayError as error:
+            # The Host is not to be trusted here, so it does not appear in the policy.
+            refusal = JSONResponse({"code": error.code, "detail": error.detail}, error.status)
+            return await refusal(scope, receive, with_headers(send, "'self'"))
+        limited = limit_body(receive, body_bytes(scope["path"])) if scope["type"] == "http" else receive
+        socket = f"{'wss' if self._access.is_secure else 'ws'}://{host}"
+        return await self.app(scope, limited, with_headers(send, socket))
+
+
+def with_headers(send: Send, socket: str) -> Send:
+    async def send_with_headers(message: Message) -> None:
+        if message["type"] in STARTS:
+            headers = MutableHeaders(scope=message)
+            headers["Content-Security-Policy"] = CONTENT_POLICY.format(socket=socket)
+            headers.update(FIXED_HEADERS)
+            headers.setdefault("Cache-Control", "no-store")
+        await send(message)
+
+    return send_with_headers
+
+
+def body_bytes(path: str) -> int:
+    """Nothing that anybody may send there is larger than that."""
+    return next((size for shape, size in LARGER_BODIES if shape.fullmatch(path)), BODY_BYTES)
+
+
+def limit_body(receive: Receive, limit: int) -> Receive:
+    total_bytes = 0
+
+    async def receive_limited() -> Message:
+        nonlocal total_bytes
+        message = await receive()
+        total_bytes += len(message.get("body", b""))
+        if total_bytes > limit:
+            raise HTTPException(413, f"The request is larger than {limit} bytes.")
+        return message
+
+    return receive_limited

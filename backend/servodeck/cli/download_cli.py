@@ -1,0 +1,118 @@
+"""The command that stores groups on the board: reads their files, asks the gateway, tells how far it is.
+
+Parses and prints; what a board can take the gateway decides.
+"""
+
+import json
+import time
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from servodeck.cli.options_cli import (
+    INTERRUPTED,
+    REFUSED,
+    USAGE,
+    AsJson,
+    Take,
+    asked,
+    asking,
+    fail,
+    show,
+)
+from servodeck.cli.remote import Remote
+
+LOOK_S = 0.2
+# What the gateway reads at once (guard.py), with room for what stands around the groups.
+PORTION_BYTES = 500 * 1024
+SHAPE = '{"name": "Wave", "frames": [{"durationMs": 400, "positions": {"1": 1200}}]}'
+
+
+@asking
+def download(
+    remote: Remote,
+    groups: Annotated[
+        list[str], typer.Argument(metavar="SLOT=FILE...", help="For example 5=wave.json 6=bow.json")
+    ],
+    wait: Annotated[
+        bool, typer.Option("--wait/--no-wait", help="Until all are stored, or return once it has begun.")
+    ] = True,
+    take: Take = False,
+    as_json: AsJson = False,
+) -> None:
+    """Store groups on the board, one after the other. The gateway goes on by itself; Ctrl-C calls it off."""
+    job = handed_over(remote, [group_of(text) for text in groups], take=take)
+    if wait:
+        job = followed(remote, job, tells=not as_json)
+    show(job, as_json, words_of)
+    if job["status"] not in ("done", "running"):
+        raise typer.Exit(REFUSED)
+
+
+def handed_over(remote: Remote, groups: list[dict[str, Any]], *, take: bool) -> dict[str, Any]:
+    """As one job, in as many requests as the gateway needs to read them."""
+    first, *rest = portions_of(groups)
+    job: dict[str, Any] = asked(remote, "POST", "/api/download", {"groups": first, "take": take})
+    for portion in rest:
+        body = {"groups": portion, "take": take, "behind": job["id"]}
+        job = asked(remote, "POST", "/api/download", body)
+    return job
+
+
+def portions_of(groups: list[dict[str, Any]]) -> list[list[dict[str, Any]]]:
+    portions: list[list[dict[str, Any]]] = []
+    room_bytes = 0
+    for group in groups:
+        size_bytes = len(json.dumps(group)) + 2  # a comma and a blank
+        if size_bytes > room_bytes:
+            portions.append([])
+            room_bytes = PORTION_BYTES
+        portions[-1].append(group)
+        room_bytes -= size_bytes
+    return portions
+
+
+def followed(remote: Remote, job: dict[str, Any], *, tells: bool) -> dict[str, Any]:
+    """Until it has ended."""
+    stored = 0
+    try:
+        while job["status"] == "running":
+            time.sleep(LOOK_S)
+            job = asked(remote, "GET", f"/api/jobs/{job['id']}")
+            for slot in job["slots"][stored : job["groupsStored"]] if tells else ():
+                print(f"Slot {slot} is stored.", flush=True)
+            stored = job["groupsStored"]
+    except KeyboardInterrupt:
+        asked(remote, "DELETE", f"/api/jobs/{job['id']}")
+        fail("Called off behind its frame in progress.", INTERRUPTED)
+    return job
+
+
+def words_of(job: dict[str, Any]) -> str:
+    stored, count = job["groupsStored"], len(job["slots"])
+    if job["status"] == "running":
+        return f"Begun: job {job['id']}, {counted(count, 'group')}, {counted(job['frameCount'], 'frame')}."
+    end = f"{stored} of {counted(count, 'group')} {'is' if count == 1 else 'are'} stored."
+    return end if job["status"] == "done" else f"{end} {job['detail']} ({job['code']})"
+
+
+def counted(count: int, thing: str) -> str:
+    return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
+def group_of(text: str) -> dict[str, Any]:
+    """What the gateway takes; ends the program with an explanation for anything else."""
+    slot, separator, name = text.partition("=")
+    if not separator or not slot.isascii() or not slot.isdigit():
+        fail("A group is SLOT=FILE, for example 5=wave.json.", USAGE)
+    file = Path(name)
+    try:
+        group = json.loads(file.read_text("utf-8"))
+    except OSError as error:
+        fail(f"{file} cannot be read: {error.strerror}.", USAGE)
+    except ValueError:
+        fail(f"{file} is no JSON. It holds one group: {SHAPE}", USAGE)
+    if not isinstance(group, dict) or "frames" not in group or "format" in group:
+        fail(f"{file} holds no frames as a board stores them: {SHAPE}", USAGE)
+    return {"name": file.stem} | group | {"slot": int(slot)}

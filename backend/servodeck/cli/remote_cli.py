@@ -1,0 +1,161 @@
+"""The commands that ask a running gateway: what it has to say, and what the robot shall do.
+
+Parses and prints; what may be done the gateway decides.
+"""
+
+import time
+from collections.abc import Callable
+from typing import Annotated, Any
+
+import typer
+
+from servodeck.cli.options_cli import (
+    INTERRUPTED,
+    USAGE,
+    AsJson,
+    Take,
+    asked,
+    asking,
+    explain,
+    explain_silence,
+    fail,
+    show,
+)
+from servodeck.cli.remote import RefusedError, Remote, UnreachableError
+
+BEAT_S = 1.0
+# Servos of unknown place start a quarter of a second apart.
+MOVE_WAIT_S = 90.0
+
+
+@asking
+def status(remote: Remote, as_json: AsJson = False) -> None:
+    """How everything stands: port, board, who drives, what runs."""
+    show(asked(remote, "GET", "/api/status"), as_json, status_words)
+
+
+def status_words(state: dict[str, Any]) -> str:
+    port, run, alone = state["port"], state["running"], state["unattended"]
+    lines = [
+        f"port     {port['status']} {port['device'] or ''} {port['detail'] or ''}".rstrip(),
+        f"board    {state['board']}",
+        f"motion   {'stopped, waits for resume' if state['latch'] else 'allowed'}",
+        f"driver   {state['driver'] or 'nobody'}",
+    ]
+    if run:
+        lines.append(f"running  slot {run['slot']}, {run['times'] or 'endless'} times, as far as is known")
+    if alone:
+        lines.append(f"alone    without {alone['by']}, {alone['endsInMs'] / 1000:.0f} s at most")
+    return "\n".join(lines)
+
+
+@asking
+def stop(remote: Remote, as_json: AsJson = False) -> None:
+    """STOP: ends what moves, and refuses motion until `servodeck resume`."""
+    answer = asked(remote, "POST", "/api/stop")
+    show(answer, as_json, lambda _: "Stopped. servodeck resume allows motion again.")
+
+
+@asking
+def resume(remote: Remote, as_json: AsJson = False) -> None:
+    """Allow motion again. Moves nothing."""
+    answer = asked(remote, "POST", "/api/resume")
+    show(answer, as_json, lambda _: "Motion is allowed.")
+
+
+@asking
+def move(
+    remote: Remote,
+    targets: Annotated[
+        list[str], typer.Argument(metavar="SERVO=POSITION...", help="For example 1=1500 2=900")
+    ],
+    time_ms: Annotated[
+        int, typer.Option("--time", help="Milliseconds; a servo's first move takes 1500.")
+    ] = 1500,
+    take: Take = False,
+    as_json: AsJson = False,
+) -> None:
+    """Move servos together, in the board's unit."""
+    body = {"timeMs": time_ms, "positions": positions_in(targets), "take": take}
+    answer = asked(remote, "POST", "/api/move", body, wait_s=MOVE_WAIT_S)
+    show(answer, as_json, begun_words)
+
+
+def begun_words(begun: dict[str, Any]) -> str:
+    return f"On its way, over in {begun['overInMs'] / 1000:.1f} s."
+
+
+def positions_in(targets: list[str]) -> dict[str, int]:
+    try:
+        pairs = [target.split("=") for target in targets]
+        return {str(int(servo)): int(position) for servo, position in pairs}
+    except ValueError:
+        fail("A target is SERVO=POSITION, for example 1=1500.", USAGE)
+
+
+@asking
+def run(
+    remote: Remote,
+    slot: Annotated[int, typer.Argument(help="Of the board, from 0.")],
+    times: Annotated[int, typer.Option(help="0: until stopped.")] = 1,
+    go_on: Annotated[
+        int | None,
+        typer.Option("--continue", metavar="SECONDS", help="Return at once; it goes on for so long at most."),
+    ] = None,
+    take: Take = False,
+    as_json: AsJson = False,
+) -> None:
+    """Run a group of the board and watch over it: Ctrl-C ends it."""
+    body = {"times": times, "take": take, "continueForMs": None if go_on is None else go_on * 1000}
+    answer = asked(remote, "POST", f"/api/slots/{slot}/run", body)
+    show(answer, as_json, lambda begun: f"Slot {slot}: {begun['outcome']}.")
+    if go_on is None:
+        watch(remote)
+
+
+def watch(remote: Remote) -> None:
+    """Beats until the board has said that it is over; else until a person ends it."""
+    try:
+        while asked(remote, "GET", "/api/status")["running"]:
+            asked(remote, "POST", "/api/lease", {"action": "beat"})
+            time.sleep(BEAT_S)
+    except KeyboardInterrupt:
+        asked(remote, "POST", "/api/lease", {"action": "release"})
+        fail("Ended.", INTERRUPTED)
+
+
+@asking
+def erase(
+    remote: Remote,
+    sure: Annotated[bool, typer.Option("--yes", help="Without being asked again.")] = False,
+    take: Take = False,
+    as_json: AsJson = False,
+) -> None:
+    """Erase every slot of the board, for good. An owner's."""
+    if not sure:
+        typer.confirm("Every group on the board goes for good. Erase them?", abort=True)
+    show(asked(remote, "POST", "/api/erase", {"take": take}), as_json, lambda _: "Every slot is empty.")
+
+
+@asking
+def battery(remote: Remote, as_json: AsJson = False) -> None:
+    """Ask the board for its battery voltage."""
+    answer = asked(remote, "GET", "/api/battery")
+    show(answer, as_json, lambda read: f"{read['batteryMv'] / 1000:.2f} V")
+
+
+@asking
+def events(remote: Remote) -> None:
+    """Show what happens, a JSON object a line, until Ctrl-C."""
+    try:
+        for line in remote.events():
+            print(line, flush=True)
+    except RefusedError as error:
+        explain(error)
+    except UnreachableError as error:
+        explain_silence(remote, error)
+    except KeyboardInterrupt:
+        raise typer.Exit(INTERRUPTED) from None
+
+
+COMMANDS: tuple[Callable[..., None], ...] = (status, stop, resume, move, run, erase, battery, events)

@@ -1,0 +1,293 @@
+"""Joins the parts: clients, lease, gate and board. Owns the latch and the robot's limits.
+
+Knows what is asked and what may be done now. Must not know HTTP, WebSockets or how a byte reaches the port.
+"""
+
+from collections.abc import Callable, Sequence
+
+from servodeck.access.gate import (
+    RUN,
+    STOP,
+    is_harmless,
+    judge_by_hand,
+    judge_latch,
+    judge_newest,
+    judge_packet,
+)
+from servodeck.access.hub import Hub, Seat
+from servodeck.board.board import Board
+from servodeck.board.parts import Part, judge_parts
+from servodeck.board.recalled_board import RecalledBoard
+from servodeck.board.robot import RobotLimits
+from servodeck.board.slot_memory import SlotMemory
+from servodeck.callers import Caller
+from servodeck.driving.driving import Driving
+from servodeck.driving.latch import Cause, Latch
+from servodeck.driving.relay import Relay
+from servodeck.driving.telling import Telling
+from servodeck.driving.watch import Watch
+from servodeck.errors import (
+    CancelledError,
+    LatchedError,
+    MovingError,
+    NotDrivingError,
+    OutOfRangeError,
+    PortLostError,
+)
+from servodeck.files.remembered import Remembered
+from servodeck.library.robot_of_board import ReadFacts, RobotOfBoard, no_robot
+from servodeck.messages import (
+    HaltedMessage,
+    JobMessage,
+    NoiseMessage,
+    ReceivedMessage,
+    ResumedMessage,
+    RobotMessage,
+)
+from servodeck.port.link import Ports
+from servodeck.port.wire import Job, Left, Owner, always
+from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command
+from servodeck.told import JobState
+
+SOMEBODY = Cause("person")
+
+
+class Control:
+    def __init__(
+        self,
+        ports: Ports,
+        now: Callable[[], float],
+        board: str,
+        named_device: str | None = None,
+        *,
+        simulated: bool = False,
+        epoch: int = 0,
+        slot_memory: SlotMemory | None = None,
+        remembered: Remembered | None = None,
+        recalls_board: bool = False,
+        read_robot: ReadFacts = no_robot,
+    ) -> None:
+        """`named_device` is the port named at the start: always offered, even where the system does not list
+        it. `simulated`: what is behind it is no real board. `epoch`: leases are counted on from there.
+        Without `slot_memory` and `remembered` these are forgotten at the end.
+        `recalls_board`: where nobody has said of which family the board is, it is as it was last.
+        `read_robot` asks the library.
+        """
+        self.named_device = named_device
+        self.now = now
+        self._latch = Latch(self._latch_changed)
+        self.limits = RobotLimits()
+        self.remembered = remembered or Remembered()
+        self._recalled_board = RecalledBoard(self.remembered, is_wanted=recalls_board)
+        self.robot = RobotOfBoard(self.limits, read_robot, self.remembered, self._robot_changed)
+        self.hub = Hub()
+        self._watch = Watch(self)
+        self.driving = Driving(self.hub, now, epoch, self._watch)
+        simulated_device = named_device if simulated else None
+        self.board = Board(ports, now, board, simulated_device, slot_memory or SlotMemory(), self)
+        self._relay = Relay(self.hub, now)
+        self._telling = Telling(self.hub, self.board, self._latch, self.robot, self.driving, now)
+        self._halting: Left | None = None
+
+    @property
+    def latch(self) -> bool:
+        """Motion is refused until somebody resumes."""
+        return self._latch.cause is not None
+
+    # What clients ask
+
+    def join(self, seat: Seat) -> None:
+        """The welcome is the seat's first message."""
+        self.hub.join(seat)
+        self._telling.welcome(seat)
+        self._telling.state(but=seat)
+        self.driving.seated(seat)
+
+    def leave(self, seat: Seat) -> None:
+        self.board.drop(lambda job: job.owner is seat, CancelledError("The client has left."))
+        self.limits.forget(seat)
+        self.hub.leave(seat)
+        self.driving.leave(seat)
+        self.driving.seated(seat)
+        self._relay.forget(seat)
+        self._telling.state()
+
+    def send(self, owner: Owner, packet_hex: str, nonce: str | None = None, *, newest: bool = False) -> Left:
+        """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving. What
+        is not harmless needs the lease and its `nonce`. A `newest` move is cancelled where a later one takes
+        its place.
+        """
+        packet = judge_packet(packet_hex, self.board.taken_for)
+        judge_newest(packet, newest)
+        self.limits.judge(packet, owner)
+        wire = self.board.link.wire()
+        judge_latch(packet, self.latch)
+        judge_by_hand(packet)
+        self.board.jobs.judge_run(parse_command(packet), self.board.link.place)
+        self._judge_idle(packet)
+        judge = always if is_harmless(packet) else self._permitted(owner, nonce)
+        command = packet[COMMAND_AT]
+        if command == STOP:
+            # A stop overtakes all that waits; a run it overtook must not start the group again behind it.
+            wire.purge(is_run, CancelledError("A stop has overtaken this run."))
+        return wire.send(packet, owner, urgent=command == STOP, newest=newest, judge=judge)
+
+    def stop(self, hold: bytes | None, owner: Owner = None, cause: Cause = SOMEBODY) -> Left:
+        """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
+        stop.
+        """
+        self._latch.close(cause)
+        self.board.jobs.end(LatchedError("Stopped before all of it was stored."))
+        left = self.board.halt(hold, LatchedError("Stopped before it left."), owner)
+        if left is not self._halting:
+            self._halting = left
+            left.add_done_callback(self._halted)
+        return left
+
+    def resume(self, caller: Caller, seat: Seat | None = None) -> None:
+        """Everybody but `seat` hears whose word it was. Raises NotDrivingError while somebody else drives.
+        Refused while the port is lost: whoever resumes shall see the robot's answer.
+        """
+        self.driving.judge_resume(caller)
+        port = self.board.link.state
+        if port.status == "lost":
+            raise PortLostError(port.detail or "The serial port is gone.")
+        if self._latch.open():
+            self._telling.everybody(ResumedMessage(by=caller.name), but=seat)
+
+    def name_board(self, seat: Seat, board: str) -> None:
+        """Raises NotDrivingError where somebody else drives whatever else it was."""
+        if board != self.board.taken_for and not self.driving.may_rule(seat.caller):
+            raise NotDrivingError("Somebody else drives: which board it is changes only under their hands.")
+        self.take_for(board)
+
+    def take_for(self, board: str) -> None:
+        """What every later packet is judged by; `unknown` lets only harmless questions pass. Everybody is
+        told, also where nothing changed.
+        """
+        if board not in FAMILIES:
+            raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
+        if board != self.board.taken_for:
+            self.board.take_for(board)
+            self._recalled_board.said(self.board)
+        self._telling.state()
+        self._see_robot()
+
+    def let_go_on(self, seat: Seat, for_ms: int | None) -> None:
+        """The run under way, without its driver; None: not any more."""
+        if self.driving.driver is not seat:
+            raise NotDrivingError("Only who drives may let a run go on.")
+        if for_ms is None:
+            self.board.unattended.end()
+            return
+        run = self.board.motion.run
+        if run is None:
+            raise CancelledError("Nothing runs any more.")
+        if run.times == 0:
+            raise OutOfRangeError("times is 0: what goes on without its driver has an end.")
+        self.board.unattended.allow(run, seat, for_ms / 1000)
+
+    def download(
+        self, parts: Sequence[Part], by: str, claim: Callable[[], object], behind: str | None = None
+    ) -> JobState:
+        """Begins to store them, or has the job `behind` which they come store them, too; raises what keeps it
+        from that before anything is sent. `claim` raises where `by` may not.
+        """
+        board = self.board
+        before = board.jobs.parts_of(behind) if behind else ()
+        judge_parts((*before, *parts), board.taken_for)
+        for part in parts:
+            self.limits.judge_targets(part.extremes)
+            board.jobs.judge_replaced(part, board.link.place)
+        if behind:
+            claim()
+            return board.jobs.add(behind, parts)
+        wire = board.link.wire()
+        judge_latch(parts[0].packets[0], self.latch)
+        board.jobs.judge_idle()
+        if board.may_move() or not wire.is_clear_of(lambda packet: not is_harmless(packet)):
+            raise MovingError("The robot is moving, or a group may still run: wait, or stop it first.")
+        claim()
+        return board.jobs.begin(parts, by, board.link.place, wire)
+
+    async def use_port(self, device: str, board: str | None = None) -> None:
+        await self.board.quiet()
+        self.robot.leave()
+        self.board.taken_for = board or self.board.taken_for
+        await self.board.link.use(device)
+        if board:
+            self._recalled_board.said(self.board)
+
+    async def close_port(self) -> None:
+        await self.board.quiet()
+        self.robot.leave()
+        await self.board.link.close()
+
+    async def shut_down(self) -> None:
+        """Stops the robot whatever it does and lets go of the port. Twice is harmless."""
+        self._latch.cause = SOMEBODY  # nobody starts it again behind the stops
+        await self.board.shut_down()
+        self.hub.close()
+
+    # What the board tells
+
+    def port_opened(self) -> None:
+        self._recalled_board.port_opened(self.board)
+
+    def port_lost(self) -> None:
+        self._latch.cause = Cause("loss")  # the change of the port's state follows and tells both
+
+    def board_changed(self) -> None:
+        self._telling.state()
+        self._see_robot()
+
+    def job_changed(self, state: JobState) -> None:
+        self._telling.everybody(JobMessage(job=state))
+
+    def time_alone_over(self) -> None:
+        self._watch.end_quietly(CancelledError("The time in which it might go on alone is over."))
+
+    def received(self, event: DecoderEvent) -> None:
+        is_packet = isinstance(event, PacketEvent)
+        text = event.bytes.hex()
+        self._telling.everybody(ReceivedMessage(packet=text) if is_packet else NoiseMessage(bytes=text))
+
+    def run_told(self) -> None:
+        """Behind a stop it is one that the board kept while its flash worked, however long that took."""
+        if self.latch:
+            self.board.halt_again()
+
+    def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
+        self._relay.leaving(owner, packet, at_s)
+
+    # Inside
+
+    def _permitted(self, owner: Owner, nonce: str | None) -> Callable[[], None]:
+        permit = self.driving.permit(owner, nonce)
+        return lambda: self.driving.judge(permit)
+
+    def _judge_idle(self, packet: bytes) -> None:
+        """A stop always goes, but the frame it meets on the board is not stored for sure (S10)."""
+        if packet[COMMAND_AT] == STOP:
+            self.board.jobs.end(CancelledError("A stop ended it before all of it was stored."))
+        self.board.jobs.judge_idle()
+
+    def _see_robot(self) -> None:
+        link = self.board.link
+        if link.state.status == "open":
+            self.robot.stands_on(self.board.taken_for, link.place)
+
+    def _latch_changed(self) -> None:
+        self._telling.state()
+
+    def _robot_changed(self) -> None:
+        self._telling.everybody(RobotMessage(robot=self.robot.told()))
+
+    def _halted(self, left: Left) -> None:
+        if not left.cancelled() and left.exception() is None:
+            self._telling.everybody(HaltedMessage())
+
+
+def is_run(job: Job) -> bool:
+    return job.packet[COMMAND_AT] == RUN

@@ -1,0 +1,203 @@
+"""What scripts set in motion: each request speaks for itself, with the lease for as long as what it asked
+lasts (docs/adr/0014).
+
+Knows what is asked and in which order it leaves; no HTTP. Who may drive is `driving`'s to say, what may leave
+`control`'s.
+"""
+
+import asyncio
+import contextlib
+from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from servodeck.access.gate import judge_latch
+from servodeck.access.hub import Seat
+from servodeck.board.parts import Part
+from servodeck.callers import Caller, as_script
+from servodeck.driving.control import Control
+from servodeck.driving.script_moves import packet_of, plan_move
+from servodeck.errors import CancelledError, MovingError, NoAnswerError, OutOfRangeError
+from servodeck.port.wire import Left
+from servodeck.protocol.families import Family
+from servodeck.protocol.values import Erase, Erased, Run, RunAccepted, RunStarted
+from servodeck.told import JobState, LeaseState
+
+RUN_WAIT_S = 0.5  # S18, S52
+ERASE_WAIT_S = 1.0  # boards.md section 3: 403 ms at worst
+
+ScriptAction = Literal["request", "take", "release", "beat"]
+RunOutcome = Literal["acknowledged", "silent", "sent"]
+IsWanted = Callable[[], Awaitable[bool]]
+
+
+class ScriptSeat(Seat):
+    """Whose requests come one by one: nobody is there to be told anything."""
+
+    def put(self, text: str) -> None:
+        """Unread."""
+
+
+@dataclass(frozen=True, slots=True)
+class Moved:
+    packets: int
+    over_in_ms: int
+    first_moves: tuple[int, ...]
+
+
+class Turn:
+    """One request's leave to move the robot. It ends with the next stop, and with another driver."""
+
+    def __init__(self, control: Control, seat: Seat, packet: bytes, *, take: bool) -> None:
+        """Raises what keeps its first packet from leaving."""
+        control.board.link.wire()
+        judge_latch(packet, control.latch)
+        self._control = control
+        self._seat = seat
+        control.driving.speak_for(seat, take=take)
+        self._mark = self._present()
+
+    async def end_what_moves(self) -> None:
+        self._judge()
+        await self._control.board.end_motion()
+        self._mark = (self._mark[0], self._present()[1])
+
+    def send(self, packet: bytes, lasts_s: float = 0.0) -> Left:
+        """`lasts_s`: what it sets in motion."""
+        self._judge()
+        driving = self._control.driving
+        nonce = driving.speak_for(self._seat, take=False)
+        left = self._control.send(self._seat, packet.hex(), nonce)
+        driving.vouch(self._seat, 0.0)
+        left.add_done_callback(lambda _: driving.vouch(self._seat, lasts_s))
+        return left
+
+    def _present(self) -> tuple[int, int]:
+        return self._control.driving.epoch, self._control.board.halts
+
+    def _judge(self) -> None:
+        if self._mark != self._present():
+            raise CancelledError("Stopped, or taken over, before all of it had left.")
+
+
+def end_of_group(ends_in_s: float | None) -> str:
+    if ends_in_s is None:
+        return "A group may be running, and only its board knows its end: let go of the lease to end it."
+    return f"A group runs for up to {ends_in_s:.1f} s more: wait, or let go of the lease to end it."
+
+
+class Scripts:
+    def __init__(self, control: Control) -> None:
+        self._control = control
+        self._seats: dict[str, ScriptSeat] = {}
+        self._asks_the_board = False
+
+    async def move(
+        self,
+        caller: Caller,
+        duration_ms: int,
+        positions: Mapping[int, int],
+        *,
+        take: bool,
+        is_wanted: IsWanted,
+    ) -> Moved:
+        """Until its last packet has left; what is not wanted any more does not leave."""
+        control, seat = self._control, self._seat_of(caller)
+        family, now = self._family(), control.now()
+        if control.board.motion.group_may_run(now):
+            raise MovingError(end_of_group(control.board.motion.group_ends_in_s(now)))
+        plan = plan_move(duration_ms, positions, family, control.board.motion, now, control.limits.name_of)
+        for step in plan.steps:
+            control.limits.judge(step.packet, seat)
+        turn = Turn(control, seat, plan.steps[0].packet, take=take)
+        for step in plan.steps:
+            await asyncio.sleep(step.after_s)
+            if not await is_wanted():
+                raise CancelledError("Whoever asked has hung up.")
+            await turn.send(step.packet, duration_ms / 1000)
+        return Moved(len(plan.steps), duration_ms, plan.first_moves)
+
+    async def run(
+        self, caller: Caller, slot: int, times: int, *, take: bool, continue_ms: int | None = None
+    ) -> RunOutcome:
+        """What moves ends first."""
+        family, seat = self._family(), self._seat_of(caller)
+        packet = packet_of(Run(slot, times), family)
+        if continue_ms is not None and times == 0:
+            raise OutOfRangeError("times is 0: what goes on without its driver has an end.")
+        with self._asking_the_board():
+            turn = Turn(self._control, seat, packet, take=take)
+            await turn.end_what_moves()
+            left = turn.send(packet)
+            outcome = await self._outcome_of_run(left, family)
+        if continue_ms is not None:
+            self._control.let_go_on(seat, continue_ms)
+        return outcome
+
+    def download(self, caller: Caller, parts: Sequence[Part], behind: str | None, *, take: bool) -> JobState:
+        """Needs the lease to begin with, and nobody from then on."""
+        seat, driving = self._seat_of(caller), self._control.driving
+
+        def claim() -> None:
+            driving.speak_for(seat, take=take)
+
+        job = self._control.download(parts, seat.caller.name, claim, behind)
+        driving.vouch(seat, 0.0)
+        return job
+
+    async def erase(self, caller: Caller, *, take: bool) -> None:
+        """Until the board says that it is done."""
+        packet = packet_of(Erase(), self._family())
+        if self._control.board.may_move():
+            raise MovingError("The robot moves: wait for its end, or stop it first.")
+        with self._asking_the_board():
+            turn = Turn(self._control, self._seat_of(caller), packet, take=take)
+            left = turn.send(packet, ERASE_WAIT_S)
+            if await self._control.board.answers.to(left, ERASE_WAIT_S, Erased) is None:
+                raise NoAnswerError("The board did not say whether its groups are erased.")
+
+    def act(self, caller: Caller, action: ScriptAction) -> LeaseState:
+        """On the lease alone; `beat` says that somebody watches over what this script has begun."""
+        seat, driving = self._seat_of(caller), self._control.driving
+        if action != "beat":
+            driving.act(seat, action)
+        driving.vouch(seat, 0.0)
+        return driving.state_for(seat)
+
+    def give(self, caller: Caller, to: str) -> LeaseState:
+        """To somebody who is here with a page."""
+        seat = self._seat_of(caller)
+        self._control.driving.give(seat, to)
+        return self._control.driving.state_for(seat)
+
+    def forget(self, caller_id: str) -> None:
+        """It may not come in any more, or as somebody else: what it began ends."""
+        seat = self._seats.pop(caller_id, None)
+        if seat:
+            self._control.driving.leave(seat)
+
+    async def _outcome_of_run(self, left: Left, family: Family) -> RunOutcome:
+        if "run" not in family.answers:
+            await left
+            return "sent"
+        taken = await self._control.board.answers.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
+        return "silent" if taken is None else "acknowledged"
+
+    def _family(self) -> Family:
+        return self._control.board.family
+
+    def _seat_of(self, caller: Caller) -> ScriptSeat:
+        seat = self._seats.setdefault(caller.id, ScriptSeat(caller))
+        seat.caller = as_script(caller)  # an owner may call it otherwise by now
+        return seat
+
+    @contextlib.contextmanager
+    def _asking_the_board(self) -> Iterator[None]:
+        """One at a time: the board's answers do not say to whom."""
+        if self._asks_the_board:
+            raise MovingError("The board is being asked for something else.")
+        self._asks_the_board = True
+        try:
+            yield
+        finally:
+            self._asks_the_board = False

@@ -1,0 +1,57 @@
+"""What becomes of what moves when its driver is silent, gone or another one (docs/adr/0012).
+
+Knows what the lease tells and how to stop; not who may drive.
+"""
+
+import contextlib
+from typing import TYPE_CHECKING
+
+from servodeck.driving.latch import Cause
+from servodeck.errors import CancelledError, GatewayError, NotDrivingError
+
+if TYPE_CHECKING:
+    from servodeck.driving.control import Control
+
+
+class Watch:
+    def __init__(self, control: "Control") -> None:
+        self._control = control
+
+    def driver_quiet(self) -> None:
+        control = self._control
+        driver = control.driving.driver
+        control.board.drop(
+            lambda job: job.owner is driver, CancelledError("Its driver was not heard any more.")
+        )
+        if control.board.motion.is_moving(control.now()):
+            self._stop_for_nobody()
+
+    def driver_silent(self) -> None:
+        if self._control.board.may_move() and not self._control.board.unattended.by:
+            self._stop_for_nobody()
+
+    def driver_lost(self) -> None:
+        self.driver_silent()
+
+    def driver_changed(self) -> None:
+        """What one driver began does not go on under the next; nobody has to resume for it."""
+        board = self._control.board
+        goes_on_alone = board.unattended.by and self._control.driving.driver is None
+        if board.may_move() and not goes_on_alone:
+            self.end_quietly(NotDrivingError("Somebody else drives now."))
+
+    def lease_changed(self) -> None:
+        driving = self._control.driving
+        if driving.driver and self._control.board.unattended.by not in (None, driving.driver):
+            self.end_quietly(NotDrivingError("Somebody else drives now."))
+        driving.tell_all()
+
+    def end_quietly(self, reason: GatewayError) -> None:
+        """Without the latch: somebody is there, or it was said beforehand."""
+        with contextlib.suppress(GatewayError):
+            self._control.board.halt(None, reason)
+
+    def _stop_for_nobody(self) -> None:
+        """STOP because nobody watches over what moves: whoever goes on has to look first."""
+        with contextlib.suppress(GatewayError):
+            self._control.stop(None, cause=Cause("silence"))

@@ -1,0 +1,1 @@
+"""Small files of the data folder, whole or not at all."""

@@ -1,0 +1,202 @@
+"""The library: documents as opaque texts with a revision, what a list says of each, named versions, a trash.
+
+Knows no HTTP and nothing of what a text means. Its file is opened when it is first needed and again after a
+failure, so that driving a robot never waits for a disk. May be called from any thread; blocks.
+"""
+
+import sqlite3
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+from servodeck.errors import ConflictError, ForbiddenError, NotFoundError, OutOfRangeError
+from servodeck.library.library_file import STEPS, code_of, open_library, storage_error
+
+TRASH_MS = 30 * 24 * 3600 * 1000
+MAX_DOCUMENTS = 5000
+MAX_VERSIONS = 200
+CLOSE_WAIT_S = 0.5
+# After these a connection may be used on; after any other it is opened anew.
+PASSING = frozenset({sqlite3.SQLITE_FULL, sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED})
+
+
+class Listed(NamedTuple):
+    id: str
+    revision: int
+    is_removed: bool
+    facts: str
+
+
+class Version(NamedTuple):
+    id: str
+    name: str
+    at_ms: int
+
+
+def wall_clock_ms() -> int:
+    return time.time_ns() // 1_000_000
+
+
+class Library:
+    def __init__(
+        self,
+        folder: Path,
+        now_ms: Callable[[], int] = wall_clock_ms,
+        steps: Sequence[Sequence[str]] = STEPS,
+    ) -> None:
+        self.set_aside: str | None = None
+        """The name of a damaged file that was found and kept."""
+        self.folder = folder
+        self._now_ms = now_ms
+        self._steps = steps
+        self._lock = threading.Lock()
+        self._db: sqlite3.Connection | None = None
+
+    def list(self) -> list[Listed]:
+        with self._transaction("BEGIN") as db:
+            rows = db.execute("SELECT id, revision, removed_at_ms IS NOT NULL, facts FROM document")
+            return [Listed(row[0], row[1], bool(row[2]), row[3]) for row in rows]
+
+    def read(self, document: str) -> tuple[str, int]:
+        """The text and its revision."""
+        with self._transaction("BEGIN") as db:
+            return found(db.execute("SELECT text, revision FROM document WHERE id = ?", (document,)))
+
+    def facts_of(self, document: str, kind: str) -> tuple[str, int]:
+        """What a list says of one of that kind outside the trash, and its revision."""
+        with self._transaction("BEGIN") as db:
+            return found(
+                db.execute(
+                    "SELECT facts, revision FROM document "
+                    "WHERE id = ? AND kind = ? AND removed_at_ms IS NULL",
+                    (document, kind),
+                )
+            )
+
+    def write(
+        self,
+        document: str,
+        text: str,
+        facts: str,
+        expected: int,
+        *,
+        kind: str = "group",
+        is_removed: bool = False,
+    ) -> int:
+        """Its new revision. Raises a ConflictError where it is not at `expected` and holds another text, or
+        is of another kind. The same text sent again, because the answer was lost, is no conflict; one that is
+        not here is taken in.
+        """
+        with self._transaction() as db:
+            row = db.execute("SELECT revision, text, kind FROM document WHERE id = ?", (document,)).fetchone()
+            if row is None:
+                require_room(db, "document", (), MAX_DOCUMENTS)
+            elif (row[1] != text and row[0] != expected) or row[2] != kind:
+                raise ConflictError("Somebody else has changed this document meanwhile.")
+            revision = row[0] if row and row[1] == text else expected + 1
+            removed_at_ms = self._now_ms() if is_removed else None
+            db.execute(
+                "INSERT INTO document VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT (id) DO UPDATE SET "
+                "revision = excluded.revision, removed_at_ms = excluded.removed_at_ms, "
+                "facts = excluded.facts, text = excluded.text",
+                (document, revision, removed_at_ms, facts, text, kind),
+            )
+            return int(revision)
+
+    def remove(self, documents: Sequence[str]) -> None:
+        """To the trash, for 30 days: all of them or none."""
+        self._mark(documents, self._now_ms())
+
+    def require_removed(self, document: str) -> None:
+        """Raises a ForbiddenError for one outside the trash: only an owner may put it there."""
+        with self._transaction("BEGIN") as db:
+            row = db.execute("SELECT removed_at_ms FROM document WHERE id = ?", (document,)).fetchone()
+            if row is not None and row[0] is None:
+                raise ForbiddenError("Only an owner may remove what the library holds.")
+
+    def restore(self, documents: Sequence[str]) -> None:
+        """Out of the trash: all of them or none."""
+        self._mark(documents, None)
+
+    def versions(self, document: str) -> Sequence[Version]:
+        """Oldest first."""
+        with self._transaction("BEGIN") as db:
+            rows = db.execute(
+                "SELECT id, name, at_ms FROM version WHERE document = ? ORDER BY at_ms, id", (document,)
+            )
+            return [Version(*row) for row in rows]
+
+    def read_version(self, document: str, version: str) -> str:
+        with self._transaction("BEGIN") as db:
+            key = (document, version)
+            return str(found(db.execute("SELECT text FROM version WHERE document = ? AND id = ?", key))[0])
+
+    def keep_version(self, document: str, version: Version, text: str) -> None:
+        with self._transaction() as db:
+            found(db.execute("SELECT id FROM document WHERE id = ?", (document,)))
+            require_room(db, "version WHERE document = ?", (document,), MAX_VERSIONS)
+            db.execute("INSERT OR REPLACE INTO version VALUES (?, ?, ?, ?, ?)", (document, *version, text))
+
+    def remove_version(self, document: str, version: str) -> None:
+        """For good."""
+        with self._transaction() as db:
+            key = (document, version)
+            found(db.execute("SELECT id FROM version WHERE document = ? AND id = ?", key))
+            db.execute("DELETE FROM version WHERE document = ? AND id = ?", key)
+
+    def close(self) -> None:
+        """Left to the file's own journal where a request still waits for the disk."""
+        if self._lock.acquire(timeout=CLOSE_WAIT_S):
+            self._forget()
+            self._lock.release()
+
+    def _mark(self, documents: Sequence[str], removed_at_ms: int | None) -> None:
+        with self._transaction() as db:
+            for document in documents:
+                found(db.execute("SELECT id FROM document WHERE id = ?", (document,)))
+                db.execute("UPDATE document SET removed_at_ms = ? WHERE id = ?", (removed_at_ms, document))
+
+    @contextmanager
+    def _transaction(self, begin: str = "BEGIN IMMEDIATE") -> Iterator[sqlite3.Connection]:
+        """Whole or not at all. Raises a StorageError."""
+        with self._lock:
+            try:
+                db = self._db = self._db or self._open()
+                db.execute(begin)
+                try:
+                    yield db
+                    db.execute("COMMIT")
+                finally:
+                    if db.in_transaction:
+                        db.execute("ROLLBACK")
+            except sqlite3.Error as error:
+                if code_of(error) not in PASSING:
+                    self._forget()
+                raise storage_error(error) from error
+
+    def _open(self) -> sqlite3.Connection:
+        db, aside = open_library(self.folder, self._steps)
+        self.set_aside = aside or self.set_aside
+        db.execute("DELETE FROM document WHERE removed_at_ms < ?", (self._now_ms() - TRASH_MS,))
+        return db
+
+    def _forget(self) -> None:
+        if self._db:
+            self._db.close()
+        self._db = None
+
+
+def found(rows: sqlite3.Cursor) -> tuple[str, int]:
+    row: tuple[str, int] | None = rows.fetchone()
+    if row is None:
+        raise NotFoundError("The library does not hold that.")
+    return row
+
+
+def require_room(db: sqlite3.Connection, where: str, values: tuple[str, ...], limit: int) -> None:
+    count = db.execute(f"SELECT count(*) FROM {where}", values).fetchone()[0]
+    if count >= limit:
+        raise OutOfRangeError(f"The library takes {limit} of these and no more.")

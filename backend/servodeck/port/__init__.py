@@ -1,0 +1,1 @@
+"""The serial port: found, opened, kept open, read and written."""

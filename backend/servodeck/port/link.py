@@ -1,0 +1,186 @@
+"""Keeps one serial port open: opens it, waits for its loss, tries again with growing pauses, says how it
+stands.
+
+Knows ports and time, no packet and no client. It never changes the device by itself: it follows the one
+that a person chose to another name, and leaves another one that took its name alone.
+"""
+
+import asyncio
+import contextlib
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from servodeck.errors import CancelledError, ClosedError, PortError, PortLostError
+from servodeck.port.ports import OpenPort
+from servodeck.port.whereabouts import UsbDevice, Whereabouts
+from servodeck.port.wire import Wire, fail, settle
+from servodeck.told import PortState
+
+FIRST_RETRY_S = 0.25  # a replugged adapter is there again after about that long
+LAST_RETRY_S = 5.0
+STEADY_S = 5.0  # a port that stayed open that long was no false start: begin with short pauses again
+
+CLOSED = PortState(device=None, status="closed")
+log = logging.getLogger("servodeck.port")
+
+
+class Ports(Protocol):
+    async def open(self, device: str) -> OpenPort: ...
+
+    async def close(self, port: OpenPort) -> None: ...
+
+    async def list_usb(self) -> list[UsbDevice]:
+        """What is on the bus now. Never raises."""
+
+
+class LinkEvents(Protocol):
+    def port_opened(self, wire: Wire) -> None:
+        """Before anything else is sent on that wire."""
+
+    def port_lost(self) -> None:
+        """It was open and is gone, unasked."""
+
+    def port_changed(self) -> None:
+        """`state` is another one now."""
+
+
+@dataclass(slots=True)
+class BackOff:
+    """The pauses between attempts: doubled each time."""
+
+    next_s: float = FIRST_RETRY_S
+
+    def take(self) -> float:
+        pause_s, self.next_s = self.next_s, min(self.next_s * 2, LAST_RETRY_S)
+        return pause_s
+
+
+class Link:
+    def __init__(
+        self,
+        ports: Ports,
+        make_wire: Callable[[OpenPort], Wire],
+        events: LinkEvents,
+        now: Callable[[], float],
+    ) -> None:
+        self._ports = ports
+        self._make_wire = make_wire
+        self._events = events
+        self._now = now
+        self._wire: Wire | None = None
+        self._whereabouts: Whereabouts | None = None
+        self._task: asyncio.Task[None] | None = None
+        self._changing = asyncio.Lock()
+        self.state = CLOSED
+
+    @property
+    def place(self) -> str:
+        """What the board on it is remembered by."""
+        return self._whereabouts.lasting if self._whereabouts else ""
+
+    def wire(self) -> Wire:
+        """The open wire. Raises what keeps it from being open."""
+        if self._wire:
+            return self._wire
+        if self.state.status == "lost":
+            raise PortLostError(self.state.detail or "The serial port is gone.")
+        raise ClosedError("No serial port is open.")
+
+    async def use(self, device: str) -> None:
+        """Changes to that device. Raises the PortError of the first attempt; later attempts go on all the
+        same.
+        """
+        first: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        async with self._changing:
+            await self._end()
+            self._show(PortState(device=device, status="opening"))
+            self._task = asyncio.create_task(self._keep_open(device, first))
+            # Not in the task itself: one that is cancelled before its first step runs no line of its own.
+            self._task.add_done_callback(lambda _: fail(first, replaced()))
+        await first
+
+    async def close(self) -> None:
+        """Closes the port and stays closed."""
+        async with self._changing:
+            await self._end()
+            self._show(CLOSED)
+
+    async def _end(self) -> None:
+        task, self._task = self._task, None
+        if task:
+            task.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await task
+
+    async def _keep_open(self, device: str, first: asyncio.Future[None]) -> None:
+        back_off = BackOff()
+        whereabouts = self._whereabouts = Whereabouts(device)
+        while True:
+            try:
+                await self._serve(whereabouts, first, back_off)
+            except PortError as error:
+                self._show_lost(whereabouts.path, error, back_off)
+                fail(first, error)
+                await asyncio.sleep(back_off.take())
+
+    async def _serve(self, whereabouts: Whereabouts, first: asyncio.Future[None], back_off: BackOff) -> None:
+        """One life of the port; ends by the PortError that ended it, or cancelled."""
+        port = await self._open(whereabouts)
+        opened_at = self._now()
+        try:
+            self._wire = self._make_wire(port)
+            self._events.port_opened(self._wire)
+            self._show(PortState(device=whereabouts.path, status="open"))
+            settle(first)
+            await self._wire.run()
+        except PortError as error:
+            self._wire = None
+            if self._now() - opened_at >= STEADY_S:
+                back_off.next_s = FIRST_RETRY_S
+            self._events.port_lost()
+            # Before closing, which may take a while.
+            self._show_lost(whereabouts.path, error, back_off)
+            whereabouts.note_others(await self._ports.list_usb())
+            raise
+        finally:
+            self._wire = None
+            await self._ports.close(port)
+
+    async def _open(self, whereabouts: Whereabouts) -> OpenPort:
+        """The device itself, whatever it is called by now; nothing is sent to it before that is sure."""
+        path = whereabouts.find(await self._ports.list_usb() if whereabouts.is_known else ())
+        port = await self._ports.open(path)
+        try:
+            whereabouts.opened(path, await self._ports.list_usb())
+        except BaseException:
+            await self._ports.close(port)
+            raise
+        return port
+
+    def _show_lost(self, device: str, error: PortError, back_off: BackOff) -> None:
+        retry_in_ms = round(back_off.next_s * 1000)
+        self._show(
+            PortState(
+                device=device, status="lost", code=error.code, detail=error.detail, retry_in_ms=retry_in_ms
+            )
+        )
+
+    def _show(self, state: PortState) -> None:
+        if state != self.state:
+            log_change(self.state, state)
+            self.state = state
+            self._events.port_changed()
+
+
+def log_change(before: PortState, now: PortState) -> None:
+    """The same failure again is no news."""
+    is_news = (now.status, now.code) != (before.status, before.code)
+    level = (logging.WARNING if now.status == "lost" else logging.INFO) if is_news else logging.DEBUG
+    facts = {"device": now.device or before.device, "code": now.code, "detail": now.detail}
+    log.log(level, "port %s", now.status, extra={"facts": facts})
+
+
+def replaced() -> CancelledError:
+    return CancelledError("The port was closed or changed meanwhile.")

@@ -1,0 +1,71 @@
+"""Gets bytes from an open port onto the event loop, on the way that suits the platform.
+
+Knows a port and a loop, no packet. Two ways behind one call: watch the descriptor (POSIX: half the CPU of a
+thread) or a thread that waits in `read` (everywhere).
+"""
+
+import asyncio
+import contextlib
+import threading
+from collections.abc import Callable
+from functools import partial
+
+from servodeck.errors import PortLostError
+from servodeck.port.ports import OpenPort
+
+Received = Callable[[bytes], None]
+Lost = Callable[[PortLostError], None]
+Stop = Callable[[], None]
+
+
+def start_reading(port: OpenPort, received: Received, lost: Lost) -> Stop:
+    """Calls `received` for all that comes and `lost` once at most; neither after the returned function was
+    called.
+    """
+    descriptor = port.fileno()
+    if descriptor is None:
+        return read_in_thread(port, received, lost)
+    return watch(descriptor, port, received, lost)
+
+
+def watch(descriptor: int, port: OpenPort, received: Received, lost: Lost) -> Stop:
+    loop = asyncio.get_running_loop()
+
+    def on_readable() -> None:
+        try:
+            data = port.read_now()
+        except PortLostError as error:
+            loop.remove_reader(descriptor)  # a port that hung up stays readable for ever
+            lost(error)
+        else:
+            received(data)
+
+    loop.add_reader(descriptor, on_readable)
+
+    def stop() -> None:
+        loop.remove_reader(descriptor)
+
+    return stop
+
+
+def read_in_thread(port: OpenPort, received: Received, lost: Lost) -> Stop:
+    loop = asyncio.get_running_loop()
+    stopped = threading.Event()
+
+    def deliver(call: Callable[[], None]) -> None:
+        if not stopped.is_set():
+            call()
+
+    def run() -> None:
+        with contextlib.suppress(RuntimeError):  # the loop is closed: the process is ending
+            while not stopped.is_set():
+                try:
+                    data = port.read()
+                except PortLostError as error:
+                    loop.call_soon_threadsafe(deliver, partial(lost, error))
+                    return
+                if data:
+                    loop.call_soon_threadsafe(deliver, partial(received, data))
+
+    threading.Thread(target=run, name="serial reader", daemon=True).start()
+    return stopped.set

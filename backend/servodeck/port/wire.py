@@ -1,0 +1,278 @@
+"""The only code that touches the open port: puts packets on the wire one at a time, stops first.
+
+Knows bytes, time and order. Must not know what a packet means, who may send it, or why: `gate` and `control`
+judge that. Never more than one packet is in the operating system's hands, so a stop has at most one packet to
+wait for.
+"""
+
+import asyncio
+import contextlib
+from collections import deque
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from itertools import islice
+
+from servodeck import metrics
+from servodeck.errors import BusyError, ClosedError, GatewayError
+from servodeck.port.ports import BAUD, OpenPort
+from servodeck.port.reader import start_reading
+from servodeck.protocol.decoder import COMMAND_AT
+
+BITS_PER_BYTE = 10  # 8N1: start bit, eight data bits, stop bit
+STOP_PACKET = bytes.fromhex("55550207")
+STOP_COUNT = 3  # S54
+STOP_SPACING_S = 0.070  # S54: longer than the 60 ms a board may be deaf
+STOP_GAP_S = 0.010  # S54: a stop right behind another packet is lost in 2 % of cases
+QUEUE_PER_OWNER = 8
+CLOCK_GRAIN_S = 1e-6
+
+Owner = object
+
+
+def always() -> None:
+    """Nothing keeps it from leaving."""
+
+
+Left = asyncio.Future[None]
+
+
+def wire_s(byte_count: int) -> float:
+    """Seconds that many bytes spend on the wire."""
+    return byte_count * BITS_PER_BYTE / BAUD
+
+
+@dataclass(eq=False, slots=True)
+class Job:
+    """A packet that waits for its turn; `left` resolves when its last bit has left the wire."""
+
+    packet: bytes
+    owner: Owner
+    left: Left
+    asked_at: float
+    judge: Callable[[], None] = always
+    newest: bool = False
+
+
+@dataclass(eq=False, slots=True)
+class Halt:
+    """A stop sequence under way: what is still to be sent of it, and from when on the next stop may go.
+
+    `hold` follows the first stop at once, because a stop never ends the move in progress (S50), and the last
+    one, because the first stop may have been lost (S52).
+    """
+
+    hold: bytes | None
+    left: Left
+    owner: Owner = None
+    stops_to_go: int = STOP_COUNT
+    hold_now: bool = False
+    due: float = field(default=float("-inf"))
+
+
+class Wire:
+    """One open port from its first packet to its loss. `run` is its life."""
+
+    def __init__(
+        self,
+        port: OpenPort,
+        *,
+        gap_s: float,
+        now: Callable[[], float],
+        received: Callable[[bytes], None],
+        leaving: Callable[[Owner, bytes, float], None] = lambda _owner, _packet, _at_s: None,
+    ) -> None:
+        """`leaving` hears whose packet begins to leave and when it will have."""
+        self._port = port
+        self._gap_s = max(gap_s, STOP_GAP_S)
+        self._now = now
+        self._received = received
+        self._leaving = leaving
+        # What the last owner of the port sent is unknown: it may be on the wire still.
+        self._left_at = now()
+        self._free_at = self._left_at + self._gap_s
+        self._freed = asyncio.Event()
+        self._last_command: int | None = None
+        self._halt: Halt | None = None
+        self._urgent: deque[Job] = deque()
+        self._queue: deque[Job] = deque()
+        self._under_way: Job | None = None
+        self._work = asyncio.Event()
+        self._ended: GatewayError | None = None
+
+    def send(
+        self,
+        packet: bytes,
+        owner: Owner,
+        *,
+        urgent: bool = False,
+        newest: bool = False,
+        judge: Callable[[], None] = always,
+    ) -> Left:
+        """Queues a packet, an urgent one before all others. Raises BusyError when this owner has too many
+        waiting. `judge` is asked when its turn has come, and raises what keeps it from leaving. The `newest`
+        one takes the place of the one like it that still waits, whose `left` is cancelled.
+        """
+        if self._ended:
+            raise self._ended
+        lane = self._urgent if urgent else self._queue
+        job = Job(packet, owner, asyncio.get_running_loop().create_future(), self._now(), judge, newest)
+        before = newest_of(lane, owner) if newest else None
+        if before:
+            take_place(lane, before, job)
+            return job.left
+        if sum(other.owner is owner for other in lane) >= QUEUE_PER_OWNER:
+            raise BusyError(f"{QUEUE_PER_OWNER} packets wait already; send the next one when one has left.")
+        lane.append(job)
+        self._work.set()
+        return job.left
+
+    def halt(self, hold: bytes | None, reason: GatewayError, owner: Owner = None) -> Left:
+        """Drops all that waits and sends the stop sequence, then `hold`. Pressed again, it joins the one
+        under way.
+        """
+        if self._ended:
+            raise self._ended
+        self.purge(lambda _job: True, reason)
+        if self._halt is None:
+            self._halt = Halt(hold, asyncio.get_running_loop().create_future(), owner)
+            metrics.stops.inc()
+        else:
+            self._halt.hold = hold or self._halt.hold
+            if (
+                self._halt.stops_to_go == 0
+            ):  # each press is followed by a stop, but presses never put off the hold
+                self._halt.stops_to_go, self._halt.due = 1, self._now()
+        self._work.set()
+        return self._halt.left
+
+    @property
+    def is_halting(self) -> bool:
+        return self._halt is not None
+
+    def answered(self, command: int) -> None:
+        """The board has answered a packet of that command number: if it left last, the gap is over."""
+        if command == self._last_command:
+            self._free_at = min(self._free_at, max(self._left_at, self._now()))
+            self._freed.set()
+
+    def purge(self, unwanted: Callable[[Job], bool], reason: GatewayError) -> None:
+        """Takes packets that have not begun to leave out of the queue; each fails with `reason`."""
+        for job in [job for job in self._queue if unwanted(job)]:
+            self._queue.remove(job)
+            fail(job.left, reason)
+
+    def is_clear_of(self, unwanted: Callable[[bytes], bool]) -> bool:
+        """No such packet waits, and no stop sequence is under way."""
+        return not self._halt and not any(unwanted(job.packet) for job in (*self._urgent, *self._queue))
+
+    async def run(self) -> None:
+        """Sends and reads until the port is lost (raises PortLostError) or this task is cancelled."""
+        lost: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        stop_reading = start_reading(self._port, self._received, lambda error: fail(lost, error))
+        sender = asyncio.create_task(self._send_all())
+        try:
+            await asyncio.wait({sender, lost}, return_when=asyncio.FIRST_COMPLETED)
+            (lost if lost.done() else sender).result()
+        except GatewayError as error:
+            self._end(error)
+            raise
+        finally:
+            stop_reading()
+            lost.cancel()
+            sender.cancel()
+            self._end(ClosedError("The port was closed."))
+
+    async def _send_all(self) -> None:
+        while True:
+            await self._work.wait()
+            await self._until_free()  # choose only then: a stop may have come meanwhile
+            if self._halt:
+                await self._send_of(self._halt)
+            elif self._urgent or self._queue:
+                await self._send_job((self._urgent or self._queue).popleft())
+            else:
+                self._work.clear()
+
+    async def _send_of(self, halt: Halt) -> None:
+        """Sends the next packet of a stop sequence; nothing else may leave between them."""
+        if halt.hold_now and halt.hold:
+            halt.hold_now = False
+            await self._put(halt.hold, halt.owner)
+        elif halt.stops_to_go:
+            await self._until(halt.due)
+            is_edge = halt.stops_to_go in (STOP_COUNT, 1)
+            halt.stops_to_go -= 1
+            halt.due = self._now() + STOP_SPACING_S
+            await self._put(STOP_PACKET, halt.owner)
+            halt.hold_now = is_edge and halt.hold is not None
+        if halt.stops_to_go == 0 and not halt.hold_now:
+            self._halt = None
+            settle(halt.left)
+
+    async def _send_job(self, job: Job) -> None:
+        try:
+            job.judge()
+        except GatewayError as error:
+            fail(job.left, error)
+            return
+        self._under_way = job
+        metrics.queue_wait.observe(self._now() - job.asked_at)
+        await self._put(job.packet, job.owner)
+        self._under_way = None
+        settle(job.left)
+
+    async def _put(self, packet: bytes, owner: Owner) -> None:
+        self._port.write(packet)
+        self._last_command = packet[COMMAND_AT]
+        metrics.sent.labels(metrics.name_of(self._last_command)).inc()
+        self._left_at = self._now() + wire_s(len(packet))
+        self._free_at = self._left_at + self._gap_s
+        self._leaving(owner, packet, self._left_at)
+        await self._until(self._left_at)
+
+    async def _until_free(self) -> None:
+        while (left_s := self._free_at - self._now()) > CLOCK_GRAIN_S:
+            self._freed.clear()
+            with contextlib.suppress(TimeoutError):
+                async with asyncio.timeout(left_s):
+                    await self._freed.wait()
+
+    async def _until(self, when: float) -> None:
+        # In a loop: event loops round to milliseconds, uvloop down, and a gap must not shrink.
+        while (left_s := when - self._now()) > CLOCK_GRAIN_S:  # noqa: ASYNC110 (nothing announces a time)
+            await asyncio.sleep(left_s)
+
+    def _end(self, error: GatewayError) -> None:
+        if self._ended:
+            return
+        self._ended = error
+        jobs = [*([self._under_way] if self._under_way else []), *self._urgent, *self._queue]
+        waiting = [job.left for job in jobs] + ([self._halt.left] if self._halt else [])
+        for left in waiting:
+            fail(left, error)
+
+
+def newest_of(lane: Iterable[Job], owner: Owner) -> Job | None:
+    """The one that waits to be overtaken; there is never another."""
+    return next((job for job in lane if job.newest and job.owner is owner), None)
+
+
+def take_place(lane: deque[Job], before: Job, job: Job) -> None:
+    """Without queuing up again, unless something of the same owner came between them: their order stays."""
+    at = lane.index(before)
+    is_last = all(other.owner is not job.owner for other in islice(lane, at + 1, None))
+    del lane[at]
+    lane.insert(at if is_last else len(lane), job)
+    before.left.cancel()
+
+
+def settle(future: Left) -> None:
+    if not future.done():
+        future.set_result(None)
+
+
+def fail(future: Left, error: GatewayError) -> None:
+    """Fails it without the loop's complaint when nobody is interested any more."""
+    if not future.done():
+        future.set_exception(error)
+        future.exception()

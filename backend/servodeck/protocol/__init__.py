@@ -1,0 +1,1 @@
+"""Bytes and what they mean. Knows no time, no port and no client."""

@@ -1,0 +1,149 @@
+"""Puts the gateway together: guard, routes, page, and one shape for every error. Holds no rule of its own."""
+
+import asyncio
+import contextlib
+from collections.abc import AsyncIterator
+from pathlib import Path
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+from starlette.requests import HTTPConnection
+from starlette.responses import HTMLResponse, JSONResponse, Response
+from starlette.types import ASGIApp
+
+from servodeck import __version__, metrics
+from servodeck.access.entrance import Entrance
+from servodeck.access.guard import Guard
+from servodeck.access.roles import ANYBODY, require_roles
+from servodeck.driving.control import Control
+from servodeck.driving.scripts import Scripts
+from servodeck.errors import ErrorCode, GatewayError, MalformedError
+from servodeck.files.disk import Disk
+from servodeck.library.library import Library
+from servodeck.port.background import in_thread
+from servodeck.run.pulse import Pulse
+from servodeck.run.supervisor import sign_of_life
+from servodeck.web.api import api, socket
+from servodeck.web.docs import STYLE, docs_page
+from servodeck.web.events_api import events_api
+from servodeck.web.health_api import health_api
+from servodeck.web.jobs_api import jobs_api
+from servodeck.web.library_api import library_api
+from servodeck.web.motion_api import motion_api
+from servodeck.web.openapi import described
+from servodeck.web.page import STATIC, page
+from servodeck.web.people_api import people_api
+from servodeck.web.poses_api import poses_api
+from servodeck.web.robots_api import robots_api
+
+CODE_OF_STATUS: dict[int, ErrorCode] = {
+    403: "forbidden",
+    404: "notFound",
+    405: "methodNotAllowed",
+    413: "tooLarge",
+    500: "internal",
+}
+
+
+DETAILS = {
+    404: "There is nothing at this address; /docs lists what there is.",
+    405: "This address takes another method; /docs lists what there is.",
+}
+
+
+def create_app(control: Control, library: Library, entrance: Entrance, static: Path = STATIC) -> ASGIApp:
+    """The gateway with that entrance and the page built into `static`."""
+    app = FastAPI(
+        title="Servodeck gateway",
+        description="Drives a servo controller on a serial port. An error is a code and a sentence.",
+        version=__version__,
+        docs_url=None,
+        redoc_url=None,
+        openapi_url=None,
+        lifespan=lifespan,
+    )
+    app.state.control = control
+    app.state.scripts = Scripts(control)
+    app.state.library = library
+    app.state.pulse = Pulse(sign_of_life())
+    app.state.disk = Disk(library.folder, control.now)
+    app.state.entrance = entrance
+    app.include_router(api)
+    app.include_router(events_api)
+    app.include_router(health_api)
+    app.include_router(jobs_api)
+    app.include_router(library_api)
+    app.include_router(motion_api)
+    app.include_router(people_api)
+    app.include_router(poses_api)
+    app.include_router(robots_api)
+    app.include_router(socket)
+    add_docs(app)
+    add_errors(app)
+    require_roles(app)
+    app.mount("/", page(static))
+    return Guard(app, entrance.access)
+
+
+@contextlib.asynccontextmanager
+async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+    control: Control = app.state.control
+    beating = asyncio.create_task(app.state.pulse.run())
+    yield
+    beating.cancel()
+    await control.shut_down()
+
+
+def add_docs(app: FastAPI) -> None:
+    describing = asyncio.Lock()
+
+    async def description() -> dict[str, Any]:
+        """Making it takes so long that a stop would have to wait."""
+        async with describing:
+            if app.openapi_schema is None:
+                return await in_thread(lambda: described(app), undo=lambda _: None)
+            return app.openapi_schema
+
+    @app.get("/docs", include_in_schema=False, dependencies=[ANYBODY])
+    async def docs() -> HTMLResponse:
+        return HTMLResponse(docs_page(await description()))
+
+    @app.get("/openapi.json", include_in_schema=False, dependencies=[ANYBODY])
+    async def schema() -> JSONResponse:
+        return JSONResponse(await description())
+
+    @app.get("/docs.css", include_in_schema=False, dependencies=[ANYBODY])
+    async def style() -> Response:
+        return Response(STYLE, media_type="text/css")
+
+
+def add_errors(app: FastAPI) -> None:
+    @app.exception_handler(GatewayError)
+    async def gateway_error(_connection: HTTPConnection, error: GatewayError) -> JSONResponse:
+        answer = problem(error.status, error.code, error.detail)
+        answer.headers.update(error.headers)
+        return answer
+
+    @app.exception_handler(RequestValidationError)
+    async def validation_error(_request: Request, error: RequestValidationError) -> JSONResponse:
+        first = error.errors()[0]
+        where = ".".join(str(part) for part in first["loc"])
+        return problem(MalformedError.status, MalformedError.code, f"{where}: {first['msg']}")
+
+    @app.exception_handler(HTTPException)
+    async def http_error(_request: Request, error: HTTPException) -> JSONResponse:
+        code = CODE_OF_STATUS.get(error.status_code, "malformed")
+        answer = problem(error.status_code, code, DETAILS.get(error.status_code, error.detail))
+        answer.headers.update(error.headers or {})
+        return answer
+
+    @app.exception_handler(Exception)
+    async def defect(_request: Request, _error: Exception) -> JSONResponse:
+        return problem(500, "internal", "The gateway made a mistake; its log says more.")
+
+
+def problem(status: int, code: ErrorCode, detail: str) -> JSONResponse:
+    metrics.refused.labels(code).inc()
+    return JSONResponse({"code": code, "detail": detail}, status)

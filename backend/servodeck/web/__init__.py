@@ -1,0 +1,1 @@
+"""What the gateway answers: pages, routes and sockets. Translates; decides nothing."""

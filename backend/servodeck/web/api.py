@@ -1,0 +1,204 @@
+"""The HTTP interface for scripts: state, ports, stop, resume, battery. One error shape: `{code, detail}`.
+
+Translates between HTTP and `control`; decides nothing.
+"""
+
+import asyncio
+from dataclasses import asdict
+from typing import Annotated
+
+from fastapi import APIRouter, Depends, Request, WebSocket
+from pydantic import Field
+from starlette.requests import HTTPConnection
+
+from servodeck import __version__
+from servodeck.access.gate import judge_script
+from servodeck.access.roles import DRIVER, OWNER, STOPPER, VIEWER
+from servodeck.callers import Caller, as_script
+from servodeck.driving.control import Control
+from servodeck.driving.driving import name_of
+from servodeck.driving.latch import Cause
+from servodeck.errors import ErrorCode, OutOfRangeError
+from servodeck.port.background import in_thread
+from servodeck.port.ports import lasting_of, list_devices
+from servodeck.protocol.packets import FAMILIES
+from servodeck.schema import Message
+from servodeck.told import PortState, UnattendedRun
+from servodeck.web.clients import serve_client
+
+
+class Problem(Message):
+    """Why a request failed. `code` is for programs, `detail` for people."""
+
+    code: ErrorCode
+    detail: str
+
+
+class BatteryAge(Message):
+    battery_mv: int
+    age_ms: int
+
+
+class Running(Message):
+    """The group that may run: it was begun, and nobody has stopped it or heard that it ended. `endsInMs`: at
+    the latest; null where only the board could tell, which not every family does.
+    """
+
+    slot: int
+    times: int
+    ends_in_ms: int | None
+
+
+class Status(Message):
+    version: str
+    board: str
+    port: PortState
+    latch: bool
+    clients: int
+    battery: BatteryAge | None
+    driver: str | None
+    running: Running | None
+    unattended: UnattendedRun | None
+
+
+class Device(Message):
+    """A serial port of this computer. `likely`: its USB chip is one that these boards and cables bear.
+    `lasting`: a name that leads to it after every start and replug, where the system keeps one.
+    """
+
+    device: str
+    description: str
+    likely: bool
+    lasting: str | None
+
+
+class PortChoice(Message):
+    device: Annotated[str, Field(min_length=1, max_length=256, pattern=r"^[^\x00-\x1f]+$")]
+    board: str | None = None
+
+
+class Battery(Message):
+    battery_mv: int
+
+
+class Stopped(Message):
+    """`halted`: the stop sequence has left the wire."""
+
+    latch: bool
+    halted: bool
+
+
+# Dependencies are coroutines even where they wait for nothing: a plain function would go through a thread,
+# and STOP with it.
+async def called_by_own_page(request: Request) -> None:
+    judge_script(request.scope["headers"])
+
+
+async def control_of(connection: HTTPConnection) -> Control:
+    control = connection.app.state.control
+    assert isinstance(control, Control)
+    return control
+
+
+Controlled = Annotated[Control, Depends(control_of)]
+api = APIRouter(
+    prefix="/api",
+    dependencies=[Depends(called_by_own_page)],
+    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
+)
+socket = APIRouter()
+
+
+@socket.websocket("/ws")
+async def ws(websocket: WebSocket, caller: Annotated[Caller, VIEWER], control: Controlled) -> None:
+    await serve_client(websocket, caller, control)
+
+
+@api.get("/status", dependencies=[VIEWER])
+async def status(control: Controlled) -> Status:
+    """How everything stands now."""
+    return Status(
+        version=__version__,
+        board=control.board.taken_for,
+        port=control.board.port,
+        latch=control.latch,
+        clients=len(control.hub),
+        battery=age_of(control),
+        driver=name_of(control.driving.driver),
+        running=running_in(control),
+        unattended=control.board.unattended.told(),
+    )
+
+
+def running_in(control: Control) -> Running | None:
+    motion, now = control.board.motion, control.now()
+    if motion.run is None or not motion.group_may_run(now):
+        return None
+    ends_in_s = motion.group_ends_in_s(now)
+    ends_in_ms = None if ends_in_s is None else round(ends_in_s * 1000)
+    return Running(slot=motion.run.slot, times=motion.run.times, ends_in_ms=ends_in_ms)
+
+
+def age_of(control: Control) -> BatteryAge | None:
+    reading = control.board.battery.newest
+    if reading is None:
+        return None
+    return BatteryAge(battery_mv=reading.battery_mv, age_ms=round((control.now() - reading.at_s) * 1000))
+
+
+@api.get("/ports", dependencies=[OWNER])
+def ports(control: Controlled) -> list[Device]:
+    """The serial ports of this computer and the one in use, the likely ones first."""
+    found = list_devices(control.named_device, control.board.link.state.device)
+    return [Device(**asdict(port)) for port in found]
+
+
+@api.put("/port", dependencies=[OWNER])
+async def use_port(choice: PortChoice, control: Controlled) -> PortState:
+    """Opens that port instead of the present one. After a failure it is tried again and again, as `status`
+    tells. One that opened is opened again at the next start, unless `--serial` names one.
+    """
+    if choice.board is not None and choice.board not in FAMILIES:
+        raise OutOfRangeError(f"board is {choice.board}, allowed: {', '.join(FAMILIES)}")
+    await control.use_port(choice.device, choice.board)
+    found = await in_thread(list_devices, undo=lambda _: None)
+    control.remembered.remember_port(lasting_of(choice.device, found))
+    await control.remembered.kept()
+    return control.board.port
+
+
+@api.delete("/port", dependencies=[OWNER])
+async def close_port(control: Controlled) -> PortState:
+    """Closes the port and leaves it closed, also after the next start."""
+    await control.close_port()
+    control.remembered.remember_port(None)
+    await control.remembered.kept()
+    return control.board.port
+
+
+def named(request: Request, caller: Caller) -> Caller:
+    """A page says where it comes from, a program does not."""
+    return caller if "origin" in request.headers else as_script(caller)
+
+
+@api.post("/stop")
+async def stop(request: Request, control: Controlled, caller: Annotated[Caller, STOPPER]) -> Stopped:
+    """STOP: drops all that waits, sends stop three times, refuses motion until resume. Latches even without a
+    port.
+    """
+    cause = Cause("person", named(request, caller).name)
+    await asyncio.shield(control.stop(None, cause=cause))
+    return Stopped(latch=control.latch, halted=True)
+
+
+@api.post("/resume")
+async def resume(request: Request, control: Controlled, caller: Annotated[Caller, DRIVER]) -> Status:
+    """Allows motion again. Moves nothing. While somebody drives, only they or an owner may."""
+    control.resume(named(request, caller))
+    return await status(control)
+
+
+@api.get("/battery", dependencies=[VIEWER])
+async def battery(control: Controlled) -> Battery:
+    """Asks the board now; 504 where it does not answer."""
+    return Battery(battery_mv=await control.board.battery.read())

@@ -1,0 +1,231 @@
+"""Serves one WebSocket client: its messages to `control`, its outbox to the socket. Knows no port and no
+packet.
+
+Closes a client that sends what is no text or does not read; what cannot be understood is refused, never
+fatal.
+"""
+
+import asyncio
+import contextlib
+from collections.abc import Callable, Iterator
+
+from pydantic import ValidationError
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from servodeck import metrics
+from servodeck.access.gate import judge_hold, judge_packet, role_for
+from servodeck.access.hub import AGAINST_THE_RULES, TRY_AGAIN_LATER, Seat
+from servodeck.access.intake import Intake, Rate
+from servodeck.callers import Caller, Role
+from servodeck.driving.control import Control
+from servodeck.driving.latch import Cause
+from servodeck.errors import BusyError, GatewayError, MalformedError
+from servodeck.messages import (
+    AnyClientMessage,
+    BeatMessage,
+    BoardMessage,
+    CalibrateMessage,
+    ContinueMessage,
+    GiveMessage,
+    LeaseMessage,
+    RefusedMessage,
+    ReplacedMessage,
+    ResumeMessage,
+    SendMessage,
+    SentMessage,
+    StopMessage,
+    client_message,
+    encode,
+)
+from servodeck.port.wire import Left
+
+UNSUPPORTED_DATA = 1003
+CLOSE_WAIT_S = 0.1
+# Messages a second, and at once. Above what the wire takes (70 of the shortest packets a second): it shall
+# be the wire that says how fast a robot is driven.
+DRIVER_RATE = (100.0, 200)
+VIEWER_RATE = (2.0, 10)
+# What each message takes at least; one that is not named here only an owner may send. A packet is judged by
+# what it does.
+ROLES: dict[type[AnyClientMessage], Role] = {
+    SendMessage: "viewer",
+    StopMessage: "stopper",
+    ResumeMessage: "driver",
+    BoardMessage: "driver",
+    CalibrateMessage: "driver",
+    LeaseMessage: "viewer",
+    GiveMessage: "driver",
+    ContinueMessage: "driver",
+    BeatMessage: "driver",
+}
+
+
+async def serve_client(socket: WebSocket, caller: Caller, control: Control) -> None:
+    if not control.hub.has_room_for(caller):
+        await socket.close(TRY_AGAIN_LATER)
+        return
+    await socket.accept()
+    seat = Seat(caller)
+    control.join(seat)
+    await serve_seat(socket, seat, control)
+    if seat.farewell:
+        with contextlib.suppress(TimeoutError, WebSocketDisconnect, RuntimeError):
+            await asyncio.wait_for(socket.close(seat.farewell.code, seat.farewell.reason), CLOSE_WAIT_S)
+
+
+async def serve_seat(socket: WebSocket, seat: Seat, control: Control) -> None:
+    """Until the client leaves, breaks the rules, is sent away or stops reading."""
+    tasks = [
+        asyncio.create_task(read_all(socket, seat, control)),
+        asyncio.create_task(write_all(socket, seat)),
+        asyncio.create_task(seat.ended.wait()),
+    ]
+    try:
+        done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        for task in done:
+            task.result()
+    finally:
+        control.leave(seat)
+        for task in tasks:
+            task.cancel()
+
+
+async def read_all(socket: WebSocket, seat: Seat, control: Control) -> None:
+    intake = intake_of(seat, control)
+    try:
+        while (event := await socket.receive())["type"] != "websocket.disconnect" and not seat.ended.is_set():
+            text = event.get("text")
+            if text is None:
+                await socket.close(UNSUPPORTED_DATA, "Text only.")
+                return
+            hear(text, seat, intake)
+            # What has come already is given without a pause: others' turn, a STOP may be among theirs.
+            await asyncio.sleep(0)
+    finally:
+        intake.close()
+
+
+def intake_of(seat: Seat, control: Control) -> Intake:
+    return Intake(
+        rate_of(seat.caller, control.now),
+        take=lambda message: take(message, seat, control),
+        replaced=lambda message: refuse(seat, id_of(message), BusyError("A newer message took its place.")),
+        overrun=lambda: seat.end(AGAINST_THE_RULES, "Too many messages."),
+    )
+
+
+def rate_of(caller: Caller, now: Callable[[], float]) -> Rate:
+    return Rate(*(DRIVER_RATE if caller.may("driver") else VIEWER_RATE), now)
+
+
+def hear(text: str, seat: Seat, intake: Intake) -> None:
+    """Whatever it says, the worst outcomes are a `refused` and, for too many, the end."""
+    try:
+        message = client_message.validate_json(text)
+    except ValidationError as error:
+        if intake.count():
+            refuse(seat, None, MalformedError(first_problem(error)))
+        return
+    if isinstance(message, StopMessage):
+        intake.take_at_once(message)
+    else:
+        intake.offer(message)
+
+
+def id_of(message: AnyClientMessage) -> int | None:
+    return message.id if isinstance(message, SendMessage) else None
+
+
+async def write_all(socket: WebSocket, seat: Seat) -> None:
+    with contextlib.suppress(WebSocketDisconnect):
+        while True:
+            await socket.send_text(await seat.next())
+
+
+def take(message: AnyClientMessage, seat: Seat, control: Control) -> None:
+    """Acts on one message of somebody who may send it."""
+    role = ROLES.get(type(message), "owner")
+    with refusing(seat, None):
+        seat.caller.require(role)
+        act(message, seat, control)
+
+
+def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
+    match message:
+        case SendMessage():
+            take_send(message, seat, control)
+        case StopMessage():
+            take_stop(message, seat, control)
+        case ResumeMessage():
+            control.resume(seat.caller, seat)
+        case BoardMessage():
+            control.name_board(seat, message.board)
+        case CalibrateMessage():
+            control.limits.calibrate(seat, message.servo)
+        case LeaseMessage():
+            with telling(seat, control):
+                control.driving.act(seat, message.action)
+        case GiveMessage():
+            with telling(seat, control):
+                control.driving.give(seat, message.to)
+        case ContinueMessage():
+            with contextlib.suppress(
+                GatewayError
+            ):  # how it stands says so: a `refused` without id is a stop's
+                control.let_go_on(seat, message.for_ms)
+        case BeatMessage():
+            control.driving.beat(seat, message.nonce)
+
+
+def take_send(message: SendMessage, seat: Seat, control: Control) -> None:
+    with refusing(seat, message.id):
+        seat.caller.require(role_for(judge_packet(message.packet, control.board.taken_for)))
+        left = control.send(seat, message.packet, message.nonce, newest=message.newest)
+        left.add_done_callback(lambda left: answer(seat, message.id, left))
+
+
+@contextlib.contextmanager
+def telling(seat: Seat, control: Control) -> Iterator[None]:
+    """How the lease stands says why not; a `refused` without an id is a stop's."""
+    try:
+        yield
+    except GatewayError:
+        control.driving.tell(seat)
+
+
+def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:
+    hold = None
+    with refusing(seat, None):  # a bad pose is told, and the stop goes out all the same
+        hold = judge_hold(message.hold, control.board.taken_for)
+    with refusing(seat, None):
+        control.stop(hold, seat, Cause("person", seat.caller.name))
+
+
+def answer(seat: Seat, message_id: int, left: Left) -> None:
+    if left.cancelled():
+        seat.put(encode(ReplacedMessage(id=message_id)))
+        return
+    with refusing(seat, message_id):
+        left.result()
+        seat.put(encode(SentMessage(id=message_id)))
+
+
+@contextlib.contextmanager
+def refusing(seat: Seat, message_id: int | None) -> Iterator[None]:
+    """Turns a GatewayError into a `refused` for that seat."""
+    try:
+        yield
+    except GatewayError as error:
+        refuse(seat, message_id, error)
+
+
+def refuse(seat: Seat, message_id: int | None, error: GatewayError) -> None:
+    metrics.refused.labels(error.code).inc()
+    seat.put(encode(RefusedMessage(id=message_id, code=error.code, detail=error.detail)))
+
+
+def first_problem(error: ValidationError) -> str:
+    """One line: where and what; never the input itself."""
+    problem = error.errors(include_url=False, include_context=False, include_input=False)[0]
+    where = ".".join(str(part) for part in problem["loc"])
+    return f"{where}: {problem['msg']}" if where else problem["msg"]

@@ -1,0 +1,152 @@
+"""The HTTP interface that moves the robot, and the lease of those who use it. Translates for `scripts`;
+decides nothing.
+"""
+
+from collections.abc import Mapping
+from typing import Annotated
+
+from fastapi import APIRouter, Depends, Path, Request
+from pydantic import Field
+from starlette.requests import HTTPConnection
+
+from servodeck.access.roles import DRIVER, OWNER
+from servodeck.callers import Caller
+from servodeck.driving.scripts import RunOutcome, ScriptAction, Scripts
+from servodeck.messages import ContinueMs, PersonId
+from servodeck.schema import Message
+from servodeck.told import LeaseState
+from servodeck.web.api import Problem, called_by_own_page
+
+Servo = Annotated[str, Field(pattern=r"^[1-9][0-9]{0,2}$")]
+Take = Annotated[bool, Field(description="An owner's: without asking whoever drives.")]
+
+
+class MoveWish(Message):
+    """`positions` by servo number, in the board's unit; all of them at once."""
+
+    time_ms: Annotated[int, Field(ge=0, le=30_000)]
+    positions: Annotated[
+        dict[Servo, Annotated[int, Field(ge=0, le=0xFFFF)]], Field(min_length=1, max_length=253)
+    ]
+    take: Take = False
+
+
+class MoveBegun(Message):
+    """`firstMoves`: nobody knew where these servos stood, so they started one after another."""
+
+    packets: int
+    over_in_ms: int
+    first_moves: list[int]
+
+
+class RunWish(Message):
+    """`times` 0: until stopped. `continueForMs`: it goes on without a `beat`, for so long at most."""
+
+    times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
+    continue_for_ms: ContinueMs | None = None
+    take: Take = False
+
+
+class RunBegun(Message):
+    """`acknowledged`: the board has taken it, which says nothing of the slot. `silent`: it should have said
+    so and has not. `sent`: such a board never says.
+    """
+
+    outcome: RunOutcome
+
+
+class EraseWish(Message):
+    take: Take = False
+
+
+class Erased(Message):
+    erased: bool
+
+
+class LeaseWish(Message):
+    """`beat`: somebody watches over what this script has begun. The others as in a page: `request`, `take`,
+    `release`.
+    """
+
+    action: ScriptAction
+
+
+class DriverWish(Message):
+    """As `GET /api/people` and the lease's `candidates` name them."""
+
+    id: PersonId
+
+
+ONCE, POLITELY = RunWish(), EraseWish()
+
+
+async def scripts_of(connection: HTTPConnection) -> Scripts:
+    scripts = connection.app.state.scripts
+    assert isinstance(scripts, Scripts)
+    return scripts
+
+
+Scripted = Annotated[Scripts, Depends(scripts_of)]
+Driving = Annotated[Caller, DRIVER]
+motion_api = APIRouter(
+    prefix="/api",
+    dependencies=[Depends(called_by_own_page)],
+    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
+)
+
+
+@motion_api.post("/move")
+async def move(wish: MoveWish, request: Request, caller: Driving, scripts: Scripted) -> MoveBegun:
+    """Moves servos together. Answers when the last packet has left the wire; `overInMs` later they are there.
+    Servos that nobody knows the place of take 1500 ms at least and start one after another.
+    """
+    positions = {int(servo): position for servo, position in wish.positions.items()}
+    return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
+
+
+async def begin_move(
+    request: Request,
+    caller: Caller,
+    scripts: Scripts,
+    time_ms: int,
+    positions: Mapping[int, int],
+    *,
+    take: bool,
+) -> MoveBegun:
+    async def is_wanted() -> bool:
+        return not await request.is_disconnected()
+
+    moved = await scripts.move(caller, time_ms, positions, take=take, is_wanted=is_wanted)
+    return MoveBegun(packets=moved.packets, over_in_ms=moved.over_in_ms, first_moves=list(moved.first_moves))
+
+
+@motion_api.post("/slots/{slot}/run")
+async def run(
+    slot: Annotated[int, Path(ge=0, le=255)], caller: Driving, scripts: Scripted, wish: RunWish = ONCE
+) -> RunBegun:
+    """Runs the group in that slot; what moves ends first. It is stopped 2 s after the last `beat`, unless it
+    may continue.
+    """
+    outcome = await scripts.run(caller, slot, wish.times, take=wish.take, continue_ms=wish.continue_for_ms)
+    return RunBegun(outcome=outcome)
+
+
+@motion_api.post("/erase")
+async def erase(caller: Annotated[Caller, OWNER], scripts: Scripted, wish: EraseWish = POLITELY) -> Erased:
+    """Erases every slot of the board, for good."""
+    await scripts.erase(caller, take=wish.take)
+    return Erased(erased=True)
+
+
+@motion_api.post("/lease")
+async def lease(wish: LeaseWish, caller: Driving, scripts: Scripted) -> LeaseState:
+    """Who drives. Asked for by itself with each motion, and kept 2 s longer than that lasts."""
+    return scripts.act(caller, wish.action)
+
+
+@motion_api.put("/driver")
+async def give(wish: DriverWish, caller: Driving, scripts: Scripted) -> LeaseState:
+    """Hands the robot to somebody who is here with a page and may drive, unasked; what moves is stopped
+    first. Whoever drives may, and owners.
+    """
+    return scripts.give(caller, wish.id)
