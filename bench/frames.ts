@@ -41,6 +41,7 @@ export function measureFrames(): Promise<Figure[]> {
       const moving = await drawing(page, thread);
       await dragAll(page);
       const dragging = await drawing(page, thread);
+      await requireDragged(page);
       return [
         ...figures('moving', moving, bare, 'estimates of 32 servos under way'),
         ...figures('dragging', dragging, bare, 'targets and estimates of 32 servos dragged together'),
@@ -137,6 +138,21 @@ async function dragAll(page: Page): Promise<void> {
   await slider.hover();
   await page.mouse.down();
   await slider.evaluate(dragInEachFrame);
+}
+
+/** A link that fell behind stops the robot: frames in which nothing moves would be quick ones. */
+async function requireDragged(page: Page): Promise<void> {
+  // The one dragged takes this one along; those farther down are out of sight, and written when they rest.
+  const second = page.getByRole('slider').nth(1);
+  const before = await second.inputValue();
+  await page
+    .waitForFunction(([slider, value]) => slider instanceof HTMLInputElement && slider.value !== value, [
+      await second.elementHandle(),
+      before,
+    ] as const)
+    .catch(() => {
+      throw new Error('The sliders were no longer dragged.');
+    });
 }
 
 /** Runs in the page: the mouse that holds the slider is elsewhere in every frame. */
