@@ -21,6 +21,7 @@ import {
 import { timesOf } from '../timeline/groupTimes.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
+import { READABLE_MS } from '../ui/useFollow.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
@@ -87,9 +88,6 @@ function BeginButtons() {
   );
 }
 
-/** No number is read faster. */
-const READ_EACH_MS = 100;
-
 /** From where, as the playhead goes, or how often. With room for the longest of it: what follows stays in its place. */
 function PlayWords() {
   const { playback } = useStores();
@@ -102,7 +100,7 @@ function PlayWords() {
       <LiveText
         isFixed
         className={styles.now}
-        eachMs={READ_EACH_MS}
+        eachMs={READABLE_MS}
         text={() => {
           const { fromMs, times: passes } = playback.next();
           return fromMs === null ? words.play.play(loops ? 1 : passes) : words.play.playFrom(fromMs);

@@ -17,6 +17,7 @@ import {
 import { Icon } from '../ui/Icon.tsx';
 import { cx } from '../ui/cx.ts';
 import { LiveText } from '../ui/LiveText.tsx';
+import { READABLE_MS } from '../ui/useFollow.ts';
 import { useWords, words } from '../words/words.ts';
 import { rowName } from './cellName.ts';
 import { deskOf, rangeOf } from './desk.ts';
@@ -62,7 +63,7 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
             isFixed
             className={styles.value}
             title={words.timeline.rows.value}
-            eachMs={READ_EACH_MS}
+            eachMs={READABLE_MS}
             text={() => valueText(stores, row.servos[0] ?? -1)}
           />
         </>
@@ -82,9 +83,6 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
     </div>
   );
 });
-
-/** No number is read faster. */
-const READ_EACH_MS = 100;
 
 /** Where the group has the servo at the playhead. */
 function valueText({ timeline, document, device, robots, view }: Stores, servo: number): string {

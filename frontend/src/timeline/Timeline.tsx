@@ -13,6 +13,7 @@ import {
 } from 'react';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
 import { LiveText } from '../ui/LiveText.tsx';
+import { READABLE_MS } from '../ui/useFollow.ts';
 import { words } from '../words/words.ts';
 import { AskBox } from './AskBox.tsx';
 import { copy, cut, paste } from './changes.ts';
@@ -189,9 +190,6 @@ function areThere<Parts extends object>(
   return Object.values(parts).every((part) => part !== null);
 }
 
-/** No number is read faster. */
-const READ_EACH_MS = 100;
-
 /** Above the names: where the playhead is. */
 function Corner() {
   const { playhead } = useStores();
@@ -202,7 +200,7 @@ function Corner() {
         isFixed
         className={styles.instant}
         text={() => words.timeline.instant(playhead.at())}
-        eachMs={READ_EACH_MS}
+        eachMs={READABLE_MS}
       />
     </p>
   );
