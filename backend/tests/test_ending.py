@@ -78,7 +78,7 @@ def test_no_client_puts_the_end_off(served: Served, text: str) -> None:
 def test_the_description_of_the_interface_does_not_put_the_stop_off(tmp_path: Path) -> None:
     """It is made when it is asked for first, which took more than a second on a busy computer."""
     hang = "openapi.get_openapi = lambda **_: threading.Event().wait()"
-    imports = "import threading; from servodeck import openapi; from servodeck.cli import main"
+    imports = "import threading; from servodeck.web import openapi; from servodeck.cli.cli import main"
     served = Served("--data", str(tmp_path), program=["-c", f"{imports}; {hang}; main()"])
     with raw(served, "GET /openapi.json HTTP/1.1\nHost: HOST\n\n"):
         time.sleep(0.2)  # it is being made
@@ -123,7 +123,7 @@ HANGING = {
 
 @pytest.mark.parametrize(("hang", "code"), HANGING.values(), ids=HANGING.keys())
 def test_what_hangs_for_ever_does_not_put_it_off(hang: str, code: int) -> None:
-    imports = "import threading; from servodeck import library; from servodeck.cli import main"
+    imports = "import threading; from servodeck.library import library; from servodeck.cli.cli import main"
     served = Served(program=["-c", f"{imports}; {hang}; main()"])
     end_in_time(served, code)
     served.end()
