@@ -138,7 +138,7 @@ test('poses outlive a reload, and leave and come as a file', async ({ dashboard,
   ]);
   const text = await readFile(await download.path(), 'utf8');
   await page.reload();
-  await page.getByRole('radio', { name: 'Poses' }).check();
+  await expect(page.getByRole('radio', { name: 'Poses' })).toBeChecked();
   await expect(poses.cards).toHaveCount(1);
   const take = async (content: string): Promise<void> => {
     const [chooser] = await Promise.all([

@@ -60,9 +60,9 @@ export interface Page {
 
 /** `arrival` says who is here; a page without a gateway belongs to whoever opens it. */
 export async function openPage({ me, problem }: Arrival): Promise<Page> {
-  const storage = browserStorage();
+  const storage = storageOf(() => window.localStorage);
   const notices = createNotices(pageClock);
-  const view = createView(storage);
+  const view = createView({ browser: storage, tab: storageOf(() => window.sessionStorage) });
   // Documents begin with names in the language of whoever opens the page.
   await followLanguage({ view, notices, tags: navigator.languages });
   const robots = createRobots(storage, notices);
@@ -167,10 +167,10 @@ function newId(): string {
 
 const isWatched = (): boolean => document.visibilityState === 'visible';
 
-/** Asking for localStorage alone may throw; each access then throws instead, where it is expected. */
-function browserStorage(): TextStorage {
+/** Asking for the storage alone may throw; each access then throws instead, where it is expected. */
+function storageOf(found: () => Storage): TextStorage {
   return {
-    getItem: (key) => window.localStorage.getItem(key),
-    setItem: (key, text) => window.localStorage.setItem(key, text),
+    getItem: (key) => found().getItem(key),
+    setItem: (key, text) => found().setItem(key, text),
   };
 }

@@ -49,7 +49,7 @@ export function specimenStores(
   const poses = createPoses({ storage: NO_STORAGE, notices, robots, device });
   const mappings = createMappings(NO_STORAGE, notices, robots);
   const document = createDocument(NO_STORAGE, notices, pageClock);
-  const view = createView(NO_STORAGE);
+  const view = createView({ browser: NO_STORAGE, tab: NO_STORAGE });
   const compiled = createCompiled({ document, device, robots, clock: pageClock });
   const slots = createSlots({ device, robots, notices, storage: NO_STORAGE, today: Date.now });
   const timeline = createTimeline();

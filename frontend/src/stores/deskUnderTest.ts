@@ -35,7 +35,7 @@ export async function createDesk(
   const robots = createRobots(storage, notices);
   const device = createDevice({ family: FAMILIES.doc, clock, notices, robots });
   const document = createDocument(storage, notices, clock);
-  const view = createView(storage);
+  const view = createView({ browser: storage, tab: storage });
   const compiled = createCompiled({ document, device, robots, clock });
   const slots = createSlots({ device, robots, notices, storage, today: () => clock.now() });
   const timeline = createTimeline();

@@ -10,10 +10,11 @@ import { createView } from './view.ts';
 afterEach(() => speak('en'));
 
 async function visit(tags: readonly string[], texts = new Map<string, string>()) {
-  const view = createView({
-    getItem: (key) => texts.get(key) ?? null,
-    setItem: (key, text) => void texts.set(key, text),
-  });
+  const storage = {
+    getItem: (key: string) => texts.get(key) ?? null,
+    setItem: (key: string, text: string) => void texts.set(key, text),
+  };
+  const view = createView({ browser: storage, tab: storage });
   await followLanguage({ view, notices: createNotices(createVirtualClock()), tags });
   return view;
 }

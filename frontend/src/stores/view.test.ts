@@ -1,38 +1,50 @@
 import { expect, test } from 'vitest';
-import { createView } from './view.ts';
+import { createView, INITIAL_VIEW, type Memories } from './view.ts';
 
 function storageWith(text: string | null) {
   const stored = new Map(text === null ? [] : [['servodeck.view', text]]);
   return {
-    stored,
     getItem: (key: string) => stored.get(key) ?? null,
     setItem: (key: string, value: string) => void stored.set(key, value),
   };
 }
 
+const memoriesWith = (text: string | null): Memories => ({
+  browser: storageWith(text),
+  tab: storageWith(null),
+});
+
 test('the theme is remembered, other words in its place are not taken', () => {
-  const storage = storageWith(null);
-  createView(storage).setState({ theme: 'dark' });
-  expect(createView(storage).getState().theme).toBe('dark');
-  expect(createView(storageWith('<script>')).getState().theme).toBe('system');
+  const memories = memoriesWith(null);
+  createView(memories).setState({ theme: 'dark' });
+  expect(createView(memories).getState().theme).toBe('dark');
+  expect(createView(memoriesWith('<script>')).getState().theme).toBe('system');
 });
 
 test('so are the unit of positions and how servos are laid out', () => {
-  const storage = storageWith(null);
-  createView(storage).setState({ positionsIn: 'degrees', servoLayout: 'body' });
-  expect(createView(storage).getState()).toMatchObject({ positionsIn: 'degrees', servoLayout: 'body' });
+  const memories = memoriesWith(null);
+  createView(memories).setState({ positionsIn: 'degrees', servoLayout: 'body' });
+  expect(createView(memories).getState()).toMatchObject({ positionsIn: 'degrees', servoLayout: 'body' });
+});
+
+test('what is worked on outlives a reload of its tab; another tab begins anew', () => {
+  const memories = memoriesWith(null);
+  createView(memories).setState({ tab: 'actions', authoring: 'poses' });
+  expect(createView(memories).getState()).toMatchObject({ tab: 'actions', authoring: 'poses' });
+  const otherTab = createView({ ...memories, tab: storageWith(null) });
+  expect(otherTab.getState()).toMatchObject({ tab: 'live', authoring: 'group' });
 });
 
 test('what else is open or selected begins anew', () => {
-  const storage = storageWith(null);
-  createView(storage).setState({ tab: 'log', slot: 7 });
-  expect(createView(storage).getState()).toMatchObject({ tab: 'live', slot: 0 });
+  const memories = memoriesWith(null);
+  createView(memories).setState({ connectOpen: true, robotView: 'calibrate', slot: 7, untilStopped: true });
+  expect(createView(memories).getState()).toEqual(INITIAL_VIEW);
 });
 
 test('the kiosk outlives a reload, until somebody leaves it', () => {
-  const storage = storageWith(null);
-  createView(storage).setState({ kiosk: 'on' });
-  expect(createView(storage).getState().kiosk).toBe('on');
-  createView(storage).setState({ kiosk: 'off' });
-  expect(createView(storage).getState().kiosk).toBe('off');
+  const memories = memoriesWith(null);
+  createView(memories).setState({ kiosk: 'on' });
+  expect(createView(memories).getState().kiosk).toBe('on');
+  createView(memories).setState({ kiosk: 'off' });
+  expect(createView(memories).getState().kiosk).toBe('off');
 });

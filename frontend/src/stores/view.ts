@@ -1,5 +1,5 @@
-// What is selected, open and set on this screen: neither the robot's state nor the document's. How things look,
-// and the kiosk, is remembered, nothing else. Knows no link.
+// What is selected, open and set on this screen: neither the robot's state nor the document's. How things look, and the kiosk, is
+// remembered by the browser; what is worked on, by the browser's tab alone; nothing else. Knows no link.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Calibration } from '#shared/actions/robot/robotCalibration.ts';
@@ -57,14 +57,28 @@ export interface ViewState {
 
 export type View = StoreApi<ViewState>;
 
-/** Where each remembered choice is stored, and what it may be. */
+/** Where each remembered choice is stored, and what it may be. What is worked on outlives a reload, and no other tab begins with it. */
 const REMEMBERED = {
-  theme: { key: 'servodeck.view', values: ['system', 'light', 'dark'] },
-  language: { key: 'servodeck.language', values: ['system', ...LANGUAGES] },
-  positionsIn: { key: 'servodeck.positionsIn', values: ['board', 'degrees'] },
-  kiosk: { key: 'servodeck.kiosk', values: ['on', 'off'] },
-  servoLayout: { key: 'servodeck.servoLayout', values: ['list', 'body'] },
-} as const satisfies { readonly [K in keyof ViewState]?: { key: string; values: readonly ViewState[K][] } };
+  theme: { by: 'browser', key: 'servodeck.view', values: ['system', 'light', 'dark'] },
+  language: { by: 'browser', key: 'servodeck.language', values: ['system', ...LANGUAGES] },
+  positionsIn: { by: 'browser', key: 'servodeck.positionsIn', values: ['board', 'degrees'] },
+  kiosk: { by: 'browser', key: 'servodeck.kiosk', values: ['on', 'off'] },
+  servoLayout: { by: 'browser', key: 'servodeck.servoLayout', values: ['list', 'body'] },
+  tab: { by: 'tab', key: 'servodeck.tab', values: ['live', 'actions', 'board', 'log', 'buttons'] },
+  authoring: { by: 'tab', key: 'servodeck.authoring', values: ['group', 'poses', 'pad'] },
+} as const satisfies { readonly [K in keyof ViewState]?: Memory<ViewState[K]> };
+
+interface Memory<Value> {
+  readonly by: keyof Memories;
+  readonly key: string;
+  readonly values: readonly Value[];
+}
+
+/** What the browser keeps for each of its visits, and what it keeps for one of its tabs. */
+export interface Memories {
+  readonly browser: TextStorage;
+  readonly tab: TextStorage;
+}
 
 type Remembered = keyof typeof REMEMBERED;
 const NAMES = Object.keys(REMEMBERED) as Remembered[];
@@ -99,17 +113,20 @@ export const INITIAL_VIEW: ViewState = {
   goOnMinutes: 10,
 };
 
-export function createView(storage: TextStorage): View {
-  const view = createStore<ViewState>(() => ({ ...INITIAL_VIEW, ...load(storage) }));
+export function createView(memories: Memories): View {
+  const view = createStore<ViewState>(() => ({ ...INITIAL_VIEW, ...load(memories) }));
   view.subscribe((state, before) => {
-    for (const name of NAMES) if (state[name] !== before[name]) save(storage, name, state[name]);
+    for (const name of NAMES) if (state[name] !== before[name]) save(memories, name, state[name]);
   });
   return view;
 }
 
-function load(storage: TextStorage): Partial<ViewState> {
+function load(memories: Memories): Partial<ViewState> {
   try {
-    const known = NAMES.map((name) => [name, storage.getItem(REMEMBERED[name].key)] as const);
+    const known = NAMES.map((name) => {
+      const { by, key } = REMEMBERED[name];
+      return [name, memories[by].getItem(key)] as const;
+    });
     return Object.fromEntries(known.filter(([name, text]) => isOneOf(REMEMBERED[name].values, text)));
   } catch {
     return {};
@@ -119,9 +136,10 @@ function load(storage: TextStorage): Partial<ViewState> {
 const isOneOf = (values: readonly string[], text: string | null): boolean =>
   text !== null && values.includes(text);
 
-function save(storage: TextStorage, name: Remembered, text: string): void {
+function save(memories: Memories, name: Remembered, text: string): void {
+  const { by, key } = REMEMBERED[name];
   try {
-    storage.setItem(REMEMBERED[name].key, text);
+    memories[by].setItem(key, text);
   } catch {
     // Storage is forbidden here: the choice lasts as long as the page, and that is all it is worth.
   }

@@ -35,7 +35,8 @@ export async function createTimelineDesk() {
   const { device, notices, robots, told } = await createDesk();
   const storage = { getItem: () => null, setItem: () => undefined };
   const document = createDocument(storage, notices, device.clock);
-  const stores = { device, notices, robots, document, view: createView(storage), timeline: createTimeline() };
+  const view = createView({ browser: storage, tab: storage });
+  const stores = { device, notices, robots, document, view, timeline: createTimeline() };
   document.edit(() => 'fill', smallGroup);
   stores.timeline.setState({
     time: { fromMs: 0, msPerPx: 10 },

@@ -23,7 +23,7 @@ export function createVisit(
   };
   const notices = createNotices(clock);
   const document = createDocument(storage, notices, clock);
-  const view = createView(storage);
+  const view = createView({ browser: storage, tab: storage });
   const robots = createRobots(storage, notices);
   const library = createLibrary({
     ...{ keeper: Promise.resolve(keeper), document, storage, notices, robots, view, clock },
