@@ -13,6 +13,8 @@ test('a servo is calibrated from nothing, and what was set holds everywhere @eve
   const robots = robotDialogOf(dashboard);
   await robots.opener.click();
   await robots.button('Add Arm, 6 servos').click();
+  await expect(robots.button('Calibrate')).toBeFocused();
+  await expect(robots.button('Calibrate')).toBeInViewport();
   await robots.button('Calibrate').click();
   expect(ofKind(await robot.bus(), 'move')).toEqual([]);
 
@@ -155,6 +157,8 @@ test('a robot goes to a file and comes back; a file that is none changes nothing
   await expect(robots.dialog).toContainText('low.json was not imported: Gripper (servo 1): ');
   await choose('desk.json', text);
   await expect(robots.dialog).toContainText('Desk arm is imported.');
+  await expect(robots.dialog.getByText('Desk arm', { exact: true })).toBeInViewport();
+  await expect(robots.button('Calibrate')).toBeFocused();
   await robots.button('Delete').click();
   await robots.button('Undo: remove robot').click();
   await robots.button('Close').click();

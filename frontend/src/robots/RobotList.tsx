@@ -1,7 +1,7 @@
 // The robots a person has, those of the connected board first, the ready ones to begin with, and files. What is done here is
 // taken back by Undo above.
 
-import { useId } from 'react';
+import { useId, useRef } from 'react';
 import { useStore } from 'zustand';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { currentOf, type OwnRobot } from '../stores/robots/robots.ts';
@@ -14,6 +14,7 @@ import { NewRobot } from './NewRobot.tsx';
 import { RobotPicture } from './RobotPicture.tsx';
 import { RobotTools } from './RobotTools.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
+import { useNewcomerSeen } from './useNewcomerSeen.ts';
 import dialog from './RobotDialog.module.css';
 import styles from './RobotList.module.css';
 
@@ -27,21 +28,24 @@ export function RobotList() {
   const current = currentOf({ own, currentId, nextId: 0 });
   const connected = useDevice(({ snapshot: { family } }) => (family.id === 'unknown' ? null : family.id));
   const headingId = useId();
+  const list = useRef<HTMLUListElement>(null);
+  const undo = useRef<HTMLDivElement>(null);
   const others = own.filter((one) => one !== current);
   const fits = ({ robot: { board } }: OwnRobot): boolean => connected === null || board === connected;
   const isLast = others.length === 0;
+  useNewcomerSeen(list, undo, { own, currentId: current.id });
   return (
     <>
       <section aria-labelledby={headingId}>
         <div className={styles.heading}>
           <h3 id={headingId}>{words.robots.own}</h3>
-          <div className={dialog.undo}>
+          <div ref={undo} className={dialog.undo}>
             <UndoTools of={robots} />
           </div>
         </div>
         {place !== null && <p className={styles.dim}>{words.robots.place[place]}</p>}
-        <ul className={styles.own}>
-          <li className={styles.current}>
+        <ul ref={list} className={styles.own}>
+          <li data-robot={current.id} className={styles.current}>
             <Described {...current} />
             <Chip truth="confirmed">{isEveryones ? words.robots.everyones : words.robots.atHand}</Chip>
             <RobotTools {...current} isLast={isLast} />
@@ -76,7 +80,7 @@ function Described({ robot }: OwnRobot) {
 function Other({ id, robot, fits }: OwnRobot & { readonly fits: boolean }) {
   const { robots } = useStores();
   return (
-    <li className={styles.other}>
+    <li data-robot={id} className={styles.other}>
       <Described id={id} robot={robot} />
       {fits ? (
         <Button aria-label={words.robots.use(robot.name)} onPress={() => robots.takeUp(id)}>
