@@ -124,4 +124,5 @@ async def test_the_ports_list_holds_the_one_named_at_the_start() -> None:
             "description": "Named at the start",
             "likely": True,
             "lasting": None,
+            "inUse": False,
         }

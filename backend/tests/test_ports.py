@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 
 from servodeck.cli.cli import app
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
-from servodeck.port.ports import explain, list_devices, list_usb, open_port
+from servodeck.port.ports import explain, is_same_port, list_devices, list_usb, open_port
 from servodeck.port.whereabouts import Whereabouts
 
 NOBODY = 65534
@@ -269,6 +269,15 @@ def test_two_ports_of_one_adapter_with_a_number_are_told_apart(
     dev.pull_all()
     swapped = plug("ttyUSB1", "ttyUSB0")
     assert [other.find(list_usb()), ours.find(list_usb())] == swapped
+
+
+def test_a_port_known_by_its_lasting_name_is_the_one_that_is_listed(dev: FakeDev) -> None:
+    device = dev.plug("ttyUSB0", NUMBERED, LEFT, "A1")
+    other = dev.plug("ttyUSB1", TWIN, RIGHT)
+    lasting = str(dev.folder / "serial" / "by-id" / NUMBERED)
+    assert {port.device for port in list_devices(lasting)} == {device, other}
+    assert is_same_port(lasting, device)
+    assert not is_same_port(lasting, other)
 
 
 def test_where_the_system_keeps_no_lasting_names_none_is_told(dev: FakeDev) -> None:

@@ -32,6 +32,21 @@ test('a gateway without a port offers the ports it knows', async ({ page, newGat
   await expect(dashboard.connectDialog.getByRole('button', { name: 'Look again' })).toBeVisible();
 });
 
+test('a port in use is said to be, and not offered once more', async ({ page, ptyBoard, newGateway }) => {
+  const gateway = await newGateway({ serial: ptyBoard.device });
+  await page.goto(gateway.url);
+  const dashboard = dashboardOf(page);
+  await expect(dashboard.link).toHaveText(READY);
+  await dashboard.link.click();
+  const ports = dashboard.connectDialog.getByRole('group', { name: 'Gateway' });
+  await expect(ports.getByRole('button', { name: `${ptyBoard.device} is open` })).toBeDisabled();
+  await expect(ports).toContainText('In use here. Disconnect, below, takes this page off it');
+  await dashboard.button('Disconnect').click();
+  await dashboard.link.click();
+  await ports.getByRole('button', { name: `Open ${ptyBoard.device}` }).click();
+  await expect(dashboard.link).toHaveText(READY);
+});
+
 test.describe('when the gateway is killed', () => {
   test.use({ expectedComplaint: /WebSocket connection to .* failed|ERR_CONNECTION_REFUSED/ });
 

@@ -11,7 +11,7 @@ import sys
 import time
 import webbrowser
 from contextlib import suppress
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
 
@@ -201,7 +201,9 @@ def ports(
     """List the serial ports of this computer, the likely ones first."""
     if url:
         remote = remote_at(url, token, token_file)
-        found = [PortInfo(**port) for port in asked(remote, "GET", "/api/ports")]
+        names = [field.name for field in fields(PortInfo)]
+        listed = asked(remote, "GET", "/api/ports")
+        found = [PortInfo(**{name: port[name] for name in names}) for port in listed]
     else:
         found = list_devices()
     if as_json:

@@ -167,13 +167,17 @@ def group_of(device: str) -> str:
 def list_devices(*also: str | None) -> list[PortInfo]:
     """All ports of this computer, the likely ones first, and `also` those known by name alone."""
     found = [describe(port) for port in list_ports.comports()]
-    known = {port.device for port in found}
     extra = [
         PortInfo(name, "Named at the start", likely=True)
         for name in dict.fromkeys(also)
-        if name and name not in known
+        if name and not any(is_same_port(name, port.device) for port in found)
     ]
     return extra + sorted(found, key=lambda port: (not port.likely, port.device))
+
+
+def is_same_port(one: str, other: str) -> bool:
+    """By whichever of its names, as far as the system keeps several."""
+    return one == other or os.path.realpath(one) == os.path.realpath(other)
 
 
 def list_usb() -> list[UsbDevice]:

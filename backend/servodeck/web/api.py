@@ -20,7 +20,7 @@ from servodeck.driving.driving import name_of
 from servodeck.driving.latch import Cause
 from servodeck.errors import ErrorCode, OutOfRangeError
 from servodeck.port.background import in_thread
-from servodeck.port.ports import lasting_of, list_devices
+from servodeck.port.ports import is_same_port, lasting_of, list_devices
 from servodeck.protocol.packets import FAMILIES
 from servodeck.schema import Message
 from servodeck.told import PortState, UnattendedRun
@@ -63,13 +63,15 @@ class Status(Message):
 
 class Device(Message):
     """A serial port of this computer. `likely`: its USB chip is one that these boards and cables bear.
-    `lasting`: a name that leads to it after every start and replug, where the system keeps one.
+    `lasting`: a name that leads to it after every start and replug, where the system keeps one. `inUse`: it
+    is the gateway's present one, open or waited for.
     """
 
     device: str
     description: str
     likely: bool
     lasting: str | None
+    in_use: bool
 
 
 class PortChoice(Message):
@@ -149,8 +151,12 @@ def age_of(control: Control) -> BatteryAge | None:
 @api.get("/ports", dependencies=[OWNER])
 def ports(control: Controlled) -> list[Device]:
     """The serial ports of this computer and the one in use, the likely ones first."""
-    found = list_devices(control.named_device, control.board.link.state.device)
-    return [Device(**asdict(port)) for port in found]
+    present = control.board.link.state.device
+    found = list_devices(control.named_device, present)
+    return [
+        Device(**asdict(port), in_use=present is not None and is_same_port(port.device, present))
+        for port in found
+    ]
 
 
 @api.put("/port", dependencies=[OWNER])

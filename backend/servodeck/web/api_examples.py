@@ -159,7 +159,15 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         ("conflict", "notDriving", "notFound", "outOfRange"),
     ),
     ("GET", "/api/ports"): Example(
-        [{"device": "/dev/ttyUSB0", "description": "USB Serial", "likely": True, "lasting": PORT["device"]}],
+        [
+            {
+                "device": "/dev/ttyUSB0",
+                "description": "USB Serial",
+                "likely": True,
+                "lasting": PORT["device"],
+                "inUse": True,
+            }
+        ],
     ),
     ("PUT", "/api/port"): Example(
         PORT,

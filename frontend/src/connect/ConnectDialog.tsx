@@ -25,13 +25,6 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
     Promise.resolve(work()).then(close, notices.tellError);
   }
 
-  /** What is open already is left alone, and that is said. */
-  function chooseGateway(): void {
-    if (way?.kind !== 'gateway' || !isReady) return choose(connector.useGateway);
-    notices.tell('info', words.connect.isOpen(way.label));
-    close();
-  }
-
   return (
     <Dialog wide title={words.connect.title} closeLabel={words.close} isOpen={isOpen} onClose={close}>
       <ConnectWays
@@ -41,7 +34,7 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
         onLook={() => void connector.look().catch(notices.tellError)}
         onSimulate={(board) => choose(() => connector.simulate(board))}
         onReconnects={connector.setReconnects}
-        onGateway={chooseGateway}
+        onGateway={() => choose(connector.useGateway)}
         onGatewayPort={(device) => choose(() => connector.useGatewayPort(device))}
         onSerialPort={(port) => choose(() => connector.useSerialPort(port))}
         onChooseSerial={() => choose(connector.chooseSerialPort)}

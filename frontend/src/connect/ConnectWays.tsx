@@ -136,16 +136,18 @@ function SerialWay({ state, current, isReady, onSerialPort, onChooseSerial }: Co
       </>
     );
   }
+  const isOpen = isReady && current?.kind === 'webSerial';
   return (
     <>
       {state.granted.map(({ port, label }, index) => (
         <OpenButton
           key={index}
           label={label}
-          isOpen={isReady && current?.kind === 'webSerial' && port === state.openPort}
+          isOpen={isOpen && port === state.openPort}
           onPress={() => onSerialPort(port)}
         />
       ))}
+      {isOpen && <p className={styles.why}>{words.connect.webSerial.inUse}</p>}
       <Button tone={state.granted.length === 0 ? 'plain' : 'quiet'} onPress={onChooseSerial}>
         {words.connect.webSerial.choose}
       </Button>
@@ -163,12 +165,12 @@ interface OpenButtonProps {
 function OpenButton({ label, isOpen, onPress }: OpenButtonProps) {
   return (
     <Button isDisabled={isOpen} onPress={onPress}>
-      {isOpen ? words.connect.webSerial.isOpen(label) : words.connect.webSerial.open(label)}
+      {isOpen ? words.connect.inUse(label) : words.connect.open(label)}
     </Button>
   );
 }
 
-function GatewayWay({ state, onGateway, onGatewayPort, onLook }: ConnectWaysProps) {
+function GatewayWay({ state, current, isReady, onGateway, onGatewayPort, onLook }: ConnectWaysProps) {
   const { gateway, gatewayPorts } = state;
   const look = (
     <Button tone="quiet" icon="refresh" onPress={onLook}>
@@ -184,15 +186,15 @@ function GatewayWay({ state, onGateway, onGatewayPort, onLook }: ConnectWaysProp
       </>
     );
   }
-  const others = gatewayPorts.filter((port) => port.device !== gateway.device);
+  const others = gatewayPorts.filter((port) => !port.inUse || gateway.device === null);
+  const isOpen = isReady && current?.kind === 'gateway';
   return (
     <>
-      {gateway.device !== null && (
-        <Button onPress={onGateway}>{words.connect.gateway.open(gateway.device)}</Button>
-      )}
+      {gateway.device !== null && <OpenButton label={gateway.device} isOpen={isOpen} onPress={onGateway} />}
+      {isOpen && <p className={styles.why}>{words.connect.gateway.inUse(others.length > 0)}</p>}
       {others.map((port) => (
         <Button key={port.device} tone="quiet" onPress={() => onGatewayPort(port.device)}>
-          {words.connect.gateway.open(port.device)}
+          {words.connect.open(port.device)}
         </Button>
       ))}
       {gatewayPorts.length === 0 && gateway.device === null && (

@@ -15,6 +15,8 @@ export interface GatewayStatus {
 export interface GatewayPort {
   readonly device: string;
   readonly description: string;
+  /** The gateway's present one, by whichever of its names. */
+  readonly inUse: boolean;
 }
 
 const ANSWER_WITHIN_MS = 2000;
@@ -58,7 +60,7 @@ export async function hasGateway(clock: Clock): Promise<boolean> {
 export async function readPorts(withinMs = ANSWER_WITHIN_MS): Promise<readonly GatewayPort[]> {
   const list: unknown = await ask('api/ports', withinMs);
   if (!Array.isArray(list)) throw new LinkError('internal', 'the gateway’s list of ports is no list');
-  return list.filter(isPort).map(({ device, description }) => ({ device, description }));
+  return list.filter(isPort).map(({ device, description, inUse }) => ({ device, description, inUse }));
 }
 
 export async function openGatewayPort(device: string, board: BoardId): Promise<void> {
@@ -78,5 +80,10 @@ function ask(path: string, withinMs: number, body?: object): Promise<unknown> {
 }
 
 function isPort(value: unknown): value is GatewayPort {
-  return isRecord(value) && typeof value.device === 'string' && typeof value.description === 'string';
+  return (
+    isRecord(value) &&
+    typeof value.device === 'string' &&
+    typeof value.description === 'string' &&
+    typeof value.inUse === 'boolean'
+  );
 }

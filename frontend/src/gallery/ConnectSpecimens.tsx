@@ -48,8 +48,8 @@ const CASES: readonly {
       ...BASE,
       gateway: { device: '/dev/ttyUSB0' },
       gatewayPorts: [
-        { device: '/dev/ttyUSB0', description: 'USB Serial' },
-        { device: '/dev/ttyACM1', description: 'Arduino' },
+        { device: '/dev/ttyUSB0', description: 'USB Serial', inUse: true },
+        { device: '/dev/ttyACM1', description: 'Arduino', inUse: false },
       ],
     },
   },

@@ -138,14 +138,15 @@ export const english = {
     title: 'Connect a robot',
     intro: 'Connecting moves nothing.',
     here: 'Connected by this',
+    open: (label: string): string => `Open ${label}`,
+    inUse: (label: string): string => `${label} is open`,
     isOpen: (label: string): string => `${label} is open and ready.`,
     reconnects: 'Come back by itself after a lost link',
     webSerial: {
       title: 'This computer’s port',
       about: 'A robot on a USB cable of this computer, opened by the browser.',
       choose: 'Choose a port',
-      open: (label: string): string => `Open ${label}`,
-      isOpen: (label: string): string => `${label} is open`,
+      inUse: 'In use here. Disconnect, below, lets go of it for others.',
       secureLink: 'Open on 127.0.0.1',
     },
     gateway: {
@@ -154,7 +155,8 @@ export const english = {
       looking: 'Looking for a gateway at this address.',
       none: 'The gateway sees no serial port. Plug the robot in, then look again.',
       refresh: 'Look again',
-      open: (device: string): string => `Open ${device}`,
+      inUse: (hasOthers: boolean): string =>
+        `In use here. Disconnect, below, takes this page off it${hasOthers ? '; another port takes its place on every screen' : ''}.`,
     },
     simulated: {
       title: 'Simulated robot',

@@ -130,14 +130,15 @@ export const chinese: Words = {
     title: '连接机器人',
     intro: '连接时什么都不会动。',
     here: '当前连接',
+    open: (label) => `打开 ${label}`,
+    inUse: (label) => `${label}已打开`,
     isOpen: (label) => `${label}已打开，可以使用。`,
     reconnects: '断开后自动重连',
     webSerial: {
       title: '这台电脑的串口',
       about: '机器人用 USB 线接在这台电脑上，由浏览器打开。',
       choose: '选择串口',
-      open: (label) => `打开 ${label}`,
-      isOpen: (label) => `${label}已打开`,
+      inUse: '这里正在使用。要让给别的程序，请按下面的“断开连接”。',
       secureLink: '用127.0.0.1打开',
     },
     gateway: {
@@ -146,7 +147,8 @@ export const chinese: Words = {
       looking: '正在这个地址寻找网关。',
       none: '网关没有发现串口。请插上机器人，然后再找一次。',
       refresh: '再找一次',
-      open: (device) => `打开 ${device}`,
+      inUse: (hasOthers) =>
+        `这里正在使用。按下面的“断开连接”，这个页面就离开它${hasOthers ? '；选另一个串口，所有屏幕都会换过去' : ''}。`,
     },
     simulated: {
       title: '模拟机器人',
