@@ -1,7 +1,7 @@
 // Calibration, a servo at a time: its ends and its home are crept to, its direction is looked at, its mirror filled in, its trim
 // worked out. It can be left anywhere: what was set is in the robot, and the place is kept.
 
-import { useEffect, useId, useRef, type RefObject } from 'react';
+import { useId } from 'react';
 import type { CalibrationStep } from '#shared/actions/robot/robotCalibration.ts';
 import { isDone, isServoDone, stepsOf } from '#shared/actions/robot/robotCalibration.ts';
 import { RobotHead } from '../robots/RobotHead.tsx';
@@ -20,21 +20,23 @@ import styles from './CalibrationWizard.module.css';
 
 export function CalibrationWizard() {
   const at = useCalibration();
-  const wizard = useRef<HTMLDivElement>(null);
-  const title = useRef<HTMLHeadingElement>(null);
   const titleId = useId();
-  useFocusKept(wizard, title, `${at.servo.servo} ${at.progress.step}`);
   return (
     <>
       <RobotHead />
-      <div ref={wizard} className={styles.wizard}>
+      <div className={styles.wizard}>
         <Servos at={at} />
         <section className={styles.work} aria-labelledby={titleId}>
-          <h3 ref={title} id={titleId} className={styles.title} tabIndex={-1}>
+          <h3 id={titleId} className={styles.title}>
             {words.robots.called(at.servo)}
           </h3>
           <Steps at={at} />
-          <div key={`${at.servo.servo} ${at.progress.step}`} className={styles.step}>
+          <div
+            key={`${at.servo.servo} ${at.progress.step}`}
+            className={styles.step}
+            role="group"
+            aria-labelledby={titleId}
+          >
             {contentOf(at)}
           </div>
           <p className={styles.problem} role="alert">
@@ -45,17 +47,6 @@ export function CalibrationWizard() {
       </div>
     </>
   );
-}
-
-/** A step that ends takes its button away: the focus goes to what is asked next instead of nowhere. */
-function useFocusKept(
-  within: RefObject<HTMLElement | null>,
-  otherwise: RefObject<HTMLElement | null>,
-  step: string,
-): void {
-  useEffect(() => {
-    if (within.current?.contains(document.activeElement) === false) otherwise.current?.focus();
-  }, [within, otherwise, step]);
 }
 
 function contentOf(at: CalibrationAtHand) {

@@ -11,6 +11,7 @@ import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { Ask } from './Ask.tsx';
 import { sightOf } from './sight.ts';
 import { awayFrom, sideOf, startTurning, type TurnPhase } from './turning.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
@@ -29,7 +30,7 @@ function TooLittleRoom({ at: { robot, servo, isFinished, keep, go } }: At) {
   const { unit } = FAMILIES[robot.board];
   return (
     <>
-      <p className={styles.ask}>{words.calibration.tooLittleRoom(servo, unit)}</p>
+      <Ask>{words.calibration.tooLittleRoom(servo, unit)}</Ask>
       <div className={styles.actions}>
         <Button tone={isFinished ? 'plain' : 'primary'} onPress={() => go(servo.servo, 'min')}>
           {words.calibration.setEnds}
@@ -54,7 +55,8 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
   const isOnItsWay = isMoving || Math.abs((estimated ?? servo.home) - servo.home) > 1;
   const isTurning = phase === 'away' || phase === 'back';
   const isAway = target !== servo.home && !isTurning;
-  const isAsked = phase === 'done' && !isAway;
+  // It has shown what there is to see, and comes back whatever is answered.
+  const isAsked = (phase === 'back' || phase === 'done') && !isAway;
   const { unit } = FAMILIES[robot.board];
   const from = sightOf(robot, servo);
   const sight = words.calibration.sights[from];
@@ -62,9 +64,7 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
     accept((all) => changeServo(all, servo.servo, { isReversed }));
   return (
     <>
-      <p className={styles.ask}>
-        {isAway ? words.calibration.homeFirst(target ?? servo.home, servo.home, unit) : sight.about}
-      </p>
+      <Ask>{isAway ? words.calibration.homeFirst(target ?? servo.home, servo.home, unit) : sight.about}</Ask>
       {from !== 'gripper' && (
         <div className={styles.arrow}>
           {phase === 'away' && <TurnArrow isClockwise={sideOf(servo) > 0} />}
@@ -76,7 +76,7 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
             {words.calibration.goTo(servo.home, unit)}
           </Button>
         ) : (
-          <Button tone={isAsked ? 'plain' : 'primary'} isDisabled={isTurning || isOnItsWay} onPress={turn}>
+          <Button tone={isAsked ? 'plain' : 'primary'} isPending={isTurning || isOnItsWay} onPress={turn}>
             {words.calibration.turn}
           </Button>
         )}

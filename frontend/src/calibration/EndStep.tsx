@@ -10,6 +10,7 @@ import { useTarget } from '../servos/useTarget.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { Ask } from './Ask.tsx';
 import { CreepControl } from './CreepControl.tsx';
 import { sightOf } from './sight.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
@@ -42,7 +43,7 @@ export function EndStep({ at, end }: EndStepProps) {
       : (['primary', 'quiet'] as const);
   return (
     <>
-      <p className={styles.ask}>{words.calibration[endsFor][end]}</p>
+      <Ask>{words.calibration[endsFor][end]}</Ask>
       <CreepControl servo={servo} reach={reach} target={target} unit={unit} />
       <ReachBar servo={servo} reach={reach} unit={unit} />
       <p className={styles.dim}>

@@ -11,6 +11,7 @@ import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { Ask } from './Ask.tsx';
 
 export interface MotionGateProps {
   readonly robot: Robot;
@@ -30,7 +31,7 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
   if (hindrance === 'latched') {
     return (
       <>
-        <p>{words.calibration.stopped}</p>
+        <Ask>{words.calibration.stopped}</Ask>
         {mayResume(lease) ? (
           <Button tone="primary" onPress={device.resume}>
             {words.stop.resume}
@@ -41,11 +42,11 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
       </>
     );
   }
-  if (hindrance !== null) return <p>{words.servos.blocked[hindrance]}</p>;
+  if (hindrance !== null) return <Ask>{words.servos.blocked[hindrance]}</Ask>;
   if (isKnown) return children;
   return (
     <>
-      <p>{words.calibration.unknown}</p>
+      <Ask>{words.calibration.unknown}</Ask>
       <Button tone="primary" onPress={() => device.creep(middleOf(robot, servo), GENTLE_MOVE_MS)}>
         {words.calibration.goHome}
       </Button>

@@ -4,6 +4,7 @@ import { flawOf, servoOf } from '#shared/actions/robot/robot.ts';
 import { changeServo, fromPartner } from '#shared/actions/robot/robotEdits.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { Ask } from './Ask.tsx';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
 
@@ -15,7 +16,7 @@ export function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly a
   const fits = flawOf(changeServo(robot, partner.servo, change)) === null;
   return (
     <>
-      <p>{words.calibration.partner(words.robots.called(partner))}</p>
+      <Ask>{words.calibration.partner(words.robots.called(partner))}</Ask>
       <p className={styles.figures}>
         {fits ? words.calibration.partnerFigures(min, home, max) : words.calibration.partnerNot}
       </p>

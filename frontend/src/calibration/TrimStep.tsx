@@ -5,6 +5,7 @@ import { TRIM, type Robot, type RobotServo } from '#shared/actions/robot/robot.t
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { Ask } from './Ask.tsx';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
 
@@ -17,7 +18,7 @@ export function TrimStep({
   const change = servo.home === centre ? null : homeAtCentre(robot, servo);
   return (
     <>
-      <p className={styles.ask}>{sentence(robot, servo, change)}</p>
+      <Ask>{sentence(robot, servo, change)}</Ask>
       <div className={styles.actions}>
         {change !== null && (
           <Button

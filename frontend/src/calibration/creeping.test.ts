@@ -48,6 +48,21 @@ describe('creeping', () => {
     expect(gone).toBeLessThanOrEqual(220);
   });
 
+  test('held on it makes twice that; the next press begins slowly again', async () => {
+    const { clock, moves, hold } = bench(600);
+    const end = hold(1);
+    await clock.advance(1600);
+    const before = moves.at(-1) ?? 0;
+    await clock.advance(1000);
+    end();
+    expect((moves.at(-1) ?? 0) - before).toBe(400);
+    await clock.advance(500);
+    const stood = moves.at(-1) ?? 0;
+    hold(1);
+    await clock.advance(1000);
+    expect((moves.at(-1) ?? 0) - stood).toBeLessThanOrEqual(150);
+  });
+
   test('it ends at what the board can do, and is told of nothing beyond', async () => {
     const { clock, moves, hold } = bench(2450);
     hold(1);
