@@ -73,6 +73,54 @@ test('a dialog shares the focus with STOP alone, and gives it back', async ({ pa
   await expect(dashboard.button('Connect')).toBeFocused();
 });
 
+test('what has the focus goes away, and the focus is where one goes on', async ({ page, servers }) => {
+  test.slow();
+  const dashboard = dashboardOf(page);
+  const robots = robotDialogOf(dashboard);
+  const { keyboard } = page;
+  const asked = (what: RegExp): Locator => robots.dialog.getByText(what);
+  const press = async (button: Locator): Promise<void> => {
+    await tabTo(page, button);
+    await keyboard.press('Enter');
+  };
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.link).toHaveText(/Ready/);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
+
+  await press(robots.opener);
+  await press(robots.button('Calibrate'));
+  await expect(asked(/until it is closed/)).toBeFocused();
+  await press(robots.button(/^Keep 500/));
+  await expect(asked(/^Now wide open/)).toBeFocused();
+  await press(robots.button(/^Keep 2500/));
+  await expect(asked(/half open/)).toBeFocused();
+  await press(robots.button(/^Keep 1500/));
+  await expect(asked(/^Watch the gripper/)).toBeFocused();
+  await expect(robots.button('Turn a little')).toBeEnabled();
+  await press(robots.button('Turn a little'));
+  await expect(robots.button('Yes, that way')).toBeEnabled({ timeout: 15_000 });
+  await expect(robots.button('Turn a little')).toBeFocused();
+  await press(robots.button('Yes, that way'));
+  await expect(asked(/one end of its way/)).toBeFocused();
+  await press(robots.button('Close'));
+  await expect(robots.opener).toBeFocused();
+
+  await page.getByRole('radio', { name: 'Poses' }).check();
+  await press(dashboard.button('Capture pose'));
+  const name = page.getByRole('textbox', { name: /^Name of Pose/ });
+  await name.fill('Wave');
+  await name.press('Enter');
+  const renamed = page.getByRole('textbox', { name: 'Name of Wave' });
+  await expect(renamed).toBeFocused();
+  const undo = page.getByRole('button', { name: /^Undo/ });
+  await undo.focus();
+  await keyboard.press('Enter');
+  await expect(renamed).toBeHidden();
+  await keyboard.press('Enter');
+  await expect(undo).toBeDisabled();
+  await poll(() => page.evaluate(() => document.activeElement?.contains(document.body))).toBe(false);
+});
+
 /** Opens by key, leaves by key; what opened it has the focus again. */
 async function throughDialog(page: Page, opener: Locator, name: string, within: () => Promise<void>) {
   const dialog = page.getByRole('dialog', { name });

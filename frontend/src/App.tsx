@@ -30,6 +30,7 @@ import type { Tab as TabName, Theme } from './stores/view.ts';
 import { TopBar } from './topBar/TopBar.tsx';
 import { Icon, type IconName } from './ui/Icon.tsx';
 import { useEachFrame } from './ui/useEachFrame.ts';
+import { useFocusKept } from './ui/useFocusKept.ts';
 import { useLayout } from './ui/useLayout.ts';
 import { useSpokenLocale } from './ui/useSpokenLocale.ts';
 import { words } from './words/words.ts';
@@ -56,6 +57,7 @@ function Dashboard({ page }: { readonly page: Page }) {
   useTheme();
   useBatteryTab();
   useUndoKeys(useWritten());
+  useFocusKept();
   useEachFrame(() => {
     device.refresh();
     pad.frame();
