@@ -63,6 +63,35 @@ test('what is gone is no longer selected', async () => {
   expect(selected()).toEqual([[2, 1]]);
 });
 
+test('of a frame that loses a key the others are not selected instead, and the playhead stays', async () => {
+  const { stores, key, click, drag, spotOf, selected, keys } = await createTimelineDesk();
+  keepInStep(stores);
+  stores.timeline.setState({ playheadMs: 200 });
+  const left = (): unknown => [selected(), stores.timeline.getState().playheadMs];
+  click(spotOf(1, 2));
+  key('Delete');
+  expect(left()).toEqual([[], 200]);
+  key('Delete');
+  expect(keys(2)).toHaveLength(3);
+  click(spotOf(1, 3));
+  key('ArrowRight');
+  expect(left()).toEqual([[[4, 1]], 200]);
+  drag(spotOf(2, 3), 30, 0);
+  expect(left()).toEqual([[[5, 2]], 200]);
+});
+
+test('where the cursor’s key is gone it is at the nearest one of its row', async () => {
+  const { stores, key } = await createTimelineDesk();
+  keepInStep(stores);
+  key('ArrowDown');
+  for (let presses = 0; presses < 3; presses += 1) key('ArrowRight', { ctrlKey: true });
+  key('Delete');
+  expect(stores.timeline.getState().cursor).toEqual({ row: 'servo 1', frameId: 2 });
+  key('a', { ctrlKey: true });
+  key('Delete');
+  expect(stores.timeline.getState().cursor).toEqual({ row: 'servo 1', frameId: null });
+});
+
 test('all of the group stays in sight until one looks closer', async () => {
   const { stores } = await createTimelineDesk();
   keepInStep(stores);

@@ -3,11 +3,12 @@
 // playhead.
 
 import { deskOf, select, type Desk, type DeskStores } from './desk.ts';
-import { endOfFrame, selectedKeys, timesOf } from './groupTimes.ts';
-import { fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
+import { endOfFrame, selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
+import { cursorLeft, fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
 import { paged, xOf } from '../stores/timeline/timeScale.ts';
 import { ALL_ROW, type TimelineState } from '../stores/timeline/timeline.ts';
 import { keyName, keySet, withKeys } from '../stores/timeline/keySet.ts';
+import { setChanged } from '../stores/setChanged.ts';
 
 export function keepInStep(stores: DeskStores): () => void {
   const { document, view, timeline } = stores;
@@ -15,7 +16,8 @@ export function keepInStep(stores: DeskStores): () => void {
     document.store.subscribe(({ present, gesture }, before) => {
       if (gesture !== null || (present === before.present && before.gesture === null)) return;
       forgetGone(stores);
-      takeUpFrame(stores);
+      settleCursor(stores, timesOf(before.present));
+      if (isAnnounced(stores, timesOf(before.present))) takeUpFrame(stores);
       if (timeline.getState().followsGroup) fitAll(deskOf(stores));
     }),
     view.subscribe(({ selectedFrame }, before) => {
@@ -37,6 +39,16 @@ function forgetGone({ document, timeline }: DeskStores): void {
   const { selected } = timeline.getState();
   const left = selectedKeys(timesOf(document.store.getState().present), selected);
   if (left.length < selected.size) timeline.setState({ selected: new Set(left.map(keyName)) });
+}
+
+/** The frame that is selected was not there before. */
+function isAnnounced({ view }: DeskStores, before: GroupTimes): boolean {
+  return endOfFrame(before, view.getState().selectedFrame) === null;
+}
+
+function settleCursor(stores: DeskStores, before: GroupTimes): void {
+  const wasAtMs = endOfFrame(before, stores.timeline.getState().cursor.frameId);
+  if (wasAtMs !== null) setChanged(stores.timeline, { cursor: cursorLeft(deskOf(stores), wasAtMs) });
 }
 
 /** While it is played, a page at a time; whoever has looked away from it meanwhile is left alone. */

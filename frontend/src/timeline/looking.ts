@@ -6,8 +6,9 @@ import { withKeys, type SelectMode } from '../stores/timeline/keySet.ts';
 import { setChanged } from '../stores/setChanged.ts';
 import { rowOf, select, type Desk } from './desk.ts';
 import { allKeys, endOfFrame, keysOfFrame, selectedKeys, spanOf } from './groupTimes.ts';
-import { fitted, showing, zoomedAt, type Span } from '../stores/timeline/timeScale.ts';
-import { beside, walked, type Cell, type Direction, type Grid } from './walk.ts';
+import { words } from '../words/words.ts';
+import { fitted, panned, showing, zoomedAt, type Span } from '../stores/timeline/timeScale.ts';
+import { beside, settled, walked, type Cell, type Direction, type Grid } from './walk.ts';
 
 const ZOOM = 1.5;
 /** An empty group is seen as a short one. */
@@ -17,6 +18,36 @@ const EMPTY_MS = 5000;
 export function lookAt({ stores }: Desk, atMs: number): void {
   const playheadMs = Math.max(0, Math.round(atMs));
   stores.timeline.setState(({ time, widthPx }) => ({ playheadMs, time: showing(time, playheadMs, widthPx) }));
+}
+
+/** The same by keys, for ears too. */
+export function stepTo(desk: Desk, atMs: number): void {
+  lookAt(desk, atMs);
+  desk.stores.notices.say(words.timeline.instant(desk.stores.timeline.getState().playheadMs));
+}
+
+/** To the board's next tick, or the one before. */
+export function stepTick(desk: Desk, side: -1 | 1): void {
+  const { tickMs } = desk.family.motion;
+  const ticks = desk.state.playheadMs / tickMs;
+  stepTo(desk, (side === 1 ? Math.floor(ticks) + 1 : Math.ceil(ticks) - 1) * tickMs);
+}
+
+/** Most of what is in sight, so that the eye finds where it was. */
+const PAGE = 0.8;
+
+export function page(desk: Desk, side: -1 | 1): void {
+  setTime(desk, (time) => panned(time, side * PAGE * desk.state.widthPx));
+}
+
+/** The cursor, or where its key is gone the nearest one of its row. */
+export function cursorLeft(desk: Desk, wasAtMs: number): Cursor {
+  const { cursor } = desk.state;
+  const isThere =
+    cursor.row === ALL_ROW
+      ? endOfFrame(desk.times, cursor.frameId) !== null
+      : keysAtCursor(desk, cursor).length > 0;
+  return isThere ? cursor : settled(gridOf(desk), cursor, wasAtMs);
 }
 
 function gridOf({ rows, times }: Desk): Grid {
@@ -70,7 +101,7 @@ export function goToKey(desk: Desk, side: -1 | 1): void {
 /** From frame to frame, with the beginning as the first stop. */
 export function goToFrame(desk: Desk, side: -1 | 1): void {
   const stops = [0, ...desk.times.ends].map((atMs) => ({ atMs, frameId: 0 }));
-  lookAt(desk, beside(stops, desk.state.playheadMs, side)?.atMs ?? desk.state.playheadMs);
+  stepTo(desk, beside(stops, desk.state.playheadMs, side)?.atMs ?? desk.state.playheadMs);
 }
 
 export function selectRow(desk: Desk, id: string, mode: SelectMode): void {

@@ -27,6 +27,11 @@ export function walked(grid: Grid, cursor: Cursor, direction: Direction, fromMs:
   return next === undefined ? cursor : { ...cursor, frameId: next.frameId };
 }
 
+/** At the cell of its row that is nearest to where its own was. */
+export function settled(grid: Grid, cursor: Cursor, wasAtMs: number): Cursor {
+  return { ...cursor, frameId: nearest(grid.cellsOf(cursor.row), wasAtMs)?.frameId ?? null };
+}
+
 /** Jumps in its row to the next cell before or behind an instant; null where there is none. */
 export function beside(cells: readonly Cell[], atMs: number, side: -1 | 1): Cell | null {
   const found =
