@@ -27,6 +27,13 @@ export function recordingPen(size: Size) {
     lineTo: (x: number, y: number) => void points.push([x, y]),
     roundRect: (x: number, y: number, width: number, height: number) =>
       void points.push([x, y], [x + width, y + height]),
+    fillRect(x: number, y: number, width: number, height: number) {
+      points = [
+        [x, y],
+        [x + width, y + height],
+      ];
+      keep('fill', ctx.fillStyle);
+    },
     closePath: () => undefined,
     setLineDash: (lengths: readonly number[]) => (dash = lengths),
     fill: () => keep('fill', ctx.fillStyle),

@@ -1,11 +1,13 @@
-// The whole group in one line: where its keys are, and what of it is in sight. Dragged, it shows another part.
+// The whole group in one line: where its keys are, what of it is in sight, and where the playhead is. Dragged, it shows another
+// part.
 
 import type { PointerEvent } from 'react';
-import { Drawing, type Pen } from '../body/Drawing.tsx';
+import { Drawing } from '../body/Drawing.tsx';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
-import { timesOf, type GroupTimes } from './groupTimes.ts';
+import { timesOf } from './groupTimes.ts';
 import { setTime } from './looking.ts';
+import { paintFrames, paintPlayhead } from './paintMinimap.ts';
 import { panned, seenSpan } from '../stores/timeline/timeScale.ts';
 import styles from './Minimap.module.css';
 
@@ -48,24 +50,15 @@ export function Minimap({ lanes }: { readonly lanes: string }) {
         shown={() => [timesOf(stores.document.store.getState().present)] as const}
         paint={paintFrames}
       />
+      <Drawing
+        className={styles.playhead}
+        shown={() => [share(stores.timeline.getState().playheadMs)] as const}
+        paint={paintPlayhead}
+      />
       <span
         className={styles.seen}
         style={{ insetInlineStart: `${from * 100}%`, width: `${(to - from) * 100}%` }}
       />
     </div>
   );
-}
-
-const GROUND_PX = 2;
-
-/** A line for each frame: where it ends and how tall it is, the taller the more servos it moves. */
-function paintFrames({ ctx, look, size }: Pen, [times]: readonly [GroupTimes]): void {
-  const { frames, ends, lengthMs, tracks } = times;
-  const tall = size.height - 2 * GROUND_PX;
-  ctx.fillStyle = look.edge;
-  for (const [index, { targets }] of frames.entries()) {
-    const x = ((size.width - 1) * (ends[index] ?? 0)) / Math.max(1, lengthMs);
-    const height = GROUND_PX + Math.round((tall * targets.length) / Math.max(1, tracks.size));
-    ctx.fillRect(Math.round(x), size.height - height, 1, height);
-  }
 }
