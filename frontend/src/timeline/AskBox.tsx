@@ -1,9 +1,13 @@
 // A field in place: a number or a text that the timeline asks for, beside what it is about. Enter and leaving the field take it,
 // Escape does not (and stops the robot, as everywhere). Before it is asked for, the value of the selected key stands there.
+// That one opens by a mere click on a key, so until something is written in it the hand is still on the keys: what writes no
+// number is meant for them.
 
+import { useEffect, useRef, type KeyboardEvent } from 'react';
 import { useStores, useTimeline } from '../stores/stores.ts';
 import type { Ask } from '../stores/timeline/timeline.ts';
 import { cx } from '../ui/cx.ts';
+import { isTouch } from '../ui/touch.ts';
 import { words } from '../words/words.ts';
 import { answer, ASKED } from './asks.ts';
 import { deskOf } from './desk.ts';
@@ -15,10 +19,16 @@ import { xOf } from '../stores/timeline/timeScale.ts';
 import { useDesk, type SeenDesk } from './useDesk.ts';
 import styles from './AskBox.module.css';
 
-export function AskBox({ onClose }: { onClose(): void }) {
+export interface AskBoxProps {
+  onClose(): void;
+  /** The press was meant for the keys: the field has closed. */
+  onPass(event: KeyboardEvent): void;
+}
+
+export function AskBox(props: AskBoxProps) {
   const asks = useTimeline((state) => state.asks);
   const hasOne = useTimeline(({ selected }) => selected.size === 1);
-  if (asks !== null) return <Asked key={asks} ask={asks} onClose={onClose} />;
+  if (asks !== null) return <Asked key={asks} ask={asks} {...props} />;
   return hasOne ? <KeyValue /> : null;
 }
 
@@ -37,11 +47,14 @@ function KeyValue() {
   );
 }
 
-function Asked({ ask, onClose }: { readonly ask: Ask; onClose(): void }) {
+function Asked({ ask, onClose, onPass }: AskBoxProps & { readonly ask: Ask }) {
   const stores = useStores();
   const place = placeOf(useDesk());
   const desk = deskOf(stores);
   const asked = ASKED[ask];
+  const field = useRef<HTMLInputElement>(null);
+  // Not sooner: as long as a menu is closing, nothing beside it takes the focus.
+  useEffect(() => field.current?.focus(), []);
   const close = (): void => {
     stores.timeline.setState({ asks: null, typed: '' });
     onClose();
@@ -55,8 +68,8 @@ function Asked({ ask, onClose }: { readonly ask: Ask; onClose(): void }) {
   return (
     <div className={styles.box} style={place ?? {}}>
       <input
+        ref={field}
         type="text"
-        autoFocus
         className={asked.kind === 'text' ? styles.text : styles.number}
         inputMode={asked.kind === 'text' ? 'text' : 'decimal'}
         aria-label={words.timeline.asks[ask]}
@@ -69,12 +82,25 @@ function Asked({ ask, onClose }: { readonly ask: Ask; onClose(): void }) {
         onKeyDown={(event) => {
           if (event.key === 'Enter') take(event.currentTarget.value);
           if (event.key === 'Escape') close();
+          if (ask !== 'value' || !isUntouched(event.currentTarget) || !isForKeys(event.key)) return;
+          close();
+          onPass(event);
         }}
       />
       {asked.kind === 'number' && <span className={styles.unit}>{asked.unit(desk)}</span>}
     </div>
   );
 }
+
+/** All of it is selected, as when it opened: whoever wants to write in it has set the caret. */
+function isUntouched({ value, defaultValue, selectionStart, selectionEnd }: HTMLInputElement): boolean {
+  return value === defaultValue && selectionStart === 0 && selectionEnd === value.length;
+}
+
+const FOR_KEYS = /^(Arrow.+|Page.+|Delete|Backspace|ContextMenu|F10|[a-z ])$/i;
+
+/** On a screen's keyboard Backspace is how a field is cleared. */
+const isForKeys = (key: string): boolean => FOR_KEYS.test(key) && !(key === 'Backspace' && isTouch());
 
 /** Beside what it is about, within the lanes. */
 function placeOf(desk: SeenDesk): Place | null {

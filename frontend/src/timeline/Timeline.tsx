@@ -129,6 +129,13 @@ export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
 
   const takeFocus = (): void => grid.current?.focus({ preventScroll: true });
 
+  /** As if it had been pressed here; what the browser does of itself, as copying, it does where the focus is by now. */
+  function pressHere(event: KeyboardEvent): void {
+    event.stopPropagation();
+    const again = new window.KeyboardEvent(event.type, event.nativeEvent);
+    if (grid.current?.dispatchEvent(again) === false) event.preventDefault();
+  }
+
   return (
     <section className={styles.timeline} aria-label={words.timeline.title}>
       <TimelineTools openMenu={openMenu} />
@@ -166,7 +173,8 @@ export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
               <Rows {...{ rows, sizes, id, openRowMenu }} />
             </div>
             <Corner />
-            <AskBox onClose={takeFocus} />
+            {/* A menu that is open keeps the focus to itself, and the field would not get it. */}
+            {menu === null && <AskBox onClose={takeFocus} onPass={pressHere} />}
           </div>
         </div>
       </div>
