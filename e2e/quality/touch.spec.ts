@@ -168,7 +168,7 @@ test('on a large touch screen rows of the timeline stay in sight, and Play does'
   for (const part of [
     page.getByRole('rowheader', { name: 'Gripper' }),
     dashboardOf(page).button('Play'),
-    dashboardOf(page).button('Several'),
+    page.getByRole('group', { name: 'Change the selected frame' }).getByRole('button', { name: 'Several' }),
   ])
     await expect(part).toBeInViewport({ ratio: 1 });
 });

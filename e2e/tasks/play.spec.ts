@@ -140,6 +140,12 @@ test('several groups of the library go to their slots with one progress', async 
   await dialog.getByRole('button', { name: 'Download several' }).click();
   const several = dialog.getByRole('region', { name: 'Download several groups' });
   const slotOf = (name: string) => several.getByRole('textbox', { name: `Slot for ${name}` });
+  const all = several.getByRole('checkbox', { name: /^All \d+$/ });
+  const choices = several.getByRole('list').getByRole('checkbox');
+  await all.click();
+  await expect(choices.and(page.getByRole('checkbox', { checked: false }))).toHaveCount(0);
+  await all.click();
+  await expect(choices.and(page.getByRole('checkbox', { checked: true }))).toHaveCount(0);
   // Its frames are read first, so the check comes a moment after the press.
   await several.getByRole('checkbox', { name: /^Wave for six/ }).click();
   await expect(slotOf('Wave for six')).toHaveValue('6');

@@ -89,6 +89,58 @@ test('a second click on a key opens its number in place', async ({ page, dashboa
   await expect(timeline.grid).toBeFocused();
 });
 
+test('until a number is typed in its field, what writes none is meant for the keys', async ({
+  page,
+  dashboard,
+}) => {
+  const timeline = timelineOf(page);
+  const { keyboard } = page;
+  const field = page.getByRole('textbox', { name: 'Position of the selected keys' });
+  const name = 'Gripper, 1.00 s, 1200 µs, linear';
+  const clickTwice = async (): Promise<void> => {
+    await timeline.click('Elbow, 1.50 s, 1500 µs, linear');
+    await timeline.click(name);
+    await timeline.click(name);
+    await expect(field).toBeFocused();
+  };
+  await clickTwice();
+  await keyboard.press('ArrowRight');
+  await expect(timeline.key('Gripper, 1.02 s, 1200 µs, linear')).toHaveAttribute('aria-selected', 'true');
+  await expect(timeline.grid).toBeFocused();
+  await keyboard.press('ControlOrMeta+z');
+  await clickTwice();
+  await keyboard.press('ControlOrMeta+x');
+  await expect(timeline.key(name)).toBeHidden();
+  await keyboard.press('Home');
+  await keyboard.press('ControlOrMeta+v');
+  await expect(timeline.key('Gripper, 0.00 s, 1200 µs, linear')).toBeVisible();
+  await dashboard.button('Undo: paste keys').click();
+  await dashboard.button('Undo: cut 1 key').click();
+  await clickTwice();
+  await keyboard.press('Delete');
+  await expect(timeline.key(name)).toBeHidden();
+  await keyboard.press('ControlOrMeta+z');
+  await clickTwice();
+  // A caret is set: the field is written in from here on.
+  await keyboard.press('End');
+  await keyboard.press('Backspace');
+  await keyboard.press('ArrowLeft');
+  await keyboard.type('5');
+  await keyboard.press('Enter');
+  await expect(timeline.key('Gripper, 1.00 s, 1250 µs, linear')).toBeVisible();
+});
+
+test('six rows need no scroll bar', async ({ page, dashboard }) => {
+  await page.setViewportSize({ width: 1000, height: 1000 });
+  await expect(dashboard.frames).toHaveCount(3);
+  const hiddenPx = await timelineOf(page).grid.evaluate((grid) => {
+    let area: Element | null = grid;
+    while (area !== null && getComputedStyle(area).overflowY !== 'auto') area = area.parentElement;
+    return area === null ? NaN : area.scrollHeight - area.clientHeight;
+  });
+  expect(hiddenPx).toBe(0);
+});
+
 test('everything is done by keyboard alone', async ({ page, dashboard }) => {
   const timeline = timelineOf(page);
   const { keyboard } = page;
@@ -113,6 +165,17 @@ test('everything is done by keyboard alone', async ({ page, dashboard }) => {
   await page.getByRole('menuitem', { name: 'hold', exact: true }).press('Enter');
   await expect(timeline.key('Elbow, 1.50 s, 1500 µs, hold')).toBeVisible();
   await expect(dashboard.button('Undo: hold')).toBeEnabled();
+
+  await keyboard.press('Shift+F10');
+  await page.getByRole('menuitem', { name: 'Set marker' }).press('Enter');
+  await expect(page.getByRole('textbox', { name: 'Text of the marker' })).toBeFocused();
+  await keyboard.type('Bow');
+  await keyboard.press('Enter');
+  await keyboard.press('Shift+m');
+  await keyboard.press('ArrowRight');
+  await expect(timeline.region).toContainText('Bow, 1.02 s.');
+  await keyboard.press('Delete');
+  await expect(dashboard.button('Undo: delete marker')).toBeEnabled();
 });
 
 test('keys are copied to the clipboard of the system and come back at the playhead', async ({
@@ -278,5 +341,11 @@ test.describe('with fingers', () => {
     await touch('touchEnd');
     await page.getByRole('menuitem', { name: 'Delete keys' }).tap();
     await expect(timeline.key(name)).toBeHidden();
+    await timeline.tools.getByRole('button', { name: 'Several' }).tap();
+    for (const beside of ['Gripper, 0.50 s, 1000 µs, linear', 'Elbow, 1.50 s, 1500 µs, linear']) {
+      await touch('touchStart', await timeline.middleOf(timeline.key(beside)));
+      await touch('touchEnd');
+    }
+    await expect(timeline.selected).toHaveCount(2);
   });
 });

@@ -61,7 +61,7 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
         tabIndex={isTabStop ? 0 : -1}
         onClick={({ ctrlKey, metaKey, shiftKey }) =>
           pressFrame(stores, frame.id, {
-            ctrl: ctrlKey || metaKey || stores.view.getState().addsFrames,
+            ctrl: ctrlKey || metaKey || stores.view.getState().addsToSelection,
             shift: shiftKey,
           })
         }

@@ -5,8 +5,8 @@ import { motionHindrance } from '../stores/device/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useDevice, useDocument, useSnapshot, useStores, useTimeline, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
-import { ToggleButton } from '../ui/ToggleButton.tsx';
 import { words } from '../words/words.ts';
+import { AddsSwitch } from '../timeline/AddsSwitch.tsx';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { captureFrame } from './capture.ts';
 import { useKnowsPose } from './CaptureButton.tsx';
@@ -51,9 +51,7 @@ export function FrameTools() {
             ? words.actions.several(whole.length)
             : words.actions.frame(index + 1)}
       </span>
-      <span className={styles.adds}>
-        <Adds />
-      </span>
+      <AddsSwitch />
       <Button tone="quiet" icon="pose" isDisabled={notOne || !mayMove || !sameUnit} onPress={load}>
         {words.actions.load}
       </Button>
@@ -146,16 +144,5 @@ function ClipButtons({ ids }: OfFrames) {
         onPress={() => paste(stores, stores.timeline.getState().clip)}
       />
     </>
-  );
-}
-
-/** For hands without a Ctrl key. */
-function Adds() {
-  const { view } = useStores();
-  const isOn = useView((state) => state.addsFrames);
-  return (
-    <ToggleButton isOn={isOn} onChange={(addsFrames) => view.setState({ addsFrames })}>
-      {words.actions.adds}
-    </ToggleButton>
   );
 }

@@ -35,8 +35,8 @@ export interface ViewState {
   readonly logOpen: boolean;
   readonly logKinds: readonly LogKind[];
   readonly selectedFrame: number | null;
-  /** Each press on a frame takes it beside the others, or away: a finger holds no Ctrl key. */
-  readonly addsFrames: boolean;
+  /** Each press on a frame or key takes it beside the others, or away: a finger holds no Ctrl key. */
+  readonly addsToSelection: boolean;
   readonly servos: ServoView;
   readonly positionsIn: PositionsIn;
   readonly servoLayout: ServoLayout;
@@ -97,7 +97,7 @@ export const INITIAL_VIEW: ViewState = {
   logOpen: false,
   logKinds: ['move', 'group', 'battery', 'link', 'noise'],
   selectedFrame: null,
-  addsFrames: false,
+  addsToSelection: false,
   servos: INITIAL_SERVO_VIEW,
   positionsIn: 'board',
   servoLayout: 'list',

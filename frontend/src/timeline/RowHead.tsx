@@ -49,7 +49,11 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
           selectRow(
             deskOf(stores),
             row.id,
-            event.ctrlKey || event.metaKey ? 'toggles' : event.shiftKey ? 'adds' : 'replaces',
+            event.ctrlKey || event.metaKey || stores.view.getState().addsToSelection
+              ? 'toggles'
+              : event.shiftKey
+                ? 'adds'
+                : 'replaces',
           )
         }
       >

@@ -9,6 +9,7 @@ import { cellName } from './cellName.ts';
 import type { StatusName } from './gesture.ts';
 import { changeable, whyHeld } from './desk.ts';
 import { selectedKeys } from './groupTimes.ts';
+import { selectedMarker } from './markers.ts';
 import { servoAtHand } from './moving.ts';
 import { turnText } from './positions.ts';
 import { servoRowId } from './rows.ts';
@@ -49,6 +50,13 @@ function textOf(desk: SeenDesk, status: StatusName | null): string {
   const { state, family } = desk;
   if (status !== null && status !== 'selected' && status !== 'nothing')
     return isTouch() && ABOUT_KEYS.has(status) ? '' : words.timeline.status[status];
+  const marker = selectedMarker(desk);
+  if (marker !== undefined) {
+    const about = words.timeline.draggedMarker(marker.text, marker.atMs);
+    return isTouch()
+      ? words.timeline.byTouch.marker(about)
+      : words.timeline.markerSelected(about, family.motion.tickMs);
+  }
   const keys = selectedKeys(desk.times, state.selected);
   const servo = servoAtHand(desk, keys);
   const [only] = keys;

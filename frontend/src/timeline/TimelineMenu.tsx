@@ -11,7 +11,9 @@ import { Icon } from '../ui/Icon.tsx';
 import { words } from '../words/words.ts';
 import { colour, ease } from './changes.ts';
 import { deskOf, rowOf } from './desk.ts';
-import { mayRun, VERBS, type VerbName } from './verbs.ts';
+import { chordText } from './keymap.ts';
+import type { Row } from './rows.ts';
+import { mayRun, verbName, VERBS, type VerbName } from './verbs.ts';
 import styles from '../ui/Menu.module.css';
 
 export interface OpenMenu {
@@ -33,7 +35,7 @@ const CHANGES: readonly VerbName[] = [
   'insertTime',
   'note',
 ];
-const LOOKS: readonly VerbName[] = ['selectAll', 'fitSelection', 'range'];
+const LOOKS: readonly VerbName[] = ['selectAll', 'fitSelection', 'range', 'nextMarker'];
 
 export function TimelineMenu({ menu, onClose }: { readonly menu: OpenMenu | null; onClose(): void }) {
   return (
@@ -84,7 +86,7 @@ function KeysMenu({ onClose }: { onClose(): void }) {
         ))}
       </Submenu>
       <Submenu label={words.timeline.rows.menu} isDisabled={false}>
-        {rowItems(desk.servoView, rowOf(desk, desk.state.cursor.row)?.servos ?? [], (change) =>
+        {rowItems(desk.servoView, rowOf(desk, desk.state.cursor.row), (change) =>
           editServoView(stores, change),
         )}
       </Submenu>
@@ -98,6 +100,7 @@ function KeysMenu({ onClose }: { onClose(): void }) {
 function VerbItem({ verb }: { readonly verb: VerbName }) {
   const stores = useStores();
   const { icon, keys, run } = VERBS[verb];
+  const { state } = deskOf(stores);
   return (
     <MenuItem
       className={styles.item ?? ''}
@@ -105,8 +108,8 @@ function VerbItem({ verb }: { readonly verb: VerbName }) {
       onAction={() => run(deskOf(stores))}
     >
       <Icon name={icon} />
-      {words.timeline.verbs[verb]}
-      <kbd className={styles.keys}>{keys}</kbd>
+      {verbName(verb, state)}
+      <kbd className={styles.keys}>{chordText(keys)}</kbd>
     </MenuItem>
   );
 }
@@ -137,7 +140,6 @@ function RowMenu({ onClose }: { onClose(): void }) {
   const stores = useStores();
   const view = useServoView((servoView) => servoView);
   const desk = deskOf(stores);
-  const servos = rowOf(desk, desk.state.cursor.row)?.servos ?? [];
   return (
     <Menu
       className={styles.menu ?? ''}
@@ -145,15 +147,16 @@ function RowMenu({ onClose }: { onClose(): void }) {
       autoFocus="first"
       onClose={onClose}
     >
-      {rowItems(view, servos, (change) => editServoView(stores, change))}
+      {rowItems(view, rowOf(desk, desk.state.cursor.row), (change) => editServoView(stores, change))}
     </Menu>
   );
 }
 
 type ChangeView = (change: (view: ServoView) => ServoView) => void;
 
-function rowItems(view: ServoView, servos: readonly number[], change: ChangeView): React.ReactElement[] {
+function rowItems(view: ServoView, row: Row | undefined, change: ChangeView): React.ReactElement[] {
   const { rows } = words.timeline;
+  const servos = row?.servos ?? [];
   const isAll = (list: readonly number[]): boolean =>
     servos.length > 0 && servos.every((servo) => list.includes(servo));
   const items = [
@@ -162,7 +165,7 @@ function rowItems(view: ServoView, servos: readonly number[], change: ChangeView
     { list: 'solo', icon: 'solo', label: isAll(view.solo) ? rows.unsolo : rows.solo },
     { list: 'hidden', icon: 'hide', label: rows.hide },
   ] as const;
-  return items.map(({ list, icon, label }) => (
+  const own = items.map(({ list, icon, label }) => (
     <MenuItem
       key={list}
       className={styles.item ?? ''}
@@ -172,4 +175,19 @@ function rowItems(view: ServoView, servos: readonly number[], change: ChangeView
       {label}
     </MenuItem>
   ));
+  return row?.kind === 'limb' ? [...own, foldItem(view, row.name, change)] : own;
+}
+
+function foldItem(view: ServoView, limb: string, change: ChangeView): React.ReactElement {
+  const isFolded = view.folded.includes(limb);
+  return (
+    <MenuItem
+      key="folded"
+      className={styles.item ?? ''}
+      onAction={() => change((before) => ({ ...before, folded: toggled(before.folded, [limb]) }))}
+    >
+      <Icon name={isFolded ? 'later' : 'down'} />
+      {isFolded ? words.timeline.rows.unfold : words.timeline.rows.foldAway}
+    </MenuItem>
+  );
 }

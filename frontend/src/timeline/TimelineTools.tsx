@@ -10,10 +10,11 @@ import { Select } from '../ui/Select.tsx';
 import type { KeySet } from '../stores/timeline/keySet.ts';
 import { ToggleButton } from '../ui/ToggleButton.tsx';
 import { useWords, words } from '../words/words.ts';
+import { AddsSwitch } from './AddsSwitch.tsx';
 import { ease } from './changes.ts';
 import { deskOf } from './desk.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
-import { mayRun, VERBS, type VerbName } from './verbs.ts';
+import { mayRun, verbName, VERBS, type VerbName } from './verbs.ts';
 import styles from './TimelineTools.module.css';
 
 const VERB_GROUPS: readonly (readonly VerbName[])[] = [
@@ -48,6 +49,7 @@ export const TimelineTools = memo(function TimelineTools({
         label={words.timeline.more}
         onPress={({ target }) => openMenu('keys', target)}
       />
+      <AddsSwitch />
       <EasingChoice />
       <div className={styles.group}>
         {SWITCHES.map(([name, hint]) => (
@@ -73,10 +75,11 @@ function Switch({ name }: { readonly name: (typeof SWITCHES)[number][0] }) {
 function VerbButton({ verb }: { readonly verb: VerbName }) {
   const stores = useStores();
   const mayNow = useTimeline((state) => mayRun({ state }, VERBS[verb]));
+  const label = useTimeline((state) => verbName(verb, state));
   return (
     <IconButton
       icon={VERBS[verb].icon}
-      label={words.timeline.verbs[verb]}
+      label={label}
       isDisabled={!mayNow}
       onPress={() => VERBS[verb].run(deskOf(stores))}
     />

@@ -3,7 +3,7 @@ import { emptyGroup } from '#shared/actions/group/group.ts';
 import { startHistory } from '#shared/actions/history.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { editServoView } from '../stores/stores.ts';
-import { chordOf } from './keymap.ts';
+import { chordOf, chordText } from './keymap.ts';
 import { keepInStep } from './inStep.ts';
 import { VERBS } from './verbs.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';
@@ -13,6 +13,22 @@ test('a key is named by what is held with it, Command like Ctrl, and Shift only 
   expect(chordOf({ ...plain, key: 'A', metaKey: true, shiftKey: true })).toBe('Ctrl+Shift+a');
   expect(chordOf({ ...plain, key: '+', shiftKey: true })).toBe('+');
   expect(chordOf({ ...plain, key: 'ArrowLeft', shiftKey: true })).toBe('Shift+ArrowLeft');
+});
+
+test('the menu names a key as it is written on it', () => {
+  expect(['Ctrl+x', 'r', 'Shift+f', 'Ctrl+Shift+a'].map(chordText)).toEqual([
+    'Ctrl+X',
+    'R',
+    'Shift+F',
+    'Ctrl+Shift+A',
+  ]);
+  expect(['Enter', 'F2', 'Shift+Delete', '+', ','].map(chordText)).toEqual([
+    'Enter',
+    'F2',
+    'Shift+Delete',
+    '+',
+    ',',
+  ]);
 });
 
 test('a typed number opens the field of the selected keys, with its first digit', async () => {
@@ -119,6 +135,30 @@ describe('keys', () => {
     ]);
     key('Home');
     expect(at()).toBe(0);
+  });
+
+  test('walk the playhead by the board’s ticks, and say where it is', async () => {
+    const { key, stores } = await createTimelineDesk();
+    const at = () => stores.timeline.getState().playheadMs;
+    stores.timeline.setState({ playheadMs: 507 });
+    key('>', { shiftKey: true });
+    expect(at()).toBe(520);
+    key('>');
+    key('<');
+    key('<');
+    expect(at()).toBe(500);
+    expect(stores.notices.said.getState()).toBe('0.50 s');
+    key('Home');
+    key('<');
+    expect(at()).toBe(0);
+  });
+
+  test('look a page on and back, and leave the playhead where it is', async () => {
+    const { key, stores } = await createTimelineDesk();
+    key('PageDown');
+    expect(stores.timeline.getState()).toMatchObject({ time: { fromMs: 6400 }, playheadMs: 0 });
+    key('PageUp');
+    expect(stores.timeline.getState().time.fromMs).toBe(0);
   });
 
   test('Enter sets a key where the servo passes just then, and moves nothing else', async () => {

@@ -3,7 +3,8 @@
 
 import { mayBeNegative } from './asks.ts';
 import type { Desk } from './desk.ts';
-import { lookAt, toggleAtCursor, walk, selectRow } from './looking.ts';
+import { page, selectRow, stepTick, stepTo, toggleAtCursor, walk } from './looking.ts';
+import { nudgeMarker } from './markers.ts';
 import { nudge } from './moving.ts';
 import { VERBS, mayRun } from './verbs.ts';
 import type { Direction } from './walk.ts';
@@ -19,6 +20,10 @@ export function chordOf({ key, ctrlKey, metaKey, shiftKey, altKey }: Pressed): s
   return [...held.filter((one) => one !== ''), name].join('+');
 }
 
+/** As it stands on the keys. */
+export const chordText = (chord: string): string =>
+  chord.replace(/(^|\+)(\p{Ll})$/u, (_, before: string, letter: string) => before + letter.toUpperCase());
+
 const FAR = 10;
 const ARROWS: readonly { key: string; direction: Direction; ticks: number; turns: number }[] = [
   { key: 'ArrowLeft', direction: 'left', ticks: -1, turns: 0 },
@@ -27,10 +32,11 @@ const ARROWS: readonly { key: string; direction: Direction; ticks: number; turns
   { key: 'ArrowDown', direction: 'down', ticks: 0, turns: -1 },
 ];
 
-/** With nothing selected the arrows go about; with keys selected they move these. */
+/** With nothing selected the arrows go about; with keys selected they move these, and a selected marker before them. */
 function arrow({ direction, ticks, turns }: (typeof ARROWS)[number], far: number): KeyAction {
   return (desk) => {
-    if (desk.state.selected.size === 0) walk(desk, direction, null);
+    if (desk.state.marker !== null && ticks !== 0) nudgeMarker(desk, ticks * far);
+    else if (desk.state.selected.size === 0) walk(desk, direction, null);
     else nudge(desk, ticks * far, turns * far);
   };
 }
@@ -59,8 +65,12 @@ const ACTIONS: ReadonlyMap<string, KeyAction> = new Map<string, KeyAction>([
   ['Ctrl+ ', toggleAtCursor],
   ['Shift+ ', (desk) => selectRow(desk, desk.state.cursor.row, 'toggles')],
   ...DIGITS.map((digit): [string, KeyAction] => [digit, typing(digit)]),
-  ['Home', (desk) => lookAt(desk, 0)],
-  ['End', (desk) => lookAt(desk, desk.times.lengthMs)],
+  ['Home', (desk) => stepTo(desk, 0)],
+  ['End', (desk) => stepTo(desk, desk.times.lengthMs)],
+  ['<', (desk) => stepTick(desk, -1)],
+  ['>', (desk) => stepTick(desk, 1)],
+  ['PageUp', (desk) => page(desk, -1)],
+  ['PageDown', (desk) => page(desk, 1)],
   ['Backspace', VERBS.remove.run],
   ['=', VERBS.zoomIn.run],
   // The same key with Shift, which no number begins with.

@@ -2,6 +2,7 @@
 // elements and stores, no edit.
 
 import { setKeysAt } from './changes.ts';
+import { keepCursorInSight } from './cursorInSight.ts';
 import { deskOf, select, type DeskStores } from './desk.ts';
 import type { StatusName } from './gesture.ts';
 import { hasAll, hitAt, type Spot } from './hit.ts';
@@ -38,7 +39,8 @@ export function bringToLife(parts: LaneParts, stores: DeskStores, host: LaneHost
   const change = (to: Parameters<typeof setTime>[1]): void => setTime({ stores }, to);
   const pointing = followPointer(parts.lanes, {
     press: (spot, held, isTouch) => ({
-      ...{ stores, spot, held, isTouch, scroll, sizes: sizes() },
+      ...{ stores, spot, isTouch, scroll, sizes: sizes() },
+      held: { ...held, ctrl: held.ctrl || stores.view.getState().addsToSelection },
       showBox: (box) => showBox(parts.box, box),
     }),
     pinch(before, now) {
@@ -64,10 +66,12 @@ export function bringToLife(parts: LaneParts, stores: DeskStores, host: LaneHost
     pan: (byPx) => change((time) => panned(time, byPx)),
     scroll,
   });
+  const following = keepCursorInSight(parts.scroller, stores, sizes);
   return () => {
     painting();
     pointing();
     turning();
+    following();
   };
 }
 

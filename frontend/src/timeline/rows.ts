@@ -98,3 +98,12 @@ export const heightOf = (rows: readonly PlacedRow[]): number =>
 export function seenRows(rows: readonly PlacedRow[], fromPx: number, heightPx: number): readonly PlacedRow[] {
   return rows.filter(({ top, height }) => top + height > fromPx && top < fromPx + heightPx);
 }
+
+/** How far the rows are scrolled then: no farther than it takes to see all of that one. */
+export function scrolledTo(
+  { top, height }: Pick<PlacedRow, 'top' | 'height'>,
+  scrollTop: number,
+  heightPx: number,
+): number {
+  return Math.min(top, Math.max(scrollTop, top + height - heightPx));
+}

@@ -2,7 +2,7 @@
 
 import type { IconName } from '../ui/Icon.tsx';
 import type { Ask, TimelineState } from '../stores/timeline/timeline.ts';
-import type { Words } from '../words/words.ts';
+import { words, type Words } from '../words/words.ts';
 import {
   copy,
   cut,
@@ -18,6 +18,7 @@ import {
 } from './changes.ts';
 import type { Desk } from './desk.ts';
 import { fitAll, fitSelection, goToFrame, goToKey, toggleRange, zoom } from './looking.ts';
+import { goToMarker } from './markers.ts';
 
 export type VerbName = keyof Words['timeline']['verbs'];
 
@@ -47,10 +48,11 @@ export const VERBS: Readonly<Record<VerbName, Verb>> = {
   insertTime: { icon: 'later', needs: 'nothing', keys: 'i', run: asking('insertTime') },
   reverse: { icon: 'reverse', needs: 'keys', keys: 'r', run: turnRound },
   mirror: { icon: 'mirror', needs: 'keys', keys: 'x', run: mirrorFrames },
-  scaleTime: { icon: 'tune', needs: 'keys', keys: 't', run: asking('scaleTime') },
+  scaleTime: { icon: 'tune', needs: 'keys', keys: 's', run: asking('scaleTime') },
   scaleAmplitude: { icon: 'tune', needs: 'keys', keys: 'a', run: asking('scaleAmplitude') },
   note: { icon: 'edit', needs: 'keys', keys: 'n', run: asking('note') },
   marker: { icon: 'marker', needs: 'nothing', keys: 'm', run: asking('marker') },
+  nextMarker: { icon: 'marker', needs: 'nothing', keys: 'Shift+m', run: goToMarker },
   selectAll: { icon: 'frames', needs: 'nothing', keys: 'Ctrl+a', run: selectAll },
   selectNone: { icon: 'close', needs: 'nothing', keys: 'Ctrl+Shift+a', run: selectNone },
   zoomIn: { icon: 'plus', needs: 'nothing', keys: '+', run: (desk) => zoom(desk, 1) },
@@ -63,6 +65,14 @@ export const VERBS: Readonly<Record<VerbName, Verb>> = {
   keyBefore: { icon: 'earlier', needs: 'nothing', keys: 'j', run: (desk) => goToKey(desk, -1) },
   keyAfter: { icon: 'later', needs: 'nothing', keys: 'k', run: (desk) => goToKey(desk, 1) },
 };
+
+type Marked = Pick<TimelineState, 'marker'>;
+
+/** Some mean a marker where one is selected. */
+export function verbName(name: VerbName, { marker }: Marked): string {
+  const { verbs, markerVerbs } = words.timeline;
+  return (marker === null ? undefined : markerVerbs[name]) ?? verbs[name];
+}
 
 export function mayRun(
   { state }: { readonly state: Pick<TimelineState, 'selected' | 'marker'> },

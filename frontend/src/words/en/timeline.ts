@@ -37,6 +37,12 @@ const colours: Readonly<Record<Colour, string>> = {
   olive: 'Olive',
 };
 
+/** Verbs that mean another thing while a marker is selected. */
+const markerVerbs: Readonly<Partial<Record<string, string>>> = {
+  marker: 'Rename marker',
+  remove: 'Delete marker',
+};
+
 const pasteProblem = (problem: PasteProblem): string => {
   switch (problem.kind) {
     case 'unit':
@@ -100,7 +106,9 @@ export const timelineWords = {
     frameAfter: 'Frame after',
     keyBefore: 'Key before',
     keyAfter: 'Key after',
+    nextMarker: 'Next marker',
   },
+  markerVerbs,
   more: 'More',
   change: 'Change',
   look: 'Select and look',
@@ -123,6 +131,8 @@ export const timelineWords = {
     solo: 'Play and change only this',
     unsolo: 'Play and change all again',
     hide: 'Hide',
+    foldAway: 'Fold away',
+    unfold: 'Unfold',
     showHidden: (count: number): string => `Show hidden rows: ${formatCount(count)}`,
     locked: 'locked',
     muted: 'muted',
@@ -185,6 +195,7 @@ export const timelineWords = {
   },
   nothingToSet: 'Nothing is known of these servos yet. Move them first.',
   nothingToPaste: 'Copy some keys first.',
+  noMarker: 'There is no marker yet.',
   nothingToMirror: 'These frames are the same when left and right change places.',
   notPasted: (problem: PasteProblem): string => `Not pasted: ${pasteProblem(problem)}.`,
   swingsTooFar: (servo: number): string =>
@@ -210,9 +221,13 @@ export const timelineWords = {
     locked: 'This row is locked.',
     beside: 'This row is beside the one that alone plays and changes.',
   },
+  /** `about`: the marker. */
+  markerSelected: (about: string, tickMs: number): string =>
+    `${about}. Arrows move it by ${formatWhole(tickMs)} ms; Shift: ten times. M renames it, Delete takes it away.`,
   byTouch: {
     nothing:
       'Touch a key to select it. Rest a finger for more, or drag on to select several. Two fingers zoom.',
     selected: (about: string): string => `${about}. Drag to move it. Rest a finger for more.`,
+    marker: (about: string): string => `${about}. Drag to move it. Rest a finger on it for more.`,
   },
 };

@@ -79,7 +79,9 @@ export const timelineWords: typeof english = {
     frameAfter: '下一帧',
     keyBefore: '上一个关键帧',
     keyAfter: '下一个关键帧',
+    nextMarker: '下一个标记',
   },
+  markerVerbs: { marker: '重命名标记', remove: '删除标记' },
   more: '更多',
   change: '修改',
   look: '选择和查看',
@@ -102,6 +104,8 @@ export const timelineWords: typeof english = {
     solo: '只播放和修改这一行',
     unsolo: '重新播放和修改所有行',
     hide: '隐藏',
+    foldAway: '折叠',
+    unfold: '展开',
     showHidden: (count) => `显示隐藏的${formatCount(count)}行`,
     locked: '已锁定',
     muted: '已静默',
@@ -162,6 +166,7 @@ export const timelineWords: typeof english = {
   },
   nothingToSet: '这些舵机的位置还未知。请先移动它们。',
   nothingToPaste: '请先复制关键帧。',
+  noMarker: '还没有标记。',
   nothingToMirror: '左右对调后，这些帧没有变化。',
   notPasted: (problem) => `没有粘贴：${pasteProblem(problem)}。`,
   swingsTooFar: (servo) => `没有缩放：${formatWhole(servo)}号舵机会超出限位。`,
@@ -181,8 +186,11 @@ export const timelineWords: typeof english = {
     locked: '这一行已锁定。',
     beside: '现在只播放和修改别的行，不含这一行。',
   },
+  markerSelected: (about, tickMs) =>
+    `${about}。方向键移动${formatWhole(tickMs)}毫秒；按住Shift为十倍。M重命名，Delete删除。`,
   byTouch: {
     nothing: '点按关键帧来选择。长按打开菜单，按住再拖动可多选。双指缩放。',
     selected: (about) => `${about}。拖动来移动。长按打开菜单。`,
+    marker: (about) => `${about}。拖动来移动。在标记上长按打开菜单。`,
   },
 };

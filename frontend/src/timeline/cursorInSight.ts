@@ -1,0 +1,41 @@
+// Rows scroll so far that the cursor's is in sight, whoever moved it there; a row that is gone leaves the cursor to that of all
+// servos, on the same frame. Knows elements and stores, no edit.
+
+import { ALL_ROW } from '../stores/timeline/timeline.ts';
+import { deskOf, rowOf, type DeskStores } from './desk.ts';
+import { placedRows, scrolledTo } from './rows.ts';
+import { topOfRows, type Sizes } from './sizes.ts';
+
+export function keepCursorInSight(
+  scroller: Pick<HTMLElement, 'scrollTop' | 'clientHeight'>,
+  stores: DeskStores,
+  sizes: () => Sizes,
+): () => void {
+  function scroll(): void {
+    const { rows, state } = deskOf(stores);
+    const placed = placedRows(rows.slice(1), sizes()).find(({ row }) => row.id === state.cursor.row);
+    if (placed === undefined) return;
+    const { scrollTop, clientHeight } = scroller;
+    const next = scrolledTo(placed, scrollTop, clientHeight - topOfRows(sizes()));
+    if (next !== scrollTop) scroller.scrollTop = next;
+  }
+
+  function leaveGoneRow(): void {
+    const desk = deskOf(stores);
+    const { cursor } = desk.state;
+    if (rowOf(desk, cursor.row) === undefined)
+      stores.timeline.setState({ cursor: { ...cursor, row: ALL_ROW } });
+  }
+
+  const ends = [
+    stores.timeline.subscribe(({ cursor }, before) => {
+      if (cursor.row !== before.cursor.row) scroll();
+    }),
+    stores.view.subscribe(({ servos }, before) => {
+      if (servos.hidden !== before.servos.hidden || servos.folded !== before.servos.folded) leaveGoneRow();
+    }),
+  ];
+  return () => {
+    for (const end of ends) end();
+  };
+}
