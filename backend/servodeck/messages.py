@@ -20,6 +20,7 @@ from servodeck.told import (
     PortState,
     RobotTold,
     ServoNumber,
+    StoredGroup,
     UnattendedRun,
 )
 
@@ -146,7 +147,7 @@ class Standing(Message):
     clients: int
     unattended: UnattendedRun | None
     broken_slots: list[int]
-    slot_versions: dict[str, str]
+    slot_versions: dict[str, StoredGroup]
 
 
 class WelcomeMessage(Standing):

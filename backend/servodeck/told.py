@@ -58,6 +58,18 @@ class UnattendedRun(Message):
     ends_in_ms: int
 
 
+class StoredGroup(Message):
+    """What a slot was given last: which version, called what, of which document of the library where one is
+    named, by whom, and when, in milliseconds since 1970; null where that was not noted.
+    """
+
+    version: str
+    name: str = ""
+    document: str | None = None
+    by: str = ""
+    at_ms: int | None = None
+
+
 class ServoWay(Message):
     """A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`
     is null where nobody knows where it began.

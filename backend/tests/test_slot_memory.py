@@ -10,6 +10,7 @@ from servodeck.board.slot_memory import FILE, OLD_FILE, SlotMemory
 from servodeck.driving.control import Control
 from servodeck.errors import SlotChangedError
 from servodeck.protocol.values import Frame, ServoTarget
+from servodeck.told import StoredGroup
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort, FakePorts
 from tests.running import http_to
@@ -22,27 +23,41 @@ FRAMES = [Frame(500, (ServoTarget(1, 1500),))]
 QUICK = [[180]]
 
 
+def versions(control: Control) -> dict[str, str]:
+    return {slot: stored.version for slot, stored in control.board.slot_versions.items()}
+
+
 def group(version: str, replaces: str | None = None, slot: int = SLOT) -> Group:
     return Group(slot, "Wave", FRAMES, version, replaces)
 
 
 def test_what_is_known_outlives_the_gateway_for_its_own_board(tmp_path: Path) -> None:
     async def work() -> None:
-        memory = SlotMemory(tmp_path)
+        memory = SlotMemory(tmp_path, lambda: 1700.5)
         memory.breaks("/dev/a", 5)
         memory.breaks("/dev/a", 9)
         memory.breaks("/dev/b", 7)
-        memory.store("/dev/a", 9, "v1")
+        memory.store("/dev/a", 9, "v1", "Wave", "w", "Anna")
         await memory.kept()
 
     asyncio.run(work())
     again = SlotMemory(tmp_path)
     assert (again.broken("/dev/a"), again.broken("/dev/b"), again.broken("/dev/c")) == ([5], [7], [])
-    assert (again.versions("/dev/a"), again.versions("/dev/b")) == ({9: "v1"}, {})
+    wave = StoredGroup(version="v1", name="Wave", document="w", by="Anna", at_ms=1_700_500)
+    assert (again.stored("/dev/a"), again.stored("/dev/b")) == ({9: wave}, {})
 
 
 @pytest.mark.parametrize(
-    "text", ["", "{", "[]", '{"a": 5}', '{"a": {"broken": ["x"], "versions": {}}}', '{"a": {}}']
+    "text",
+    [
+        "",
+        "{",
+        "[]",
+        '{"a": 5}',
+        '{"a": {"broken": ["x"], "versions": {}}}',
+        '{"a": {}}',
+        '{"a": {"broken": [], "versions": {"9": {"version": 5}}}}',
+    ],
 )
 def test_a_damaged_memory_is_no_memory(tmp_path: Path, text: str) -> None:
     (tmp_path / FILE).write_text(text)
@@ -65,6 +80,12 @@ async def test_it_is_on_disk_before_the_first_byte_leaves_and_a_disk_that_takes_
         await control.shut_down()
 
 
+def test_of_what_an_earlier_version_stored_its_version_is_known(tmp_path: Path) -> None:
+    (tmp_path / FILE).write_text('{"/dev/a": {"broken": [], "versions": {"9": "v1"}}}')
+    memory = SlotMemory(tmp_path)
+    assert (memory.version("/dev/a", 9), memory.stored("/dev/a")[9].at_ms) == ("v1", None)
+
+
 def test_what_an_earlier_version_knew_to_be_broken_is_broken(tmp_path: Path) -> None:
     (tmp_path / OLD_FILE).write_text('{"/dev/a": [5]}')
     assert SlotMemory(tmp_path).broken("/dev/a") == [5]
@@ -76,13 +97,15 @@ async def test_everybody_is_told_which_version_a_slot_got_and_whoever_was_away_a
         anna = Client(control)
         await ended(control, begin(control, group("v1")))
         states = [message for message in await anna.heard() if message["type"] == "state"]
-        assert states[-1]["slotVersions"] == {"8": "v1"}
+        [stored] = states[-1]["slotVersions"].values()
+        assert stored.pop("atMs") > 0
+        assert stored == {"version": "v1", "name": "Wave", "document": None, "by": "Anna"}
         control.leave(anna)
         await ended(control, begin(control, group("v2")))
         [welcome] = await Client(control).heard()
-        assert welcome["slotVersions"] == {"8": "v2"}
+        assert welcome["slotVersions"]["8"]["version"] == "v2"
         await ended(control, begin(control, Group(SLOT, "Unnamed", FRAMES)))
-        assert control.board.slot_versions["8"] not in ("v1", "v2", "")
+        assert versions(control)["8"] not in ("v1", "v2", "")
 
 
 @in_virtual_time
@@ -94,11 +117,11 @@ async def test_one_that_ends_half_way_changes_no_version_and_an_erase_forgets_al
         await asyncio.sleep(0.1)
         control.stop(None)
         assert (await ended(control, job)).status == "failed"
-        assert (control.board.broken_slots, control.board.slot_versions) == ([SLOT], {"8": "v1"})
+        assert (control.board.broken_slots, versions(control)) == ([SLOT], {"8": "v1"})
         await asyncio.sleep(3)
         control.resume(anna.caller)
         await anna.send(ERASE)
-        assert (control.board.broken_slots, control.board.slot_versions) == ([SLOT], {})
+        assert (control.board.broken_slots, versions(control)) == ([SLOT], {})
 
 
 @in_virtual_time
@@ -113,9 +136,9 @@ async def test_nobody_overwrites_what_another_has_stored_since_they_looked() -> 
                 begin(control, group("again", seen))
             with pytest.raises(SlotChangedError):
                 begin(control, group("first", "", slot=3), group("again", seen))
-        assert (port.packets(), control.board.slot_versions) == (before, {"8": "berts"})
+        assert (port.packets(), versions(control)) == (before, {"8": "berts"})
         await ended(control, begin(control, group("again", "berts")))
-        assert control.board.slot_versions == {"8": "again"}
+        assert versions(control) == {"8": "again"}
 
 
 @in_virtual_time

@@ -29,7 +29,7 @@ from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import Family
 from servodeck.protocol.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command, parse_report
 from servodeck.protocol.values import RunAccepted, RunStarted
-from servodeck.told import JobState, PortState
+from servodeck.told import JobState, PortState, StoredGroup
 
 DRAIN_S = 0.5
 
@@ -107,9 +107,9 @@ class Board:
         return self.jobs.broken(self.link.place)
 
     @property
-    def slot_versions(self) -> dict[str, str]:
+    def slot_versions(self) -> dict[str, StoredGroup]:
         """By slot, as JSON has it."""
-        return {str(slot): version for slot, version in self.jobs.versions(self.link.place).items()}
+        return {str(slot): stored for slot, stored in self.jobs.stored(self.link.place).items()}
 
     def may_move(self) -> bool:
         return self.motion.group_may_run(self._now()) or self.motion.is_moving(self._now())

@@ -25,7 +25,7 @@ from servodeck.errors import (
 )
 from servodeck.port.wire import Wire
 from servodeck.protocol.values import Command, Erase, Erased, Report, Run
-from servodeck.told import JobState
+from servodeck.told import JobState, StoredGroup
 
 REMEMBERED = 16
 # Often enough for a bar that moves, seldom enough for 200 who look on.
@@ -129,12 +129,12 @@ class Jobs:
     def broken(self, board: str) -> list[int]:
         return self._memory.broken(board)
 
-    def versions(self, board: str) -> Mapping[int, str]:
-        return self._memory.versions(board)
+    def stored(self, board: str) -> Mapping[int, StoredGroup]:
+        return self._memory.stored(board)
 
     def judge_replaced(self, part: Part, board: str) -> None:
         """Raises SlotChangedError where the slot does not hold any more what whoever asks has seen there."""
-        if part.replaces is not None and part.replaces != self._memory.versions(board).get(part.slot, ""):
+        if part.replaces is not None and part.replaces != self._memory.version(board, part.slot):
             raise SlotChangedError(f"Something else was stored in slot {part.slot} meanwhile.")
 
     def left(self, command: Command | None, at_s: float, board: str) -> None:
@@ -182,7 +182,7 @@ class Jobs:
         job.has_begun = True
         await download.store()
         self._owed_until_s = float("-inf")
-        self._memory.store(job.board, slot, part.version)
+        self._memory.store(job.board, slot, part.version, part.name, part.document, job.state.by)
         self._memory.keep_soon()
         job.note_whole()
         self._events.group_stored(part)

@@ -22,13 +22,15 @@ class Group:
     frames: Sequence[Frame]
     version: str = ""
     replaces: str | None = None
+    document: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
     """One group of a download; `packets` in the order of its frames, for boards of the family `board`.
     `extremes`: the least and the greatest position of each servo. `version`: what it is called, by whoever
-    asks, to tell it from others; `replaces`: that of what they have seen in its slot, if they have looked.
+    asks, to tell it from others; `replaces`: that of what they have seen in its slot, if they have looked;
+    `document`: of the library, where it is of one.
     """
 
     slot: int
@@ -39,6 +41,7 @@ class Part:
     extremes: Sequence[ServoTarget]
     version: str
     replaces: str | None
+    document: str | None
 
 
 def judge_parts(parts: Sequence[Part], board: str) -> None:
@@ -76,6 +79,7 @@ def made_of(group: Group, packets: Sequence[bytes], board: str) -> Part:
         extremes_of(group.frames),
         group.version or secrets.token_hex(8),
         group.replaces,
+        group.document,
     )
 
 

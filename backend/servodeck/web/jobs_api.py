@@ -36,12 +36,14 @@ Version = Annotated[str, Field(max_length=64)]
 class GroupBody(Message):
     """`version` tells it from other groups: a text of one's own, or the gateway makes one up. `replaces`: the
     version that was seen in its slot, an empty text for none; where another one is there now, it is refused.
+    `document`: which one of the library it is of.
     """
 
     slot: Annotated[int, Field(ge=0, le=255)]
     name: Annotated[str, Field(max_length=64)] = ""
     version: Version = ""
     replaces: Version | None = None
+    document: Version | None = None
     frames: Annotated[list[FrameBody], Field(min_length=1, max_length=255)]
 
     async def group(self) -> Group:
@@ -50,7 +52,7 @@ class GroupBody(Message):
         for body in self.frames:
             frames.append(body.frame())
             await asyncio.sleep(0)
-        return Group(self.slot, self.name, frames, self.version, self.replaces)
+        return Group(self.slot, self.name, frames, self.version, self.replaces, self.document)
 
 
 class DownloadWish(Message):

@@ -3,10 +3,10 @@
 // known only as far as this page filled it.
 
 import { useId, useRef, type RefObject } from 'react';
-import { recordOf } from '#shared/actions/slots/slotBook.ts';
-import { useDevice, useSlots, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useStores, useView } from '../stores/stores.ts';
 import { SlotsControl } from '../slots/SlotsControl.tsx';
 import { FATE_TRUTH, useFates } from '../slots/useFates.ts';
+import { useHeldName } from '../slots/useHeldName.ts';
 import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { CompileRow } from '../compile/CompileRow.tsx';
@@ -99,7 +99,7 @@ function TakenFor() {
 function HeldRow() {
   const slot = useView((state) => state.slot);
   const fate = useFates()(slot);
-  const held = useSlots(({ book }) => recordOf(book, slot)?.name ?? '');
+  const held = useHeldName()(slot) ?? '';
   return (
     <div className={styles.row}>
       <div className={styles.about} role="status">

@@ -24,7 +24,7 @@ function useQuestion(isDisabled: boolean) {
     icon: 'board',
     isDisabled,
     title: words.play.replaceTitle(slot),
-    text: words.play.replaceText(slot, replacing?.record?.name ?? '', replacing?.name ?? ''),
+    text: words.play.replaceText(slot, replacing?.held ?? '', replacing?.name ?? ''),
     keepLabel: words.play.replaceKeep,
     confirmLabel: words.play.replace,
     onClose: () => playback.answer(false),

@@ -7,6 +7,7 @@ import { DownloadProgress } from '../board/DownloadProgress.tsx';
 import { startHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useLibrary, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
+import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { words } from '../words/words.ts';
 import { downloadOf, hindranceOf, slotFor, type Wanted } from './several.ts';
@@ -21,7 +22,7 @@ interface Pick {
 export function SeveralGroups({ onBack }: { onBack(): void }) {
   const { library, slots } = useStores();
   const documents = useLibrary((state) => state.documents).filter(({ isRemoved }) => !isRemoved);
-  const { wanted, toggle, setSlot } = useWanted();
+  const { wanted, toggle, setSlot, take, none } = useWanted();
   const mayStart = useSnapshot((snapshot) => startHindrance(snapshot) === null);
   const isReady = wanted.length > 0 && wanted.every((one) => hindranceOf(one, wanted) === null);
   useEffect(() => void library.refresh(), [library]);
@@ -29,6 +30,12 @@ export function SeveralGroups({ onBack }: { onBack(): void }) {
     <section className={styles.details} aria-label={words.slots.several.title}>
       <h3>{words.slots.several.title}</h3>
       <p className={styles.dim}>{words.slots.several.hint}</p>
+      {documents.length > 1 && (
+        <All
+          {...{ chosen: wanted.length, count: documents.length }}
+          onChange={(wantsAll) => (wantsAll ? void take(documents.map(({ id }) => id)) : none())}
+        />
+      )}
       <ul className={styles.groups} aria-label={words.slots.several.list}>
         {documents.map((document) => (
           <Group
@@ -78,13 +85,16 @@ function useWanted() {
     [picks, compiled, family, robot],
   );
 
-  async function toggle(documentId: string): Promise<void> {
-    if (picks.some((pick) => pick.documentId === documentId)) {
-      setPicks((before) => before.filter((pick) => pick.documentId !== documentId));
-      return;
+  const isPicked = (documentId: string): boolean => picks.some((pick) => pick.documentId === documentId);
+
+  async function take(documentIds: readonly string[]): Promise<void> {
+    for (const documentId of documentIds.filter((id) => !isPicked(id))) {
+      const group = await library.group(documentId);
+      if (group !== null) put(documentId, group);
     }
-    const group = await library.group(documentId);
-    if (group === null) return;
+  }
+
+  function put(documentId: string, group: ActionGroup): void {
     setPicks((before) => {
       const taken = before.map(({ slot }) => slot);
       const { book } = slots.store.getState();
@@ -95,10 +105,39 @@ function useWanted() {
 
   return {
     wanted,
-    toggle,
+    take,
+    none: (): void => setPicks([]),
+    toggle(documentId: string): void {
+      if (isPicked(documentId)) setPicks((before) => before.filter((pick) => pick.documentId !== documentId));
+      else void take([documentId]);
+    },
     setSlot: (documentId: string, slot: number): void =>
       setPicks((before) => before.map((pick) => (pick.documentId === documentId ? { ...pick, slot } : pick))),
   };
+}
+
+interface AllProps {
+  readonly chosen: number;
+  readonly count: number;
+  onChange(wantsAll: boolean): void;
+}
+
+/** Neither on nor off where some of them are chosen; the next press chooses the others. */
+function All({ chosen, count, onChange }: AllProps) {
+  const isAll = chosen === count;
+  return (
+    <label className={cx(styles.choice, styles.all)}>
+      <input
+        type="checkbox"
+        ref={(box) => {
+          if (box !== null) box.indeterminate = chosen > 0 && !isAll;
+        }}
+        checked={isAll}
+        onChange={() => onChange(!isAll)}
+      />
+      <span>{words.slots.several.all(count)}</span>
+    </label>
+  );
 }
 
 interface GroupProps {
@@ -106,7 +145,7 @@ interface GroupProps {
   /** Where it is wanted. */
   readonly one: Wanted | undefined;
   readonly all: readonly Wanted[];
-  toggle(documentId: string): Promise<void>;
+  toggle(documentId: string): void;
   setSlot(documentId: string, slot: number): void;
 }
 
@@ -118,7 +157,7 @@ function Group({ document: { id, facts }, one, all, toggle, setSlot }: GroupProp
   return (
     <li className={styles.group}>
       <label className={styles.choice}>
-        <input type="checkbox" checked={one !== undefined} onChange={() => void toggle(id)} />
+        <input type="checkbox" checked={one !== undefined} onChange={() => toggle(id)} />
         <span className={styles.held}>{facts.name}</span>
         <span className={styles.dim}>{words.slots.several.about(facts.frames, facts.durationMs)}</span>
       </label>

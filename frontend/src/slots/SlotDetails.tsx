@@ -21,6 +21,7 @@ export function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | 
   const slot = useView((state) => state.slot);
   const { id, commands } = useDevice((state) => state.family);
   const record = useSlots((state) => recordOf(state.book, slot));
+  const others = useSnapshot((snapshot) => snapshot.slotVersions?.[slot]);
   const fate = useFates()(slot);
   const trigger = slotTrigger(id, slot);
   return (
@@ -36,6 +37,16 @@ export function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | 
             record.frames.length,
             totalDurationMs(record.frames),
             record.fingerprint.slice(0, VERSION_LENGTH),
+          )}
+        </p>
+      )}
+      {record === undefined && others !== undefined && (
+        <p className={styles.dim}>
+          {words.slots.storedByOthers(
+            others.name,
+            others.by,
+            others.atMs === null ? null : words.numbers.formatMoment(others.atMs),
+            others.version.slice(0, VERSION_LENGTH),
           )}
         </p>
       )}

@@ -2,21 +2,21 @@
 // slot that Download and Run mean.
 
 import { useEffect, useRef, type KeyboardEvent } from 'react';
-import { recordOf } from '#shared/actions/slots/slotBook.ts';
 import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
-import { useDevice, useSlots, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useStores, useView } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
 import { slotAfterKey } from './slotKeys.ts';
 import { FATE_TRUTH, useFates } from './useFates.ts';
+import { useHeldName } from './useHeldName.ts';
 import styles from './Slots.module.css';
 
 export function SlotMap() {
   const { view } = useStores();
   const { slot: range, id } = useDevice((state) => state.family);
   const chosen = useView((state) => state.slot);
-  const book = useSlots((state) => state.book);
+  const heldIn = useHeldName();
   const fateOf = useFates();
   const grid = useRef<HTMLDivElement>(null);
   const wantsFocus = useRef(false);
@@ -40,7 +40,7 @@ export function SlotMap() {
       {slots.map((slot) => {
         const fate = fateOf(slot);
         const trigger = slotTrigger(id, slot);
-        const name = recordOf(book, slot)?.name;
+        const name = heldIn(slot);
         return (
           <button
             key={slot}

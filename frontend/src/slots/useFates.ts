@@ -19,6 +19,7 @@ export function useFates(): (slot: number) => SlotFate {
   const book = useSlots((state) => state.book);
   const broken = useSnapshot((snapshot) => snapshot.brokenSlots);
   const arriving = useSnapshot(({ activity }) => (activity.kind === 'downloading' ? activity.slot : null));
+  const versions = useSnapshot(({ slotVersions }) => slotVersions) ?? NO_VERSIONS;
   const latest = useCompiled((state) => state.latest);
   const documentId = useLibrary((state) => state.openId);
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
@@ -26,5 +27,7 @@ export function useFates(): (slot: number) => SlotFate {
   const isOfThis = useDocument((history) => holds(history, latest.source.group));
   const fingerprint = isOfThis ? latest.fingerprint : '';
   const onPage = isEmpty ? null : { documentId, fingerprint };
-  return (slot) => fateOf(book, { broken, arriving }, slot, onPage);
+  return (slot) => fateOf(book, { broken, arriving, versions }, slot, onPage);
 }
+
+const NO_VERSIONS = {};

@@ -47,7 +47,7 @@ function createPage() {
 
 test('a download begins with the nonce of this page’s turn and ends as the gateway tells', async () => {
   const { slots, requests, turns, answer, changes } = createPage();
-  const done = slots.store([{ slot: 5, frames: FRAMES, replaces: 'seen' }]);
+  const done = slots.store([{ slot: 5, frames: FRAMES, replaces: 'seen', name: 'Wave', documentId: 'w' }]);
   await turns();
   expect(requests).toEqual([
     {
@@ -56,7 +56,7 @@ test('a download begins with the nonce of this page’s turn and ends as the gat
       body: {
         groups: [
           {
-            ...{ slot: 5, version: fingerprintOf(FRAMES), replaces: 'seen' },
+            ...{ slot: 5, version: fingerprintOf(FRAMES), name: 'Wave', document: 'w', replaces: 'seen' },
             frames: [{ durationMs: 200, positions: { '1': 1500 } }],
           },
         ],
@@ -135,7 +135,13 @@ test('only one under way is called off, whoever began it', async () => {
 test('the same broken slots and versions again are no news', () => {
   const { slots, changes } = createPage();
   for (const told of [[], [5], [5], [5, 8]]) slots.toldHeld(told, {});
-  for (const told of [{ 5: 'a' }, { 5: 'a' }, { 5: 'b' }, {}]) slots.toldHeld([5, 8], told);
+  const stored = (version: string) => ({ version, name: 'Wave', document: 'w', by: 'Anna', atMs: 1000 });
+  for (const told of [{ 5: stored('a') }, { 5: stored('a') }, { 5: stored('b') }])
+    slots.toldHeld([5, 8], told);
+  expect(slots.versions).toEqual({
+    5: { version: 'b', name: 'Wave', documentId: 'w', by: 'Anna', atMs: 1000 },
+  });
+  slots.toldHeld([5, 8], {});
   expect([slots.broken, changes()]).toEqual([[5, 8], 5]);
 });
 

@@ -6,7 +6,7 @@ import type { Frame } from '#shared/protocol/commands.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { SharedSlots, SlotGroup, SlotVersions } from '#shared/session/transport.ts';
 import { askGateway, isRecord, refusal, withBody } from './gatewayHttp.ts';
-import type { JobState } from './messages.generated.ts';
+import type { JobState, StateMessage } from './messages.generated.ts';
 
 /** As large as half a megabyte, which a slow network takes a while for. */
 const TAKEN_WITHIN_MS = 8_000;
@@ -16,7 +16,7 @@ const PORTION_BYTES = 500 * 1024;
 
 export interface GatewaySlots extends SharedSlots {
   told(job: JobState | null): void;
-  toldHeld(broken: readonly number[], versions: SlotVersions): void;
+  toldHeld(broken: readonly number[], versions: StateMessage['slotVersions']): void;
   /** The gateway is gone: whoever waits for a download waits in vain, though it may go on. */
   gone(error: LinkError): void;
 }
@@ -85,7 +85,8 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
       settle();
       changed();
     },
-    toldHeld(nextBroken, nextVersions) {
+    toldHeld(nextBroken, told) {
+      const nextVersions = versionsOf(told);
       const isSame = nextBroken.join() === broken.join() && isAlike(nextVersions, versions);
       if (isSame) return;
       broken = nextBroken;
@@ -115,14 +116,29 @@ function portions(groups: readonly SlotGroup[]): readonly (readonly SlotGroup[])
   return all;
 }
 
-function toBody({ slot, frames, replaces }: SlotGroup): object {
+function toBody({ slot, frames, replaces, name = '', documentId = null }: SlotGroup): object {
   const version = fingerprintOf(frames);
-  return { slot, version, ...(replaces !== undefined && { replaces }), frames: frames.map(frameBody) };
+  const about = { slot, version, name, document: documentId };
+  return { ...about, ...(replaces !== undefined && { replaces }), frames: frames.map(frameBody) };
+}
+
+function versionsOf(told: StateMessage['slotVersions']): SlotVersions {
+  return Object.fromEntries(
+    Object.entries(told).map(([slot, { document, ...stored }]) => [
+      slot,
+      { ...stored, documentId: document },
+    ]),
+  );
 }
 
 function isAlike(one: SlotVersions, other: SlotVersions): boolean {
   const slots = Object.keys(one).map(Number);
-  return slots.length === Object.keys(other).length && slots.every((slot) => one[slot] === other[slot]);
+  return (
+    slots.length === Object.keys(other).length &&
+    slots.every(
+      (slot) => one[slot]?.version === other[slot]?.version && one[slot]?.atMs === other[slot]?.atMs,
+    )
+  );
 }
 
 function frameBody({ durationMs, targets }: Frame): object {

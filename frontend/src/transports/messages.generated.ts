@@ -119,7 +119,7 @@ export interface WelcomeMessage {
   unattended: UnattendedRun | null;
   brokenSlots: number[];
   slotVersions: {
-    [k: string]: string;
+    [k: string]: StoredGroup;
   };
   type: 'welcome';
   version: string;
@@ -182,6 +182,17 @@ export interface UnattendedRun {
   times: number;
   by: string;
   endsInMs: number;
+}
+/**
+ * What a slot was given last: which version, called what, of which document of the library where one is
+ * named, by whom, and when, in milliseconds since 1970; null where that was not noted.
+ */
+export interface StoredGroup {
+  version: string;
+  name: string;
+  document: string | null;
+  by: string;
+  atMs: number | null;
 }
 /**
  * The robot on the board: which document of the library, at which revision; 0 while it is read.
@@ -387,7 +398,7 @@ export interface StateMessage {
   unattended: UnattendedRun | null;
   brokenSlots: number[];
   slotVersions: {
-    [k: string]: string;
+    [k: string]: StoredGroup;
   };
   type: 'state';
 }

@@ -172,9 +172,12 @@ test('of several that end early, those that were stored are noted and the one in
   });
 });
 
+const AS_WAVE = { version: 'wave', name: 'Wave', documentId: null, by: 'Anna', atMs: 5 };
+const AS_BOW = { ...AS_WAVE, version: 'bow' };
+
 test('which version each slot holds is what the link says, from the first moment and on each change', async () => {
-  const { session, tell } = await sharedSession({ broken: [], download: null, versions: { 5: 'wave' } });
-  expect(session.state.slotVersions).toEqual({ 5: 'wave' });
-  tell({ broken: [], download: null, versions: { 5: 'bow' } });
-  expect(session.state.slotVersions).toEqual({ 5: 'bow' });
+  const { session, tell } = await sharedSession({ broken: [], download: null, versions: { 5: AS_WAVE } });
+  expect(session.state.slotVersions).toEqual({ 5: AS_WAVE });
+  tell({ broken: [], download: null, versions: { 5: AS_BOW } });
+  expect(session.state.slotVersions).toEqual({ 5: AS_BOW });
 });

@@ -39,10 +39,26 @@ export interface SlotGroup {
   readonly frames: readonly Frame[];
   /** Which version was seen in that slot, '' for none: where another one is there by now, a shared link refuses. */
   readonly replaces?: string;
+  /** What a shared link may tell others of it. */
+  readonly name?: string;
+  readonly documentId?: string | null;
 }
 
-/** What was stored in each slot last, by its fingerprint where a page did it; a slot of which nobody knows is not in it. */
-export type SlotVersions = Readonly<Partial<Record<number, string>>>;
+/** What a shared link knows of a group that somebody stored. */
+export interface StoredGroup {
+  /** The fingerprint, where a page did it. */
+  readonly version: string;
+  /** Empty where it has none. */
+  readonly name: string;
+  /** Which one of the library it is of. */
+  readonly documentId: string | null;
+  readonly by: string;
+  /** Since 1970; null where nobody noted it. */
+  readonly atMs: number | null;
+}
+
+/** What was stored in each slot last; a slot of which nobody knows is not in it. */
+export type SlotVersions = Readonly<Partial<Record<number, StoredGroup>>>;
 
 /** Of several groups together. */
 export interface DownloadProgress {

@@ -18,6 +18,8 @@ export interface Replacing {
   readonly record: SlotRecord | null;
   /** As a shared link has it. */
   readonly version: string | undefined;
+  /** Of the group that is there; empty where nobody noted it. */
+  readonly held: string;
   /** Of the group that would be written. */
   readonly name: string;
 }
@@ -54,16 +56,16 @@ export function createBoardRun(options: BoardRunOptions): BoardRun {
   function begin(group: CompiledGroup, times: number, allowed: Replacing | null): void {
     const { slot } = view.getState();
     const { book } = slots.store.getState();
+    const { brokenSlots, slotVersions } = device.store.getState().snapshot;
     const own = { name: group.source.group.name, documentId: documentId() };
-    const now = { broken: device.store.getState().snapshot.brokenSlots, arriving: null };
+    const now = { broken: brokenSlots, arriving: null, versions: slotVersions ?? {} };
     const fate = fateOf(book, now, slot, { ...group, ...own });
     if (fate === 'same') return run(slot, times);
     const record = recordOf(book, slot) ?? null;
     const version = slots.versionIn(slot);
-    // A name says nothing: two groups may have the same, and books of earlier versions note nothing else.
-    const isAnother = record === null ? isOfOthers(version, group) : record.documentId !== own.documentId;
+    const held = record?.name ?? now.versions[slot]?.name ?? '';
     const isAllowed = allowed?.slot === slot && record === allowed.record && version === allowed.version;
-    if (fate !== 'broken' && isAnother && !isAllowed) return ask({ slot, record, version, name: own.name });
+    if (fate === 'other' && !isAllowed) return ask({ slot, record, version, held, name: own.name });
     phase('storing');
     slots.download([{ slot, ...own, frames: group.frames }], (isDone) => {
       if (isDone) run(slot, times);
@@ -76,19 +78,14 @@ export function createBoardRun(options: BoardRunOptions): BoardRun {
     if (now.kind !== 'running') return null;
     const { latest } = compiled.store.getState();
     const record = recordOf(slots.store.getState().book, now.slot);
-    if (record?.fingerprint !== latest.fingerprint) return null;
+    if ((record?.fingerprint ?? slots.versionIn(now.slot)) !== latest.fingerprint) return null;
     const play = {
       ...{ beganMs: now.sinceMs, times: now.times },
-      passMs: passMs(record.frames, { family: latest.source.family, playedFrames: () => null }),
-      lengthMs: frameEnds(record.frames).at(-1) ?? 0,
+      passMs: passMs(latest.frames, { family: latest.source.family, playedFrames: () => null }),
+      lengthMs: frameEnds(latest.frames).at(-1) ?? 0,
     };
     return Math.round(boardAt(play, device.clock.now()));
   }
 
   return { begin, at };
-}
-
-/** Of which this page has no record. */
-function isOfOthers(version: string | undefined, { fingerprint }: CompiledGroup): boolean {
-  return version !== undefined && version !== '' && version !== fingerprint;
 }

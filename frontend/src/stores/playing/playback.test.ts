@@ -454,10 +454,10 @@ describe('playing on the board', () => {
       expect(phase()).toBeNull();
       playback.runOnBoard();
       expect(asked()).toMatchObject({ slot: 0, record: { name: 'Wave' } });
-      othersStore(0, 'of Bert');
+      othersStore(0, { version: 'of Bert', name: 'Nod' });
       playback.answer(true);
       await draw(1000);
-      expect(asked()).toMatchObject({ slot: 0, record: null, version: 'of Bert' });
+      expect(asked()).toMatchObject({ slot: 0, record: null, version: 'of Bert', held: 'Nod' });
       expect(stored).toHaveLength(1);
       playback.answer(true);
       await draw(1000);

@@ -2,7 +2,13 @@
 
 import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
 import { LinkError } from '#shared/session/linkError.ts';
-import type { SharedDownload, SharedSlots, SlotGroup, SlotVersions } from '#shared/session/transport.ts';
+import type {
+  SharedDownload,
+  SharedSlots,
+  SlotGroup,
+  SlotVersions,
+  StoredGroup,
+} from '#shared/session/transport.ts';
 
 export function createSharedSlots(before: SlotVersions = {}) {
   let versions = before;
@@ -12,7 +18,7 @@ export function createSharedSlots(before: SlotVersions = {}) {
 
   function store(groups: readonly SlotGroup[]): Promise<void> {
     asked.push(...groups);
-    if (groups.some(({ slot, replaces }) => replaces !== (versions[slot] ?? '')))
+    if (groups.some(({ slot, replaces }) => replaces !== (versions[slot]?.version ?? '')))
       return Promise.reject(new LinkError('slotChanged', 'something else is there'));
     versions = { ...versions, ...Object.fromEntries(groups.map(stored)) };
     download = {
@@ -27,8 +33,8 @@ export function createSharedSlots(before: SlotVersions = {}) {
     asked,
     versions: () => versions,
     /** Told at once, or only to who comes later. */
-    othersStore(slot: number, version: string, isTold = true) {
-      versions = { ...versions, [slot]: version };
+    othersStore(slot: number, stored: Partial<StoredGroup>, isTold = true) {
+      versions = { ...versions, [slot]: storedGroup(stored) };
       if (isTold) changed();
     },
     sharedSlots(next: () => void): SharedSlots {
@@ -48,4 +54,10 @@ export function createSharedSlots(before: SlotVersions = {}) {
   };
 }
 
-const stored = ({ slot, frames }: SlotGroup) => [slot, fingerprintOf(frames)] as const;
+export const storedGroup = (stored: Partial<StoredGroup>): StoredGroup => ({
+  ...{ version: 'a version', name: '', documentId: null, by: '', atMs: null },
+  ...stored,
+});
+
+const stored = ({ slot, frames, name = '', documentId = null }: SlotGroup) =>
+  [slot, storedGroup({ version: fingerprintOf(frames), name, documentId })] as const;

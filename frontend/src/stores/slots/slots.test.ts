@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { recordOf } from '#shared/actions/slots/slotBook.ts';
 import { createDesk } from '../deskUnderTest.ts';
-import { createSharedSlots } from './sharedSlotsUnderTest.ts';
+import { createSharedSlots, storedGroup } from './sharedSlotsUnderTest.ts';
 import { words } from '../../words/words.ts';
 import type { Way } from '../device/device.ts';
 
@@ -174,12 +174,12 @@ describe('the slots of a board', () => {
     first.slots.download([WAVE, BOW]);
     await first.draw(100);
     expect(first.stored()).toEqual(['5 Wave', '9 Bow']);
-    othersStore(5, 'of Bert', false);
+    othersStore(5, { version: 'of Bert' }, false);
     expect((await openDesk(texts, { way, sharedSlots })).stored()).toEqual(['9 Bow']);
   });
 
   test('what somebody else stores while it looks on does so at once, what one has seen is told with a download', async () => {
-    const { sharedSlots, othersStore, asked } = createSharedSlots({ 5: 'of Bert' });
+    const { sharedSlots, othersStore, asked } = createSharedSlots({ 5: storedGroup({ version: 'of Bert' }) });
     const { slots, stored, draw, told } = await openDesk(new Map(), { way: USB, sharedSlots });
     slots.download([WAVE, BOW]);
     await draw(100);
@@ -187,7 +187,7 @@ describe('the slots of a board', () => {
       [5, 'of Bert'],
       [9, ''],
     ]);
-    othersStore(9, 'of Bert');
+    othersStore(9, { version: 'of Bert' });
     expect(stored()).toEqual(['5 Wave']);
     slots.download([{ ...BOW, replaces: 'seen before' }]);
     await draw(100);

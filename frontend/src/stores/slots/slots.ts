@@ -107,7 +107,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
 
   function versionIn(slot: number): string | undefined {
     const { slotVersions } = device.store.getState().snapshot;
-    return slotVersions === null ? undefined : (slotVersions[slot] ?? '');
+    return slotVersions === null ? undefined : (slotVersions[slot]?.version ?? '');
   }
 
   function recordOf({ slot, name, documentId, frames }: SlotDownload): SlotRecord {
@@ -161,8 +161,8 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     });
   }
 
-  function groupOf({ slot, frames, replaces = versionIn(slot) }: SlotDownload): SlotGroup {
-    return { slot, frames, ...(replaces !== undefined && { replaces }) };
+  function groupOf({ slot, frames, name, documentId, replaces = versionIn(slot) }: SlotDownload): SlotGroup {
+    return { slot, frames, name, documentId, ...(replaces !== undefined && { replaces }) };
   }
 
   return {

@@ -40,7 +40,7 @@ export const slotWords = {
   open: 'Slots',
   map: 'Map of the slots',
   intro:
-    'Boards cannot be read. This is what was downloaded from this browser; another program may have changed it since.',
+    'Boards cannot be read. This is what was downloaded from here, or by others over the same gateway; another program may have changed it since.',
   name: slotName,
   cell: (slot: number, fate: SlotFate, name: string | undefined): string =>
     name === undefined ? `${slotName(slot)}: ${about[fate]}` : `${slotName(slot)}: ${name}. ${about[fate]}`,
@@ -69,6 +69,15 @@ export const slotWords = {
       : { select: 'SELECT', key: 'key', chain: 'chain' }[trigger.kind],
   stored: (name: string, when: string, count: number, durationMs: number, version: string): string =>
     `${name === '' ? 'Without a name' : name}, ${frameCount(count)}, ${formatSeconds(durationMs)}, downloaded ${when}, version ${version}`,
+  storedByOthers: (name: string, by: string, when: string | null, version: string): string =>
+    [
+      name === '' ? 'Without a name' : name,
+      by === '' ? 'downloaded elsewhere' : `downloaded by ${by}`,
+      when,
+      `version ${version}`,
+    ]
+      .filter((part) => part !== null)
+      .join(', '),
   run: 'Run',
   compare: 'Compare',
   same: 'The copy on the board and the group on this page are the same.',
@@ -87,6 +96,7 @@ export const slotWords = {
     title: 'Download several groups',
     hint: 'Each goes to its own slot, one after the other.',
     list: 'Groups of the library',
+    all: (count: number): string => `All ${formatCount(count)}`,
     about: (count: number, durationMs: number): string =>
       `${frameCount(count)}, ${formatSeconds(durationMs)}`,
     slotOf: (name: string): string => `Slot for ${name}`,

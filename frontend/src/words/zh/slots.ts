@@ -40,7 +40,7 @@ export const slotWords: typeof english = {
   title: '控制板的槽位',
   open: '槽位',
   map: '槽位一览',
-  intro: '控制板不能读取。这里列出的是从这个浏览器下载的内容；之后可能被别的程序改过。',
+  intro: '控制板不能读取。这里列出的是从这里、或由别人经同一网关下载的内容；之后可能被别的程序改过。',
   name: slotName,
   cell: (slot, fate, name) =>
     name === undefined ? `${slotName(slot)}：${about[fate]}` : `${slotName(slot)}：${name}。${about[fate]}`,
@@ -69,6 +69,10 @@ export const slotWords: typeof english = {
       : { select: 'SELECT', key: '按键', chain: '接续' }[trigger.kind],
   stored: (name, when, count, durationMs, version) =>
     `${name === '' ? '无名称' : name}，${frameCount(count)}，${formatSeconds(durationMs)}，下载于${when}，版本${version}`,
+  storedByOthers: (name, by, when, version) =>
+    [name === '' ? '无名称' : name, by === '' ? '由别处下载' : `由${by}下载`, when, `版本${version}`]
+      .filter((part) => part !== null)
+      .join('，'),
   run: '运行',
   compare: '比较',
   same: '控制板上的副本与这个页面上的动作组相同。',
@@ -87,6 +91,7 @@ export const slotWords: typeof english = {
     title: '下载多个动作组',
     hint: '依次下载，每个放进自己的槽位。',
     list: '库里的动作组',
+    all: (count) => `全部${formatCount(count)}个`,
     about: (count, durationMs) => `${frameCount(count)}，${formatSeconds(durationMs)}`,
     slotOf: (name) => `${name}的槽位`,
     sameSlot: (slot) => `${slotName(slot)}被用了两次。`,

@@ -58,6 +58,11 @@ export interface SlotBook {
   readonly begun: readonly SlotRecord[];
 }
 
+/** What whoever sees all downloads knows of each slot, of those of others too. `version` is the fingerprint. */
+export type VersionsTold = Readonly<
+  Partial<Record<number, { readonly version: string; readonly documentId: string | null }>>
+>;
+
 export const EMPTY_SLOT_BOOK: SlotBook = { stored: [], erased: [], isEmptied: false, begun: [] };
 
 export const recordOf = ({ stored }: SlotBook, slot: number): SlotRecord | undefined =>
@@ -83,9 +88,9 @@ export function withUnknown(book: SlotBook, slot: number): SlotBook {
   return { ...book, stored: without(book.stored, slot), isEmptied: false };
 }
 
-/** By the word of whoever sees all downloads; `versions` are fingerprints. What does not stand there is not there any more. */
-export function withVersions(book: SlotBook, versions: Readonly<Partial<Record<number, string>>>): SlotBook {
-  const stored = book.stored.filter(({ slot, fingerprint }) => versions[slot] === fingerprint);
+/** By the word of whoever sees all downloads. What does not stand there is not there any more. */
+export function withVersions(book: SlotBook, versions: VersionsTold): SlotBook {
+  const stored = book.stored.filter(({ slot, fingerprint }) => versions[slot]?.version === fingerprint);
   const isEmptied = book.isEmptied && Object.keys(versions).length === stored.length;
   if (stored.length === book.stored.length && isEmptied === book.isEmptied) return book;
   return { ...book, stored, isEmptied };
@@ -101,26 +106,35 @@ export const withErased = (book: SlotBook): SlotBook => ({ ...book, isEmptied: t
 
 export type SlotFate = 'arriving' | 'broken' | 'same' | 'older' | 'other' | 'empty' | 'unknown';
 
-/** What the session knows: slots with half a group, and the one that is being filled. */
+/** What the session knows: slots with half a group, the one that is being filled, and what others have stored. */
 export interface SlotsNow {
   readonly broken: readonly number[];
   readonly arriving: number | null;
+  readonly versions: VersionsTold;
 }
 
 /** `group` is the one at hand, null where it cannot be on this board. */
 export function fateOf(
   book: SlotBook,
-  { broken, arriving }: SlotsNow,
+  { broken, arriving, versions }: SlotsNow,
   slot: number,
   group: Pick<SlotRecord, 'documentId' | 'fingerprint'> | null,
 ): SlotFate {
   if (slot === arriving) return 'arriving';
   if (broken.includes(slot)) return 'broken';
-  const record = recordOf(book, slot);
+  const record = recordOf(book, slot) ?? othersIn(versions, slot);
   if (record === undefined) return book.isEmptied ? 'empty' : 'unknown';
   if (record.fingerprint === group?.fingerprint) return 'same';
   // A name says nothing: it may change, and two groups may have the same.
   return record.documentId !== null && record.documentId === group?.documentId ? 'older' : 'other';
+}
+
+function othersIn(
+  versions: VersionsTold,
+  slot: number,
+): Pick<SlotRecord, 'fingerprint' | 'documentId'> | undefined {
+  const stored = versions[slot];
+  return stored && { fingerprint: stored.version, documentId: stored.documentId };
 }
 
 export function slotBookToText({ stored, erased, isEmptied, begun }: SlotBook): string {

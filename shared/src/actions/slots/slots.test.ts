@@ -39,7 +39,7 @@ const someFrames = fc.array(
   { minLength: 1, maxLength: 12 },
 );
 
-const NOW = { broken: [], arriving: null };
+const NOW = { broken: [], arriving: null, versions: {} };
 
 describe('a fingerprint', () => {
   test('is the same for the same frames, and another one after any change of a number', () => {
@@ -73,7 +73,7 @@ describe('the book of slots', () => {
     expect(fateOf(book, NOW, 7, group)).toBe('other');
     expect(fateOf(book, NOW, 8, group)).toBe('unknown');
     expect(fateOf(book, { ...NOW, broken: [5] }, 5, group)).toBe('broken');
-    expect(fateOf(book, { broken: [5], arriving: 5 }, 5, group)).toBe('arriving');
+    expect(fateOf(book, { ...NOW, broken: [5], arriving: 5 }, 5, group)).toBe('arriving');
     expect(fateOf(book, NOW, 5, null)).toBe('other');
   });
 
@@ -168,18 +168,32 @@ describe('comparing two groups', () => {
 });
 
 describe('the word of whoever sees all downloads', () => {
+  const told = (version: string, documentId: string | null = null) => ({ version, documentId });
   const book = [record(3), record(5, 'Bow', [at(400, 1200)])].reduce(withStored, EMPTY_SLOT_BOOK);
-  const versions = Object.fromEntries(book.stored.map(({ slot, fingerprint }) => [slot, fingerprint]));
+  const versions = Object.fromEntries(book.stored.map(({ slot, fingerprint }) => [slot, told(fingerprint)]));
+
+  test('says of what others have stored whether it is the group at hand, an earlier one of it, or another', () => {
+    const group = { documentId: 'id of Wave', fingerprint: fingerprintOf(WAVE) };
+    const fateTold = (stored: ReturnType<typeof told>) =>
+      fateOf(book, { ...NOW, versions: { 8: stored } }, 8, group);
+    expect(fateTold(told(group.fingerprint))).toBe('same');
+    expect(fateTold(told('another', 'id of Wave'))).toBe('older');
+    expect(fateTold(told('another', 'id of Bow'))).toBe('other');
+    expect(fateTold(told('another'))).toBe('other');
+    expect(fateOf(book, { ...NOW, versions: { 8: told('another') } }, 9, group)).toBe('unknown');
+  });
 
   test('takes from the book what is not there any more, and nothing else', () => {
-    expect(withVersions(book, { ...versions, 9: 'another' })).toBe(book);
-    expect(withVersions(book, { ...versions, 5: 'another' }).stored).toEqual([recordOf(book, 3)]);
+    expect(withVersions(book, { ...versions, 9: told('another') })).toBe(book);
+    expect(withVersions(book, { ...versions, 5: told('another') }).stored).toEqual([recordOf(book, 3)]);
     expect(withVersions(book, {}).stored).toEqual([]);
   });
 
   test('a board of which every slot is known to be empty is one no more where something was stored', () => {
     const emptied = withStored(withErased(EMPTY_SLOT_BOOK), record(3));
-    expect(withVersions(emptied, { 3: record(3).fingerprint })).toBe(emptied);
-    expect(withVersions(emptied, { 3: record(3).fingerprint, 4: 'another' }).isEmptied).toBe(false);
+    expect(withVersions(emptied, { 3: told(record(3).fingerprint) })).toBe(emptied);
+    expect(withVersions(emptied, { 3: told(record(3).fingerprint), 4: told('another') }).isEmptied).toBe(
+      false,
+    );
   });
 });
