@@ -2,6 +2,8 @@
 
 import { ofKind } from '../fixtures/bus.ts';
 import { dashboardOf, READY } from '../fixtures/dashboard.ts';
+import { captureGroup, downloadGroup } from '../fixtures/group.ts';
+import { libraryOf } from '../fixtures/library.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 test('a STOP on one screen stops the robot for both, and either may resume', async ({
@@ -24,4 +26,32 @@ test('a STOP on one screen stops the robot for both, and either may resume', asy
   await expect(other.status).toHaveText('Idle');
   await expect(dashboard.status).toHaveText('Idle');
   await expect(other.notices).toContainText('Another window chose Resume');
+});
+
+test('what another browser stored in a slot is told, and whether it is the group at hand', async ({
+  dashboard,
+  robot,
+  browser,
+}) => {
+  await captureGroup(dashboard, [1000, 1400], 400);
+  await libraryOf(dashboard.page).call('Bow of the other browser');
+  await downloadGroup(dashboard, 5, 1400);
+  const elsewhere = await browser.newContext({ locale: 'en-GB', viewport: dashboard.page.viewportSize() });
+  const other = dashboardOf(await elsewhere.newPage());
+  await robot.open(other.page);
+  await expect(other.link).toHaveText(READY);
+  await other.button('Slots').click();
+  const slots = other.page.getByRole('dialog', { name: 'Slots of the board' });
+  await slots
+    .getByRole('option', { name: 'Slot 5: Bow of the other browser. Not this group as it is now' })
+    .click();
+  await expect(slots.getByRole('region', { name: 'Slot 5' })).toContainText(
+    /Bow of the other browser, downloaded by .+, .*\d\d:\d\d.*, version [0-9a-f]{6}/,
+  );
+  await slots.getByRole('button', { name: 'Close' }).click();
+  const library = libraryOf(other.page);
+  await library.show();
+  await library.open('Bow of the other browser');
+  await expect(other.board).toContainText('Holds this group, as it is now.');
+  await elsewhere.close();
 });
