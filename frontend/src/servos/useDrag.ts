@@ -110,6 +110,11 @@ function followPointer(slider: HTMLInputElement, hold: { current: Hold }, on: Dr
     if (wasHeld) on.release();
   }
 
+  /** A finger is captured by what it pressed, inside of the slider, and that loses it to the slider. */
+  function lost(event: PointerEvent): void {
+    if (!slider.hasPointerCapture(event.pointerId)) end(event);
+  }
+
   function pressTwice(): void {
     if (isOnThumb) on.pressTwice();
   }
@@ -120,7 +125,7 @@ function followPointer(slider: HTMLInputElement, hold: { current: Hold }, on: Dr
   slider.addEventListener('pointermove', follow, { signal });
   slider.addEventListener('pointerup', end, { signal });
   slider.addEventListener('pointercancel', end, { signal });
-  slider.addEventListener('lostpointercapture', end, { signal });
+  slider.addEventListener('lostpointercapture', lost, { signal });
   slider.addEventListener('dblclick', pressTwice, { signal });
   return () => {
     slider.removeEventListener('pointerrawupdate', report);
