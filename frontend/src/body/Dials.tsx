@@ -6,7 +6,7 @@ import type { Family } from '#shared/protocol/families.ts';
 import { select } from '../stores/servoView.ts';
 import { editServoView, useDevice, useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
-import { Drawing, type Size } from './Drawing.tsx';
+import { Canvas, type Size } from './Canvas.tsx';
 import { words } from '../words/words.ts';
 import { DialFace } from './Dial.tsx';
 import { paintHands, type Spot } from './hands.ts';
@@ -74,7 +74,7 @@ function AllHands({ list, servos, family }: AllHandsProps) {
   }
 
   return (
-    <Drawing
+    <Canvas
       className={hands.over}
       shown={() =>
         servos.flatMap((servo) => {

@@ -1,104 +1,32 @@
-// A picture that changes in each frame, on a canvas: it costs neither style nor layout, only what is drawn, and only where it shows
-// something else than before. Knows no needle.
+// A picture that changes in each frame, on the sheet of the list it is in, else on a canvas of its own. Knows no needle.
 
-import { useEffectEvent, useLayoutEffect, useRef } from 'react';
-import { lookOf, type Look } from '../timeline/look.ts';
-import { watchNearness, watchSize } from '../ui/onScreen.ts';
-import { useSight } from '../ui/sight.ts';
-import { useFollow } from '../ui/useFollow.ts';
+import { use, useEffectEvent, useLayoutEffect, useRef } from 'react';
+import { Sight } from '../ui/sight.ts';
+import { Canvas, type CanvasProps } from './Canvas.tsx';
+import { SheetAround, type Sheet } from './sheet.ts';
 
-export interface Size {
-  readonly width: number;
-  readonly height: number;
+export function Drawing<Shown extends readonly unknown[]>(props: CanvasProps<Shown>) {
+  const sheet = use(SheetAround);
+  return sheet === null ? <Canvas {...props} /> : <Part sheet={sheet} {...props} />;
 }
 
-export interface Pen {
-  readonly ctx: CanvasRenderingContext2D;
-  readonly look: Look;
-  /** In pixels of the page, as everything that is drawn. */
-  readonly size: Size;
+interface PartProps<Shown extends readonly unknown[]> extends CanvasProps<Shown> {
+  readonly sheet: Sheet;
 }
 
-export interface DrawingProps<Shown extends readonly unknown[]> {
-  readonly className?: string | undefined;
-  /** What is shown now: it is drawn again where one of these is another. */
-  shown(): Shown;
-  /** On a clean canvas. */
-  paint(pen: Pen, shown: Shown): void;
-}
-
-interface Picture<Shown> {
-  readonly size: Size;
-  readonly look: Look;
-  readonly ratio: number;
-  readonly shown: Shown;
-}
-
-export function Drawing<Shown extends readonly unknown[]>({ className, shown, paint }: DrawingProps<Shown>) {
-  const canvas = useRef<HTMLCanvasElement>(null);
-  const size = useRef<Size>({ width: 0, height: 0 });
-  const isNear = useRef(true);
-  const sight = useSight(canvas);
-
-  function read(): Picture<Shown> | null {
-    if (canvas.current === null || size.current.width === 0) return null;
-    const look = lookOf(canvas.current);
-    return { size: size.current, look, ratio: devicePixelRatio, shown: shown() };
-  }
-
-  function draw(picture: Picture<Shown> | null): void {
-    if (canvas.current === null || picture === null || !isNear.current) return;
-    const ctx = cleanContext(canvas.current, picture);
-    if (ctx !== null) paint({ ctx, look: picture.look, size: picture.size }, picture.shown);
-  }
-
-  /** What is on a canvas costs the browser something in each frame, seen or not. */
-  function leave(): void {
-    if (canvas.current !== null && canvas.current.width > 0) canvas.current.width = 0;
-  }
-
-  const drawNow = useEffectEvent(() => draw(read()));
-  const come = useEffectEvent((nearer: boolean) => {
-    isNear.current = nearer;
-    if (nearer) draw(read());
-    else leave();
-  });
-
+function Part<Shown extends readonly unknown[]>({ sheet, className, shown, paint }: PartProps<Shown>) {
+  const place = useRef<HTMLSpanElement>(null);
+  const sight = use(Sight);
+  const shownNow = useEffectEvent(shown);
+  const paintNow = useEffectEvent(paint);
   useLayoutEffect(() => {
-    if (canvas.current === null) return undefined;
-    return watchSize(canvas.current, ({ contentRect: { width, height } }) => {
-      size.current = { width, height };
-      drawNow();
+    if (place.current === null) return undefined;
+    return sheet.add<Shown>({
+      place: place.current,
+      sight,
+      shown: () => shownNow(),
+      paint: (pen, now) => paintNow(pen, now),
     });
-  }, []);
-  useLayoutEffect(() => {
-    if (canvas.current === null) return undefined;
-    return watchNearness(canvas.current, ({ isIntersecting }) => come(isIntersecting));
-  }, []);
-  useFollow({ read, isSame, draw, sight, leave });
-  return <canvas ref={canvas} className={className} aria-hidden="true" />;
-}
-
-function isSame(one: Picture<readonly unknown[]> | null, other: Picture<readonly unknown[]> | null): boolean {
-  if (one === null || other === null) return one === other;
-  return (
-    one.size === other.size &&
-    one.look === other.look &&
-    one.ratio === other.ratio &&
-    one.shown.length === other.shown.length &&
-    one.shown.every((part, index) => part === other.shown[index])
-  );
-}
-
-function cleanContext(
-  canvas: HTMLCanvasElement,
-  { size, ratio }: Picture<readonly unknown[]>,
-): CanvasRenderingContext2D | null {
-  const [width, height] = [Math.round(size.width * ratio), Math.round(size.height * ratio)];
-  if (canvas.width !== width) canvas.width = width;
-  if (canvas.height !== height) canvas.height = height;
-  const ctx = canvas.getContext('2d');
-  ctx?.setTransform(ratio, 0, 0, ratio, 0, 0);
-  ctx?.clearRect(0, 0, size.width, size.height);
-  return ctx;
+  }, [sheet, sight]);
+  return <span ref={place} className={className} aria-hidden="true" />;
 }

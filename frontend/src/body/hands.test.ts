@@ -45,8 +45,8 @@ test('dozens of dials are drawn in as many strokes as one', () => {
   const one = drawn(dial(24));
   const two = drawn(dial(24), dial(124));
   expect(two.map(({ kind, colour }) => [kind, colour])).toEqual([
+    ['fill', 'commanded'],
     ['fill', 'panel'],
-    ['stroke', 'commanded'],
     ['fill', 'estimated'],
     ['stroke', 'ink'],
   ]);

@@ -7,10 +7,16 @@ import type { Look } from '../timeline/look.ts';
 const FACE = 48;
 
 type Corners = readonly (readonly [x: number, y: number])[];
+/** Hollow: what is within it is filled again, which costs a third of a line drawn around it. */
 const TARGET: Corners = [
-  [-4, -22.5],
-  [4, -22.5],
-  [0, -15.5],
+  [-5.2, -23.25],
+  [5.2, -23.25],
+  [0, -14.1],
+];
+const WITHIN_TARGET: Corners = [
+  [-2.8, -21.75],
+  [2.8, -21.75],
+  [0, -16.9],
 ];
 /** From within the ring of the hub, which is part of the face. */
 const NEEDLE: Corners = [
@@ -50,11 +56,8 @@ export function paintHands(
   dials: readonly HandsAt[],
 ): void {
   const scale = diameter / FACE;
-  ctx.lineJoin = 'round';
-  if (outline(ctx, scale, dials, 'target', TARGET)) {
-    fill(ctx, look.panel);
-    stroke(ctx, look.commanded, 1.5 * scale);
-  }
+  if (outline(ctx, scale, dials, 'target', TARGET)) fill(ctx, look.commanded);
+  if (outline(ctx, scale, dials, 'target', WITHIN_TARGET)) fill(ctx, look.panel);
   if (outline(ctx, scale, dials, 'needle', NEEDLE)) fill(ctx, look.estimated);
   if (outline(ctx, scale, dials, 'preview', PREVIEW)) {
     ctx.setLineDash([2 * scale, 2 * scale]);

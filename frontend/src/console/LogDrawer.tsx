@@ -4,11 +4,14 @@ import { useState } from 'react';
 import { useStores, useView } from '../stores/stores.ts';
 import { Button as AriaButton } from 'react-aria-components/Button';
 import { Icon } from '../ui/Icon.tsx';
-import { READABLE_MS, useFollow } from '../ui/useFollow.ts';
+import { useFollow } from '../ui/useFollow.ts';
 import { words } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import { LogPanel } from './LogPanel.tsx';
 import styles from './LogDrawer.module.css';
+
+/** A packet takes longer to read than a number. */
+const READABLE_MS = 500;
 
 export function LogDrawer() {
   const { view } = useStores();

@@ -14,7 +14,7 @@ import { between } from './limitPlaces.ts';
 import { stepped, type Scale } from './scale.ts';
 import { SliderMarks } from './SliderMarks.tsx';
 import { useDrag } from './useDrag.ts';
-import { targetOf, useReadableTarget } from './useTarget.ts';
+import { targetOf, useSaidTarget } from './useTarget.ts';
 import styles from './PositionSlider.module.css';
 
 export interface PositionSliderProps {
@@ -60,7 +60,7 @@ export function PositionSlider({
     release: () => write(asked()),
     pressTwice: () => blocked || onHome(),
   });
-  useReadableTarget(servo.servo, (target) => {
+  useSaidTarget(servo.servo, (target) => {
     write(target ?? guess ?? home);
     if (input.current !== null) input.current.ariaValueText = valueText(scale, target, guess);
   });

@@ -1,6 +1,7 @@
 // Beside the body: the controls of the servo that was selected last. Others that are selected move with it.
 
 import { servoOf } from '#shared/actions/robot/robot.ts';
+import { SharedSheet } from '../body/SharedSheet.tsx';
 import { useRobot, useServoView } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { ServoRow } from './ServoRow.tsx';
@@ -17,9 +18,11 @@ export function ServoAtHand() {
       {servo === undefined ? (
         <p className={styles.hint}>{words.servoPanel.atHandHint}</p>
       ) : (
-        <ol>
-          <ServoRow key={servo.servo} servo={servo} order={ALONE} />
-        </ol>
+        <SharedSheet>
+          <ol>
+            <ServoRow key={servo.servo} servo={servo} order={ALONE} />
+          </ol>
+        </SharedSheet>
       )}
     </div>
   );

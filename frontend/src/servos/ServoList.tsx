@@ -2,6 +2,7 @@
 
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
+import { SharedSheet } from '../body/SharedSheet.tsx';
 import { select, toggled } from '../stores/servoView.ts';
 import { editServoView, useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
@@ -21,13 +22,15 @@ export function ServoList() {
   const order = limbs.flatMap((limb) => limb.servos.map(({ servo }) => servo));
   return (
     <div className={cx(styles.list, servos.length > FIT && styles.scrolling)}>
-      {limbs.map(({ group, servos: members }) =>
-        limbs.length === 1 ? (
-          <Rows key={group} servos={members} order={order} />
-        ) : (
-          <Limb key={group} group={group} servos={members} order={order} />
-        ),
-      )}
+      <SharedSheet>
+        {limbs.map(({ group, servos: members }) =>
+          limbs.length === 1 ? (
+            <Rows key={group} servos={members} order={order} />
+          ) : (
+            <Limb key={group} group={group} servos={members} order={order} />
+          ),
+        )}
+      </SharedSheet>
     </div>
   );
 }

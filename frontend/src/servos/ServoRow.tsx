@@ -2,6 +2,7 @@
 
 import { memo, useRef } from 'react';
 import { servoOf, type RobotServo } from '#shared/actions/robot/robot.ts';
+import { MovingText } from '../body/MovingText.tsx';
 import { mayBrush, motionHindrance, tellsPositions } from '../stores/device/readiness.ts';
 import { isHeld } from '../stores/servoView.ts';
 import { useDevice, useGuess, useServoView, useSnapshot, useStores, useView } from '../stores/stores.ts';
@@ -154,7 +155,7 @@ function TargetField(props: TargetFieldProps) {
       label={words.servos.target(own.servo)}
       size="large"
       truth={isKnown ? { mark: 'commanded', title: words.truth.commanded } : undefined}
-      value={shown}
+      value={{ now: shown, Show: MovingText }}
       {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals, step: scale.step }}
       placeholder={
         isKnown ? '' : guess === null ? words.servos.unknown : words.firstMoves.guessed(scale.digits(guess))

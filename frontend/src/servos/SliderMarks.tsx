@@ -2,7 +2,8 @@
 // change in each frame.
 
 import { useRef } from 'react';
-import { Drawing, type Size } from '../body/Drawing.tsx';
+import type { Size } from '../body/Canvas.tsx';
+import { Drawing } from '../body/Drawing.tsx';
 import { motionInFrame } from '../body/motionInFrame.ts';
 import { fraction } from '../body/pose.ts';
 import type { Range } from '#shared/protocol/families.ts';

@@ -1,6 +1,6 @@
 // How a slider's marks are drawn: pure figures in, strokes on a canvas out.
 
-import type { Pen } from '../body/Drawing.tsx';
+import type { Pen } from '../body/Canvas.tsx';
 import type { Look } from '../timeline/look.ts';
 
 export interface Thumb {

@@ -4,16 +4,19 @@ import { useLayoutEffect, useState } from 'react';
 import { motionInFrame } from '../body/motionInFrame.ts';
 import type { Device } from '../stores/device/device.ts';
 import { useStores } from '../stores/stores.ts';
-import { READABLE_MS, useFollow } from '../ui/useFollow.ts';
+import { useFollow } from '../ui/useFollow.ts';
+
+/** Soon enough for whoever hears it or takes it up with the keys. */
+const SAID_EACH_MS = 250;
 
 /** As of now; `motionInFrame` has it as of the frame that is drawn. */
 export const targetOf = (device: Device, servo: number): number | null => device.motion(servo).target;
 
-/** Past React's rounds: `show` is called no more often than it can be read, and each time the component is drawn. */
-export function useReadableTarget(servo: number, show: (target: number | null) => void): void {
+/** Past React's rounds: `say` is called no more often than it can be heard, and each time the component is drawn. */
+export function useSaidTarget(servo: number, say: (target: number | null) => void): void {
   const { device } = useStores();
-  useLayoutEffect(() => show(targetOf(device, servo)));
-  useFollow({ read: () => motionInFrame(device, servo).target, draw: show, eachMs: READABLE_MS });
+  useLayoutEffect(() => say(targetOf(device, servo)));
+  useFollow({ read: () => motionInFrame(device, servo).target, draw: say, eachMs: SAID_EACH_MS });
 }
 
 /** At most once a frame. */

@@ -2,7 +2,7 @@
 // part.
 
 import type { PointerEvent } from 'react';
-import { Drawing } from '../body/Drawing.tsx';
+import { Canvas } from '../body/Canvas.tsx';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { timesOf } from './groupTimes.ts';
@@ -45,12 +45,12 @@ export function Minimap({ lanes }: { readonly lanes: string }) {
       }}
       onPointerMove={look}
     >
-      <Drawing
+      <Canvas
         className={styles.keys}
         shown={() => [timesOf(stores.document.store.getState().present)] as const}
         paint={paintFrames}
       />
-      <Drawing
+      <Canvas
         className={styles.playhead}
         shown={() => [share(stores.timeline.getState().playheadMs)] as const}
         paint={paintPlayhead}

@@ -1,7 +1,7 @@
 // The line over the lanes where the playhead is. On a canvas of its own: moved as an element it would have the browser sort the
 // layers of the whole page anew in each frame of a scrub.
 
-import { Drawing, type Pen } from '../body/Drawing.tsx';
+import { Canvas, type Pen } from '../body/Canvas.tsx';
 import { useStores } from '../stores/stores.ts';
 import { xOf } from '../stores/timeline/timeScale.ts';
 import styles from './Timeline.module.css';
@@ -16,7 +16,7 @@ export function PlayheadLine() {
     const x = xOf(time, playheadMs);
     return [x < 0 || x > widthPx ? null : Math.round(x * 10) / 10];
   };
-  return <Drawing className={styles.playhead} shown={shown} paint={paintLine} />;
+  return <Canvas className={styles.playhead} shown={shown} paint={paintLine} />;
 }
 
 function paintLine({ ctx, look, size }: Pen, [x]: readonly [number | null]): void {

@@ -1,6 +1,6 @@
 // Draws the whole group in one line, and on a canvas of its own the playhead, which moves in each frame. Draws what it is given.
 
-import type { Pen } from '../body/Drawing.tsx';
+import type { Pen } from '../body/Canvas.tsx';
 import type { GroupTimes } from './groupTimes.ts';
 
 const GROUND_PX = 2;

@@ -2,16 +2,32 @@
 // Alt by one. Nothing is clamped silently: a value out of range goes to `onRefused` and the field shows the old one again.
 // A bare input: a library's number field costs a millisecond each time its value changes, and 32 of them change at once.
 
-import { useRef, useState, type KeyboardEvent } from 'react';
+import { useRef, useState, type ComponentType, type KeyboardEvent, type RefObject } from 'react';
 import { Mark, type Truth } from './Chip.tsx';
 import { cx } from './cx.ts';
 import styles from './NumberField.module.css';
-import { READABLE_MS, useFollow } from './useFollow.ts';
+
+/** A text on the page, for whoever shows it as it changes. */
+export interface LiveTextProps {
+  readonly element: RefObject<HTMLElement | null>;
+  readonly colour: 'ink' | 'ink-dim';
+  text(): string;
+  write(text: string): void;
+  /** It is shown otherwise for now. */
+  cover(isCovered: boolean): void;
+}
+
+/** A number that changes by itself. */
+export interface LiveNumber {
+  now(): number | null;
+  /** Follows it past React; stands over the field's text. */
+  readonly Show: ComponentType<LiveTextProps>;
+}
 
 export interface NumberFieldProps {
   readonly label: string;
-  /** null: not known; the field is empty and shows `placeholder`. One that changes by itself is asked for, and written past React. */
-  readonly value: number | null | (() => number | null);
+  /** null: not known; the field is empty and shows `placeholder`. */
+  readonly value: number | null | LiveNumber;
   readonly min: number;
   readonly max: number;
   readonly step?: number;
@@ -37,11 +53,14 @@ export function NumberField(props: NumberFieldProps) {
   const input = useRef<HTMLInputElement>(null);
   /** What is being typed; null while it is the value. */
   const [draft, setDraft] = useState<string | null>(null);
-  const isLive = typeof props.value === 'function';
-  const value = (): number | null => (typeof props.value === 'function' ? props.value() : props.value);
+  const live = typeof props.value === 'object' ? props.value : null;
+  const value = (): number | null => (typeof props.value === 'object' ? (live?.now() ?? null) : props.value);
   const text = (): string => draft ?? value()?.toFixed(props.decimals ?? 0) ?? '';
   const write = (now: string): void => {
     if (input.current !== null && input.current.value !== now) input.current.value = now;
+  };
+  const cover = (isCovered: boolean): void => {
+    if (input.current !== null) input.current.style.opacity = isCovered ? '0' : '';
   };
 
   function take(wanted: number, isStep: boolean): void {
@@ -49,7 +68,7 @@ export function NumberField(props: NumberFieldProps) {
     if (Number.isNaN(wanted) || wanted === value()) return;
     if (wanted < props.min || wanted > props.max) props.onRefused(wanted);
     else props.onChange(wanted, isStep);
-    if (isLive && isStep) write(text());
+    if (live !== null && isStep) write(text());
   }
 
   function commit(): void {
@@ -77,23 +96,31 @@ export function NumberField(props: NumberFieldProps) {
           <Mark truth={props.truth.mark} />
         </span>
       )}
-      {isLive && <Live text={text} write={write} />}
-      <input
-        ref={input}
-        type="text"
-        inputMode={props.decimals === 1 ? 'decimal' : 'numeric'}
-        autoComplete="off"
-        aria-label={label}
-        className={cx(styles.value, styles.input)}
-        value={text()}
-        placeholder={placeholder ?? ''}
-        disabled={isDisabled}
-        readOnly={isReadOnly}
-        {...(props.excludeFromTabOrder === true && { tabIndex: -1 })}
-        onChange={({ target }) => PARTIAL.test(target.value) && setDraft(target.value)}
-        onBlur={commit}
-        onKeyDown={onKey}
-      />
+      <span className={styles.value}>
+        <input
+          ref={input}
+          type="text"
+          inputMode={props.decimals === 1 ? 'decimal' : 'numeric'}
+          autoComplete="off"
+          aria-label={label}
+          className={styles.input}
+          value={text()}
+          placeholder={placeholder}
+          disabled={isDisabled}
+          readOnly={isReadOnly}
+          {...(props.excludeFromTabOrder === true && { tabIndex: -1 })}
+          onChange={({ target }) => PARTIAL.test(target.value) && setDraft(target.value)}
+          onBlur={commit}
+          onKeyDown={onKey}
+        />
+        {live !== null && (
+          <live.Show
+            element={input}
+            colour={isDisabled || isReadOnly ? 'ink-dim' : 'ink'}
+            {...{ text, write, cover }}
+          />
+        )}
+      </span>
       {unit !== undefined && (
         <span className={styles.unit} aria-hidden="true">
           {unit}
@@ -101,17 +128,6 @@ export function NumberField(props: NumberFieldProps) {
       )}
     </div>
   );
-}
-
-interface LiveProps {
-  text(): string;
-  write(text: string): void;
-}
-
-/** No part of the field itself: most fields have nothing to follow. */
-function Live({ text, write }: LiveProps) {
-  useFollow({ read: text, draw: write, eachMs: READABLE_MS });
-  return null;
 }
 
 /** What may stand there on the way to a number. */

@@ -29,14 +29,10 @@ export const watchSize = shared<ResizeObserverEntry>(
   (hear) => new ResizeObserver((entries) => hear(entries)),
 );
 
-/** Behind the edge of whatever scrolls it is out of sight. */
+/** So far behind the edge of whatever scrolls a turn of the wheel may bring it into sight; a browser without `scrollMargin` counts
+ * what is in sight alone. */
+const BESIDE = { rootMargin: '64px', scrollMargin: '64px' };
+
 export const watchSight = shared<IntersectionObserverEntry>(
-  (hear) => new IntersectionObserver((entries) => hear(entries)),
-);
-
-/** In sight, or so near that a turn of the wheel may bring it there. A browser without `scrollMargin` counts what is in sight alone. */
-const NEAR = { rootMargin: '50%', scrollMargin: '50%' };
-
-export const watchNearness = shared<IntersectionObserverEntry>(
-  (hear) => new IntersectionObserver((entries) => hear(entries), NEAR),
+  (hear) => new IntersectionObserver((entries) => hear(entries), BESIDE),
 );

@@ -12,10 +12,10 @@ export interface Follow<T> {
   draw(value: T): void;
   /** Left out: in each frame. */
   readonly eachMs?: number;
+  /** As if it were out of sight. */
+  readonly onlyAtRest?: boolean;
   /** Left out: that of the part of the page around it. */
   readonly sight?: InSight;
-  /** It has become another out of sight, and is drawn once it rests. */
-  leave?(): void;
 }
 
 /** No more often can a number be read. */
@@ -23,7 +23,8 @@ export const READABLE_MS = 100;
 /** Longer than a slow drag takes from one value to the next; no more often is looked at what is out of sight. */
 const REST_MS = 250;
 
-export function useFollow<T>({ read, isSame = Object.is, draw, eachMs = 0, sight, leave }: Follow<T>): void {
+export function useFollow<T>(follow: Follow<T>): void {
+  const { read, isSame = Object.is, draw, eachMs = 0, onlyAtRest = false, sight } = follow;
   const isInSight = sight ?? use(Sight);
   const latest = useRef<{ readonly value: T } | null>(null);
   const drawn = useRef<{ readonly value: T } | null>(null);
@@ -31,7 +32,8 @@ export function useFollow<T>({ read, isSame = Object.is, draw, eachMs = 0, sight
   // Whatever React wrote meanwhile is another thing than what was drawn.
   useLayoutEffect(() => void (drawn.current = null));
   useEachFrame((nowMs) => {
-    const beat = beatOf(nowMs, isInSight.current ? eachMs : REST_MS);
+    const isFollowed = isInSight.current && !onlyAtRest;
+    const beat = beatOf(nowMs, isFollowed ? eachMs : REST_MS);
     if (beat === readIn.current) return;
     readIn.current = beat;
     const before = latest.current;
@@ -39,9 +41,8 @@ export function useFollow<T>({ read, isSame = Object.is, draw, eachMs = 0, sight
     latest.current = now;
     if (drawn.current !== null && isSame(drawn.current.value, now.value)) return;
     const isAtRest = before !== null && isSame(before.value, now.value);
-    if (!isInSight.current && !isAtRest) {
+    if (!isFollowed && !isAtRest) {
       drawn.current = null;
-      leave?.();
       return;
     }
     drawn.current = now;

@@ -1,0 +1,83 @@
+// A number that changes by itself, drawn while it does: text that changes has the page laid out and painted anew. Beneath it the
+// text follows once a second, for whoever does not see; at rest it is text like any other.
+
+import { useLayoutEffect, useRef } from 'react';
+import type { LookName } from '../timeline/look.ts';
+import type { LiveTextProps } from '../ui/NumberField.tsx';
+import { READABLE_MS, useFollow } from '../ui/useFollow.ts';
+import type { Pen, Size } from './Canvas.tsx';
+import { Drawing } from './Drawing.tsx';
+import styles from './MovingText.module.css';
+
+const WRITTEN_EACH_MS = 1000;
+
+export interface MovingTextProps extends Omit<LiveTextProps, 'colour'> {
+  readonly colour: LookName;
+}
+
+/** Over `element`, in its font, from its end. */
+export function MovingText({ element, colour, text, write, cover }: MovingTextProps) {
+  /** What is drawn; null while it is text. */
+  const drawn = useRef<string | null>(null);
+  const written = useRef('');
+  const type = useRef<Type | null>(null);
+
+  function rest(now: string): void {
+    write(now);
+    written.current = now;
+    drawn.current = null;
+    cover(false);
+  }
+
+  function follow(now: string): void {
+    if (drawn.current === null && now === written.current) return;
+    if (drawn.current === null) cover(true);
+    drawn.current = now;
+  }
+
+  function typeIn(pen: Pen): Type {
+    const isFontThere = document.fonts.status === 'loaded';
+    if (type.current?.size !== pen.size || type.current.isFontThere !== isFontThere)
+      type.current = { size: pen.size, isFontThere, ...typeOf(pen, element.current) };
+    return type.current;
+  }
+
+  useLayoutEffect(() => rest(text()));
+  useFollow({ read: text, draw: rest, onlyAtRest: true });
+  useFollow({ read: text, draw: write, eachMs: WRITTEN_EACH_MS });
+  useFollow({ read: text, draw: follow, eachMs: READABLE_MS });
+  return (
+    <Drawing
+      className={styles.over}
+      shown={() => [drawn.current, document.fonts.status] as const}
+      paint={(pen, [now]) => {
+        if (now !== null) paintText(pen, typeIn(pen), pen.look[colour], now);
+      }}
+    />
+  );
+}
+
+/** Measured once: to ask for it in each frame would cost more than to draw. */
+interface Type {
+  readonly size: Size;
+  readonly isFontThere: boolean;
+  readonly font: string;
+  readonly baseLine: number;
+}
+
+/** The base line is where that of a line of text as high as the element is. */
+function typeOf({ ctx, size }: Pen, element: HTMLElement | null): Pick<Type, 'font' | 'baseLine'> {
+  if (element === null) return { font: '', baseLine: 0 };
+  const { fontWeight, fontSize, fontFamily } = getComputedStyle(element);
+  const font = `${fontWeight} ${fontSize} ${fontFamily}`;
+  ctx.font = font;
+  const { fontBoundingBoxAscent: ascent, fontBoundingBoxDescent: descent } = ctx.measureText('0');
+  return { font, baseLine: Math.floor((size.height + Math.round(ascent) - Math.round(descent)) / 2) };
+}
+
+function paintText({ ctx, size }: Pen, { font, baseLine }: Type, colour: string, text: string): void {
+  ctx.font = font;
+  ctx.fillStyle = colour;
+  ctx.textAlign = 'right';
+  ctx.fillText(text, size.width, baseLine);
+}

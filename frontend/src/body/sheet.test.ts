@@ -1,0 +1,91 @@
+import { describe, expect, test, vi } from 'vitest';
+import type { Pen } from './Canvas.tsx';
+import { recordingPen } from './penUnderTest.ts';
+import { coverOf, createSheet, paintAll, type Placed } from './sheet.ts';
+
+const LIST = elementAt({ left: 10, top: 100, width: 500, height: 2_000 });
+
+interface Box {
+  left: number;
+  top: number;
+  width: number;
+  height: number;
+}
+
+function elementAt(box: Box): Element {
+  return { getBoundingClientRect: () => ({ ...box }) } as unknown as Element;
+}
+
+function partAt(box: Box, isInSight = true) {
+  const sight = { current: isInSight };
+  const paint = vi.fn<(pen: Pen) => void>();
+  return { place: elementAt(box), box, sight, shown: () => ['value'] as const, paint };
+}
+
+const ROW: Box = { left: 30, top: 140, width: 44, height: 20 };
+
+describe('a sheet', () => {
+  test('has what is in sight, seen from the corner of its list', () => {
+    const sheet = createSheet();
+    sheet.add(partAt(ROW));
+    sheet.add(partAt({ ...ROW, top: 900 }, false));
+    expect(sheet.inSight(LIST)).toMatchObject([
+      { left: 20, top: 40, size: { width: 44, height: 20 }, shown: ['value'] },
+    ]);
+  });
+
+  test('measures when something may stand elsewhere, and keeps a size that is the same', () => {
+    const sheet = createSheet();
+    const part = partAt({ ...ROW });
+    sheet.add(part);
+    const [before] = sheet.inSight(LIST);
+    part.box.top = 240;
+    expect(sheet.inSight(LIST)[0]?.top).toBe(40);
+    sheet.measureAnew();
+    const [after] = sheet.inSight(LIST);
+    expect(after?.top).toBe(140);
+    expect(after?.size).toBe(before?.size);
+  });
+
+  test('measures what has come into sight', () => {
+    const sheet = createSheet();
+    const late = partAt({ ...ROW, top: 900 }, false);
+    sheet.add(partAt(ROW));
+    sheet.add(late);
+    sheet.inSight(LIST);
+    late.sight.current = true;
+    expect(sheet.inSight(LIST).map(({ top }) => top)).toEqual([40, 800]);
+  });
+
+  test('forgets what is taken away', () => {
+    const sheet = createSheet();
+    const takeAway = sheet.add(partAt(ROW));
+    takeAway();
+    expect(sheet.inSight(LIST)).toEqual([]);
+  });
+});
+
+const placed = (top: number, height: number): Placed => ({
+  ...{ left: 20.3, top, size: { width: 44, height }, shown: [] },
+  paint: vi.fn<(pen: Pen) => void>(),
+});
+
+test('the canvas covers all of them, on whole pixels', () => {
+  expect(coverOf([placed(40.5, 20), placed(96.5, 30.2)])).toEqual({ top: 40, height: 87 });
+  expect(coverOf([])).toEqual({ top: 0, height: 0 });
+});
+
+test('each is painted where it stands, as large as it is, on a whole pixel of the screen', () => {
+  vi.stubGlobal('devicePixelRatio', 2);
+  const moves: (readonly [number, number])[] = [];
+  const ctx = {
+    save: () => undefined,
+    restore: () => undefined,
+    translate: (x: number, y: number) => void moves.push([x, y]),
+  };
+  const { look, size } = recordingPen({ width: 500, height: 300 }).pen;
+  const part = placed(140.1, 20);
+  paintAll({ look, size, ctx: ctx as unknown as CanvasRenderingContext2D }, [part], 100);
+  expect(moves).toEqual([[20.5, 40]]);
+  expect(part.paint).toHaveBeenCalledWith(expect.objectContaining({ size: part.size }));
+});
