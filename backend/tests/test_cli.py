@@ -211,11 +211,9 @@ def test_a_lan_start_tells_addresses_invites_its_first_owner_and_warns(tmp_path:
 def test_a_lan_start_on_loopback_names_only_an_address_that_answers(tmp_path: Path) -> None:
     served = Served("--lan", "--data", str(tmp_path))
     assert served.process.stdout
-    said = ""
-    for line in iter(served.process.stdout.readline, ""):
-        said += line
-        if line.startswith("Only this computer"):
-            break
+    said = "".join(iter(served.process.stdout.readline, "and start with --public-url.\n"))
+    assert "Only this computer reaches it" in said
+    assert "Others reach it" not in said
     assert set(re.findall(r"http://([\d.]+):", said)) == {"127.0.0.1"}
     assert "--listen 0.0.0.0:8300" in said
     served.end()

@@ -15,14 +15,22 @@ OVERHEARD = (
 )
 
 
-def greeting(entrance: Entrance, urls: list[str], *, invites: bool) -> str:
-    """`urls` are the addresses for others, the best first; `invites` one more owner where there is one."""
-    lines = [f"Others reach it at {' or '.join(urls)}"]
+def greeting(entrance: Entrance, urls: list[str], *, invites: bool, only_here: str = "") -> str:
+    """`urls` are the addresses for others, the best first; `invites` one more owner where there is one; `only_here` is what
+    to listen on instead, where nobody else reaches it.
+    """
+    lines = [reached_at(urls, only_here)]
     if invites or needs_owner(entrance):
         lines += invitation(entrance, urls)
     if not entrance.access.is_secure:
         lines.append(OVERHEARD)
     return "\n".join(lines)
+
+
+def reached_at(urls: list[str], only_here: str) -> str:
+    if only_here:
+        return f"Only this computer reaches it: for others, write --listen {only_here}."
+    return f"Others reach it at {' or '.join(urls)}"
 
 
 def needs_owner(entrance: Entrance) -> bool:

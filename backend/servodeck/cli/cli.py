@@ -157,9 +157,9 @@ def serve(
         print(f"Servodeck is at {url}", flush=True)
         if entrance.access.needs_pairing:
             others = urls_for_others(entrance.access, reachable(), url)
-            print(greeting(entrance, others, invites=invite), flush=True)
-            if entrance.access.mode == "lan" and is_loopback(host):
-                print(f"Only this computer reaches it: for others, write --listen {LAN_LISTEN}.", flush=True)
+            is_alone = entrance.access.mode == "lan" and is_loopback(host)
+            only_here = LAN_LISTEN if is_alone else ""
+            print(greeting(entrance, others, invites=invite, only_here=only_here), flush=True)
         if sys.stdout.isatty() if open_page is None else open_page:
             webbrowser.open(url)
 
