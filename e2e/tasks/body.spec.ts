@@ -59,6 +59,43 @@ test.describe('of a humanoid', () => {
     await expect(knee).toHaveAccessibleName('Servo 3, knee, at 85 % across, 50 % down');
   });
 
+  test('what was arranged is taken back by key and by press, and nothing else is', async ({
+    dashboard,
+    page,
+  }) => {
+    await dashboard.capture.click();
+    await page.getByRole('radio', { name: 'Body' }).check();
+    await page.getByRole('switch', { name: 'Arrange' }).check();
+    const knee = dashboard.button(/^Servo 3, knee, at/);
+    await knee.press('ArrowLeft');
+    await knee.press('ArrowUp');
+    await expect(knee).toHaveAccessibleName('Servo 3, knee, at 63 % across, 67 % down');
+    await knee.press('ControlOrMeta+z');
+    await expect(knee).toHaveAccessibleName('Servo 3, knee, at 63 % across, 68 % down');
+    await dashboard.button('Undo: place of servo 3').click();
+    await expect(knee).toHaveAccessibleName('Servo 3, knee, at 64 % across, 68 % down');
+    await expect(dashboard.frames).toHaveCount(1);
+  });
+
+  test('a servo taken at its edge does not jump, and Esc puts it back where it was', async ({
+    dashboard,
+    page,
+  }) => {
+    await page.getByRole('radio', { name: 'Body' }).check();
+    await page.getByRole('switch', { name: 'Arrange' }).check();
+    const knee = dashboard.button(/^Servo 3, knee, at/);
+    const { x, y, width, height } = (await knee.boundingBox())!;
+    const grip = { x: x + width * 0.8, y: y + height / 2 };
+    await page.mouse.move(grip.x, grip.y);
+    await page.mouse.down();
+    await page.mouse.move(grip.x, grip.y + 40);
+    await poll(async () => Math.round((await knee.boundingBox())!.x - x)).toBe(0);
+    await page.keyboard.press('Escape');
+    await page.mouse.move(grip.x, grip.y + 80);
+    await page.mouse.up();
+    await expect(knee).toHaveAccessibleName('Servo 3, knee, at 64 % across, 68 % down');
+  });
+
   test('a limb is folded away and selected as a whole', async ({ dashboard, page }) => {
     await dashboard.button('Select leftLeg').click();
     const servos = page.getByRole('region', { name: 'Servos' });

@@ -1,6 +1,6 @@
 // A servo on the body while its place is being chosen: dragged, or pushed by arrow keys. Letting go is one step of the history.
 
-import { useState, type KeyboardEvent, type PointerEvent, type RefObject } from 'react';
+import { useRef, useState, type KeyboardEvent, type PointerEvent, type RefObject } from 'react';
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
@@ -18,9 +18,16 @@ export interface ArrangedPlaceProps {
 export function ArrangedPlace({ servo: { servo, name, place }, stage }: ArrangedPlaceProps) {
   const { robots } = useStores();
   const [dragged, setDragged] = useState<PlaceAt | null>(null);
+  /** How far from its middle it is held; null: it is not. */
+  const grip = useRef<{ readonly x: number; readonly y: number } | null>(null);
+
+  function letGo(): void {
+    grip.current = null;
+    setDragged(null);
+  }
 
   function put(to: PlaceAt | null): void {
-    setDragged(null);
+    letGo();
     if (to !== null && (to.x !== place.x || to.y !== place.y))
       robots.edit(
         () => words.servoPanel.placeStep(servo),
@@ -28,12 +35,22 @@ export function ArrangedPlace({ servo: { servo, name, place }, stage }: Arranged
       );
   }
 
+  function take(event: PointerEvent<HTMLButtonElement>): void {
+    if (event.button !== 0) return;
+    event.currentTarget.setPointerCapture(event.pointerId);
+    const { left, top, width, height } = event.currentTarget.getBoundingClientRect();
+    grip.current = { x: event.clientX - left - width / 2, y: event.clientY - top - height / 2 };
+  }
+
   function drag(event: PointerEvent<HTMLButtonElement>): void {
-    if (stage.current === null || !event.currentTarget.hasPointerCapture(event.pointerId)) return;
-    setDragged(placeUnder(event, stage.current.getBoundingClientRect()));
+    if (stage.current === null || grip.current === null) return;
+    const { x, y } = grip.current;
+    const middle = { clientX: event.clientX - x, clientY: event.clientY - y };
+    setDragged(placeUnder(middle, stage.current.getBoundingClientRect()));
   }
 
   function push(event: KeyboardEvent): void {
+    if (event.key === 'Escape') letGo();
     const to = placeBy(event, place);
     if (to === null) return;
     event.preventDefault();
@@ -46,10 +63,10 @@ export function ArrangedPlace({ servo: { servo, name, place }, stage }: Arranged
         type="button"
         className={cx(styles.button, styles.arranged)}
         aria-label={words.servoPanel.placeOf(words.servos.name(servo), name, place.x, place.y)}
-        onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
+        onPointerDown={take}
         onPointerMove={drag}
         onPointerUp={() => put(dragged)}
-        onPointerCancel={() => setDragged(null)}
+        onPointerCancel={letGo}
         onKeyDown={push}
       >
         <PlaceFace servo={servo} />

@@ -1,9 +1,11 @@
 // The servos where they sit on the body: pressing one selects it. While arranging, they are dragged to other places instead.
 
-import { useRef, useState } from 'react';
+import { useRef, useState, type KeyboardEvent } from 'react';
 import type { BodyKind } from '#shared/actions/robot/robot.ts';
-import { useRobot, useServoView } from '../stores/stores.ts';
+import { undoActionOf } from '../actions/useUndoKeys.ts';
+import { useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { Toggle } from '../ui/Toggle.tsx';
+import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { ArrangedPlace } from './ArrangedPlace.tsx';
 import { LiveArm } from './LiveArm.tsx';
@@ -13,14 +15,25 @@ import { UnknownNote } from './UnknownNote.tsx';
 import styles from './BodyMap.module.css';
 
 export function BodyMap({ isArrangingFirst = false }: { readonly isArrangingFirst?: boolean }) {
+  const { robots } = useStores();
   const { body, servos } = useRobot();
   const hidden = useServoView((view) => view.hidden);
   const [isArranging, setArranging] = useState(isArrangingFirst);
   const stage = useRef<HTMLDivElement>(null);
   const shown = servos.filter(({ servo }) => !hidden.includes(servo));
   const order = shown.map(({ servo }) => servo);
+
+  /** While places are written on, the undo keys are about them. */
+  function undoKey(event: KeyboardEvent): void {
+    const action = isArranging ? undoActionOf(event) : null;
+    if (action === null) return;
+    event.preventDefault();
+    event.stopPropagation();
+    robots[action]();
+  }
+
   return (
-    <div className={styles.map}>
+    <div className={styles.map} onKeyDown={undoKey}>
       <div className={styles.room}>
         <div ref={stage} className={styles.stage} data-body={body}>
           <Picture body={body} />
@@ -37,7 +50,10 @@ export function BodyMap({ isArrangingFirst = false }: { readonly isArrangingFirs
       </div>
       <div className={styles.foot}>
         <UnknownNote />
-        <Toggle label={words.servoPanel.arrange} isOn={isArranging} onChange={setArranging} />
+        <span className={styles.tools}>
+          {isArranging && <UndoTools of={robots} />}
+          <Toggle label={words.servoPanel.arrange} isOn={isArranging} onChange={setArranging} />
+        </span>
       </div>
     </div>
   );
