@@ -8,6 +8,7 @@ import { expect, poll, test as base } from '../fixtures/test.ts';
 
 /** Numbers of the standard pad, as the ready mapping uses them. */
 const STOP = 1;
+const LEFT_BUTTON = 2;
 const RIGHT_TRIGGER = 7;
 
 /** Plugged in before the page opens. */
@@ -134,6 +135,31 @@ test('an input is bound by pressing it, says what it conflicts with, and is kept
   await expect(conflicts).toBeHidden();
   await dashboard.button('Undo: unbind Right trigger').click();
   await expect(conflicts).toBeVisible();
+});
+
+test('a button of the pad goes to a pose in the time that was chosen', async ({
+  dashboard,
+  robot,
+  page,
+  pad,
+}) => {
+  await page.getByRole('radio', { name: 'Keys and pad' }).check();
+  await dashboard.button('Add a key or stick').click();
+  await pad.hold(LEFT_BUTTON);
+  const form = page.getByRole('form', { name: 'What does X do' });
+  await pad.hold();
+  await form.getByRole('combobox', { name: 'It does' }).selectOption('Go to a pose');
+  await form.getByRole('combobox', { name: 'Pose to go to' }).selectOption('Home');
+  await form.getByRole('textbox', { name: 'Time to reach a pose in milliseconds' }).fill('2500');
+  await dashboard.button('Bind').click();
+  const rows = page.getByRole('list', { name: 'Which key or stick does what' });
+  await expect(rows.getByRole('listitem').filter({ hasText: 'Go to Home' })).toContainText('X');
+
+  await switchOn(page);
+  await pad.hold(LEFT_BUTTON);
+  await poll(() => lastTarget(robot.bus, 6)).toBe(1500);
+  const [first] = ofKind(await robot.bus(), 'move');
+  expect(first?.durationMs).toBe(2500);
 });
 
 test('pulling the pad while it is held ends the motion', async ({ dashboard, robot, page, pad }) => {

@@ -71,8 +71,8 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   const battery = createBattery(device, robots);
   const mappings = createMappings(storage, notices, robots);
   const readPads = () => (isSecureContext ? navigator.getGamepads() : []);
-  const pad = createPad({ device, robots, mappings, notices, clock: pageClock, readPads });
   const poses = createPoses({ storage, notices, robots, device });
+  const pad = createPad({ device, robots, poses, mappings, notices, clock: pageClock, readPads });
   const macros = createMacros(storage, notices, robots);
   const macroRun = createMacroRun({ device, poses, robots, notices, clock: pageClock });
   const written = createDocument(storage, notices, pageClock);

@@ -33,6 +33,10 @@ const CASES: readonly PadSpecimen[] = [
     more: [
       { input: { kind: 'key', code: 'KeyQ' }, action: { kind: 'run', slot: 5 } },
       {
+        input: { kind: 'button', index: 2 },
+        action: { kind: 'pose', pose: 'rest', durationMs: 1500 },
+      },
+      {
         input: { kind: 'axis', index: 0, side: 'whole' },
         action: { kind: 'position', servo: 1, isReversed: false },
       },

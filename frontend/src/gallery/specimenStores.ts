@@ -69,7 +69,7 @@ export function specimenStores(
   });
   return {
     ...{ notices, robots, device, poses, mappings, document, view, library, keeping },
-    pad: createPad({ device, robots, mappings, notices, clock: pageClock, readPads }),
+    pad: createPad({ device, robots, poses, mappings, notices, clock: pageClock, readPads }),
     battery: createBattery(device, robots),
     blend: createBlend(device),
     timeline,

@@ -1,12 +1,11 @@
 // The values of one step: a pose and its time, a slot and its times, or a wait.
 
-import { MOVE_MS, SLOT, SLOT_TIMES, WAIT_MS, type MacroStep } from '#shared/actions/macros/macro.ts';
-import { POSE_VERBS, type PoseRef } from '#shared/actions/poses/pose.ts';
+import { SLOT, SLOT_TIMES, WAIT_MS, type MacroStep } from '#shared/actions/macros/macro.ts';
+import { POSE_MS } from '#shared/actions/poses/pose.ts';
 import type { Range } from '#shared/protocol/families.ts';
-import { poseName } from '../stores/driving/poses.ts';
-import { usePoses, useStores } from '../stores/stores.ts';
+import { PoseSelect } from '../poses/PoseSelect.tsx';
+import { useStores } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
-import { Select } from '../ui/Select.tsx';
 import { words } from '../words/words.ts';
 import styles from './MacroEditor.module.css';
 
@@ -25,24 +24,17 @@ export function StepFields({ step, ...rest }: StepFieldsProps) {
 }
 
 function PoseFields({ step, number, onChange }: FieldsOf<'pose'>) {
-  const book = usePoses(({ present }) => present);
-  const refs: readonly PoseRef[] = [...POSE_VERBS, ...book.poses.map(({ id }) => id)];
-  const shown = refs.includes(step.pose) ? refs : [...refs, step.pose];
   return (
     <>
-      <Select
+      <PoseSelect
         label={words.macros.stepPose(number)}
-        value={String(step.pose)}
-        options={shown.map((ref) => ({ value: String(ref), label: poseName(book, ref) }))}
-        onChange={(value) => {
-          const pose = refs.find((ref) => String(ref) === value);
-          if (pose !== undefined) onChange({ ...step, pose });
-        }}
+        value={step.pose}
+        onChange={(pose) => onChange({ ...step, pose })}
       />
       <Field
         label={words.macros.stepMs(number)}
         value={step.durationMs}
-        range={MOVE_MS}
+        range={POSE_MS}
         step={100}
         unit={words.servos.ms}
         onChange={(durationMs) => onChange({ ...step, durationMs })}

@@ -2,6 +2,8 @@
 
 import { useState } from 'react';
 import { FASTEST_UNITS_PER_S, type Action, type Binding } from '#shared/actions/mapping/mapping.ts';
+import { POSE_MS } from '#shared/actions/poses/pose.ts';
+import { PoseSelect } from '../poses/PoseSelect.tsx';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
@@ -17,7 +19,7 @@ export interface BindingFormProps {
   onCancel(): void;
 }
 
-const KINDS: readonly Action['kind'][] = ['rate', 'position', 'run', 'stop'];
+const KINDS: readonly Action['kind'][] = ['rate', 'position', 'pose', 'run', 'stop'];
 
 export function BindingForm({ initial, onSave, onRemove, onCancel }: BindingFormProps) {
   const [draft, setDraft] = useState(initial);
@@ -54,6 +56,12 @@ export function BindingForm({ initial, onSave, onRemove, onCancel }: BindingForm
       {kind === 'rate' && <Speed value={draft.unitsPerS} onChange={(unitsPerS) => change({ unitsPerS })} />}
       {turns && (
         <Toggle label={words.pad.reversed} isOn={isReversed} onChange={(on) => change({ isReversed: on })} />
+      )}
+      {kind === 'pose' && (
+        <>
+          <PoseSelect label={words.pad.pose} value={draft.pose} onChange={(pose) => change({ pose })} />
+          <Time value={draft.durationMs} onChange={(durationMs) => change({ durationMs })} />
+        </>
       )}
       {kind === 'run' && <Slot value={draft.slot} onChange={(slot) => change({ slot })} />}
       <div className={styles.buttons}>
@@ -105,6 +113,20 @@ function Speed({ value, onChange }: FieldProps) {
       onRefused={(wanted) =>
         notices.tell('warning', words.refused(words.pad.speedField, wanted, range.min, range.max))
       }
+    />
+  );
+}
+
+function Time({ value, onChange }: FieldProps) {
+  const { notices } = useStores();
+  const { min, max } = POSE_MS;
+  return (
+    <NumberField
+      label={words.poses.time}
+      unit={words.servos.ms}
+      step={100}
+      {...{ value, onChange, min, max }}
+      onRefused={(wanted) => notices.tell('warning', words.refused(words.poses.time, wanted, min, max))}
     />
   );
 }

@@ -7,7 +7,7 @@ import { Button as Bare } from 'react-aria-components/Button';
 import type { Binding, Input } from '#shared/actions/mapping/mapping.ts';
 import { shaped, valueOf } from '#shared/actions/mapping/mappingInputs.ts';
 import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
-import { useMapping, useRobot, useStores } from '../stores/stores.ts';
+import { useMapping, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { words } from '../words/words.ts';
@@ -100,6 +100,7 @@ function Listen({ onHeard }: { onHeard(input: Input): void }) {
 
 function Table({ onEdit }: { onEdit(at: number, binding: Binding): void }) {
   const { pad } = useStores();
+  const book = usePoses(({ present }) => present);
   const robot = useRobot();
   const mapping = useMapping();
   const list = useRef<HTMLUListElement>(null);
@@ -115,7 +116,7 @@ function Table({ onEdit }: { onEdit(at: number, binding: Binding): void }) {
 
   return (
     <ul ref={list} className={styles.rows} aria-label={words.pad.table}>
-      {rowsOf(mapping, robot).map(({ title, bindings }) => (
+      {rowsOf(mapping, robot, book).map(({ title, bindings }) => (
         <li key={title} className={styles.row}>
           <span className={styles.title}>{title}</span>
           <span className={styles.chips}>

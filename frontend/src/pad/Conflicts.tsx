@@ -1,8 +1,9 @@
 // What two bindings have against each other, in words. Nothing is shown where all is well.
 
 import { conflicts, type Conflict, type Mapping } from '#shared/actions/mapping/mapping.ts';
+import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
-import { useMapping, useRobot } from '../stores/stores.ts';
+import { useMapping, usePoses, useRobot } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { words } from '../words/words.ts';
 import { rowTitle } from './rows.ts';
@@ -11,12 +12,13 @@ import styles from './Conflicts.module.css';
 export function Conflicts() {
   const mapping = useMapping();
   const robot = useRobot();
+  const book = usePoses(({ present }) => present);
   const found = conflicts(mapping);
   if (found.length === 0) return null;
   return (
     <ul className={styles.list} aria-label={words.pad.conflicts}>
       {found.map((conflict) => {
-        const sentence = sentenceOf(conflict, mapping, robot);
+        const sentence = sentenceOf(conflict, mapping, robot, book);
         return (
           <li key={sentence} className={styles.conflict}>
             <Mark truth="warning" />
@@ -28,10 +30,11 @@ export function Conflicts() {
   );
 }
 
-function sentenceOf(conflict: Conflict, { bindings }: Mapping, robot: Robot): string {
+function sentenceOf(conflict: Conflict, { bindings }: Mapping, robot: Robot, book: PoseBook): string {
   if (conflict.kind === 'sharedServo')
     return words.pad.sharedServo(servoOf(robot, conflict.servo)?.name ?? words.pad.absent(conflict.servo));
   const [one, other] = [bindings[conflict.one], bindings[conflict.other]];
   if (one === undefined || other === undefined) return '';
-  return words.pad.sameInput(words.pad.input(other.input), rowTitle(one, robot), rowTitle(other, robot));
+  const [first, second] = [one, other].map((binding) => rowTitle(binding, robot, book));
+  return words.pad.sameInput(words.pad.input(other.input), first ?? '', second ?? '');
 }

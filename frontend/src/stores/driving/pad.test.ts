@@ -1,12 +1,14 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import type { Input } from '#shared/actions/mapping/mapping.ts';
+import { addPose } from '#shared/actions/poses/poseEdits.ts';
 import { createRig } from '#shared/session/rig.ts';
 import { words } from '../../words/words.ts';
 import { createDevice } from '../device/device.ts';
 import { createMappings } from '../robots/mappings.ts';
 import { createNotices } from '../notices.ts';
 import { createPad, type Gamepadlike } from './pad.ts';
+import { createPoses } from './poses.ts';
 import { createRobots, freshRobot } from '../robots/robots.ts';
 
 const STANDARD = { id: 'Pad', index: 0, mapping: 'standard' };
@@ -24,7 +26,8 @@ async function createDesk({ drives = true } = {}) {
   const mappings = createMappings(storage, notices, robots);
   let plugged: Gamepadlike | null = null;
   const readPads = () => [null, plugged];
-  const pad = createPad({ device, robots, mappings, notices, clock: rig.clock, readPads });
+  const poses = createPoses({ storage, notices, robots, device });
+  const pad = createPad({ device, robots, poses, mappings, notices, clock: rig.clock, readPads });
   device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
   const told = () => notices.store.getState().map((notice) => notice.text);
   const moves = () => rig.ofKind('move').length;
@@ -56,7 +59,7 @@ async function createDesk({ drives = true } = {}) {
   if (drives) pad.drive(true);
   await frames(50);
   return {
-    ...{ ...rig, pad, device, robots, mappings, told, moves, movesIn, target, hold, frames },
+    ...{ ...rig, pad, device, robots, poses, mappings, told, moves, movesIn, target, hold, frames },
     isDriving: () => pad.store.getState().isDriving,
     unplug: () => (plugged = null),
   };
@@ -126,6 +129,58 @@ describe('driving by pad', () => {
     const { robots, isDriving } = await createDesk();
     robots.add(() => 'add', freshRobot('hand', 'doc'));
     expect(isDriving()).toBe(false);
+  });
+});
+
+describe('a button for a pose', () => {
+  const X = 2;
+
+  async function deskWithPose() {
+    const desk = await createDesk();
+    desk.poses.book.edit(
+      () => 'capture',
+      (book) => addPose(book, { name: 'Wave', unit: 'us', targets: [{ servo: 1, position: 1900 }] }),
+    );
+    desk.mappings.edit(
+      () => 'bind',
+      (mapping) => ({
+        ...mapping,
+        bindings: [
+          ...mapping.bindings,
+          { input: { kind: 'button', index: X }, action: { kind: 'pose', pose: 1, durationMs: 2500 } },
+        ],
+      }),
+    );
+    await desk.frames(50);
+    return desk;
+  }
+
+  test('goes there once a press, in the time that was chosen, and on when it is let go', async () => {
+    const { hold, frames, ofKind, target, poses, movesIn } = await deskWithPose();
+    hold(X);
+    await frames(500);
+    expect(ofKind('move').at(-1)).toMatchObject({
+      durationMs: 2500,
+      targets: [{ servo: 1, position: 1900 }],
+    });
+    expect(poses.book.store.getState().present.applied).toBe(1);
+    hold();
+    expect(await movesIn(500)).toBe(0);
+    expect(target()).toBe(1900);
+  });
+
+  test('moves nothing while driving is off, and says where the pose is gone', async () => {
+    const { hold, frames, pad, poses, told, movesIn } = await deskWithPose();
+    pad.drive(false);
+    hold(X);
+    expect(await movesIn(300)).toBe(0);
+    hold();
+    poses.book.undo();
+    pad.drive(true);
+    await frames(50);
+    hold(X);
+    expect(await movesIn(300)).toBe(0);
+    expect(told()).toEqual([words.poses.gone]);
   });
 });
 

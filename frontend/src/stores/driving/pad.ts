@@ -5,12 +5,13 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
 import type { Input, Mapping } from '#shared/actions/mapping/mapping.ts';
 import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/actions/mapping/mappingInputs.ts';
-import { AT_REST, step, type DriveState } from '#shared/actions/mapping/mappingStep.ts';
+import { AT_REST, step, type Begun, type DriveState } from '#shared/actions/mapping/mappingStep.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { words } from '../../words/words.ts';
 import type { Device } from '../device/device.ts';
 import type { Notices } from '../notices.ts';
 import { motionHindrance } from '../device/readiness.ts';
+import type { Poses } from './poses.ts';
 import type { RobotStore } from '../robots/robots.ts';
 import type { Undoable } from '../undoable.ts';
 
@@ -50,6 +51,7 @@ export interface Pad {
 export interface PadOptions {
   readonly device: Device;
   readonly robots: RobotStore;
+  readonly poses: Pick<Poses, 'apply'>;
   readonly mappings: Pick<Undoable<Mapping>, 'store'>;
   readonly notices: Notices;
   readonly clock: Clock;
@@ -62,7 +64,8 @@ const LONGEST_STEP_MS = 100;
 /** Stopping, walking through the page and changing what other keys mean. */
 const RESERVED_KEY = /^(Escape|Tab|CapsLock|(Shift|Control|Alt|Meta)(Left|Right))$/;
 
-export function createPad({ device, robots, mappings, notices, clock, readPads }: PadOptions): Pad {
+export function createPad(options: PadOptions): Pad {
+  const { device, robots, poses, mappings, notices, clock, readPads } = options;
   const store = createStore<PadState>(() => ({ isDriving: false, pad: null }));
   const keys = new Set<string>();
   let inputs = NO_INPUTS;
@@ -143,12 +146,17 @@ export function createPad({ device, robots, mappings, notices, clock, readPads }
     stopWasPressed = isStopPressed;
   }
 
+  function begin(action: Begun): void {
+    if (action.kind === 'run') device.run(action.slot, 1);
+    else poses.apply(action.pose, action.durationMs);
+  }
+
   function obey(dtMs: number): void {
     const { robot } = robots.current();
     const moment = step({ mapping: mapping(), robot, place: device.motion }, inputs, dtMs, driven);
     driven = moment.state;
     if (moment.moves.length > 0) device.move(moment.moves, 'hand');
-    for (const slot of moment.runs) device.run(slot, 1);
+    moment.begun.forEach(begin);
     const asked = moment.unknown.filter((servo) => !unknown.includes(servo));
     for (const servo of asked) notices.tell('warning', words.pad.unknown(servoOf(robot, servo)?.name ?? ''));
     unknown = moment.unknown;

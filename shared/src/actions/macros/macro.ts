@@ -3,13 +3,12 @@
 
 import * as z from 'zod/mini';
 import { COLOURS } from '../colours.ts';
-import { poseRefSchema } from '../poses/pose.ts';
+import { POSE_MS, poseRefSchema } from '../poses/pose.ts';
 import { NAME_LENGTH } from '../robot/robot.ts';
 
 const whole = (min: number, max: number) => z.number().check(z.int(), z.gte(min), z.lte(max));
 const id = whole(1, Number.MAX_SAFE_INTEGER);
 
-export const MOVE_MS = { min: 0, max: 30_000 } as const;
 export const WAIT_MS = { min: 100, max: 600_000 } as const;
 export const SLOT = { min: 0, max: 255 } as const;
 export const SLOT_TIMES = { min: 1, max: 255 } as const;
@@ -21,7 +20,7 @@ const stepSchema = z.discriminatedUnion('kind', [
   z.strictObject({
     kind: z.literal('pose'),
     pose: poseRefSchema,
-    durationMs: whole(MOVE_MS.min, MOVE_MS.max),
+    durationMs: whole(POSE_MS.min, POSE_MS.max),
   }),
   /** Without end is no step: the next one would never come. */
   z.strictObject({

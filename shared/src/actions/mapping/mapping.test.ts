@@ -51,6 +51,11 @@ const anyAction: fc.Arbitrary<Action> = fc.oneof(
     servo: fc.integer({ min: 1, max: 6 }),
     unitsPerS: fc.integer({ min: -3000, max: 3000 }),
   }),
+  fc.record({
+    kind: fc.constant('pose' as const),
+    pose: fc.oneof(fc.constantFrom('home' as const, 'rest' as const), fc.integer({ min: 1, max: 99 })),
+    durationMs: fc.integer({ min: 0, max: 30_000 }),
+  }),
   fc.record({ kind: fc.constant('run' as const), slot: fc.integer({ min: 0, max: 255 }) }),
   fc.constant({ kind: 'stop' as const }),
 );

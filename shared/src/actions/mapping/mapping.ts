@@ -2,6 +2,7 @@
 // one schema, and what two bindings have against each other. Knows no pad, no time and no session.
 
 import * as z from 'zod/mini';
+import { POSE_MS, poseRefSchema } from '../poses/pose.ts';
 
 /** Which part of an axis counts: all of it with its sign, or one side as if it were a button. */
 export const SIDES = ['whole', 'minus', 'plus'] as const;
@@ -30,6 +31,11 @@ const actionSchema = z.discriminatedUnion('kind', [
   }),
   /** The input's way is the servo's range. */
   z.strictObject({ kind: z.literal('position'), servo, isReversed: z.boolean() }),
+  z.strictObject({
+    kind: z.literal('pose'),
+    pose: poseRefSchema,
+    durationMs: whole(POSE_MS.min, POSE_MS.max),
+  }),
   z.strictObject({ kind: z.literal('run'), slot: whole(0, 255) }),
   z.strictObject({ kind: z.literal('stop') }),
 ]);

@@ -222,12 +222,15 @@ describe('a position', () => {
   });
 });
 
-test('a slot is run once a press', () => {
-  const { rest, frames } = drive([[BUTTON, { kind: 'run', slot: 7 }]]);
+test.each<Action>([
+  { kind: 'run', slot: 7 },
+  { kind: 'pose', pose: 'home', durationMs: 1500 },
+])('to $kind is begun once a press', (action) => {
+  const { rest, frames } = drive([[BUTTON, action]]);
   const held = { ...NO_INPUTS, buttons: [1] };
-  expect(frames(held, 5).flatMap(({ runs }) => runs)).toEqual([]);
+  expect(frames(held, 5).flatMap(({ begun }) => begun)).toEqual([]);
   rest();
-  expect(frames(held, 5).flatMap(({ runs }) => runs)).toEqual([7]);
+  expect(frames(held, 5).flatMap(({ begun }) => begun)).toEqual([action]);
   rest();
-  expect(frames(held, 5).flatMap(({ runs }) => runs)).toEqual([7]);
+  expect(frames(held, 5).flatMap(({ begun }) => begun)).toEqual([action]);
 });

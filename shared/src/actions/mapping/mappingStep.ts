@@ -11,6 +11,9 @@ import { servoOf, type Robot, type RobotServo } from '../robot/robot.ts';
 
 type ActionOf<Kind extends Action['kind']> = Extract<Action, { kind: Kind }>;
 
+/** Begun by a press, and done without a finger. */
+export type Begun = ActionOf<'pose' | 'run'>;
+
 export interface ServoPlace {
   readonly target: number | null;
   readonly estimated: number | null;
@@ -42,8 +45,7 @@ export const AT_REST: DriveState = { held: [], aims: {} };
 export interface Moment {
   readonly state: DriveState;
   readonly moves: readonly ServoTarget[];
-  /** Slots to run. */
-  readonly runs: readonly number[];
+  readonly begun: readonly Begun[];
   /** Servos that were meant, whose position nobody knows. They stay where they are: they need a slow first move. */
   readonly unknown: readonly number[];
 }
@@ -66,12 +68,14 @@ export function step(driven: Driven, inputs: Inputs, dtMs: number, before: Drive
     moves: meant
       .map(({ servo, wish }) => ({ servo, position: Math.round(wish) }))
       .filter(({ servo, position }) => position !== driven.place(servo).target),
-    runs: bindings.flatMap(({ action }, at) =>
-      action.kind === 'run' && held[at]?.value === 1 && before.held[at]?.value === 0 ? [action.slot] : [],
+    begun: bindings.flatMap(({ action }, at) =>
+      isBegun(action) && held[at]?.value === 1 && before.held[at]?.value === 0 ? [action] : [],
     ),
     unknown: wishes.flatMap(({ servo, wish }) => (wish === 'unknown' ? [servo] : [])),
   };
 }
+
+const isBegun = (action: Action): action is Begun => action.kind === 'pose' || action.kind === 'run';
 
 function hold(
   driven: Driven,

@@ -8,6 +8,9 @@ import { NAME_LENGTH } from '../robot/robot.ts';
 /** `home`: every servo at its home. `rest`: the pose marked as such, else home. */
 export const POSE_VERBS = ['home', 'rest'] as const;
 
+/** How long the way to a pose may be asked to take. */
+export const POSE_MS = { min: 0, max: 30_000 } as const;
+
 const count = z.number().check(z.int(), z.gte(0), z.lte(0xffff));
 const poseId = z.number().check(z.int(), z.gte(1));
 export const poseRefSchema = z.union([z.enum(POSE_VERBS), poseId]);
