@@ -63,6 +63,7 @@ test.describe('of a humanoid', () => {
     dashboard,
     page,
   }) => {
+    await dashboard.slider(3).press('ArrowRight');
     await dashboard.capture.click();
     await page.getByRole('radio', { name: 'Body' }).check();
     await page.getByRole('switch', { name: 'Arrange' }).check();
