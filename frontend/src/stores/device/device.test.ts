@@ -1,6 +1,7 @@
 import { describe, expect, test, vi } from 'vitest';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
+import { LinkError, type LinkErrorCode } from '#shared/session/linkError.ts';
 import { createRig } from '#shared/session/rig.ts';
 import type { SessionEvents } from '#shared/session/state.ts';
 import { words } from '../../words/words.ts';
@@ -41,6 +42,52 @@ async function createDesk(listening: (events: SessionEvents) => unknown = () => 
   }
   return { ...rig, robots, device, state, targets, told, draw };
 }
+
+describe('what came too late', () => {
+  const late = words.errorSentence('expired');
+
+  async function lateDesk() {
+    let events: SessionEvents | undefined;
+    const desk = await createDesk((heard) => (events = heard));
+    const refuse = (code: LinkErrorCode): void => events?.problem(new LinkError(code, ''));
+    return { ...desk, refuse, again: () => desk.device.move([{ servo: 1, position: 1600 }], 500) };
+  }
+
+  test('is told until it was asked for again and went well for a while', async () => {
+    const { refuse, again, told, draw } = await lateDesk();
+    refuse('expired');
+    await draw(20_000);
+    expect(told()).toEqual([late]);
+    again();
+    await draw(2900);
+    expect(told()).toEqual([late]);
+    await draw(200);
+    expect(told()).toEqual([]);
+  });
+
+  test('stays where it happens again meanwhile', async () => {
+    const { refuse, again, told, draw } = await lateDesk();
+    for (let time = 0; time < 5; time += 1) {
+      refuse('expired');
+      again();
+      await draw(1000);
+    }
+    refuse('overslept');
+    await draw(5000);
+    expect(told()).toEqual([late, words.errorSentence('overslept')]);
+    again();
+    await draw(3100);
+    expect(told()).toEqual([]);
+  });
+
+  test('takes no other message away', async () => {
+    const { refuse, again, told, draw } = await lateDesk();
+    refuse('noAnswer');
+    again();
+    await draw(5000);
+    expect(told()).toEqual([words.errorSentence('noAnswer')]);
+  });
+});
 
 describe('a device with a session', () => {
   test('shows what was asked for at once and never the value before it again', async () => {

@@ -15,6 +15,7 @@ import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { SlotGroup, Transport } from '#shared/session/transport.ts';
 import { words } from '../../words/words.ts';
+import { createLateNews } from './lateNews.ts';
 import { createLimitGate } from './limitGate.ts';
 import { moveDurationMs, type Pace } from './moveTime.ts';
 import { createMovingWatch } from './movingWatch.ts';
@@ -125,6 +126,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   const traffic = createTrafficLog();
   const book = createTargetBook(clock);
   const watch = createMovingWatch(clock, isUnderWay);
+  const lateNews = createLateNews(clock, notices);
   let session: Session | null = null;
   let unsubscribe = (): void => undefined;
   let paused = false;
@@ -211,7 +213,12 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
 
   function noteProblem(error: unknown): void {
     forgetWishes();
+    tellError(error);
+  }
+
+  function tellError(error: unknown): void {
     notices.tellError(error);
+    lateNews.told(error);
   }
 
   /** False where it was refused; then the person was told why. */
@@ -220,6 +227,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     try {
       session.move(onBoard(robot(), targets), moveDurationMs(pace, targets, session.state.family, motion));
       book.wish(targets);
+      lateNews.asked();
       return true;
     } catch (error) {
       notices.tellError(error);
@@ -234,9 +242,12 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   function attempt(work: (session: Session) => Promise<unknown>, settled: Settled = () => undefined): void {
     if (session === null) return settled(false);
     work(session).then(
-      (isDone) => settled(isDone !== false),
+      (isDone) => {
+        lateNews.asked();
+        settled(isDone !== false);
+      },
       (error: unknown) => {
-        notices.tellError(error);
+        tellError(error);
         settled(false);
       },
     );
