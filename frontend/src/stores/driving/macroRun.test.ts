@@ -53,6 +53,18 @@ describe('a button', () => {
     expect(positions()).toEqual([1800, 1200]);
   });
 
+  test('waits until the last of several first moves has ended: they begin one after another', async () => {
+    const { macroRun, greet, step, clock, moves } = await deskWith(
+      { kind: 'pose', pose: 'home', durationMs: 100 },
+      GO(1),
+    );
+    macroRun.start(greet);
+    await clock.advance(2700);
+    expect([step(), moves().length]).toEqual([0, 6]);
+    await clock.advance(100);
+    expect([step(), moves().length]).toEqual([1, 7]);
+  });
+
   test('goes on behind a slot once the board says that the group has ended', async () => {
     const { macroRun, greet, positions, step, clock, device, ofKind } = await deskWith(RUN, GO(2));
     device.download([

@@ -5,6 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Macro, MacroStep } from '#shared/actions/macros/macro.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { FIRST_MOVE_STAGGER_MS } from '#shared/session/timings.ts';
 import { words } from '../../words/words.ts';
 import type { Device } from '../device/device.ts';
 import { limitRefusal } from '../device/limits.ts';
@@ -70,10 +71,14 @@ export function createMacroRun({ device, poses, robots, notices, clock }: MacroR
     }
   }
 
-  /** A first move is slow, whatever was asked for (safety.md section 2). */
+  /** First moves are slow, whatever was asked for, and begin one after another (safety.md section 2). */
   function reachedAfterMs(targets: readonly ServoTarget[], durationMs: number): number {
-    const isFirst = targets.some(({ servo }) => device.motion(servo).estimated === null);
-    return isFirst ? Math.max(durationMs, GENTLE_MOVE_MS) : durationMs;
+    const unknown = targets
+      .map(({ servo }) => servo)
+      .filter((servo) => device.motion(servo).estimated === null);
+    const starting = new Set([...device.store.getState().snapshot.waitingToStart, ...unknown]);
+    if (unknown.length === 0) return durationMs;
+    return Math.max(durationMs, GENTLE_MOVE_MS) + (starting.size - 1) * FIRST_MOVE_STAGGER_MS;
   }
 
   function runSlot(slot: number, times: number, next: () => void): void {
