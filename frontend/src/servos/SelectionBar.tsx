@@ -5,7 +5,9 @@ import { isHeld, select, toggled, TOGETHER, type ServoView } from '../stores/ser
 import { editServoView, useRobot, useServoView, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
+import { Select } from '../ui/Select.tsx';
 import { Choice } from '../ui/Toggle.tsx';
+import { useLayout } from '../ui/useLayout.ts';
 import { words } from '../words/words.ts';
 import { useHand } from './useHand.ts';
 import styles from './SelectionBar.module.css';
@@ -65,13 +67,21 @@ function Selected({ selected }: SelectedProps) {
   const isLocked = useServoView((view) => selected.every((servo) => isHeld(view, servo)));
   const edit = (change: (view: ServoView) => ServoView): void => editServoView(stores, change);
   const isGang = selected.length > 1;
+  const isPhone = useLayout() === 'phone';
+  // All in one line, so that no row below moves.
+  const Ways = isPhone ? Select : Choice;
+  const clear = (): void => edit((view) => select(view, []));
   return (
     <div className={styles.line}>
-      <Button tone="quiet" onPress={() => edit((view) => select(view, []))}>
-        {isGang ? words.servoPanel.unbind : words.servoPanel.clear}
-      </Button>
+      {isGang && isPhone ? (
+        <IconButton icon="close" label={words.servoPanel.unbind} onPress={clear} />
+      ) : (
+        <Button tone="quiet" onPress={clear}>
+          {isGang ? words.servoPanel.unbind : words.servoPanel.clear}
+        </Button>
+      )}
       {isGang ? (
-        <Choice
+        <Ways
           label={words.servoPanel.together}
           value={together}
           options={TOGETHER.map((value) => ({ value, label: words.servoPanel.ways[value] }))}
