@@ -16,8 +16,9 @@ OVERHEARD = (
 
 
 def greeting(entrance: Entrance, urls: list[str], *, invites: bool, only_here: str = "") -> str:
-    """`urls` are the addresses for others, the best first; `invites` one more owner where there is one; `only_here` is what
-    to listen on instead, where nobody else reaches it.
+    """`urls` are the addresses for others, the best first; `invites` one more owner where there is one.
+
+    `only_here` is what to listen on instead, where nobody else reaches it.
     """
     lines = [reached_at(urls, only_here)]
     if invites or needs_owner(entrance):

@@ -1,6 +1,7 @@
 // What can be done with the selected frames, in words. Always in its place, so that nothing jumps when a frame is selected.
 
 import { indexOfFrame, setTargets } from '#shared/actions/group/groupEdits.ts';
+import { freeOf, stayingOf } from '../stores/locks.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useDevice, useDocument, useSnapshot, useStores, useTimeline, useView } from '../stores/stores.ts';
@@ -20,7 +21,7 @@ const INSERTS = [
 
 export function FrameTools() {
   const stores = useStores();
-  const { device, document } = stores;
+  const { device, document, notices } = stores;
   const id = useView((state) => state.selectedFrame) ?? -1;
   const index = useDocument(({ present }) => indexOfFrame(present, id));
   const unit = useDocument(({ present }) => present.unit);
@@ -35,7 +36,11 @@ export function FrameTools() {
 
   const load = (): void => {
     const frame = document.store.getState().present.frames[index];
-    if (frame !== undefined) device.move(frame.targets, Math.max(frame.durationMs, GENTLE_MOVE_MS));
+    if (frame === undefined) return;
+    const free = freeOf(stores, frame.targets);
+    const staying = stayingOf(stores, frame.targets);
+    if (free.length > 0) device.move(free, Math.max(frame.durationMs, GENTLE_MOVE_MS));
+    if (staying !== null) notices.tell('info', staying);
   };
   const update = (): void =>
     document.edit(

@@ -6,10 +6,9 @@ import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Device, DeviceState } from '../stores/device/device.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
-import { isHeld } from '../stores/servoView.ts';
+import { freeOf } from '../stores/locks.ts';
 import {
   guessesNow,
-  servoViewOf,
   useDevice,
   useIsGuessing,
   useRobot,
@@ -54,10 +53,11 @@ function GoToGuess() {
 }
 
 function guessed(stores: Stores): readonly ServoTarget[] {
-  const view = servoViewOf(stores);
-  return Object.entries(guessesNow(stores))
-    .map(([servo, position]) => ({ servo: Number(servo), position }))
-    .filter(({ servo }) => !isHeld(view, servo));
+  const guesses = Object.entries(guessesNow(stores));
+  return freeOf(
+    stores,
+    guesses.map(([servo, position]) => ({ servo: Number(servo), position })),
+  );
 }
 
 function unknownOf({ servos }: Robot, known: DeviceState['known'], device: Device): readonly number[] {

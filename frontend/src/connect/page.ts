@@ -71,8 +71,8 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   const battery = createBattery(device, robots);
   const mappings = createMappings(storage, notices, robots);
   const readPads = () => (isSecureContext ? navigator.getGamepads() : []);
-  const poses = createPoses({ storage, notices, robots, device });
-  const pad = createPad({ device, robots, poses, mappings, notices, clock: pageClock, readPads });
+  const poses = createPoses({ storage, notices, robots, device, view });
+  const pad = createPad({ device, robots, view, poses, mappings, notices, clock: pageClock, readPads });
   const macros = createMacros(storage, notices, robots);
   const macroRun = createMacroRun({ device, poses, robots, notices, clock: pageClock });
   const written = createDocument(storage, notices, pageClock);
@@ -104,7 +104,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   const stores = {
     ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
     ...{ compiled, slots, playhead, playback, keeping },
-    blend: createBlend(device),
+    blend: createBlend({ device, robots, view }),
     people: createPeople({ api: peopleApi, me, notices, now: pageClock.now }),
     tape: createMotionTape({ device, robots, clock: pageClock }),
     macros,

@@ -46,10 +46,10 @@ export function specimenStores(
   const notices = createNotices(pageClock);
   const robots = createRobots(NO_STORAGE, notices);
   const device = createDevice({ family, clock: pageClock, notices, robots });
-  const poses = createPoses({ storage: NO_STORAGE, notices, robots, device });
+  const view = createView({ browser: NO_STORAGE, tab: NO_STORAGE });
+  const poses = createPoses({ storage: NO_STORAGE, notices, robots, device, view });
   const mappings = createMappings(NO_STORAGE, notices, robots);
   const document = createDocument(NO_STORAGE, notices, pageClock);
-  const view = createView({ browser: NO_STORAGE, tab: NO_STORAGE });
   const compiled = createCompiled({ document, device, robots, clock: pageClock });
   const slots = createSlots({ device, robots, notices, storage: NO_STORAGE, today: Date.now });
   const timeline = createTimeline();
@@ -69,9 +69,9 @@ export function specimenStores(
   });
   return {
     ...{ notices, robots, device, poses, mappings, document, view, library, keeping },
-    pad: createPad({ device, robots, poses, mappings, notices, clock: pageClock, readPads }),
+    pad: createPad({ device, robots, view, poses, mappings, notices, clock: pageClock, readPads }),
     battery: createBattery(device, robots),
-    blend: createBlend(device),
+    blend: createBlend({ device, robots, view }),
     timeline,
     people: createPeople({ api: NOBODY, me: null, notices, now: pageClock.now }),
     ...{ compiled, slots, playhead },

@@ -4,7 +4,16 @@ import { servoBoundBy } from '#shared/actions/mapping/mapping.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
-import { useDevice, useMapping, usePad, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
+import { isHeld } from '../stores/servoView.ts';
+import {
+  useDevice,
+  useMapping,
+  usePad,
+  useRobot,
+  useServoView,
+  useSnapshot,
+  useStores,
+} from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
@@ -66,11 +75,14 @@ function FirstMoves() {
   const { bindings } = useMapping();
   const known = useDevice((state) => state.known);
   const isDriving = usePad((state) => state.isDriving);
+  const view = useServoView((one) => one);
   const reported = useSnapshot((snapshot) => snapshot.reported);
   // A servo that was let go of is unknown again, whatever was read before.
   const isTold = (servo: number): boolean => servo in reported && device.motion(servo).estimated !== null;
   const bound = new Set(bindings.map(servoBoundBy));
-  const unknown = servos.filter(({ servo }) => bound.has(servo) && !known.includes(servo) && !isTold(servo));
+  const unknown = servos.filter(
+    ({ servo }) => bound.has(servo) && !known.includes(servo) && !isTold(servo) && !isHeld(view, servo),
+  );
   if (!isDriving || unknown.length === 0) return null;
   const goHome = (): void => {
     const homes = unknown.map(({ servo, home }) => ({ servo, position: home }));

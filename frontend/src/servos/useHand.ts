@@ -4,6 +4,7 @@ import { servoOf } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Pace } from '../stores/device/moveTime.ts';
 import { guessNow, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
+import { freeOf } from '../stores/locks.ts';
 import { isHeld, type ServoView, type Stand } from '../stores/servoView.ts';
 import { moveGang, weightOf, type Gang, type GangMove, type Member } from './gang.ts';
 
@@ -73,9 +74,8 @@ function homes({ robots }: Stores, servos: readonly number[]): readonly ServoTar
 }
 
 function send(stores: Stores, how: 'move' | 'drag', targets: readonly ServoTarget[], pace: Pace): void {
-  const view = servoViewOf(stores);
   const { moveTime } = stores.view.getState();
-  const free = targets.filter(({ servo }) => !isHeld(view, servo));
+  const free = freeOf(stores, targets);
   if (free.length > 0)
     stores.device[how](free, typeof pace === 'number' || moveTime === 'hand' ? pace : moveTime);
 }

@@ -48,7 +48,7 @@ export async function createDesk(
   });
   device.attach(rig.session, way);
   const tape = createMotionTape({ device, robots, clock });
-  const poses = createPoses({ storage, notices, robots, device });
+  const poses = createPoses({ storage, notices, robots, device, view });
   const macros = createMacros(storage, notices, robots);
   const macroRun = createMacroRun({ device, poses, robots, notices, clock });
   /** Time passes with the page being drawn, as it is in a browser. */
@@ -62,7 +62,7 @@ export async function createDesk(
   return {
     ...{ document, shelf, view, timeline, compiled, slots, playhead, playback, tape, draw },
     ...{ ...rig, texts, notices, robots, device, poses, macros, macroRun },
-    blend: createBlend(device),
+    blend: createBlend({ device, robots, view }),
     book: () => poses.book.store.getState().present,
     told: () => notices.store.getState().map(({ text }) => text),
     moves: () => rig.ofKind('move'),

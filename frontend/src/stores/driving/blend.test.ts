@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { createDesk } from '../deskUnderTest.ts';
+import { INITIAL_SERVO_VIEW } from '../servoView.ts';
 
 const at = (position: number) => [{ servo: 1, position }];
 
@@ -27,6 +28,15 @@ describe('a blend of two poses', () => {
     await draw(200);
     expect(told()).toEqual([]);
     expect(moves().at(-1)).toMatchObject({ targets: at(1300) });
+  });
+
+  test('leaves locked servos where they are', async () => {
+    const { blend, draw, moves, view, robots } = await createDesk();
+    view.setState({ servos: { ...INITIAL_SERVO_VIEW, robotId: robots.current().id, locked: [1] } });
+    blend.show([...at(1200), { servo: 2, position: 1300 }]);
+    blend.follow(true);
+    await draw(1700);
+    expect(moves()).toMatchObject([{ targets: [{ servo: 2, position: 1300 }] }]);
   });
 
   test('moves nothing any more once it is put away', async () => {

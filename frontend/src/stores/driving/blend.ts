@@ -4,6 +4,7 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Device } from '../device/device.ts';
+import { freeOf, type Locking } from '../locks.ts';
 import { createFollower } from './follower.ts';
 
 export interface BlendState {
@@ -20,14 +21,14 @@ export interface Blend {
   follow(isLive: boolean): void;
 }
 
-export function createBlend(device: Device): Blend {
+export function createBlend({ device, ...locking }: Locking & { readonly device: Device }): Blend {
   const store = createStore<BlendState>(() => ({ targets: null, isLive: false }));
   const follower = createFollower(device);
 
   function follow(): void {
     const { targets, isLive } = store.getState();
     if (isLive && targets !== null)
-      follower.follow(new Map(targets.map(({ servo, position }) => [servo, position])));
+      follower.follow(new Map(freeOf(locking, targets).map(({ servo, position }) => [servo, position])));
   }
 
   device.store.subscribe(({ snapshot: { latch, link } }) => {

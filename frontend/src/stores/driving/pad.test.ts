@@ -9,6 +9,8 @@ import { createMappings } from '../robots/mappings.ts';
 import { createNotices } from '../notices.ts';
 import { createPad, type Gamepadlike } from './pad.ts';
 import { createPoses } from './poses.ts';
+import { createView } from '../view.ts';
+import { INITIAL_SERVO_VIEW } from '../servoView.ts';
 import { createRobots, freshRobot } from '../robots/robots.ts';
 
 const STANDARD = { id: 'Pad', index: 0, mapping: 'standard' };
@@ -26,8 +28,9 @@ async function createDesk({ drives = true } = {}) {
   const mappings = createMappings(storage, notices, robots);
   let plugged: Gamepadlike | null = null;
   const readPads = () => [null, plugged];
-  const poses = createPoses({ storage, notices, robots, device });
-  const pad = createPad({ device, robots, poses, mappings, notices, clock: rig.clock, readPads });
+  const view = createView({ browser: storage, tab: storage });
+  const poses = createPoses({ storage, notices, robots, device, view });
+  const pad = createPad({ device, robots, view, poses, mappings, notices, clock: rig.clock, readPads });
   device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
   const told = () => notices.store.getState().map((notice) => notice.text);
   const moves = () => rig.ofKind('move').length;
@@ -59,7 +62,7 @@ async function createDesk({ drives = true } = {}) {
   if (drives) pad.drive(true);
   await frames(50);
   return {
-    ...{ ...rig, pad, device, robots, poses, mappings, told, moves, movesIn, target, hold, frames },
+    ...{ ...rig, pad, device, robots, view, poses, mappings, told, moves, movesIn, target, hold, frames },
     isDriving: () => pad.store.getState().isDriving,
     unplug: () => (plugged = null),
   };
@@ -130,6 +133,22 @@ describe('driving by pad', () => {
     robots.add(() => 'add', freshRobot('hand', 'doc'));
     expect(isDriving()).toBe(false);
   });
+});
+
+test('a locked servo stays, is told once a push, and turns once it is free', async () => {
+  const { hold, frames, view, robots, told, target, movesIn } = await createDesk();
+  const lock = (...locked: readonly number[]): void =>
+    view.setState({ servos: { ...INITIAL_SERVO_VIEW, robotId: robots.current().id, locked } });
+  lock(1);
+  hold(RIGHT_TRIGGER);
+  expect(await movesIn(500)).toBe(0);
+  expect(told()).toEqual([words.servoPanel.staying(['Gripper'])]);
+  lock();
+  hold();
+  await frames(50);
+  hold(RIGHT_TRIGGER);
+  await frames(300);
+  expect(target()).toBeGreaterThan(1600);
 });
 
 describe('a button for a pose', () => {

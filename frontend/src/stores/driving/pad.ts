@@ -8,6 +8,8 @@ import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/actions/m
 import { AT_REST, step, type Begun, type DriveState } from '#shared/actions/mapping/mappingStep.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { words } from '../../words/words.ts';
+import { isLocked } from '../locks.ts';
+import type { View } from '../view.ts';
 import type { Device } from '../device/device.ts';
 import type { Notices } from '../notices.ts';
 import { motionHindrance } from '../device/readiness.ts';
@@ -51,6 +53,7 @@ export interface Pad {
 export interface PadOptions {
   readonly device: Device;
   readonly robots: RobotStore;
+  readonly view: View;
   readonly poses: Pick<Poses, 'apply'>;
   readonly mappings: Pick<Undoable<Mapping>, 'store'>;
   readonly notices: Notices;
@@ -65,15 +68,15 @@ const LONGEST_STEP_MS = 100;
 const RESERVED_KEY = /^(Escape|Tab|CapsLock|(Shift|Control|Alt|Meta)(Left|Right))$/;
 
 export function createPad(options: PadOptions): Pad {
-  const { device, robots, poses, mappings, notices, clock, readPads } = options;
+  const { device, robots, view, poses, mappings, notices, clock, readPads } = options;
   const store = createStore<PadState>(() => ({ isDriving: false, pad: null }));
   const keys = new Set<string>();
   let inputs = NO_INPUTS;
   let driven: DriveState = AT_REST;
   let lastMs = clock.now();
   let isAway = false;
-  /** Servos that were meant and stayed, because nobody knows where they are. */
-  let unknown: readonly number[] = [];
+  /** Servos that were meant and stayed, of which the person was told. */
+  let staying: readonly number[] = [];
   let stopWasPressed = false;
   let seenPad: string | null = null;
   let listener: { readonly before: Inputs; heard(input: Input): void } | null = null;
@@ -83,7 +86,7 @@ export function createPad(options: PadOptions): Pad {
 
   function rest(): void {
     driven = AT_REST;
-    unknown = [];
+    staying = [];
     keys.clear();
   }
 
@@ -153,13 +156,19 @@ export function createPad(options: PadOptions): Pad {
 
   function obey(dtMs: number): void {
     const { robot } = robots.current();
-    const moment = step({ mapping: mapping(), robot, place: device.motion }, inputs, dtMs, driven);
+    const driving = {
+      ...{ mapping: mapping(), robot, place: device.motion },
+      isLocked: (servo: number) => isLocked({ view, robots }, servo),
+    };
+    const moment = step(driving, inputs, dtMs, driven);
     driven = moment.state;
     if (moment.moves.length > 0) device.move(moment.moves, 'hand');
     moment.begun.forEach(begin);
-    const asked = moment.unknown.filter((servo) => !unknown.includes(servo));
-    for (const servo of asked) notices.tell('warning', words.pad.unknown(servoOf(robot, servo)?.name ?? ''));
-    unknown = moment.unknown;
+    const newly = (servos: readonly number[]): readonly string[] =>
+      servos.filter((servo) => !staying.includes(servo)).map((servo) => servoOf(robot, servo)?.name ?? '');
+    for (const name of newly(moment.unknown)) notices.tell('warning', words.pad.unknown(name));
+    for (const name of newly(moment.locked)) notices.tell('info', words.servoPanel.staying([name]));
+    staying = [...moment.unknown, ...moment.locked];
   }
 
   device.store.subscribe(() => {

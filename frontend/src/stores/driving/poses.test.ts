@@ -3,6 +3,7 @@ import { addPose, markRest } from '#shared/actions/poses/poseEdits.ts';
 import { undoLabel } from '#shared/actions/history.ts';
 import { poseBookToText } from '#shared/actions/poses/poseText.ts';
 import { createDesk } from '../deskUnderTest.ts';
+import { INITIAL_SERVO_VIEW } from '../servoView.ts';
 
 const at = (position: number) => ({ unit: 'us' as const, targets: [{ servo: 1, position }] });
 
@@ -59,6 +60,24 @@ describe('going to a pose', () => {
     await desk.clock.advance(200);
     expect(lastMove(desk)?.targets).toEqual([{ servo: 1, position: 1200 }]);
     expect(desk.book().applied).toBe('rest');
+  });
+
+  test('locked servos stay where they are, and the person is told', async () => {
+    const desk = await deskWithPoses();
+    const lock = (...locked: readonly number[]): void =>
+      desk.view.setState({
+        servos: { ...INITIAL_SERVO_VIEW, robotId: desk.robots.current().id, locked },
+      });
+    lock(1, 3);
+    expect(desk.poses.apply('home', 1500)).toBe(true);
+    await desk.clock.advance(3000);
+    expect(desk.moves().flatMap(({ targets }) => targets.map(({ servo }) => servo))).toEqual([2, 4, 5, 6]);
+    expect(desk.told()).toEqual(['Gripper and Wrist are locked and stay.']);
+    expect(desk.poses.apply(1, 1500)).toBe(false);
+    expect(desk.told()).toContain('Gripper is locked and stays.');
+    expect(desk.book().applied).toBe('home');
+    lock();
+    expect(desk.poses.apply(1, 1500)).toBe(true);
   });
 
   test('a limit, a latch or a missing pose refuses it, and nothing is noted', async () => {

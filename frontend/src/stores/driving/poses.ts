@@ -9,11 +9,13 @@ import { poseBookFromText, poseBookToText } from '#shared/actions/poses/poseText
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { words } from '../../words/words.ts';
 import type { Device } from '../device/device.ts';
-import type { TextStorage } from '../textStorage.ts';
 import { limitRefusal } from '../device/limits.ts';
+import { freeOf, stayingOf } from '../locks.ts';
 import type { Notices } from '../notices.ts';
 import { createRobotDocument, type RobotDocument } from '../robots/robotDocument.ts';
 import type { RobotStore } from '../robots/robots.ts';
+import type { TextStorage } from '../textStorage.ts';
+import type { View } from '../view.ts';
 
 export interface Poses {
   readonly book: RobotDocument<PoseBook>;
@@ -32,9 +34,10 @@ export interface PosesOptions {
   readonly notices: Notices;
   readonly robots: RobotStore;
   readonly device: Device;
+  readonly view: View;
 }
 
-export function createPoses({ storage, notices, robots, device }: PosesOptions): Poses {
+export function createPoses({ storage, notices, robots, device, view }: PosesOptions): Poses {
   const book = createRobotDocument({
     ...{
       storage,
@@ -56,6 +59,15 @@ export function createPoses({ storage, notices, robots, device }: PosesOptions):
     return pose?.unit === device.store.getState().family.unit ? pose.targets : null;
   }
 
+  /** Locked servos stay, and the person is told. */
+  function go(targets: readonly ServoTarget[], durationMs: number): boolean {
+    const staying = stayingOf({ view, robots }, targets);
+    const free = freeOf({ view, robots }, targets);
+    const isGone = free.length > 0 && device.move(free, durationMs);
+    if (staying !== null && (isGone || free.length === 0)) notices.tell('info', staying);
+    return isGone;
+  }
+
   /** Of the poses together, because none is taken without the others. */
   function flawOfImport({ poses }: PoseBook): string | null {
     return limitRefusal(
@@ -70,7 +82,7 @@ export function createPoses({ storage, notices, robots, device }: PosesOptions):
     apply(ref, durationMs) {
       const targets = targetsOf(ref);
       if (targets === null) notices.tell('warning', words.poses.gone);
-      if (targets === null || !device.move(targets, durationMs)) return false;
+      if (targets === null || !go(targets, durationMs)) return false;
       const name = poseName(present(), ref);
       book.edit(
         () => words.poses.steps.apply(name),
@@ -79,7 +91,7 @@ export function createPoses({ storage, notices, robots, device }: PosesOptions):
       return true;
     },
     applyBlend(label, targets, durationMs) {
-      if (device.move(targets, durationMs)) book.edit(label, (before) => markApplied(before, null));
+      if (go(targets, durationMs)) book.edit(label, (before) => markApplied(before, null));
     },
     importText(text) {
       const read = poseBookFromText(text);

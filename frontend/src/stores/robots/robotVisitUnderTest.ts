@@ -10,6 +10,7 @@ import { createMacros } from './macros.ts';
 import { createMappings } from './mappings.ts';
 import { createNotices } from '../notices.ts';
 import { createPoses } from '../driving/poses.ts';
+import { createView } from '../view.ts';
 import { createRobotKeeping } from './robotKeeping.ts';
 import { createRobots } from './robots.ts';
 
@@ -28,7 +29,13 @@ export function createVisit(
   const notices = createNotices(clock);
   const robots = createRobots(storage, notices);
   const device = createDevice({ family: FAMILIES.doc, clock, notices, robots });
-  const { book } = createPoses({ storage, notices, robots, device });
+  const { book } = createPoses({
+    storage,
+    notices,
+    robots,
+    device,
+    view: createView({ browser: storage, tab: storage }),
+  });
   const keeping = createRobotKeeping({
     ...{ keeper: Promise.resolve(keeper), mayWrite, robots, poses: book, storage, notices, clock },
     buttons: createMacros(storage, notices, robots),

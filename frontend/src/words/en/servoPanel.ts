@@ -1,6 +1,6 @@
 // Words of the servo panel: units, selecting, moving together, locking and hiding, the picture.
 
-import { counted, formatCount, formatList, formatWhole } from './numbers.ts';
+import { counted, formatCount, formatList, formatNames, formatWhole } from './numbers.ts';
 import { MOST_NAMED } from '../numbers.ts';
 
 /** Named while they fit into a line. */
@@ -46,6 +46,12 @@ export const servoPanelWords = {
   unlock: 'Unlock',
   unlockAll: 'Unlock all',
   solo: 'Lock all others',
+  /** Of everything that is driven by hand from this screen. */
+  staying: (names: readonly string[]): string => {
+    if (names.length === 1) return `${formatNames(names)} is locked and stays.`;
+    const who = names.length > MOST_NAMED ? counted(names.length, 'servo') : formatNames(names);
+    return `${who} are locked and stay.`;
+  },
   hide: 'Hide',
   showHidden: (count: number): string => `Show ${formatCount(count)} hidden`,
   fold: (group: string, count: number): string => `${group}, ${counted(count, 'servo')}`,

@@ -1,7 +1,7 @@
 // Words of the servo panel, in Chinese.
 
 import type { servoPanelWords as english } from '../en/servoPanel.ts';
-import { formatCount, formatList, formatWhole } from './numbers.ts';
+import { formatCount, formatList, formatNames, formatWhole } from './numbers.ts';
 import { MOST_NAMED } from '../numbers.ts';
 
 const servosText = (servos: readonly number[]): string =>
@@ -40,6 +40,8 @@ export const servoPanelWords: typeof english = {
   unlock: '解锁',
   unlockAll: '全部解锁',
   solo: '锁定其他',
+  staying: (names) =>
+    `${names.length > MOST_NAMED ? `${formatCount(names.length)}个舵机` : formatNames(names)}已锁定，不会动。`,
   hide: '隐藏',
   showHidden: (count) => `显示隐藏的${formatCount(count)}个`,
   fold: (group, count) => `${group}，${formatCount(count)}个舵机`,

@@ -12,6 +12,7 @@ const STICK: Input = { kind: 'axis', index: 0, side: 'whole' };
 const BUTTON: Input = { kind: 'button', index: 0 };
 /** A servo that nobody moved, whose position the board told. */
 const TOLD = 4;
+const LOCKED = 5;
 const KEY: Input = { kind: 'key', code: 'KeyQ' };
 
 const rate = (unitsPerS: number, servo = 1): Action => ({ kind: 'rate', servo, unitsPerS });
@@ -33,6 +34,7 @@ function drive(
       const target = targets[servo] ?? null;
       return { target, estimated: target === null || lagsAt === undefined ? target : lagsAt };
     },
+    isLocked: (servo) => servo === LOCKED,
   };
   let state = AT_REST;
   function frame(inputs: Inputs, dtMs = 20): Moment {
@@ -175,6 +177,17 @@ describe('what moves nothing', () => {
     const { rest, frame } = drive([[STICK, rate(500, 3)]]);
     expect(rest().unknown).toEqual([]);
     expect(frame(pushed(1))).toMatchObject({ moves: [], unknown: [3] });
+  });
+
+  test('a locked servo stays, known or not, and is told', () => {
+    const { rest, frame, targets } = drive([
+      [STICK, rate(500, LOCKED)],
+      [BUTTON, { kind: 'position', servo: LOCKED, isReversed: false }],
+    ]);
+    expect(rest().locked).toEqual([]);
+    expect(frame(pushed(1))).toMatchObject({ moves: [], unknown: [], locked: [LOCKED] });
+    targets[LOCKED] = 1500;
+    expect(frame({ ...pushed(1), buttons: [1] })).toMatchObject({ moves: [], locked: [LOCKED] });
   });
 
   test('a servo on its slow first move is left alone, and not asked for again', () => {

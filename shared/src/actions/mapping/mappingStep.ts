@@ -23,6 +23,8 @@ export interface Driven {
   readonly mapping: Mapping;
   readonly robot: Robot;
   place(servo: number): ServoPlace;
+  /** It stays, whatever is pushed. */
+  isLocked(servo: number): boolean;
 }
 
 interface Held {
@@ -48,12 +50,21 @@ export interface Moment {
   readonly begun: readonly Begun[];
   /** Servos that were meant, whose position nobody knows. They stay where they are: they need a slow first move. */
   readonly unknown: readonly number[];
+  /** Servos that were meant and are locked. */
+  readonly locked: readonly number[];
 }
 
 /** How far a position input must be moved before it takes its servo along. */
 const PICK_UP = 0.1;
 /** A target runs ahead of its servo by no more than this share of the range, so that letting go is stopping. */
 const LEAD = 0.125;
+
+type Staying = 'unknown' | 'locked';
+
+interface Wish<To> {
+  readonly servo: number;
+  readonly wish: To;
+}
 
 export function step(driven: Driven, inputs: Inputs, dtMs: number, before: DriveState): Moment {
   const { bindings } = driven.mapping;
@@ -62,7 +73,8 @@ export function step(driven: Driven, inputs: Inputs, dtMs: number, before: Drive
     const wish = wishFor(servo, driven, held, before, dtMs);
     return wish === null ? [] : [{ servo: servo.servo, wish }];
   });
-  const meant = wishes.filter(({ wish }) => wish !== 'unknown') as readonly { servo: number; wish: number }[];
+  const meant = wishes.filter((one): one is Wish<number> => typeof one.wish === 'number');
+  const staying = (why: Staying) => wishes.flatMap(({ servo, wish }) => (wish === why ? [servo] : []));
   return {
     state: { held, aims: Object.fromEntries(meant.map(({ servo, wish }) => [servo, wish])) },
     moves: meant
@@ -71,7 +83,8 @@ export function step(driven: Driven, inputs: Inputs, dtMs: number, before: Drive
     begun: bindings.flatMap(({ action }, at) =>
       isBegun(action) && held[at]?.value === 1 && before.held[at]?.value === 0 ? [action] : [],
     ),
-    unknown: wishes.flatMap(({ servo, wish }) => (wish === 'unknown' ? [servo] : [])),
+    unknown: staying('unknown'),
+    locked: staying('locked'),
   };
 }
 
@@ -109,11 +122,12 @@ function wishFor(
   held: readonly Held[],
   before: DriveState,
   dtMs: number,
-): number | 'unknown' | null {
+): number | Staying | null {
   const { target, estimated } = driven.place(servo.servo);
   const turned = unitsPerS(servo, driven.mapping, held);
   const placed = placedAt(servo, driven.mapping, held, before);
   if (turned === 0 && placed === null) return null;
+  if (driven.isLocked(servo.servo)) return 'locked';
   const known = target ?? estimated;
   if (known === null) return 'unknown';
   // On its slow first move: it is followed once it has arrived.
