@@ -12,7 +12,8 @@ from starlette.types import ASGIApp
 from servodeck.access import access
 from servodeck.callers import Caller, Role
 from servodeck.driving.control import Control
-from servodeck.protocol.packets import FAMILIES, encode
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Move, ServoTarget
 from servodeck.run.app import create_app
 from tests.fake_port import FakePort, FakePorts

@@ -5,7 +5,8 @@ from typing import Any
 
 from servodeck.access.guard import body_bytes
 from servodeck.cli.download_cli import portions_of
-from servodeck.protocol.packets import FAMILIES, encode
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Download, Frame, ServoTarget
 from tests.amount import TIMES
 from tests.fake_port import FakePorts

@@ -17,7 +17,8 @@ from servodeck.errors import (
     OutOfRangeError,
     SlotBrokenError,
 )
-from servodeck.protocol.packets import FAMILIES, encode
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Run, ServoTarget
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort, FakePorts

@@ -16,7 +16,8 @@ from servodeck.board.tally import Progress, Tally
 from servodeck.driving.control import Control
 from servodeck.errors import CancelledError, NotDrivingError, NotFoundError, OutOfRangeError
 from servodeck.port.wire import wire_s
-from servodeck.protocol.packets import FAMILIES, encode
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Run, ServoTarget
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePorts

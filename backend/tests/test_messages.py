@@ -22,7 +22,7 @@ from servodeck.messages import (
     gateway_message,
     json_schema,
 )
-from servodeck.protocol.packets import FAMILIES
+from servodeck.protocol.families import FAMILIES
 from servodeck.told import PortState
 from servodeck.web.clients import hear, intake_of
 from tests.amount import TIMES

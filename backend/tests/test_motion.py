@@ -4,7 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from servodeck.board.motion import END_GRACE_S, Motion
-from servodeck.protocol.packets import FAMILIES, encode, parse_command
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import encode, parse_command
 from servodeck.protocol.values import (
     Command,
     Move,

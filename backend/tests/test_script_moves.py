@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from servodeck.board.motion import Motion
 from servodeck.driving.script_moves import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S, MovePlan, plan_move
 from servodeck.errors import NotSupportedError, OutOfRangeError
-from servodeck.protocol.families import Family
-from servodeck.protocol.packets import FAMILIES, encode, parse_command
+from servodeck.protocol.families import FAMILIES, Family
+from servodeck.protocol.packets import encode, parse_command
 from servodeck.protocol.values import Move, ServoTarget
 
 BUS = FAMILIES["bus-ctrl"]

@@ -11,7 +11,7 @@ from typing import Literal, Protocol
 from servodeck.access.credentials import digest_of, make_id, make_secret, matches
 from servodeck.callers import Caller, Role
 from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError
-from servodeck.port.background import in_thread
+from servodeck.threads import in_thread
 
 Kind = Literal["device", "token", "stopLink"]
 MAX_DEVICES = 500
@@ -100,7 +100,7 @@ class Devices:
 
     async def keep(self) -> None:
         """Writes what holds now. Raises a StorageError; in memory it holds all the same."""
-        await in_thread(lambda: self._shelf.save(lambda: self.all), undo=lambda _: None)
+        await in_thread(lambda: self._shelf.save(lambda: self.all))
 
     def close(self) -> None:
         """Writes when each was last seen. Raises a StorageError."""

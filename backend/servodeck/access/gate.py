@@ -18,7 +18,9 @@ from servodeck.errors import (
     WrongTypeError,
 )
 from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.protocol.packets import FAMILIES, PacketError, check_command, encode
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.limits import PacketError
+from servodeck.protocol.packets import check_command, encode
 from servodeck.protocol.values import Download
 
 MOVE, RUN, STOP, ERASE, DOWNLOAD = 3, 6, 7, 8, 25

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import inf
 
 from servodeck.port.wire import Left
-from servodeck.protocol.packets import Report
+from servodeck.protocol.values import Report
 
 Answer = asyncio.Future[Report]
 

@@ -25,9 +25,9 @@ from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
 from servodeck.port.silence import Silence
 from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, Wire
-from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.protocol.families import Family
-from servodeck.protocol.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command, parse_report
+from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
+from servodeck.protocol.families import FAMILIES, Family
+from servodeck.protocol.packets import parse_command, parse_report
 from servodeck.protocol.values import RunAccepted, RunStarted
 from servodeck.told import JobState, PortState, StoredGroup
 

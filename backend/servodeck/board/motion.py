@@ -12,11 +12,12 @@ from math import inf
 
 from servodeck.board.hearing import Hearing
 from servodeck.protocol.families import Family
-from servodeck.protocol.packets import Report, encode, parse_command
+from servodeck.protocol.packets import encode, parse_command
 from servodeck.protocol.values import (
     Command,
     Move,
     Release,
+    Report,
     Run,
     RunFinished,
     RunStarted,

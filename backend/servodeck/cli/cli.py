@@ -24,8 +24,8 @@ from servodeck.cli.options_cli import Token, TokenFile, asked, remote_at
 from servodeck.cli.remote_cli import COMMANDS
 from servodeck.port.ports import PortInfo, list_devices
 from servodeck.protocol.describe import describe
-from servodeck.protocol.families import UNKNOWN
-from servodeck.protocol.packets import FAMILIES, PacketError
+from servodeck.protocol.families import FAMILIES, UNKNOWN
+from servodeck.protocol.limits import PacketError
 from servodeck.run.logs import Form, Level
 
 if TYPE_CHECKING:

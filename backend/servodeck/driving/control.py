@@ -46,8 +46,9 @@ from servodeck.messages import (
 )
 from servodeck.port.link import Ports
 from servodeck.port.wire import Job, Left, Owner, always
-from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.protocol.packets import FAMILIES, DecoderEvent, PacketEvent, parse_command
+from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import parse_command
 from servodeck.told import JobState
 
 SOMEBODY = Cause("person")

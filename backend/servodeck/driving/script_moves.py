@@ -11,7 +11,8 @@ from servodeck.access.gate import refusal_of
 from servodeck.board.motion import Motion
 from servodeck.errors import OutOfRangeError
 from servodeck.protocol.families import Family
-from servodeck.protocol.packets import PacketError, encode
+from servodeck.protocol.limits import PacketError
+from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Command, Move, ServoTarget
 
 # As in shared/src/session/timings.ts: slow, and far enough apart to see which one moves.

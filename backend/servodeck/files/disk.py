@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from servodeck.port.background import in_thread
+from servodeck.threads import in_thread
 
 WAIT_S = 0.5
 GOOD_FOR_S = 5.0
@@ -37,7 +37,7 @@ class Disk:
 
     async def _ask(self) -> None:
         try:
-            self._answer = await in_thread(lambda: problem_of(self._folder), undo=lambda _: None)
+            self._answer = await in_thread(lambda: problem_of(self._folder))
             self._answered_at = self._now()
         finally:
             self._asking = None

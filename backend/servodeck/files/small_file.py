@@ -8,7 +8,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-from servodeck.port.background import in_thread
+from servodeck.threads import in_thread
 
 DISK_WAIT_S = 1.0
 log = logging.getLogger("servodeck.files")
@@ -41,7 +41,7 @@ class FileBehind:
             return
         with suppress(TimeoutError):
             async with asyncio.timeout(DISK_WAIT_S):
-                await in_thread(self._write, undo=lambda _: None)
+                await in_thread(self._write)
 
     def keep_soon(self) -> None:
         task = asyncio.create_task(self.kept())

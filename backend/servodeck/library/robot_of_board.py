@@ -11,7 +11,7 @@ from servodeck.board.robot import RobotLimits
 from servodeck.errors import ConflictError, GatewayError, NotFoundError, OutOfRangeError
 from servodeck.files.remembered import Remembered
 from servodeck.library.library_messages import RobotFacts
-from servodeck.port.background import in_thread
+from servodeck.threads import in_thread
 from servodeck.told import RobotTold
 
 ReadFacts = Callable[[str], tuple[RobotFacts, int]]
@@ -71,7 +71,7 @@ class RobotOfBoard:
         """
         board = self._board
         self._judge(document, instead_of)
-        facts, revision = await in_thread(lambda: self._read(document), undo=lambda _: None)
+        facts, revision = await in_thread(lambda: self._read(document))
         if board is None or self._board != board:
             raise ConflictError("No such board is connected any more.")
         self._judge(document, instead_of)
@@ -102,7 +102,7 @@ class RobotOfBoard:
 
     async def _recall(self, document: str) -> None:
         try:
-            facts, revision = await in_thread(lambda: self._read(document), undo=lambda _: None)
+            facts, revision = await in_thread(lambda: self._read(document))
         except GatewayError as error:
             log.warning("robot not read", extra={"facts": {"detail": error.detail}})
             self._forget()

@@ -6,7 +6,7 @@ Knows the decoder and time, no client and no port.
 import asyncio
 from collections.abc import Callable
 
-from servodeck.protocol.packets import Decoder, DecoderEvent
+from servodeck.protocol.decoder import Decoder, DecoderEvent
 
 # Just above the latency timer of USB adapters (16 ms): bytes of one packet come no further apart, usually.
 PAUSE_S = 0.020

@@ -8,16 +8,10 @@ both codecs to each other.
 from typing import Literal, assert_never
 
 from servodeck.protocol.decoder import (
-    COMMAND_SHAPES,
     HEADER,
-    REPORT_SHAPES,
-    Decoder,
-    DecoderEvent,
-    NoiseEvent,
     Packet,
-    PacketEvent,
 )
-from servodeck.protocol.families import FAMILIES, CommandKind, Family, Range
+from servodeck.protocol.families import CommandKind, Family, Range
 from servodeck.protocol.limits import PacketError, check, check_range
 from servodeck.protocol.values import (
     AllPositions,
@@ -50,26 +44,6 @@ from servodeck.protocol.values import (
     UnknownReport,
     Version,
 )
-
-__all__ = [
-    "COMMAND_SHAPES",
-    "FAMILIES",
-    "REPORT_SHAPES",
-    "Battery",
-    "Command",
-    "Decoder",
-    "DecoderEvent",
-    "Family",
-    "NoiseEvent",
-    "Packet",
-    "PacketError",
-    "PacketEvent",
-    "Report",
-    "check_command",
-    "encode",
-    "parse_command",
-    "parse_report",
-]
 
 COMMAND_NUMBER: dict[CommandKind, int] = {
     "move": 3,

@@ -22,9 +22,9 @@ from servodeck.driving.scripts import Scripts
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
 from servodeck.files.disk import Disk
 from servodeck.library.library import Library
-from servodeck.port.background import in_thread
 from servodeck.run.pulse import Pulse
 from servodeck.run.supervisor import sign_of_life
+from servodeck.threads import in_thread
 from servodeck.web.api import api, socket
 from servodeck.web.docs import STYLE, docs_page
 from servodeck.web.events_api import events_api
@@ -103,7 +103,7 @@ def add_docs(app: FastAPI) -> None:
         """Making it takes so long that a stop would have to wait."""
         async with describing:
             if app.openapi_schema is None:
-                return await in_thread(lambda: described(app), undo=lambda _: None)
+                return await in_thread(lambda: described(app))
             return app.openapi_schema
 
     @app.get("/docs", include_in_schema=False, dependencies=[ANYBODY])

@@ -19,10 +19,10 @@ from servodeck.driving.control import Control
 from servodeck.driving.driving import name_of
 from servodeck.driving.latch import Cause
 from servodeck.errors import ErrorCode, OutOfRangeError
-from servodeck.port.background import in_thread
 from servodeck.port.ports import is_same_port, lasting_of, list_devices
-from servodeck.protocol.packets import FAMILIES
+from servodeck.protocol.families import FAMILIES
 from servodeck.schema import Message
+from servodeck.threads import in_thread
 from servodeck.told import PortState, UnattendedRun
 from servodeck.web.clients import serve_client
 
@@ -167,7 +167,7 @@ async def use_port(choice: PortChoice, control: Controlled) -> PortState:
     if choice.board is not None and choice.board not in FAMILIES:
         raise OutOfRangeError(f"board is {choice.board}, allowed: {', '.join(FAMILIES)}")
     await control.use_port(choice.device, choice.board)
-    found = await in_thread(list_devices, undo=lambda _: None)
+    found = await in_thread(list_devices)
     control.remembered.remember_port(lasting_of(choice.device, found))
     await control.remembered.kept()
     return control.board.port

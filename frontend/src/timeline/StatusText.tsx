@@ -4,6 +4,7 @@ import { useServoView, useStores, editServoView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
 import { isTouch } from '../ui/touch.ts';
+import { READABLE_MS } from '../ui/useFollow.ts';
 import { words } from '../words/words.ts';
 import { cellName } from './cellName.ts';
 import type { StatusName } from './gesture.ts';
@@ -28,7 +29,7 @@ export function StatusText({ status, tells }: Said) {
   return (
     <div className={styles.line}>
       <p className={styles.text}>
-        {tells !== undefined && <LiveText className={styles.dragged} text={tells} eachMs={READ_EACH_MS} />}
+        {tells !== undefined && <LiveText className={styles.dragged} text={tells} eachMs={READABLE_MS} />}
         {textOf(desk, status)}
       </p>
       {hidden > 0 && (
@@ -39,9 +40,6 @@ export function StatusText({ status, tells }: Said) {
     </div>
   );
 }
-
-/** No number is read faster. */
-const READ_EACH_MS = 50;
 
 /** Fingers hold no keys down. */
 const ABOUT_KEYS = new Set<StatusName>(['move', 'box', 'scrub', 'duration', 'stretch', 'stretchBack']);

@@ -5,11 +5,11 @@ import threading
 
 import pytest
 
-from servodeck.port.background import in_thread
+from servodeck.threads import in_thread
 
 
 async def test_what_it_gives_is_heard() -> None:
-    assert await in_thread(lambda: 5, undo=lambda _: None) == 5
+    assert await in_thread(lambda: 5) == 5
 
 
 @pytest.mark.parametrize("error", [RuntimeError("a bug"), OSError("a disk"), KeyError("a key")])
@@ -19,7 +19,7 @@ async def test_whatever_it_raises_is_heard(error: Exception) -> None:
 
     async with asyncio.timeout(5):
         with pytest.raises(type(error)):
-            await in_thread(fail, undo=lambda _: None)
+            await in_thread(fail)
 
 
 async def test_what_nobody_waits_for_any_more_is_undone() -> None:

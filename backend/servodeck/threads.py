@@ -1,0 +1,37 @@
+"""What blocks, done off the event loop: in threads that never keep the process from ending."""
+
+import asyncio
+import contextlib
+import threading
+from collections.abc import Callable
+from functools import partial
+from typing import TypeVar
+
+T = TypeVar("T")
+
+
+async def in_thread(action: Callable[[], T], undo: Callable[[T], None] | None = None) -> T:
+    """What `action`, which may block, gives or raises; `undo` gets the result where nobody waits any more."""
+    loop = asyncio.get_running_loop()
+    outcome: asyncio.Future[T] = loop.create_future()
+
+    def hand_over(result: T) -> None:
+        if not outcome.done():
+            outcome.set_result(result)
+        elif undo is not None:
+            threading.Thread(target=undo, args=(result,), daemon=True).start()
+
+    def refuse(error: Exception) -> None:
+        if not outcome.done():
+            outcome.set_exception(error)
+
+    def run() -> None:
+        try:
+            told = partial(hand_over, action())
+        except Exception as error:  # noqa: BLE001 (whatever it is, somebody waits for it)
+            told = partial(refuse, error)
+        with contextlib.suppress(RuntimeError):  # the loop is closed: the process is ending
+            loop.call_soon_threadsafe(told)
+
+    threading.Thread(target=run, daemon=True).start()
+    return await outcome
