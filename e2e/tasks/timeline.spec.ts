@@ -59,6 +59,9 @@ test('clicks, boxes, rows and frames select, and the strip is in step', async ({
   await expect(timeline.selected).toHaveCount(6);
   await dashboard.button('Select the keys of Gripper').click();
   await expect(timeline.selected).toHaveCount(3);
+  await page.keyboard.press('Delete');
+  await expect(timeline.key('Gripper, 0.50 s, 1000 µs, linear')).toBeHidden();
+  await dashboard.button('Undo: delete 3 keys').click();
   await dashboard.frame(2).click();
   await expect(timeline.key('All servos, frame 2, 1.00 s, 2 keys')).toHaveAttribute('aria-selected', 'true');
   await timeline.click('All servos, frame 3, 1.50 s, 2 keys');
@@ -165,6 +168,8 @@ test('everything is done by keyboard alone', async ({ page, dashboard }) => {
   await page.getByRole('menuitem', { name: 'hold', exact: true }).press('Enter');
   await expect(timeline.key('Elbow, 1.50 s, 1500 µs, hold')).toBeVisible();
   await expect(dashboard.button('Undo: hold')).toBeEnabled();
+  await expect(page.getByRole('menu')).toBeHidden();
+  await expect(timeline.grid).toBeFocused();
 
   await keyboard.press('Shift+F10');
   await page.getByRole('menuitem', { name: 'Set marker' }).press('Enter');

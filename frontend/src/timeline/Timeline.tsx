@@ -163,6 +163,8 @@ export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
               onCut={(event) => put(event, cut(deskOf(stores)))}
               onPaste={take}
               onPointerDown={takeFocus}
+              // It is one stop: what is pressed in it takes no focus, and keys go on meaning the timeline.
+              onMouseDown={(event) => event.preventDefault()}
             >
               <div ref={lanes} className={styles.lanes} role="presentation">
                 <canvas ref={canvas} className={styles.canvas} aria-hidden="true" />

@@ -35,7 +35,7 @@ const CHANGES: readonly VerbName[] = [
   'insertTime',
   'note',
 ];
-const LOOKS: readonly VerbName[] = ['selectAll', 'fitSelection', 'range', 'nextMarker'];
+const LOOKS: readonly VerbName[] = ['selectAll', 'selectRow', 'fitSelection', 'range', 'nextMarker'];
 
 export function TimelineMenu({ menu, onClose }: { readonly menu: OpenMenu | null; onClose(): void }) {
   return (
@@ -64,17 +64,17 @@ function KeysMenu({ onClose }: { onClose(): void }) {
           <Separator className={styles.separator ?? ''} />
         </MenuSection>
       ))}
-      <Submenu label={words.timeline.change} isDisabled={false}>
+      <Submenu label={words.timeline.change} isDisabled={false} onClose={onClose}>
         {items(CHANGES)}
       </Submenu>
-      <Submenu label={words.timeline.easing} isDisabled={desk.state.selected.size === 0}>
+      <Submenu label={words.timeline.easing} isDisabled={desk.state.selected.size === 0} onClose={onClose}>
         {EASINGS.map((easing) => (
           <MenuItem key={easing} className={styles.item ?? ''} onAction={() => ease(deskOf(stores), easing)}>
             {words.timeline.easings[easing]}
           </MenuItem>
         ))}
       </Submenu>
-      <Submenu label={words.timeline.colour} isDisabled={desk.state.selected.size === 0}>
+      <Submenu label={words.timeline.colour} isDisabled={desk.state.selected.size === 0} onClose={onClose}>
         {[...COLOURS, null].map((one) => (
           <MenuItem
             key={one ?? ''}
@@ -85,12 +85,12 @@ function KeysMenu({ onClose }: { onClose(): void }) {
           </MenuItem>
         ))}
       </Submenu>
-      <Submenu label={words.timeline.rows.menu} isDisabled={false}>
+      <Submenu label={words.timeline.rows.menu} isDisabled={false} onClose={onClose}>
         {rowItems(desk.servoView, rowOf(desk, desk.state.cursor.row), (change) =>
           editServoView(stores, change),
         )}
       </Submenu>
-      <Submenu label={words.timeline.look} isDisabled={false}>
+      <Submenu label={words.timeline.look} isDisabled={false} onClose={onClose}>
         {items(LOOKS)}
       </Submenu>
     </Menu>
@@ -118,6 +118,8 @@ function Submenu(props: {
   readonly label: string;
   readonly isDisabled: boolean;
   readonly children: readonly React.ReactElement[];
+  /** Something was chosen: the menu it belongs to closes too. */
+  onClose(): void;
 }) {
   return (
     <SubmenuTrigger>
@@ -128,7 +130,7 @@ function Submenu(props: {
         </span>
       </MenuItem>
       <Popover className={styles.popover ?? ''}>
-        <Menu className={styles.menu ?? ''} aria-label={props.label}>
+        <Menu className={styles.menu ?? ''} aria-label={props.label} onClose={props.onClose}>
           {props.children}
         </Menu>
       </Popover>

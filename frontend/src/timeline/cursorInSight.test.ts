@@ -25,6 +25,14 @@ test('rows scroll below the cursor, no farther than they have to', async () => {
   expect(scroller.scrollTop).toBe(0);
 });
 
+test('keys on a row that is hidden are no longer selected', async () => {
+  const { stores, select, selected } = await createTimelineDesk();
+  keepCursorInSight({ scrollTop: 0, clientHeight: TWO_ROWS }, stores, () => SIZES);
+  select([1, 1], [2, 2]);
+  editServoView(stores, (view) => ({ ...view, hidden: [1] }));
+  expect(selected()).toEqual([[2, 2]]);
+});
+
 test('where its row is hidden the cursor is in the row of all servos, on the same frame', async () => {
   const { stores, key } = await createTimelineDesk();
   keepCursorInSight({ scrollTop: 0, clientHeight: TWO_ROWS }, stores, () => SIZES);

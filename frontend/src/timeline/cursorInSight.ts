@@ -1,8 +1,10 @@
 // Rows scroll so far that the cursor's is in sight, whoever moved it there; a row that is gone leaves the cursor to that of all
-// servos, on the same frame. Knows elements and stores, no edit.
+// servos, on the same frame, and keys on hidden rows are no longer selected. Knows elements and stores, no edit.
 
+import { keySet } from '../stores/timeline/keySet.ts';
 import { ALL_ROW } from '../stores/timeline/timeline.ts';
-import { deskOf, rowOf, type DeskStores } from './desk.ts';
+import { deskOf, rowOf, select, type DeskStores } from './desk.ts';
+import { selectedKeys } from './groupTimes.ts';
 import { placedRows, scrolledTo } from './rows.ts';
 import { topOfRows, type Sizes } from './sizes.ts';
 
@@ -22,7 +24,10 @@ export function keepCursorInSight(
 
   function leaveGoneRow(): void {
     const desk = deskOf(stores);
-    const { cursor } = desk.state;
+    const { cursor, selected } = desk.state;
+    const shown = new Set(rowOf(desk, ALL_ROW)?.servos);
+    const left = selectedKeys(desk.times, selected).filter(({ servo }) => shown.has(servo));
+    if (left.length < selected.size) select(stores, keySet(left));
     if (rowOf(desk, cursor.row) === undefined)
       stores.timeline.setState({ cursor: { ...cursor, row: ALL_ROW } });
   }

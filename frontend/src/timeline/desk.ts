@@ -11,7 +11,7 @@ import { keySet, type KeySet } from '../stores/timeline/keySet.ts';
 import { isHeld, type ServoView } from '../stores/servoView.ts';
 import { setChanged } from '../stores/setChanged.ts';
 import { servoViewOf, type Stores } from '../stores/stores.ts';
-import type { Cursor, TimelineState } from '../stores/timeline/timeline.ts';
+import { ALL_ROW, type Cursor, type TimelineState } from '../stores/timeline/timeline.ts';
 import type { PositionsIn } from '../stores/view.ts';
 import { words } from '../words/words.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
@@ -77,14 +77,27 @@ export interface Change {
   edit(group: ActionGroup): ActionGroup;
   /** What is selected afterwards; left out: what is still there of the selection. */
   selects?(times: GroupTimes): readonly KeyRef[];
-  /** Where the cursor is then; left out: where it was. */
+  /** Where the cursor is then; left out: on what is selected, or where it was. */
   cursor?(times: GroupTimes): Cursor;
 }
 
 export function apply({ stores }: Pick<Desk, 'stores'>, { label, edit, selects, cursor }: Change): void {
   stores.document.edit(label, edit);
   const times = timesOf(stores.document.store.getState().present);
-  select(stores, selects === undefined ? null : keySet(selects(times)), cursor?.(times));
+  const wanted = selects?.(times) ?? null;
+  const next = cursor?.(times) ?? (wanted === null ? undefined : cursorAmong(deskOf(stores), wanted));
+  select(stores, wanted === null ? null : keySet(wanted), next);
+}
+
+/** In its own row where one of the keys is. */
+function cursorAmong({ rows, state: { cursor } }: Desk, refs: readonly KeyRef[]): Cursor {
+  const own = rowOf({ rows }, cursor.row)?.servos ?? [];
+  const among = refs.filter(({ servo }) => own.includes(servo));
+  if (among.some(({ frameId }) => frameId === cursor.frameId)) return cursor;
+  const [ref] = among.length > 0 ? among : refs;
+  if (ref === undefined) return cursor;
+  const row = rows.find(({ kind, servos }) => kind === 'servo' && servos.includes(ref.servo));
+  return { row: among.length > 0 ? cursor.row : (row?.id ?? ALL_ROW), frameId: ref.frameId };
 }
 
 /** The very set that was there, where it says the same: whoever shows it has nothing to do. */

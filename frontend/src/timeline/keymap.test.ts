@@ -3,6 +3,7 @@ import { emptyGroup } from '#shared/actions/group/group.ts';
 import { startHistory } from '#shared/actions/history.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { editServoView } from '../stores/stores.ts';
+import { ALL_ROW } from '../stores/timeline/timeline.ts';
 import { chordOf, chordText } from './keymap.ts';
 import { keepInStep } from './inStep.ts';
 import { VERBS } from './verbs.ts';
@@ -153,6 +154,34 @@ describe('keys', () => {
     expect(at()).toBe(0);
   });
 
+  test('zoom where the cursor is, else at the playhead: neither leaves the sight', async () => {
+    const { key, stores } = await createTimelineDesk();
+    const xOfMs = (atMs: number): number => {
+      const { fromMs, msPerPx } = stores.timeline.getState().time;
+      return (atMs - fromMs) / msPerPx;
+    };
+    stores.timeline.setState({ playheadMs: 700, time: { fromMs: 0, msPerPx: 2 } });
+    key('+');
+    expect(xOfMs(700)).toBeCloseTo(350);
+    stores.timeline.setState({ cursor: { row: 'servo 1', frameId: 2 } });
+    key('+');
+    expect(xOfMs(1000)).toBeLessThan(800);
+    expect(xOfMs(700)).toBeLessThan(350);
+  });
+
+  test('Shift+A selects the keys of the cursor’s row, and once more none of them', async () => {
+    const { key, selected } = await createTimelineDesk();
+    key('ArrowDown');
+    key('A', { shiftKey: true });
+    expect(selected()).toEqual([
+      [1, 1],
+      [2, 1],
+      [3, 1],
+    ]);
+    key('A', { shiftKey: true });
+    expect(selected()).toEqual([]);
+  });
+
   test('look a page on and back, and leave the playhead where it is', async () => {
     const { key, stores } = await createTimelineDesk();
     key('PageDown');
@@ -172,7 +201,7 @@ describe('keys', () => {
       [1500, 1400],
     ]);
     expect(keys(2)).toHaveLength(3);
-    expect(selected()).toHaveLength(1);
+    expect(selected()).toEqual([[stores.timeline.getState().cursor.frameId, 1]]);
   });
 
   test('copy, paste and duplicate; each is one step', async () => {
@@ -181,6 +210,7 @@ describe('keys', () => {
     VERBS.copy.run(desk());
     stores.timeline.setState({ playheadMs: 2000 });
     VERBS.paste.run(desk());
+    expect(stores.timeline.getState().cursor).toMatchObject({ row: ALL_ROW, frameId: 4 });
     expect(keys(3)).toEqual([
       [500, 2000],
       [1500, 1000],

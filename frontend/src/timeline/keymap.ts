@@ -3,7 +3,7 @@
 
 import { mayBeNegative } from './asks.ts';
 import type { Desk } from './desk.ts';
-import { page, selectRow, stepTick, stepTo, toggleAtCursor, walk } from './looking.ts';
+import { page, stepTick, stepTo, toggleAtCursor, walk } from './looking.ts';
 import { nudgeMarker } from './markers.ts';
 import { nudge } from './moving.ts';
 import { VERBS, mayRun } from './verbs.ts';
@@ -63,7 +63,6 @@ const ACTIONS: ReadonlyMap<string, KeyAction> = new Map<string, KeyAction>([
     [`Ctrl+Shift+${one.key}`, (desk) => walk(desk, one.direction, 'adds')],
   ]),
   ['Ctrl+ ', toggleAtCursor],
-  ['Shift+ ', (desk) => selectRow(desk, desk.state.cursor.row, 'toggles')],
   ...DIGITS.map((digit): [string, KeyAction] => [digit, typing(digit)]),
   ['Home', (desk) => stepTo(desk, 0)],
   ['End', (desk) => stepTo(desk, desk.times.lengthMs)],

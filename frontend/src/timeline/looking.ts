@@ -7,7 +7,7 @@ import { setChanged } from '../stores/setChanged.ts';
 import { rowOf, select, type Desk } from './desk.ts';
 import { allKeys, endOfFrame, keysOfFrame, selectedKeys, spanOf } from './groupTimes.ts';
 import { words } from '../words/words.ts';
-import { fitted, panned, showing, zoomedAt, type Span } from '../stores/timeline/timeScale.ts';
+import { fitted, panned, showing, xOf, zoomedAt, type Span } from '../stores/timeline/timeScale.ts';
 import { beside, settled, walked, type Cell, type Direction, type Grid } from './walk.ts';
 
 const ZOOM = 1.5;
@@ -127,8 +127,13 @@ export function setTime({ stores }: Pick<Desk, 'stores'>, change: (time: TimeVie
   stores.timeline.setState(({ time }) => ({ time: change(time), followsGroup: false }));
 }
 
+/** Where the eye is: at the cursor's key, else at the playhead; where neither is in sight, in the middle. */
 export function zoom(desk: Desk, step: 1 | -1): void {
-  setTime(desk, (time) => zoomedAt(time, desk.state.widthPx / 2, ZOOM ** -step));
+  const { widthPx, playheadMs, cursor, time } = desk.state;
+  const seen = [endOfFrame(desk.times, cursor.frameId), playheadMs]
+    .map((atMs) => (atMs === null ? NaN : xOf(time, atMs)))
+    .find((x) => x >= 0 && x <= widthPx);
+  setTime(desk, (before) => zoomedAt(before, seen ?? widthPx / 2, ZOOM ** -step));
 }
 
 export function fitAll({ stores, times }: Pick<Desk, 'stores' | 'times'>): void {

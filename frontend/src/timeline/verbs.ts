@@ -17,7 +17,7 @@ import {
   turnRound,
 } from './changes.ts';
 import type { Desk } from './desk.ts';
-import { fitAll, fitSelection, goToFrame, goToKey, toggleRange, zoom } from './looking.ts';
+import { fitAll, fitSelection, goToFrame, goToKey, selectRow, toggleRange, zoom } from './looking.ts';
 import { goToMarker } from './markers.ts';
 
 export type VerbName = keyof Words['timeline']['verbs'];
@@ -54,6 +54,12 @@ export const VERBS: Readonly<Record<VerbName, Verb>> = {
   marker: { icon: 'marker', needs: 'nothing', keys: 'm', run: asking('marker') },
   nextMarker: { icon: 'marker', needs: 'nothing', keys: 'Shift+m', run: goToMarker },
   selectAll: { icon: 'frames', needs: 'nothing', keys: 'Ctrl+a', run: selectAll },
+  selectRow: {
+    icon: 'frames',
+    needs: 'nothing',
+    keys: 'Shift+a',
+    run: (desk) => selectRow(desk, desk.state.cursor.row, 'toggles'),
+  },
   selectNone: { icon: 'close', needs: 'nothing', keys: 'Ctrl+Shift+a', run: selectNone },
   zoomIn: { icon: 'plus', needs: 'nothing', keys: '+', run: (desk) => zoom(desk, 1) },
   zoomOut: { icon: 'minus', needs: 'nothing', keys: '-', run: (desk) => zoom(desk, -1) },

@@ -96,6 +96,7 @@ export const timelineWords = {
     note: 'Note on frame',
     marker: 'Set marker',
     selectAll: 'Select all keys',
+    selectRow: 'Select the row',
     selectNone: 'Select nothing',
     zoomIn: 'Zoom in',
     zoomOut: 'Zoom out',

@@ -69,6 +69,7 @@ export const timelineWords: typeof english = {
     note: '帧的备注',
     marker: '设标记',
     selectAll: '选中所有关键帧',
+    selectRow: '选中这一行',
     selectNone: '取消选中',
     zoomIn: '放大',
     zoomOut: '缩小',
