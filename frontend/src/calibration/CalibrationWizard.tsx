@@ -1,7 +1,7 @@
 // Calibration, a servo at a time: its ends and its home are crept to, its direction is looked at, its mirror filled in, its trim
 // worked out. It can be left anywhere: what was set is in the robot, and the place is kept.
 
-import { useId } from 'react';
+import { useEffect, useId, useRef } from 'react';
 import type { CalibrationStep } from '#shared/actions/robot/robotCalibration.ts';
 import { isDone, isServoDone, stepsOf } from '#shared/actions/robot/robotCalibration.ts';
 import { RobotHead } from '../robots/RobotHead.tsx';
@@ -78,8 +78,13 @@ interface At {
 }
 
 function Servos({ at: { robot, servo, progress, go } }: At) {
+  const list = useRef<HTMLOListElement>(null);
+  // On a phone they stand in a row that is longer than the window.
+  useEffect(() => {
+    list.current?.querySelector('[aria-current]')?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+  }, [servo.servo]);
   return (
-    <ol className={styles.servos} aria-label={words.calibration.servos}>
+    <ol ref={list} className={styles.servos} aria-label={words.calibration.servos}>
       {robot.servos.map((one) => {
         const steps = stepsOf(one);
         const doneCount = steps.filter((step) => isDone(progress, one.servo, step)).length;
