@@ -190,6 +190,21 @@ test('what a hand did becomes keys: recorded on purpose, or taken after the fact
   await poll(() => dashboard.frames.count()).toBeGreaterThan(count);
 });
 
+test('the button that begins is the one that ends, and keeps the focus', async ({ dashboard, page }) => {
+  await captureGroup(dashboard, [1000, 1400], 400);
+  for (const [begins, ends] of [
+    [/^Play\b/, 'Pause'],
+    ['Preview', 'Pause'],
+    ['Record', /^End recording/],
+  ] as const) {
+    await dashboard.button(begins).focus();
+    await page.keyboard.press('Enter');
+    await expect(dashboard.button(ends)).toBeFocused();
+    await page.keyboard.press('Enter');
+    await expect(dashboard.button(begins)).toBeFocused();
+  }
+});
+
 test('the robot follows the playhead step by step, and no longer after STOP', async ({ dashboard, page }) => {
   await captureGroup(dashboard, [1000, 1400], 400);
   const follows = page.getByRole('switch', { name: 'Robot follows' });

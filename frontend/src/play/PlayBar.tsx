@@ -42,7 +42,8 @@ export function PlayBar() {
         isDisabled={!mayStep}
         onPress={() => playback.step(-1)}
       />
-      {phase === null ? <BeginButtons /> : <EndButton phase={phase} />}
+      {phase !== 'previewing' && <PlayButton phase={phase} />}
+      {(phase === null || phase === 'previewing') && <PreviewButton isOn={phase !== null} />}
       <IconButton
         icon="later"
         label={words.play.forth}
@@ -65,26 +66,43 @@ function useMayPlay(): boolean {
   return isFree && isSameUnit && !isEmpty;
 }
 
-function BeginButtons() {
+/** One button to begin and to end: the focus is still on it when what it began is to end. */
+function PlayButton({ phase }: { readonly phase: Exclude<PlaybackPhase, 'previewing'> | null }) {
   const { playback } = useStores();
   const mayPlay = useMayPlay();
+  return (
+    <Button
+      icon={phase === null ? 'play' : END_ICONS[phase]}
+      isDisabled={phase === null && !mayPlay}
+      onPress={() => (phase === null ? playback.play() : playback.pause())}
+    >
+      {phase === null ? <PlayWords /> : endWord(phase)}
+    </Button>
+  );
+}
+
+const END_ICONS = { leading: 'pause', playing: 'pause', storing: 'end', running: 'end' } as const;
+
+function endWord(phase: keyof typeof END_ICONS): string {
+  const { pause, cancel, end } = words.play;
+  return { leading: pause, playing: pause, storing: cancel, running: end }[phase];
+}
+
+/** As the one to play. */
+function PreviewButton({ isOn }: { readonly isOn: boolean }) {
+  const { playback } = useStores();
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   return (
-    <>
-      <Button icon="play" isDisabled={!mayPlay} onPress={() => playback.play()}>
-        <PlayWords />
+    <span className={styles.preview}>
+      <Button
+        icon={isOn ? 'pause' : 'eye'}
+        hint={words.play.previewHint}
+        isDisabled={isEmpty}
+        onPress={() => playback.togglePreview()}
+      >
+        {isOn ? words.play.pause : words.play.preview}
       </Button>
-      <span className={styles.preview}>
-        <Button
-          icon="eye"
-          hint={words.play.previewHint}
-          isDisabled={isEmpty}
-          onPress={() => playback.togglePreview()}
-        >
-          {words.play.preview}
-        </Button>
-      </span>
-    </>
+    </span>
   );
 }
 
@@ -107,25 +125,6 @@ function PlayWords() {
         }}
       />
     </span>
-  );
-}
-
-function EndButton({ phase }: { readonly phase: PlaybackPhase }) {
-  const { playback } = useStores();
-  const label = {
-    leading: words.play.pause,
-    playing: words.play.pause,
-    storing: words.play.cancel,
-    running: words.play.end,
-    previewing: words.play.pause,
-  }[phase];
-  return (
-    <Button
-      icon={phase === 'running' || phase === 'storing' ? 'end' : 'pause'}
-      onPress={() => playback.pause()}
-    >
-      {label}
-    </Button>
   );
 }
 

@@ -23,16 +23,13 @@ export function RecordControl() {
   useKey(TAKE_KEY, () => take(tape.takeThat()));
   return (
     <>
-      {sinceMs === null ? (
-        <Record onPress={() => tape.record()} />
-      ) : (
-        <End
-          sinceMs={sinceMs}
-          onPress={() =>
-            take(tape.end(armed(servoViewOf({ ...stores, robots }).selected, robots.current().robot)))
-          }
-        />
-      )}
+      <Record
+        sinceMs={sinceMs}
+        onBegin={() => tape.record()}
+        onEnd={() =>
+          take(tape.end(armed(servoViewOf({ ...stores, robots }).selected, robots.current().robot)))
+        }
+      />
       <Button tone="quiet" hint={words.record.takeThatHint} onPress={() => take(tape.takeThat())}>
         {words.record.takeThat}
       </Button>
@@ -49,26 +46,35 @@ function armed(
   return selected.length > 0 ? selected : servos.map(({ servo }) => servo);
 }
 
-function Record({ onPress }: { onPress(): void }) {
+interface RecordProps {
+  /** null: nothing is recorded. */
+  readonly sinceMs: number | null;
+  onBegin(): void;
+  onEnd(): void;
+}
+
+/** One button for both: the focus is still on it when the recording is to end. */
+function Record({ sinceMs, onBegin, onEnd }: RecordProps) {
   const robot = useRobot();
   const selected = useServoView((view) => view.selected);
   const count = armed(selected, robot).length;
   const hint = `${words.record.recordHint}. ${words.record.armed(count, robot.servos.length)}`;
   return (
-    <Button tone="quiet" icon="record" hint={hint} onPress={onPress}>
-      {words.record.record}
+    <Button
+      tone={sinceMs === null ? 'quiet' : 'plain'}
+      icon={sinceMs === null ? 'record' : 'end'}
+      hint={hint}
+      onPress={sinceMs === null ? onBegin : onEnd}
+    >
+      {sinceMs === null ? words.record.record : <EndWords sinceMs={sinceMs} />}
     </Button>
   );
 }
 
-function End({ sinceMs, onPress }: { readonly sinceMs: number; onPress(): void }) {
+function EndWords({ sinceMs }: { readonly sinceMs: number }) {
   const { device } = useStores();
   const nowMs = useNow(device.clock.now, 500);
-  return (
-    <Button icon="end" onPress={onPress}>
-      {words.record.end(Math.max(0, nowMs - sinceMs))}
-    </Button>
-  );
+  return words.record.end(Math.max(0, nowMs - sinceMs));
 }
 
 /** A plain key, anywhere but where one writes. */
