@@ -51,20 +51,12 @@ export function App({ page }: { readonly page: Page }) {
 
 function Dashboard({ page }: { readonly page: Page }) {
   const layout = useLayout();
-  const { device, notices, pad, playback } = useStores();
+  const { notices } = useStores();
   const isKiosk = useView((state) => state.kiosk === 'on');
   const moveHere = (): void => void page.connector.moveHere().catch(notices.tellError);
-  useTheme();
-  useBatteryTab();
-  useUndoKeys(useWritten());
-  useFocusKept();
-  useEachFrame(() => {
-    device.refresh();
-    pad.frame();
-    playback.frame();
-  });
   return (
     <div className={styles.app} data-layout={layout}>
+      <Unseen />
       {!isKiosk && <TopBar onMoveHere={moveHere} />}
       <StopButton />
       {isKiosk ? <Kiosk onMoveHere={moveHere} /> : layout === 'phone' ? <PhoneWork /> : <DeskWork />}
@@ -75,6 +67,21 @@ function Dashboard({ page }: { readonly page: Page }) {
       <PeopleDialog />
     </div>
   );
+}
+
+/** What goes on whatever is shown. On its own: all below whoever listens to something is drawn again when that changes. */
+function Unseen() {
+  const { device, pad, playback } = useStores();
+  useTheme();
+  useBatteryTab();
+  useUndoKeys(useWritten());
+  useFocusKept();
+  useEachFrame(() => {
+    device.refresh();
+    pad.frame();
+    playback.frame();
+  });
+  return null;
 }
 
 /** What the undo keys are about: what is written on now. */

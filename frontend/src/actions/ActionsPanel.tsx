@@ -2,7 +2,7 @@
 // frames first. Edits go to the document alone;
 // the robot moves only by Play and by loading a pose.
 
-import { Fragment } from 'react';
+import { Fragment, useCallback } from 'react';
 import { rename } from '#shared/actions/group/groupEdits.ts';
 import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { BodyPicture } from '../body/Body.tsx';
@@ -35,12 +35,11 @@ export function ActionsPanel() {
     );
   const isPainted = useIsPainted();
   const otherUnit = useDevice((state) => state.family.unit !== unit) && !isEmpty;
-  const timeline = (
-    <Timeline
-      key="timeline"
-      onPlay={(isPreview) => (isPreview ? playback.togglePreview() : playback.toggle())}
-    />
+  const play = useCallback(
+    (isPreview: boolean) => (isPreview ? playback.togglePreview() : playback.toggle()),
+    [playback],
   );
+  const timeline = <Timeline key="timeline" onPlay={play} />;
   const frames = (
     <Fragment key="frames">
       {isEmpty ? <Empty /> : <FrameStrip />}

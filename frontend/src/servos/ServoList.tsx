@@ -1,5 +1,6 @@
 // The servos one below the other, by limb where the robot has limbs. A limb can be folded away and selected as a whole.
 
+import { useMemo } from 'react';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
 import { SharedSheet } from '../body/SharedSheet.tsx';
@@ -17,9 +18,11 @@ const FIT = 6;
 export function ServoList() {
   const { servos } = useRobot();
   const hidden = useServoView((view) => view.hidden);
-  const shown = servos.filter(({ servo }) => !hidden.includes(servo));
-  const limbs = limbsOf(shown);
-  const order = limbs.flatMap((limb) => limb.servos.map(({ servo }) => servo));
+  const limbs = useMemo(
+    () => limbsOf(servos.filter(({ servo }) => !hidden.includes(servo))),
+    [servos, hidden],
+  );
+  const order = useMemo(() => limbs.flatMap((limb) => limb.servos.map(({ servo }) => servo)), [limbs]);
   return (
     <div className={cx(styles.list, servos.length > FIT && styles.scrolling)}>
       <SharedSheet>

@@ -1,6 +1,7 @@
 // The whole group in one line: where its keys are, what of it is in sight, and where the playhead is. Dragged, it shows another
 // part.
 
+import { memo } from 'react';
 import type { PointerEvent } from 'react';
 import { Canvas } from '../body/Canvas.tsx';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
@@ -11,7 +12,7 @@ import { paintFrames, paintPlayhead } from './paintMinimap.ts';
 import { panned, seenSpan } from '../stores/timeline/timeScale.ts';
 import styles from './Minimap.module.css';
 
-export function Minimap({ lanes }: { readonly lanes: string }) {
+export const Minimap = memo(function Minimap({ lanes }: { readonly lanes: string }) {
   const stores = useStores();
   const time = useTimeline((state) => state.time);
   const widthPx = useTimeline((state) => state.widthPx);
@@ -61,4 +62,4 @@ export function Minimap({ lanes }: { readonly lanes: string }) {
       />
     </div>
   );
-}
+});

@@ -1,6 +1,7 @@
 // The line over the lanes where the playhead is. On a canvas of its own: moved as an element it would have the browser sort the
 // layers of the whole page anew in each frame of a scrub.
 
+import { memo } from 'react';
 import { Canvas, type Pen } from '../body/Canvas.tsx';
 import { useStores } from '../stores/stores.ts';
 import { xOf } from '../stores/timeline/timeScale.ts';
@@ -9,7 +10,7 @@ import styles from './Timeline.module.css';
 const LINE_PX = 1.5;
 const HEAD_PX = { width: 10, height: 8 };
 
-export function PlayheadLine() {
+export const PlayheadLine = memo(function PlayheadLine() {
   const { timeline } = useStores();
   const shown = (): readonly [number | null] => {
     const { time, playheadMs, widthPx } = timeline.getState();
@@ -17,7 +18,7 @@ export function PlayheadLine() {
     return [x < 0 || x > widthPx ? null : Math.round(x * 10) / 10];
   };
   return <Canvas className={styles.playhead} shown={shown} paint={paintLine} />;
-}
+});
 
 function paintLine({ ctx, look, size }: Pen, [x]: readonly [number | null]): void {
   if (x === null) return;

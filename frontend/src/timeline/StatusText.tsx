@@ -1,5 +1,6 @@
 // One line that says where what is dragged is by now, what keys and pointer do right now, and what is selected.
 
+import { memo } from 'react';
 import { useServoView, useStores, editServoView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
@@ -22,7 +23,7 @@ export interface Said {
   readonly tells: (() => string) | undefined;
 }
 
-export function StatusText({ status, tells }: Said) {
+export const StatusText = memo(function StatusText({ status, tells }: Said) {
   const desk = useDesk();
   const stores = useStores();
   const hidden = useServoView((view) => view.hidden.length);
@@ -39,7 +40,7 @@ export function StatusText({ status, tells }: Said) {
       )}
     </div>
   );
-}
+});
 
 /** Fingers hold no keys down. */
 const ABOUT_KEYS = new Set<StatusName>(['move', 'box', 'scrub', 'duration', 'stretch', 'stretchBack']);

@@ -2,6 +2,7 @@
 // playhead moves nothing but the picture of a pose.
 
 import {
+  memo,
   useCallback,
   useEffect,
   useId,
@@ -10,6 +11,7 @@ import {
   useState,
   type ClipboardEvent,
   type KeyboardEvent,
+  type ReactNode,
 } from 'react';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
 import { LiveText } from '../ui/LiveText.tsx';
@@ -34,7 +36,7 @@ import { useRows } from './useRows.ts';
 import styles from './Timeline.module.css';
 
 /** `onPlay`: the play key was pressed here, with Shift to play on the drawing alone. */
-export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
+export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
   const stores = useStores();
   const id = useId();
   const [menu, setMenu] = useState<OpenMenu | null>(null);
@@ -48,7 +50,6 @@ export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
   const rows = useRows();
   const columns = useDocument(({ present }) => present.frames.length);
   const isTall = useTimeline((state) => state.isTall);
-  const heightPx = useTimeline((state) => state.heightPx);
   const active = useTimeline(({ cursor }) => cellId(id, cursor.row, cursor.frameId));
   const sizes = sizesNow({ isTall });
   const totalPx = topOfRows(sizes) + heightOf(placedRows(rows.slice(1), sizes));
@@ -127,7 +128,8 @@ export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
     event.preventDefault();
   }
 
-  const takeFocus = (): void => grid.current?.focus({ preventScroll: true });
+  const takeFocus = useCallback(() => grid.current?.focus({ preventScroll: true }), []);
+  const closeMenu = useCallback(() => setMenu(null), []);
 
   /** As if it had been pressed here; what the browser does of itself, as copying, it does where the focus is by now. */
   function pressHere(event: KeyboardEvent): void {
@@ -146,7 +148,7 @@ export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
         onScroll={(event) => stores.timeline.setState({ scrollTop: event.currentTarget.scrollTop })}
       >
         <div style={{ height: totalPx }}>
-          <div className={styles.stage} style={{ height: heightPx }}>
+          <Stage>
             <div
               ref={grid}
               id={`${id}lanes`}
@@ -177,18 +179,23 @@ export function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
             <Corner />
             {/* A menu that is open keeps the focus to itself, and the field would not get it. */}
             {menu === null && <AskBox onClose={takeFocus} onPass={pressHere} />}
-          </div>
+          </Stage>
         </div>
       </div>
       <Minimap lanes={`${id}lanes`} />
       <StatusText {...said} />
-      <TimelineMenu
-        menu={menu}
-        onClose={() => {
-          setMenu(null);
-        }}
-      />
+      <TimelineMenu menu={menu} onClose={closeMenu} />
     </section>
+  );
+});
+
+/** As high as the window onto the rows. */
+function Stage({ children }: { readonly children: ReactNode }) {
+  const heightPx = useTimeline((state) => state.heightPx);
+  return (
+    <div className={styles.stage} style={{ height: heightPx }}>
+      {children}
+    </div>
   );
 }
 

@@ -1,5 +1,6 @@
 // The menu of the timeline, at the pointer or below its button: the verbs that fit what is selected, or what is done to a row.
 
+import { memo } from 'react';
 import { Menu, MenuItem, MenuSection, SubmenuTrigger } from 'react-aria-components/Menu';
 import { Popover } from 'react-aria-components/Popover';
 import { Separator } from 'react-aria-components/Separator';
@@ -37,7 +38,13 @@ const CHANGES: readonly VerbName[] = [
 ];
 const LOOKS: readonly VerbName[] = ['selectAll', 'selectRow', 'fitSelection', 'range', 'nextMarker'];
 
-export function TimelineMenu({ menu, onClose }: { readonly menu: OpenMenu | null; onClose(): void }) {
+export const TimelineMenu = memo(function TimelineMenu({
+  menu,
+  onClose,
+}: {
+  readonly menu: OpenMenu | null;
+  onClose(): void;
+}) {
   return (
     <Popover
       className={styles.popover ?? ''}
@@ -49,7 +56,7 @@ export function TimelineMenu({ menu, onClose }: { readonly menu: OpenMenu | null
       {menu?.kind === 'row' ? <RowMenu onClose={onClose} /> : <KeysMenu onClose={onClose} />}
     </Popover>
   );
-}
+});
 
 function KeysMenu({ onClose }: { onClose(): void }) {
   const stores = useStores();
