@@ -35,6 +35,20 @@ test('what is worked on outlives a reload of its tab; another tab begins anew', 
   expect(otherTab.getState()).toMatchObject({ tab: 'live', authoring: 'group' });
 });
 
+test('so does how far a calibration has come; what is none is not taken', () => {
+  const memories = memoriesWith(null);
+  const done = [{ servo: 1, step: 'min' }] as const;
+  const found = { servo: 1, end: 'min', at: 700, home: 1500 } as const;
+  const calibration = { robotId: 3, progress: { servo: 1, step: 'max', done, found } } as const;
+  createView(memories).setState({ calibration });
+  expect(createView(memories).getState().calibration).toEqual(calibration);
+  memories.tab.setItem(
+    'servodeck.calibration',
+    '{"robotId":3,"progress":{"servo":1,"step":"run","done":[]}}',
+  );
+  expect(createView(memories).getState().calibration).toBeNull();
+});
+
 test('what else is open or selected begins anew', () => {
   const memories = memoriesWith(null);
   createView(memories).setState({ connectOpen: true, robotView: 'calibrate', slot: 7, untilStopped: true });

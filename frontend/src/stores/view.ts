@@ -1,8 +1,13 @@
 // What is selected, open and set on this screen: neither the robot's state nor the document's. How things look, and the kiosk, is
-// remembered by the browser; what is worked on, by the browser's tab alone; nothing else. Knows no link.
+// remembered by the browser; what is worked on and how far a calibration is, by the browser's tab alone; nothing else. Knows no
+// link.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Calibration } from '#shared/actions/robot/robotCalibration.ts';
+import {
+  calibrationFromText,
+  calibrationToText,
+  type KeptCalibration,
+} from '#shared/actions/robot/calibrationText.ts';
 import { LANGUAGES, type Language } from '../words/words.ts';
 import type { TextStorage } from './textStorage.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from './device/moveTime.ts';
@@ -30,8 +35,8 @@ export interface ViewState {
   readonly peopleOpen: boolean;
   /** What of the robots is open; null: nothing. */
   readonly robotView: 'list' | 'edit' | 'calibrate' | null;
-  /** How far the calibration of one robot, by its id, has come. */
-  readonly calibration: { readonly robotId: number; readonly progress: Calibration } | null;
+  /** How far that of one robot has come: nothing of it is lost by a reload. */
+  readonly calibration: KeptCalibration | null;
   readonly logOpen: boolean;
   readonly logKinds: readonly LogKind[];
   readonly selectedFrame: number | null;
@@ -67,6 +72,8 @@ const REMEMBERED = {
   tab: { by: 'tab', key: 'servodeck.tab', values: ['live', 'actions', 'board', 'log', 'buttons'] },
   authoring: { by: 'tab', key: 'servodeck.authoring', values: ['group', 'poses', 'pad'] },
 } as const satisfies { readonly [K in keyof ViewState]?: Memory<ViewState[K]> };
+
+const CALIBRATION_KEY = 'servodeck.calibration';
 
 interface Memory<Value> {
   readonly by: keyof Memories;
@@ -116,7 +123,12 @@ export const INITIAL_VIEW: ViewState = {
 export function createView(memories: Memories): View {
   const view = createStore<ViewState>(() => ({ ...INITIAL_VIEW, ...load(memories) }));
   view.subscribe((state, before) => {
-    for (const name of NAMES) if (state[name] !== before[name]) save(memories, name, state[name]);
+    for (const name of NAMES) {
+      const { by, key } = REMEMBERED[name];
+      if (state[name] !== before[name]) save(memories[by], key, state[name]);
+    }
+    if (state.calibration !== before.calibration)
+      save(memories.tab, CALIBRATION_KEY, calibrationToText(state.calibration));
   });
   return view;
 }
@@ -127,7 +139,9 @@ function load(memories: Memories): Partial<ViewState> {
       const { by, key } = REMEMBERED[name];
       return [name, memories[by].getItem(key)] as const;
     });
-    return Object.fromEntries(known.filter(([name, text]) => isOneOf(REMEMBERED[name].values, text)));
+    const chosen = known.filter(([name, text]) => isOneOf(REMEMBERED[name].values, text));
+    const calibration = calibrationFromText(memories.tab.getItem(CALIBRATION_KEY) ?? '');
+    return { ...Object.fromEntries(chosen), calibration };
   } catch {
     return {};
   }
@@ -136,10 +150,9 @@ function load(memories: Memories): Partial<ViewState> {
 const isOneOf = (values: readonly string[], text: string | null): boolean =>
   text !== null && values.includes(text);
 
-function save(memories: Memories, name: Remembered, text: string): void {
-  const { by, key } = REMEMBERED[name];
+function save(storage: TextStorage, key: string, text: string): void {
   try {
-    memories[by].setItem(key, text);
+    storage.setItem(key, text);
   } catch {
     // Storage is forbidden here: the choice lasts as long as the page, and that is all it is worth.
   }

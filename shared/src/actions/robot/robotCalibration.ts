@@ -13,7 +13,7 @@ export interface Calibration {
   readonly step: CalibrationStep;
   readonly done: readonly Done[];
   /** The end that was found last, with home as it was before any was. */
-  readonly found?: FoundEnd;
+  readonly found?: FoundEnd | undefined;
 }
 
 /** One of the two ends of a servo's way. */
