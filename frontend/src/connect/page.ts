@@ -135,7 +135,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     written.flush();
   };
   watchLeaving(window, { hidden: paused, left });
-  applyBatteryPolicy({ device, battery, robots, notices });
+  applyBatteryPolicy({ device, battery, robots, poses, notices });
   watchInputs(window, pad);
   tellHandedOver(device.store, notices);
   lookAfresh({ library, view, timeline });

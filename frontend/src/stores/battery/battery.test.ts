@@ -2,6 +2,7 @@
 
 import { describe, expect, test } from 'vitest';
 import { fedBy } from '#shared/actions/battery/batterySupply.ts';
+import { addPose, markRest } from '#shared/actions/poses/poseEdits.ts';
 import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
@@ -13,9 +14,12 @@ import { createBattery } from './battery.ts';
 import { applyBatteryPolicy, REST_MOVE_MS, REST_WARNING_MS } from './batteryPolicy.ts';
 import { pollBattery } from './batteryPoll.ts';
 import { createDevice, type Way } from '../device/device.ts';
+import { createPoses } from '../driving/poses.ts';
 import { createNotices } from '../notices.ts';
 import { createRobots } from '../robots/robots.ts';
+import { createView } from '../view.ts';
 
+const NOWHERE = { getItem: () => null, setItem: () => undefined };
 const WAY: Way = { kind: 'simulated', label: 'Simulated board', isSimulated: true };
 const FRAMES = [{ durationMs: 4000, targets: [{ servo: 1, position: 1600 }] }];
 
@@ -26,7 +30,7 @@ async function createDesk(
 ) {
   const rig = await createRig({ batteryMv, profile: board, family: FAMILIES[board] });
   const notices = createNotices(rig.clock);
-  const robots = createRobots({ getItem: () => null, setItem: () => undefined }, notices);
+  const robots = createRobots(NOWHERE, notices);
   robots.takeUpFor(board);
   robots.edit(
     () => 'a pack',
@@ -34,13 +38,25 @@ async function createDesk(
   );
   const device = createDevice({ family: FAMILIES[board], clock: rig.clock, notices, robots });
   const battery = createBattery(device, robots);
-  applyBatteryPolicy({ device, battery, robots, notices });
+  const view = createView({ browser: NOWHERE, tab: NOWHERE });
+  const poses = createPoses({ storage: NOWHERE, notices, robots, device, view });
+  applyBatteryPolicy({ device, battery, robots, poses, notices });
   let isWatched = true;
   const look = (on: boolean): boolean => (isWatched = on);
   pollBattery(device, () => isWatched);
   device.attach(rig.session, WAY);
   const told = () => notices.store.getState().map(({ text }) => text);
-  return { ...rig, notices, robots, device, battery, told, look, latch: () => rig.session.state.latch };
+  return {
+    ...rig,
+    notices,
+    robots,
+    poses,
+    device,
+    battery,
+    told,
+    look,
+    latch: () => rig.session.state.latch,
+  };
 }
 
 const SETTLED_MS = 12_000;
@@ -218,7 +234,9 @@ describe('a robot that goes to rest', () => {
     { driver: 'Bert', drives: false, goes: false },
     { driver: 'Anna', drives: true, goes: true },
   ])('is a matter of the screen that drives: $driver', async ({ driver, drives, goes }) => {
-    const { clock, device, told } = await createDesk(6500, 'rest');
+    const { clock, device, notices } = await createDesk(6500, 'rest');
+    const announced = new Set<string>();
+    notices.store.subscribe((list) => list.forEach(({ text }) => announced.add(text)));
     const line = createSimulatedTransport(clock, { onForMs: 60_000, batteryMv: 6500 });
     const others = {
       ...{ asker: null, asks: false, answerInMs: null, others: 1 },
@@ -235,12 +253,12 @@ describe('a robot that goes to rest', () => {
     device.attach(session, WAY);
     await session.open();
     await clock.advance(SETTLED_MS + REST_WARNING_MS + 5000);
-    expect(told().includes(words.battery.goingToRest(REST_WARNING_MS))).toBe(goes);
+    expect(announced.has(words.battery.goingToRest(REST_WARNING_MS))).toBe(goes);
     expect(session.state.latch !== null).toBe(goes);
   });
 
   test('is announced, goes home slowly with the servos that are known, and is stopped', async () => {
-    const { clock, device, ofKind, latch } = await createTiredRobot();
+    const { clock, device, ofKind, latch, told } = await createTiredRobot();
     expect(ofKind('move')).toHaveLength(1);
     await clock.advance(REST_WARNING_MS);
     expect(ofKind('move').slice(1)).toEqual([
@@ -249,6 +267,8 @@ describe('a robot that goes to rest', () => {
     expect(latch()).toBeNull();
     await clock.advance(REST_MOVE_MS);
     expect(latch()).toMatchObject({ reason: 'pressed' });
+    expect(told()).not.toContain(words.battery.goingToRest(REST_WARNING_MS));
+    expect(told()).toContain(words.battery.rested('6.50\u00a0V'));
     await clock.advance(1000);
     const moves = ofKind('move').length;
     device.resume();
@@ -258,12 +278,32 @@ describe('a robot that goes to rest', () => {
   });
 
   test.each([
+    { position: 2100, goesTo: 2100 },
+    { position: 2600, goesTo: 1500 },
+  ])('goes to the pose that is marked as rest, $position, where its limits let it', async (rest) => {
+    const { clock, poses, ofKind, latch } = await createTiredRobot();
+    const targets = [
+      { servo: 1, position: 1000 },
+      { servo: 2, position: rest.position },
+    ];
+    poses.book.edit(
+      () => 'rest',
+      (book) => markRest(addPose(book, { name: 'Folded', unit: 'us', targets }), 1),
+    );
+    await clock.advance(REST_WARNING_MS);
+    expect(ofKind('move').at(-1)).toMatchObject({ targets: [{ servo: 2, position: rest.goesTo }] });
+    await clock.advance(REST_MOVE_MS);
+    expect(latch()).not.toBeNull();
+  });
+
+  test.each([
     ['as announced', 0],
     ['on its way', REST_WARNING_MS],
   ])('stays where it is after a stop, %s', async (_, afterMs) => {
-    const { clock, device, ofKind } = await createTiredRobot();
+    const { clock, device, ofKind, told } = await createTiredRobot();
     await clock.advance(afterMs);
     device.halt();
+    expect(told()).not.toContain(words.battery.goingToRest(REST_WARNING_MS));
     await clock.advance(1000);
     device.resume();
     const moves = ofKind('move').length;

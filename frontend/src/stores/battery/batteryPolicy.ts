@@ -3,10 +3,14 @@
 // a shared robot only where it is driven from.
 
 import { isActionable, type Level } from '#shared/actions/battery/batteryGauge.ts';
+import { homeTargets } from '#shared/actions/poses/poseShapes.ts';
 import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
+import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { words } from '../../words/words.ts';
 import type { BatteryStore } from './battery.ts';
 import type { Device } from '../device/device.ts';
+import { limitRefusal } from '../device/limits.ts';
+import type { Poses } from '../driving/poses.ts';
 import type { Notices } from '../notices.ts';
 import { motionHindrance } from '../device/readiness.ts';
 import type { RobotStore } from '../robots/robots.ts';
@@ -15,6 +19,7 @@ export interface BatteryPolicyOptions {
   readonly device: Device;
   readonly battery: BatteryStore;
   readonly robots: RobotStore;
+  readonly poses: Pick<Poses, 'targetsOf'>;
   readonly notices: Notices;
 }
 
@@ -25,7 +30,8 @@ const LOOK_EVERY_MS = 200;
 /** Whatever keeps it from its rest, it is stopped by then. */
 const REST_LIMIT_MS = 4 * REST_MOVE_MS;
 
-export function applyBatteryPolicy({ device, battery, robots, notices }: BatteryPolicyOptions): void {
+export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
+  const { device, battery, robots, poses, notices } = options;
   const { clock } = device;
   let toldLevel: Level = 'good';
   let restIsDue = false;
@@ -61,8 +67,10 @@ export function applyBatteryPolicy({ device, battery, robots, notices }: Battery
   const mayRest = (): boolean =>
     policy() === 'rest' && isAlarm() && hindrance() === null && device.isAtRest();
 
+  const announcement = (): string => words.battery.goingToRest(REST_WARNING_MS);
+
   function announceRest(): void {
-    notices.tell('danger', words.battery.goingToRest(REST_WARNING_MS));
+    notices.tell('danger', announcement());
     cancelRest = clock.after(REST_WARNING_MS, () => {
       cancelRest = null;
       if (mayRest()) goToRest();
@@ -72,17 +80,26 @@ export function applyBatteryPolicy({ device, battery, robots, notices }: Battery
   /** Servos that nobody moved in this visit stay: where they would come from, nobody knows. */
   function goToRest(): void {
     restIsDue = false;
-    const known = robots.current().robot.servos.filter(({ servo }) => device.motion(servo).target !== null);
-    const homes = known.map(({ servo, home }) => ({ servo, position: home }));
-    if (homes.length > 0) device.move(homes, REST_MOVE_MS);
+    const there = restTargets().filter(({ servo }) => device.motion(servo).target !== null);
+    if (there.length > 0) device.move(there, REST_MOVE_MS);
     const untilMs = clock.now() + REST_LIMIT_MS;
     const hasArrived = (): boolean =>
-      homes.every(({ servo, position }) => device.motion(servo).estimated === position);
+      there.every(({ servo, position }) => device.motion(servo).estimated === position);
     cancelRest = clock.after(LOOK_EVERY_MS, function look() {
       const isThere = hasArrived() || clock.now() >= untilMs;
       cancelRest = isThere ? null : clock.after(LOOK_EVERY_MS, look);
-      if (isThere) device.halt();
+      if (!isThere) return;
+      notices.takeBack(announcement());
+      notices.tell('danger', words.battery.rested(volts()));
+      device.halt();
     });
+  }
+
+  /** A rest pose from before the limits is none. */
+  function restTargets(): readonly ServoTarget[] {
+    const { robot } = robots.current();
+    const rest = poses.targetsOf('rest');
+    return rest === null || limitRefusal(robot, rest) !== null ? homeTargets(robot) : rest;
   }
 
   /** A stop or a lost link ends it: a person looks first. */
@@ -90,8 +107,10 @@ export function applyBatteryPolicy({ device, battery, robots, notices }: Battery
     const why = hindrance();
     if (why === null || why === 'busy') return;
     restIsDue = false;
-    cancelRest?.();
+    if (cancelRest === null) return;
+    cancelRest();
     cancelRest = null;
+    notices.takeBack(announcement());
   }
 
   battery.subscribe(judge);

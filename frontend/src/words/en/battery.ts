@@ -65,7 +65,7 @@ export const batteryWords = {
   policyHint: {
     tell: 'A message, nothing else. The robot goes on.',
     refuse: 'A message, and nothing new is run or played unless you say so once more.',
-    rest: 'New runs are refused. When nothing runs, servos moved in this visit go slowly to their home positions, and the robot is stopped.',
+    rest: 'New runs are refused. When nothing runs, servos moved in this visit go slowly to the rest pose, home where none is marked, and the robot is stopped.',
   } satisfies Record<BatteryPolicy, string>,
   steps: {
     kind: 'what feeds the robot',
@@ -79,6 +79,8 @@ export const batteryWords = {
     `The battery is at its alarm: ${volts} at rest. New runs are refused; charge it now.`,
   goingToRest: (ms: number): string =>
     `In ${formatSeconds(ms)} the robot moves slowly to rest, because its battery is low. Stop keeps it where it is.`,
+  rested: (volts: string): string =>
+    `The robot was stopped, because its battery is low: ${volts} at rest. Charge it now.`,
   runRefused: (volts: string): string => `Not started: the battery is at its alarm, ${volts} at rest.`,
   anyway: 'Start anyway',
 

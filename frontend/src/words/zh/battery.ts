@@ -59,7 +59,7 @@ export const batteryWords: typeof english = {
   policyHint: {
     tell: '只显示一条消息，机器人照常工作。',
     refuse: '显示一条消息；除非您再次确认，不运行也不播放新的动作。',
-    rest: '拒绝新的运行。没有动作运行时，本次动过的舵机慢慢回到初始位，然后机器人停止。',
+    rest: '拒绝新的运行。没有动作运行时，本次动过的舵机慢慢移到休息姿态，没有标记时回到初始位，然后机器人停止。',
   },
   steps: {
     kind: '供电方式',
@@ -71,6 +71,7 @@ export const batteryWords: typeof english = {
   alarmed: (volts) => `电池报警：静止时${volts}。请立即充电。`,
   alarmedRefusing: (volts) => `电池报警：静止时${volts}。不再运行新动作；请立即充电。`,
   goingToRest: (ms) => `电池电量低，${formatSeconds(ms)}后机器人会慢慢移到休息位。点“停止”可让它留在原处。`,
+  rested: (volts) => `机器人已停止，因为电池电量低：静止时${volts}。请立即充电。`,
   runRefused: (volts) => `没有开始：电池报警，静止时${volts}。`,
   anyway: '仍然开始',
 
