@@ -3,6 +3,7 @@
 import type { BrowserContext } from '@playwright/test';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
+import { fingersOf } from '../fixtures/fingers.ts';
 import type { Robot } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
@@ -74,6 +75,35 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   await other.type(other.target(2), 1700);
   await poll(() => lastTarget(robot.bus, 2)).toBe(1700);
   await poll(() => topOfWork(dashboard)).toEqual(before);
+});
+
+test.describe('with a finger', () => {
+  test.use({ hasTouch: true });
+
+  test('scrolling past the sliders asks nobody for the robot, a tap on one does', async ({
+    dashboard,
+    robot,
+    context,
+  }) => {
+    const other = await joins(robot, context);
+    await other.page.setViewportSize({ width: 390, height: 844 });
+    await dashboard.type(dashboard.target(1), 1500);
+    await expect(other.turn).toContainText('Another window drives');
+    const { swipe } = await fingersOf(other.page);
+    await other.slider(2).scrollIntoViewIfNeeded();
+    const { x, y, width } = (await other.slider(2).boundingBox())!;
+    const middle = { x: x + width / 2, y: y + 10 };
+    await swipe(middle, { x: middle.x, y: middle.y - 200 });
+    await poll(async () => (await other.slider(2).boundingBox())!.y).toBeLessThan(y - 40);
+    await expect(other.turn).toContainText('Another window drives');
+    await expect(dashboard.turn).toContainText('You drive');
+
+    // The scroll goes on for a while by itself.
+    await expect(async () => {
+      await other.slider(4).tap({ force: true });
+      await expect(dashboard.turn).toContainText('Another window asks to drive', { timeout: 500 });
+    }).toPass();
+  });
 });
 
 test('a driver who says nothing passes it on; taking over asks nobody and stops what moves', async ({

@@ -86,10 +86,9 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
       ref={area}
       className={styles.controls}
       onFocus={touch}
-      onPointerDown={() => {
-        touch();
-        if (hindrance === 'watching') device.lease('request');
-      }}
+      onPointerDown={touch}
+      // Not before the press is whole: a finger that scrolls past asks nobody for the robot.
+      onPointerUp={() => hindrance === 'watching' && device.lease('request')}
     >
       <PositionSlider
         {...{ servo: own, family, scale, isKnown, guess, blocked }}
