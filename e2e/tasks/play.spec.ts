@@ -188,6 +188,13 @@ test('what a hand did becomes keys: recorded on purpose, or taken after the fact
   await dashboard.frame(1).press('t');
   await dialog.getByRole('button', { name: 'Add to the end' }).click();
   await poll(() => dashboard.frames.count()).toBeGreaterThan(count);
+
+  // The hand may be on something else: its motion is kept all the same.
+  await page.getByRole('radio', { name: 'Poses', exact: true }).check();
+  await dashboard.button('Capture pose').press('t');
+  await dialog.getByRole('button', { name: 'Make it the group' }).click();
+  await expect(page.getByRole('radio', { name: 'Action group', exact: true })).toBeChecked();
+  await expect(dashboard.frame(1)).toBeVisible();
 });
 
 test('the button that begins is the one that ends, and keeps the focus', async ({ dashboard, page }) => {

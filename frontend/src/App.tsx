@@ -18,6 +18,7 @@ import { Messages } from './console/Messages.tsx';
 import { FilesDesk } from './files/FilesArea.tsx';
 import { LibraryDialog } from './library/LibraryDialog.tsx';
 import { PeopleDialog } from './people/PeopleDialog.tsx';
+import { TakeThat } from './record/TakeThat.tsx';
 import { RobotDialog } from './robots/RobotDialog.tsx';
 import { Authoring } from './authoring/Authoring.tsx';
 import { ButtonsPage } from './macros/ButtonsPage.tsx';
@@ -64,6 +65,7 @@ function Dashboard({ page }: { readonly page: Page }) {
       <ConnectDialog connector={page.connector} />
       <RobotDialog />
       <LibraryDialog />
+      {!isKiosk && <TakeThatKey />}
       <PeopleDialog />
     </div>
   );
@@ -92,6 +94,11 @@ function useWritten(): Pick<Undoable<unknown>, 'undo' | 'redo'> | null {
     if (tab === 'buttons') return macros;
     return { group, poses: poses.book, pad: mappings }[authoring];
   });
+}
+
+/** On the page of buttons letters start buttons. */
+function TakeThatKey() {
+  return useView((state) => state.tab !== 'buttons') ? <TakeThat /> : null;
 }
 
 function DeskWork() {

@@ -1,39 +1,28 @@
 // Recording by hand: on purpose, from a press to the next one, or after the fact, what moved in the last two minutes.
 
-import { useEffect, useEffectEvent, useState } from 'react';
 import { useStore } from 'zustand';
-import type { Sample } from '#shared/actions/group/simplify.ts';
 import { servoViewOf, useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { isTextField } from '../ui/textField.ts';
 import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/words.ts';
-import { TakeDialog } from './TakeDialog.tsx';
-
-const TAKE_KEY = 't';
+import { useOffer } from './useOffer.ts';
 
 export function RecordControl() {
-  const { notices, tape, robots, ...stores } = useStores();
-  const [taken, setTaken] = useState<readonly Sample[]>([]);
+  const { tape, robots, ...stores } = useStores();
+  const offer = useOffer();
   const sinceMs = useStore(tape.store, (state) => state.recordingSinceMs);
-  const take = (samples: readonly Sample[]): void => {
-    if (samples.length === 0) notices.tell('info', words.record.nothing);
-    setTaken(samples);
-  };
-  useKey(TAKE_KEY, () => take(tape.takeThat()));
   return (
     <>
       <Record
         sinceMs={sinceMs}
         onBegin={() => tape.record()}
         onEnd={() =>
-          take(tape.end(armed(servoViewOf({ ...stores, robots }).selected, robots.current().robot)))
+          offer(tape.end(armed(servoViewOf({ ...stores, robots }).selected, robots.current().robot)))
         }
       />
-      <Button tone="quiet" hint={words.record.takeThatHint} onPress={() => take(tape.takeThat())}>
+      <Button tone="quiet" hint={words.record.takeThatHint} onPress={() => offer(tape.takeThat())}>
         {words.record.takeThat}
       </Button>
-      <TakeDialog samples={taken} onClose={() => setTaken([])} />
     </>
   );
 }
@@ -75,17 +64,4 @@ function EndWords({ sinceMs }: { readonly sinceMs: number }) {
   const { device } = useStores();
   const nowMs = useNow(device.clock.now, 500);
   return words.record.end(Math.max(0, nowMs - sinceMs));
-}
-
-/** A plain key, anywhere but where one writes. */
-function useKey(wanted: string, pressed: () => void): void {
-  const press = useEffectEvent((event: KeyboardEvent) => {
-    const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey && !event.repeat;
-    if (event.key.toLowerCase() === wanted && isPlain && !isTextField(event.target)) pressed();
-  });
-  useEffect(() => {
-    const listen = (event: KeyboardEvent): void => press(event);
-    window.addEventListener('keydown', listen);
-    return () => window.removeEventListener('keydown', listen);
-  }, []);
 }

@@ -43,7 +43,7 @@ function Take({ samples, onClose }: TakeDialogProps) {
   const keyCount = group.frames.reduce((sum, { targets }) => sum + targets.length, 0);
   const use = (step: keyof typeof words.record.steps, edit: (before: ActionGroup) => ActionGroup): void => {
     document.edit(() => words.record.steps[step], edit);
-    view.setState({ selectedFrame: null });
+    view.setState({ selectedFrame: null, authoring: 'group' });
     playhead.show(0);
     onClose();
   };

@@ -10,6 +10,8 @@ import type { RobotStore } from '../robots/robots.ts';
 export interface TapeState {
   /** On the clock; null: nothing is recorded on purpose. */
   readonly recordingSinceMs: number | null;
+  /** What waits to become keys; empty: nothing does. */
+  readonly taken: readonly Sample[];
 }
 
 export interface MotionTape {
@@ -37,7 +39,7 @@ const TAPE_MS = 120_000;
 const SAMPLE_MS = 40;
 
 export function createMotionTape({ device, robots, clock }: MotionTapeOptions): MotionTape {
-  const store = createStore<TapeState>(() => ({ recordingSinceMs: null }));
+  const store = createStore<TapeState>(() => ({ recordingSinceMs: null, taken: [] }));
   let moments: Moment[] = [];
   let last: Moment | null = null;
   let owner = robots.current().id;
