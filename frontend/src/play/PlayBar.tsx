@@ -84,8 +84,8 @@ function PlayButton({ phase }: { readonly phase: Exclude<PlaybackPhase, 'preview
 const END_ICONS = { leading: 'pause', playing: 'pause', storing: 'end', running: 'end' } as const;
 
 function endWord(phase: keyof typeof END_ICONS): string {
-  const { pause, cancel, end } = words.play;
-  return { leading: pause, playing: pause, storing: cancel, running: end }[phase];
+  if (phase === 'storing') return words.play.cancel;
+  return phase === 'running' ? words.play.end : words.play.pause;
 }
 
 /** As the one to play. */
