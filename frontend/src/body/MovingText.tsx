@@ -15,7 +15,7 @@ export interface MovingTextProps extends Omit<LiveTextProps, 'colour'> {
   readonly colour: LookName;
 }
 
-/** Over `element`, in its font, from its end. */
+/** Over `element`, in its font, in its middle where its text is, else from its end. */
 export function MovingText({ element, colour, text, write, cover }: MovingTextProps) {
   /** What is drawn; null while it is text. */
   const drawn = useRef<string | null>(null);
@@ -62,22 +62,24 @@ interface Type {
   readonly size: Size;
   readonly isFontThere: boolean;
   readonly font: string;
+  readonly align: 'center' | 'right';
   readonly baseLine: number;
 }
 
 /** The base line is where that of a line of text as high as the element is. */
-function typeOf({ ctx, size }: Pen, element: HTMLElement | null): Pick<Type, 'font' | 'baseLine'> {
-  if (element === null) return { font: '', baseLine: 0 };
-  const { fontWeight, fontSize, fontFamily } = getComputedStyle(element);
+function typeOf({ ctx, size }: Pen, element: HTMLElement | null): Omit<Type, 'size' | 'isFontThere'> {
+  if (element === null) return { font: '', align: 'right', baseLine: 0 };
+  const { fontWeight, fontSize, fontFamily, textAlign } = getComputedStyle(element);
   const font = `${fontWeight} ${fontSize} ${fontFamily}`;
   ctx.font = font;
   const { fontBoundingBoxAscent: ascent, fontBoundingBoxDescent: descent } = ctx.measureText('0');
-  return { font, baseLine: Math.floor((size.height + Math.round(ascent) - Math.round(descent)) / 2) };
+  const align = textAlign === 'center' ? 'center' : 'right';
+  return { font, align, baseLine: Math.floor((size.height + Math.round(ascent) - Math.round(descent)) / 2) };
 }
 
-function paintText({ ctx, size }: Pen, { font, baseLine }: Type, colour: string, text: string): void {
+function paintText({ ctx, size }: Pen, { font, align, baseLine }: Type, colour: string, text: string): void {
   ctx.font = font;
   ctx.fillStyle = colour;
-  ctx.textAlign = 'right';
-  ctx.fillText(text, size.width, baseLine);
+  ctx.textAlign = align;
+  ctx.fillText(text, align === 'center' ? size.width / 2 : size.width, baseLine);
 }
