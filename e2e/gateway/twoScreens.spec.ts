@@ -35,7 +35,7 @@ test('what another browser stored in a slot is told, and whether it is the group
 }) => {
   await captureGroup(dashboard, [1000, 1400], 400);
   await libraryOf(dashboard.page).call('Bow of the other browser');
-  await downloadGroup(dashboard, 5, 1400);
+  await downloadGroup(dashboard, 0, 1400);
   const elsewhere = await browser.newContext({ locale: 'en-GB', viewport: dashboard.page.viewportSize() });
   const other = dashboardOf(await elsewhere.newPage());
   await robot.open(other.page);
@@ -43,15 +43,25 @@ test('what another browser stored in a slot is told, and whether it is the group
   await other.button('Slots').click();
   const slots = other.page.getByRole('dialog', { name: 'Slots of the board' });
   await slots
-    .getByRole('option', { name: 'Slot 5: Bow of the other browser. Not this group as it is now' })
+    .getByRole('option', { name: 'Slot 0: Bow of the other browser. Not this group as it is now' })
     .click();
-  await expect(slots.getByRole('region', { name: 'Slot 5' })).toContainText(
+  await expect(slots.getByRole('region', { name: 'Slot 0' })).toContainText(
     /Bow of the other browser, downloaded by .+, .*\d\d:\d\d.*, version [0-9a-f]{6}/,
   );
+  await slots.getByRole('button', { name: 'Download several' }).click();
+  await slots.getByRole('checkbox', { name: /^Bow of the other browser/ }).click();
+  const slotOfOwn = slots.getByRole('textbox', { name: 'Slot for Bow of the other browser' });
+  await expect(slotOfOwn).toHaveValue(/^[1-9]\d*$/);
   await slots.getByRole('button', { name: 'Close' }).click();
+  await other.button('Details').click();
   const library = libraryOf(other.page);
   await library.show();
   await library.open('Bow of the other browser');
   await expect(other.board).toContainText('Holds this group, as it is now.');
+  await dashboard.page.close();
+  await other.button('Erase everything').click();
+  await expect(
+    other.page.getByText('Downloaded by others, and not restored from here: 0 Bow of the other browser.'),
+  ).toBeVisible();
   await elsewhere.close();
 });

@@ -8,6 +8,10 @@ import { words } from '../words/words.ts';
 export function EraseControl() {
   const { slots } = useStores();
   const held = useSlots((state) => state.book.stored);
+  const versions = useSnapshot((snapshot) => snapshot.slotVersions) ?? {};
+  const ofOthers = Object.entries(versions)
+    .map(([slot, stored]) => ({ slot: Number(slot), name: stored?.name ?? '' }))
+    .filter(({ slot }) => held.every((record) => record.slot !== slot));
   const { min, max } = useDevice((state) => state.family.slot);
   const mayErase = useSnapshot((snapshot) => startHindrance(snapshot) === null);
   return (
@@ -20,6 +24,7 @@ export function EraseControl() {
       text={[
         words.board.eraseText(max - min + 1),
         ...(held.length > 0 ? [words.slots.willGo(held)] : []),
+        ...(ofOthers.length > 0 ? [words.slots.ofOthersWillGo(ofOthers)] : []),
       ].join(' ')}
       keepLabel={words.board.eraseKeep}
       confirmLabel={words.board.eraseConfirm}

@@ -96,7 +96,8 @@ function useWanted() {
 
   function put(documentId: string, group: ActionGroup): void {
     setPicks((before) => {
-      const taken = before.map(({ slot }) => slot);
+      const ofOthers = Object.keys(device.store.getState().snapshot.slotVersions ?? {}).map(Number);
+      const taken = [...before.map(({ slot }) => slot), ...ofOthers];
       const { book } = slots.store.getState();
       const slot = slotFor(group.slot, book, taken, device.store.getState().family.slot);
       return [...before.filter((pick) => pick.documentId !== documentId), { documentId, slot, group }];

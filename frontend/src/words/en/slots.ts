@@ -88,6 +88,8 @@ export const slotWords = {
     `Servo ${formatWhole(servo)}: ${onBoard === null ? 'not moved' : formatWhole(onBoard)} on the board, ${here === null ? 'not moved' : formatWhole(here)} here`,
   willGo: (groups: readonly { readonly slot: number; readonly name: string }[]): string =>
     `Downloaded from here, and can be restored afterwards: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}.`,
+  ofOthersWillGo: (groups: readonly { readonly slot: number; readonly name: string }[]): string =>
+    `Downloaded by others, and not restored from here: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()))}.`,
   restoreAll: (count: number): string => `Restore all ${formatCount(count)}`,
   restoreHint: 'Downloads again what the last erase took',
   job: (done: number, count: number): string => `${formatCount(done)} of ${counted(count, 'group')}`,

@@ -83,6 +83,8 @@ export const slotWords: typeof english = {
     `${formatWhole(servo)}号舵机：控制板上${place(onBoard)}，这里${place(here)}`,
   willGo: (groups) =>
     `从这里下载的内容之后可以恢复：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}。`,
+  ofOthersWillGo: (groups) =>
+    `由别人下载、不能从这里恢复的内容：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()))}。`,
   restoreAll: (count) => `全部恢复（${formatCount(count)}）`,
   restoreHint: '重新下载上次擦除的内容',
   job: (done, count) => `${formatCount(done)}/${formatCount(count)}个动作组`,
