@@ -160,6 +160,20 @@ describe('edits of the book', () => {
   });
 });
 
+test('where the robot went last is no pose that was changed, or marked as rest, since', () => {
+  const at = (position: number) => [{ servo: 1, position }];
+  const one = addPose(EMPTY_BOOK, { name: 'Folded', unit: 'us', targets: at(1200) });
+  const book = addPose(one, { name: 'Tall', unit: 'us', targets: at(1800) });
+  const gone = markApplied(book, 1);
+  expect(setPose(gone, 1, at(1300)).applied).toBeNull();
+  expect(setPose(gone, 1, at(1200)).applied).toBe(1);
+  expect(setPose(gone, 2, at(1300)).applied).toBe(1);
+  const rested = markApplied(markRest(book, 1), 'rest');
+  expect(setPose(rested, 1, at(1300)).applied).toBeNull();
+  expect(markRest(rested, 2).applied).toBe(1);
+  expect(markRest(markApplied(book, 'rest'), 2).applied).toBe('home');
+});
+
 describe('a book as text', () => {
   const books = fc
     .array(fc.record({ name: fc.stringMatching(/^[a-zäß]{1,20}$/u), targets: targetsOf(32) }), {

@@ -40,23 +40,28 @@ export function renamePose(book: PoseBook, id: number, name: string): PoseBook {
   return changePose(book, id, (pose) => (pose.name === name ? pose : { ...pose, name }));
 }
 
-/** A pose without any servo would be none: then nothing changes. */
+/** A pose without any servo would be none: then nothing changes. The robot was not sent to what it is now. */
 export function setPose(
   book: PoseBook,
   id: number,
   targets: readonly ServoTarget[],
   unit?: Pose['unit'],
 ): PoseBook {
-  return changePose(book, id, (pose) =>
+  const changed = changePose(book, id, (pose) =>
     targets.length === 0 || ((unit ?? pose.unit) === pose.unit && sameTargets(pose.targets, targets))
       ? pose
       : { ...pose, unit: unit ?? pose.unit, targets: sortedTargets(targets) },
   );
+  return changed !== book && wentTo(book) === id ? { ...changed, applied: null } : changed;
 }
+
+/** The pose that the robot was sent to last, by whatever name. */
+const wentTo = ({ applied, restId }: PoseBook): PoseRef | null =>
+  applied === 'rest' ? (restId ?? 'home') : applied;
 
 /** null: home is where the robot rests. */
 export function markRest(book: PoseBook, restId: number | null): PoseBook {
-  return restId === book.restId ? book : { ...book, restId };
+  return restId === book.restId ? book : { ...book, restId, applied: wentTo(book) };
 }
 
 /** null: the robot was sent somewhere between poses. */
