@@ -5,20 +5,34 @@ import { watchSize } from '../ui/onScreen.ts';
 import { Sight, useSight } from '../ui/sight.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { Canvas } from './Canvas.tsx';
-import { coverOf, createSheet, paintAll, SheetAround, type Placed } from './sheet.ts';
+import {
+  coverOf,
+  createSheet,
+  isSameCover,
+  paintAll,
+  SheetAround,
+  type Cover,
+  type Placed,
+} from './sheet.ts';
 import styles from './SharedSheet.module.css';
 
 /** Whatever else moves a row, its pictures are behind it no longer than this. */
 const MEASURED_EACH_MS = 250;
 
-export function SharedSheet({ children }: { readonly children: ReactNode }) {
+export interface SharedSheetProps {
+  /** Where the list is, left out: in the flow of the page. */
+  readonly className?: string | undefined;
+  readonly children: ReactNode;
+}
+
+export function SharedSheet({ className = styles.sheet, children }: SharedSheetProps) {
   const list = useRef<HTMLDivElement>(null);
-  const cover = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLDivElement>(null);
   const isInSight = useSight(list);
   const [sheet] = useState(createSheet);
   const parts = useRef<readonly Placed[]>([]);
   const measuredMs = useRef(0);
-  const covered = useRef({ top: 0, height: 0 });
+  const covered = useRef<Cover>({ left: 0, top: 0, width: 0, height: 0 });
 
   useLayoutEffect(() => sheet.measureAnew());
   useLayoutEffect(() => {
@@ -32,28 +46,37 @@ export function SharedSheet({ children }: { readonly children: ReactNode }) {
   });
 
   function place(): void {
-    const { top, height } = coverOf(parts.current);
-    if (cover.current === null || (top === covered.current.top && height === covered.current.height)) return;
-    covered.current = { top, height };
-    Object.assign(cover.current.style, { top: `${top}px`, height: `${height}px` });
+    const cover = coverOf(parts.current);
+    if (canvas.current === null || isSameCover(cover, covered.current)) return;
+    covered.current = cover;
+    const { left, top, width, height } = cover;
+    Object.assign(canvas.current.style, {
+      ...{ left: `${left}px`, top: `${top}px` },
+      ...{ width: `${width}px`, height: `${height}px` },
+    });
   }
 
   function shown(): readonly unknown[] {
     parts.current = list.current === null ? [] : sheet.inSight(list.current);
     place();
-    return parts.current.flatMap(({ left, top, shown: now }) => [left, top - covered.current.top, ...now]);
+    const corner = covered.current;
+    return parts.current.flatMap(({ left, top, shown: now }) => [
+      left - corner.left,
+      top - corner.top,
+      ...now,
+    ]);
   }
 
   return (
     <SheetAround value={sheet}>
-      <div ref={list} className={styles.sheet}>
+      <div ref={list} className={className}>
         {children}
-        <div ref={cover} className={styles.cover} aria-hidden="true">
+        <div ref={canvas} className={styles.cover} aria-hidden="true">
           <Sight value={isInSight}>
             <Canvas
               className={styles.canvas}
               shown={shown}
-              paint={(pen) => paintAll(pen, parts.current, covered.current.top)}
+              paint={(pen) => paintAll(pen, parts.current, covered.current)}
             />
           </Sight>
         </div>

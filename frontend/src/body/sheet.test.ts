@@ -71,8 +71,10 @@ const placed = (top: number, height: number): Placed => ({
 });
 
 test('the canvas covers all of them, on whole pixels', () => {
-  expect(coverOf([placed(40.5, 20), placed(96.5, 30.2)])).toEqual({ top: 40, height: 87 });
-  expect(coverOf([])).toEqual({ top: 0, height: 0 });
+  expect(coverOf([placed(40.5, 20), placed(96.5, 30.2)])).toEqual({
+    ...{ left: 20, top: 40, width: 45, height: 87 },
+  });
+  expect(coverOf([])).toEqual({ left: 0, top: 0, width: 0, height: 0 });
 });
 
 test('each is painted where it stands, as large as it is, on a whole pixel of the screen', () => {
@@ -85,7 +87,7 @@ test('each is painted where it stands, as large as it is, on a whole pixel of th
   };
   const { look, size } = recordingPen({ width: 500, height: 300 }).pen;
   const part = placed(140.1, 20);
-  paintAll({ look, size, ctx: ctx as unknown as CanvasRenderingContext2D }, [part], 100);
-  expect(moves).toEqual([[20.5, 40]]);
+  paintAll({ look, size, ctx: ctx as unknown as CanvasRenderingContext2D }, [part], { left: 10, top: 100 });
+  expect(moves).toEqual([[10.5, 40]]);
   expect(part.paint).toHaveBeenCalledWith(expect.objectContaining({ size: part.size }));
 });

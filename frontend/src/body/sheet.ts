@@ -84,20 +84,36 @@ function keep<Shown extends readonly unknown[]>({ place, sight, shown, paint }: 
   };
 }
 
-/** From the highest to the lowest of them. */
-export function coverOf(parts: readonly Placed[]): { readonly top: number; readonly height: number } {
-  if (parts.length === 0) return { top: 0, height: 0 };
-  const top = Math.floor(Math.min(...parts.map((part) => part.top)));
-  const bottom = Math.ceil(Math.max(...parts.map((part) => part.top + part.size.height)));
-  return { top, height: bottom - top };
+/** What the canvas lies over, seen from the corner of the list. */
+export interface Cover {
+  readonly left: number;
+  readonly top: number;
+  readonly width: number;
+  readonly height: number;
 }
 
-/** `top`: how far down the canvas begins. */
-export function paintAll(pen: Pen, parts: readonly Placed[], top: number): void {
+/** As much as all of them take, on whole pixels. */
+export function coverOf(parts: readonly Placed[]): Cover {
+  if (parts.length === 0) return { left: 0, top: 0, width: 0, height: 0 };
+  const left = Math.floor(Math.min(...parts.map((part) => part.left)));
+  const top = Math.floor(Math.min(...parts.map((part) => part.top)));
+  const right = Math.ceil(Math.max(...parts.map((part) => part.left + part.size.width)));
+  const bottom = Math.ceil(Math.max(...parts.map((part) => part.top + part.size.height)));
+  return { left, top, width: right - left, height: bottom - top };
+}
+
+export const isSameCover = (one: Cover, other: Cover): boolean =>
+  one.left === other.left &&
+  one.top === other.top &&
+  one.width === other.width &&
+  one.height === other.height;
+
+/** `cover`: where on the list the canvas is. */
+export function paintAll(pen: Pen, parts: readonly Placed[], cover: Pick<Cover, 'left' | 'top'>): void {
   const { ctx, look } = pen;
   for (const part of parts) {
     ctx.save();
-    ctx.translate(onPixel(part.left), onPixel(part.top - top));
+    ctx.translate(onPixel(part.left - cover.left), onPixel(part.top - cover.top));
     part.paint({ ctx, look, size: part.size });
     ctx.restore();
   }

@@ -21,7 +21,6 @@ import {
 import { timesOf } from '../timeline/groupTimes.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
-import { READABLE_MS } from '../ui/useFollow.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
@@ -106,6 +105,9 @@ function PreviewButton({ isOn }: { readonly isOn: boolean }) {
   );
 }
 
+/** Nobody reads a button while the playhead is dragged. */
+const SAID_EACH_MS = 500;
+
 /** From where, as the playhead goes, or how often. With room for the longest of it: what follows stays in its place. */
 function PlayWords() {
   const { playback } = useStores();
@@ -118,7 +120,7 @@ function PlayWords() {
       <LiveText
         isFixed
         className={styles.now}
-        eachMs={READABLE_MS}
+        eachMs={SAID_EACH_MS}
         text={() => {
           const { fromMs, times: passes } = playback.next();
           return fromMs === null ? words.play.play(loops ? 1 : passes) : words.play.playFrom(fromMs);

@@ -2,6 +2,7 @@
 
 import { memo } from 'react';
 import { positionAt } from '#shared/actions/group/tracks.ts';
+import { MovingLabel } from '../body/MovingLabel.tsx';
 import { isHeld, isSilent, toggled } from '../stores/servoView.ts';
 import {
   editServoView,
@@ -16,8 +17,6 @@ import {
 } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { cx } from '../ui/cx.ts';
-import { LiveText } from '../ui/LiveText.tsx';
-import { READABLE_MS } from '../ui/useFollow.ts';
 import { useWords, words } from '../words/words.ts';
 import { rowName } from './cellName.ts';
 import { deskOf, rangeOf } from './desk.ts';
@@ -62,12 +61,11 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
       {row.kind === 'servo' && (
         <>
           <Marks servo={row.servos[0] ?? -1} />
-          <LiveText
+          <MovingLabel
             isSilent
-            isFixed
             className={styles.value}
             title={words.timeline.rows.value}
-            eachMs={READABLE_MS}
+            colour="ink-dim"
             text={() => valueText(stores, row.servos[0] ?? -1)}
           />
         </>

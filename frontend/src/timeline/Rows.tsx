@@ -2,6 +2,7 @@
 // which the eye sees painted. Only what is in sight is there, and a row is drawn again only where something of it changed.
 
 import { memo } from 'react';
+import { SharedSheet } from '../body/SharedSheet.tsx';
 import { useDevice, useDocument, useRobot, useStores, useTimeline, useView } from '../stores/stores.ts';
 import { keyName, type KeySet } from '../stores/timeline/keySet.ts';
 import { cx } from '../ui/cx.ts';
@@ -37,9 +38,17 @@ export function Rows({ rows, sizes, id, openRowMenu }: RowsProps) {
   const heightPx = useTimeline((state) => state.heightPx);
   const placed = placedInSight(rows, { scrollTop, heightPx }, sizes);
   const isDense = useIsDense(placed.map(({ row }) => row));
-  return placed.map(({ row, top, height }) => (
-    <RowParts key={row.id} {...{ row, top, height, id, isDense, openRowMenu }} index={rows.indexOf(row)} />
-  ));
+  return (
+    <SharedSheet className={styles.rows}>
+      {placed.map(({ row, top, height }) => (
+        <RowParts
+          key={row.id}
+          {...{ row, top, height, id, isDense, openRowMenu }}
+          index={rows.indexOf(row)}
+        />
+      ))}
+    </SharedSheet>
+  );
 }
 
 function useIsDense(rows: readonly Row[]): boolean {

@@ -13,9 +13,8 @@ import {
   type KeyboardEvent,
   type ReactNode,
 } from 'react';
+import { MovingLabel } from '../body/MovingLabel.tsx';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
-import { LiveText } from '../ui/LiveText.tsx';
-import { READABLE_MS } from '../ui/useFollow.ts';
 import { words } from '../words/words.ts';
 import { AskBox } from './AskBox.tsx';
 import { copy, cut, paste } from './changes.ts';
@@ -213,11 +212,10 @@ function Corner() {
   return (
     <p className={styles.corner}>
       <span className={styles.cornerName}>{words.timeline.playhead}</span>
-      <LiveText
-        isFixed
+      <MovingLabel
         className={styles.instant}
+        colour="ink"
         text={() => words.timeline.instant(playhead.at())}
-        eachMs={READABLE_MS}
       />
     </p>
   );

@@ -1,0 +1,34 @@
+// A number that changes by itself, in a place of fixed size.
+
+import { useRef } from 'react';
+import type { LookName } from '../timeline/look.ts';
+import { cx } from '../ui/cx.ts';
+import { MovingText } from './MovingText.tsx';
+import styles from './MovingLabel.module.css';
+
+export interface MovingLabelProps {
+  /** Asked for what is to stand there now. */
+  text(): string;
+  readonly colour: LookName;
+  /** Gives it a width and a height. */
+  readonly className: string | undefined;
+  readonly title?: string;
+  /** It changes all the time, and something else says it to screen readers. */
+  readonly isSilent?: boolean;
+}
+
+export function MovingLabel({ text, colour, className, title, isSilent }: MovingLabelProps) {
+  const place = useRef<HTMLSpanElement>(null);
+  const write = (now: string): void => {
+    if (place.current !== null) place.current.textContent = now;
+  };
+  const cover = (isCovered: boolean): void => {
+    if (place.current !== null) place.current.style.opacity = isCovered ? '0' : '';
+  };
+  return (
+    <span className={cx(styles.place, className)} title={title} aria-hidden={isSilent}>
+      <span ref={place} className={styles.text} />
+      <MovingText element={place} {...{ text, colour, write, cover }} />
+    </span>
+  );
+}
