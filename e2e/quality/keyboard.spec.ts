@@ -56,6 +56,31 @@ test('the main job needs no mouse', async ({ page, servers }) => {
   await expect(dashboard.status).toHaveText('Idle');
 });
 
+test('F6 goes from part to part, each time to where the keys were in it', async ({ page, servers }) => {
+  const dashboard = dashboardOf(page);
+  const { keyboard } = page;
+  const next = async (key: 'F6' | 'Shift+F6', wanted: Locator) => {
+    await keyboard.press(key);
+    expect(await holdsFocus(wanted)).toBe(true);
+  };
+  const part = (name: string) => page.getByRole('region', { name, exact: true });
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
+
+  await next('F6', page.getByRole('banner'));
+  await next('F6', part('Servos'));
+  await dashboard.slider(6).focus();
+  await next('F6', part('Action group'));
+  await dashboard.capture.focus();
+  await next('F6', part('Timeline'));
+  for (const name of ['Board', 'Battery', 'Log']) await next('F6', part(name));
+  await next('F6', page.getByRole('banner'));
+  await next('Shift+F6', part('Log'));
+  for (const name of ['Battery', 'Board', 'Timeline']) await next('Shift+F6', part(name));
+  await next('Shift+F6', dashboard.capture);
+  await next('Shift+F6', dashboard.slider(6));
+});
+
 test('a dialog shares the focus with STOP alone, and gives it back', async ({ page, servers }) => {
   const dashboard = dashboardOf(page);
   await page.goto((await servers.files()).url);

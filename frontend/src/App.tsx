@@ -33,6 +33,7 @@ import { Icon, type IconName } from './ui/Icon.tsx';
 import { useEachFrame } from './ui/useEachFrame.ts';
 import { useFocusKept } from './ui/useFocusKept.ts';
 import { useLayout } from './ui/useLayout.ts';
+import { useParts } from './ui/useParts.ts';
 import { useSpokenLocale } from './ui/useSpokenLocale.ts';
 import { words } from './words/words.ts';
 import styles from './App.module.css';
@@ -78,6 +79,7 @@ function Unseen() {
   useBatteryTab();
   useUndoKeys(useWritten());
   useFocusKept();
+  useParts();
   useEachFrame(() => {
     device.refresh();
     pad.frame();

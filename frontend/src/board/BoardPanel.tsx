@@ -18,6 +18,7 @@ import { PlaceControl } from './PlaceControl.tsx';
 import { RunSettings } from './RunSettings.tsx';
 import { SpeedControl } from './SpeedControl.tsx';
 import panel from '../ui/Panel.module.css';
+import { PART } from '../ui/useParts.ts';
 import styles from './BoardPanel.module.css';
 
 export interface BoardPanelProps {
@@ -29,7 +30,7 @@ export function BoardPanel({ isSpread = false }: BoardPanelProps) {
   const titleId = useId();
   const details = useRef<HTMLDivElement>(null);
   return (
-    <section className={isSpread ? styles.spread : panel.panel} aria-labelledby={titleId}>
+    <section {...PART} className={isSpread ? styles.spread : panel.panel} aria-labelledby={titleId}>
       <header className={styles.strip}>
         <h2 id={titleId} className={panel.title}>
           {words.board.title}

@@ -8,6 +8,7 @@ import { useFollow } from '../ui/useFollow.ts';
 import { words } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import { LogPanel } from './LogPanel.tsx';
+import { PART } from '../ui/useParts.ts';
 import styles from './LogDrawer.module.css';
 
 /** A packet takes longer to read than a number. */
@@ -24,7 +25,7 @@ export function LogDrawer() {
     );
   }
   return (
-    <section className={styles.folded} aria-label={words.log.title}>
+    <section {...PART} className={styles.folded} aria-label={words.log.title}>
       <AriaButton
         className={styles.button ?? ''}
         aria-label={words.log.open}

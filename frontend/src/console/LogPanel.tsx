@@ -15,6 +15,7 @@ import { createLogView } from './logView.ts';
 import { saveFile } from '../ui/saveFile.ts';
 import { logFile } from './savedLog.ts';
 import { searchTest } from './search.ts';
+import { PART } from '../ui/useParts.ts';
 import styles from './LogPanel.module.css';
 
 const KINDS = ['move', 'group', 'battery', 'link', 'noise'] as const satisfies readonly LogKind[];
@@ -38,7 +39,7 @@ export function LogPanel({ onFold }: { readonly onFold?: () => void }) {
   };
 
   return (
-    <section className={styles.panel} aria-label={words.log.title} data-fills="">
+    <section {...PART} className={styles.panel} aria-label={words.log.title} data-fills="">
       <header className={styles.header}>
         <h2 className={styles.title}>{words.log.title}</h2>
         <Filter />

@@ -32,6 +32,7 @@ import { StatusText, type Said } from './StatusText.tsx';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
 import { useRows } from './useRows.ts';
+import { PART } from '../ui/useParts.ts';
 import styles from './Timeline.module.css';
 
 /** `onPlay`: the play key was pressed here, with Shift to play on the drawing alone. */
@@ -138,7 +139,7 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
   }
 
   return (
-    <section className={styles.timeline} aria-label={words.timeline.title}>
+    <section {...PART} className={styles.timeline} aria-label={words.timeline.title}>
       <TimelineTools openMenu={openMenu} />
       <div
         ref={scroller}

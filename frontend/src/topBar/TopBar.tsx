@@ -14,12 +14,13 @@ import { words } from '../words/words.ts';
 import { LanguageControl } from './LanguageControl.tsx';
 import { LinkChip } from './LinkChip.tsx';
 import { StatusLine, type StatusLineProps } from './StatusLine.tsx';
+import { PART } from '../ui/useParts.ts';
 import styles from './TopBar.module.css';
 
 export function TopBar({ onMoveHere }: Pick<StatusLineProps, 'onMoveHere'>) {
   const isShared = useDevice((state) => state.way?.kind === 'gateway');
   return (
-    <header className={styles.bar} data-shared={isShared} aria-label={words.regions.top}>
+    <header {...PART} className={styles.bar} data-shared={isShared} aria-label={words.regions.top}>
       <h1 className={styles.product}>
         <Sign />
         <span className={styles.productName}>{words.product}</span>

@@ -2,6 +2,7 @@
 
 import { useId, type ReactNode } from 'react';
 import { cx } from './cx.ts';
+import { PART } from './useParts.ts';
 import styles from './Panel.module.css';
 
 export interface PanelProps {
@@ -18,7 +19,7 @@ export interface PanelProps {
 export function Panel({ title, tabs, note, tools, className, children }: PanelProps) {
   const headingId = useId();
   return (
-    <section className={cx(styles.panel, className)} aria-labelledby={headingId}>
+    <section {...PART} className={cx(styles.panel, className)} aria-labelledby={headingId}>
       <header className={styles.header}>
         <h2 id={headingId} className={tabs === undefined ? styles.title : styles.unseen}>
           {title}
