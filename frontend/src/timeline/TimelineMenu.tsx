@@ -32,6 +32,7 @@ const CHANGES: readonly VerbName[] = [
   'reverse',
   'mirror',
   'scaleTime',
+  'scaleTimeBack',
   'scaleAmplitude',
   'insertTime',
   'note',

@@ -56,6 +56,15 @@ test('a single frame is stretched from its beginning', async () => {
   expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 2000, 2500]);
 });
 
+test('from its end a stretch is scaled so far as there is room before it', async () => {
+  const { desk, select, keys } = await createTimelineDesk();
+  select([2, 1], [3, 1]);
+  answer(desk(), 'scaleTimeBack', '50');
+  expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1250, 1500]);
+  answer(desk(), 'scaleTimeBack', '150');
+  expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1125, 1500]);
+});
+
 test('time, notes and markers', async () => {
   const { desk, select, group, stores } = await createTimelineDesk();
   select([2, 1]);

@@ -1,10 +1,10 @@
 // What a person is asked for in place, one field at a time: what stands in it at first, and what is done with the answer.
 
 import { renameMarker, addMarker } from '#shared/actions/group/markerEdits.ts';
-import { GROUP_NAME_LENGTH, NOTE_LENGTH } from '#shared/actions/group/group.ts';
+import { GROUP_NAME_LENGTH, NOTE_LENGTH, type ActionGroup } from '#shared/actions/group/group.ts';
 import { scaleAmplitude, setPositions } from '#shared/actions/group/keyEdits.ts';
 import { setNote } from '#shared/actions/group/frameEdits.ts';
-import { insertTime, stretch } from '#shared/actions/group/timeEdits.ts';
+import { insertTime, stretch, stretchBack, type TimeRange } from '#shared/actions/group/timeEdits.ts';
 import type { Ask } from '../stores/timeline/timeline.ts';
 import { numberIn } from '../ui/NumberField.tsx';
 import type { Scale } from '../servos/scale.ts';
@@ -50,21 +50,8 @@ export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
       apply(desk, { label: () => words.timeline.steps.value, edit: (group) => setPositions(group, keys) });
     },
   },
-  scaleTime: {
-    kind: 'number',
-    unit: () => words.timeline.percent,
-    range: () => ({ min: 1, max: 10_000 }),
-    initial: () => '100',
-    take(desk, value) {
-      const span = stretchedSpan(desk);
-      if (span === null) return;
-      const { ripples: ripple } = desk.state;
-      apply(desk, {
-        label: () => words.timeline.steps.scaleTime,
-        edit: (group) => stretch(group, span, value / 100, { ripple }),
-      });
-    },
-  },
+  scaleTime: scalingTime((group, span, factor, ripple) => stretch(group, span, factor, { ripple })),
+  scaleTimeBack: scalingTime(stretchBack),
   scaleAmplitude: {
     kind: 'number',
     unit: () => words.timeline.percent,
@@ -116,6 +103,25 @@ export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
     },
   },
 };
+
+function scalingTime(
+  edit: (group: ActionGroup, span: TimeRange, factor: number, ripple: boolean) => ActionGroup,
+): NumberAsk {
+  return {
+    kind: 'number',
+    unit: () => words.timeline.percent,
+    range: () => ({ min: 1, max: 10_000 }),
+    initial: () => '100',
+    take(desk, value) {
+      const span = stretchedSpan(desk);
+      if (span === null) return;
+      apply(desk, {
+        label: () => words.timeline.steps.scaleTime,
+        edit: (group) => edit(group, span, value / 100, desk.state.ripples),
+      });
+    },
+  };
+}
 
 /** The answer taken; what is wrong with it where it cannot be. */
 export function answer(desk: Desk, ask: Ask, text: string): string | null {

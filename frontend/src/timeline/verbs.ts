@@ -49,6 +49,7 @@ export const VERBS: Readonly<Record<VerbName, Verb>> = {
   reverse: { icon: 'reverse', needs: 'keys', keys: 'r', run: turnRound },
   mirror: { icon: 'mirror', needs: 'keys', keys: 'x', run: mirrorFrames },
   scaleTime: { icon: 'tune', needs: 'keys', keys: 's', run: asking('scaleTime') },
+  scaleTimeBack: { icon: 'tune', needs: 'keys', keys: 'Shift+s', run: asking('scaleTimeBack') },
   scaleAmplitude: { icon: 'tune', needs: 'keys', keys: 'a', run: asking('scaleAmplitude') },
   note: { icon: 'edit', needs: 'keys', keys: 'n', run: asking('note') },
   marker: { icon: 'marker', needs: 'nothing', keys: 'm', run: asking('marker') },

@@ -18,7 +18,15 @@ export interface Cursor {
 }
 
 /** A number or text that the person is asked for, in place. */
-export const ASKS = ['value', 'scaleTime', 'scaleAmplitude', 'insertTime', 'note', 'marker'] as const;
+export const ASKS = [
+  'value',
+  'scaleTime',
+  'scaleTimeBack',
+  'scaleAmplitude',
+  'insertTime',
+  'note',
+  'marker',
+] as const;
 export type Ask = (typeof ASKS)[number];
 
 export interface TimelineState {

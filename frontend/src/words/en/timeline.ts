@@ -92,6 +92,7 @@ export const timelineWords = {
     reverse: 'Reverse',
     mirror: 'Mirror left and right',
     scaleTime: 'Scale time',
+    scaleTimeBack: 'Scale time from the end',
     scaleAmplitude: 'Scale amplitude',
     note: 'Note on frame',
     marker: 'Set marker',
@@ -142,6 +143,7 @@ export const timelineWords = {
   asks: {
     value: 'Position of the selected keys',
     scaleTime: 'New length of the stretch in percent',
+    scaleTimeBack: 'New length of the stretch in percent, its end stays',
     scaleAmplitude: 'New amplitude about the mean in percent',
     insertTime: 'Time to insert at the playhead in milliseconds',
     note: 'Note on the frame',

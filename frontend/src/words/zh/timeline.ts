@@ -65,6 +65,7 @@ export const timelineWords: typeof english = {
     reverse: '倒转',
     mirror: '左右镜像',
     scaleTime: '缩放时间',
+    scaleTimeBack: '从末尾缩放时间',
     scaleAmplitude: '缩放幅度',
     note: '帧的备注',
     marker: '设标记',
@@ -115,6 +116,7 @@ export const timelineWords: typeof english = {
   asks: {
     value: '所选关键帧的位置',
     scaleTime: '这段时间的新长度，百分比',
+    scaleTimeBack: '这段时间的新长度，百分比，末尾不动',
     scaleAmplitude: '相对平均值的新幅度，百分比',
     insertTime: '在播放头插入的时间，单位毫秒',
     note: '帧的备注',
