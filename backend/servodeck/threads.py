@@ -8,6 +8,8 @@ from functools import partial
 from typing import TypeVar
 
 T = TypeVar("T")
+# As each of them is called.
+NAME = "in the background"
 
 
 async def in_thread(action: Callable[[], T], undo: Callable[[T], None] | None = None) -> T:
@@ -33,5 +35,5 @@ async def in_thread(action: Callable[[], T], undo: Callable[[T], None] | None = 
         with contextlib.suppress(RuntimeError):  # the loop is closed: the process is ending
             loop.call_soon_threadsafe(told)
 
-    threading.Thread(target=run, daemon=True).start()
+    threading.Thread(target=run, name=NAME, daemon=True).start()
     return await outcome

@@ -11,7 +11,7 @@ import pytest
 from httpx2 import AsyncClient
 from prometheus_client.parser import text_string_to_metric_families
 
-from servodeck import __version__
+from servodeck import __version__, threads
 from servodeck.driving.control import Control
 from servodeck.errors import PortMissingError
 from servodeck.library.library import Library
@@ -94,7 +94,7 @@ async def test_a_disk_that_hangs_does_not_make_health_hang(
     async with http_to(FakePorts(FakePort()), time.monotonic, library=Library(tmp_path)) as (client, _):
         assert await troubles_of(client) == {"disk": "The disk does not answer."}
         assert await troubles_of(client) == {"disk": "The disk does not answer."}
-        assert sum(thread.name == "serial port" for thread in threading.enumerate()) == 1
+        assert sum(thread.name == threads.NAME for thread in threading.enumerate()) == 1
         answers.set()
         assert "Input/output" in (await troubles_of(client))["disk"]
 

@@ -96,31 +96,31 @@ export function NumberField(props: NumberFieldProps) {
           <Mark truth={props.truth.mark} />
         </span>
       )}
-      <span className={styles.value}>
-        <input
-          ref={input}
-          type="text"
-          inputMode={props.decimals === 1 ? 'decimal' : 'numeric'}
-          autoComplete="off"
-          aria-label={label}
-          className={styles.input}
-          value={text()}
-          placeholder={placeholder}
-          disabled={isDisabled}
-          readOnly={isReadOnly}
-          {...(props.excludeFromTabOrder === true && { tabIndex: -1 })}
-          onChange={({ target }) => PARTIAL.test(target.value) && setDraft(target.value)}
-          onBlur={commit}
-          onKeyDown={onKey}
-        />
-        {live !== null && (
+      <input
+        ref={input}
+        type="text"
+        inputMode={props.decimals === 1 ? 'decimal' : 'numeric'}
+        autoComplete="off"
+        aria-label={label}
+        className={styles.input}
+        value={text()}
+        placeholder={placeholder}
+        disabled={isDisabled}
+        readOnly={isReadOnly}
+        {...(props.excludeFromTabOrder === true && { tabIndex: -1 })}
+        onChange={({ target }) => PARTIAL.test(target.value) && setDraft(target.value)}
+        onBlur={commit}
+        onKeyDown={onKey}
+      />
+      {live !== null && (
+        <span className={styles.over}>
           <live.Show
             element={input}
             colour={isDisabled || isReadOnly ? 'ink-dim' : 'ink'}
             {...{ text, write, cover }}
           />
-        )}
-      </span>
+        </span>
+      )}
       {unit !== undefined && (
         <span className={styles.unit} aria-hidden="true">
           {unit}
