@@ -10,7 +10,7 @@ import { Drawing } from './Drawing.tsx';
 import { paintHands } from './hands.ts';
 import { motionInFrame } from './motionInFrame.ts';
 import { dialDegrees, halfDegree } from './pose.ts';
-import hands from './hands.module.css';
+import overlay from './overlay.module.css';
 import styles from './Dial.module.css';
 
 export function Dial({ servo, family }: { readonly servo: number; readonly family: Family }) {
@@ -21,7 +21,7 @@ export function Dial({ servo, family }: { readonly servo: number; readonly famil
     <span className={styles.place}>
       <DialFace servo={servo} />
       <Drawing
-        className={hands.over}
+        className={overlay.over}
         shown={() => {
           const { target, estimated } = motionInFrame(device, servo);
           return [turn(target), turn(estimated)] as const;

@@ -13,7 +13,7 @@ import { paintHands, type Spot } from './hands.ts';
 import { motionInFrame } from './motionInFrame.ts';
 import { dialDegrees, halfDegree, type Pose } from './pose.ts';
 import { usePreview } from './usePreview.ts';
-import hands from './hands.module.css';
+import overlay from './overlay.module.css';
 import styles from './Dials.module.css';
 
 /** So many find room at a size that is read across the room. */
@@ -75,7 +75,7 @@ function AllHands({ list, servos, family }: AllHandsProps) {
 
   return (
     <Canvas
-      className={hands.over}
+      className={overlay.over}
       shown={() =>
         servos.flatMap((servo) => {
           const { target, estimated } = motionInFrame(device, servo);

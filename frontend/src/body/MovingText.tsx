@@ -3,15 +3,15 @@
 
 import { useLayoutEffect, useRef } from 'react';
 import type { LookName } from '../timeline/look.ts';
-import type { LiveTextProps } from '../ui/NumberField.tsx';
+import type { FollowedTextProps } from '../ui/NumberField.tsx';
 import { READABLE_MS, useFollow } from '../ui/useFollow.ts';
 import type { Pen, Size } from './Canvas.tsx';
 import { Drawing } from './Drawing.tsx';
-import styles from './MovingText.module.css';
+import overlay from './overlay.module.css';
 
 const WRITTEN_EACH_MS = 1000;
 
-export interface MovingTextProps extends Omit<LiveTextProps, 'colour'> {
+export interface MovingTextProps extends Omit<FollowedTextProps, 'colour'> {
   readonly colour: LookName;
 }
 
@@ -48,7 +48,7 @@ export function MovingText({ element, colour, text, write, cover }: MovingTextPr
   useFollow({ read: text, draw: follow, eachMs: READABLE_MS });
   return (
     <Drawing
-      className={styles.over}
+      className={overlay.over}
       shown={() => [drawn.current, document.fonts.status] as const}
       paint={(pen, [now]) => {
         if (now !== null) paintText(pen, typeIn(pen), pen.look[colour], now);

@@ -12,7 +12,7 @@ import { PART } from '../ui/useParts.ts';
 import styles from './LogDrawer.module.css';
 
 /** A packet takes longer to read than a number. */
-const READABLE_MS = 500;
+const PACKET_READABLE_MS = 500;
 
 export function LogDrawer() {
   const { view } = useStores();
@@ -42,7 +42,7 @@ export function LogDrawer() {
 function Latest() {
   const { traffic } = useStores().device;
   const [nextId, show] = useState(traffic.store.getState().nextId);
-  useFollow({ read: () => traffic.store.getState().nextId, draw: show, eachMs: READABLE_MS });
+  useFollow({ read: () => traffic.store.getState().nextId, draw: show, eachMs: PACKET_READABLE_MS });
   // It may have been cleared since.
   const { oldestId } = traffic.store.getState();
   if (nextId <= oldestId) return <span className={styles.latest}>{words.log.empty}</span>;

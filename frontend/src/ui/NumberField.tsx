@@ -8,7 +8,7 @@ import { cx } from './cx.ts';
 import styles from './NumberField.module.css';
 
 /** A text on the page, for whoever shows it as it changes. */
-export interface LiveTextProps {
+export interface FollowedTextProps {
   readonly element: RefObject<HTMLElement | null>;
   readonly colour: 'ink' | 'ink-dim';
   text(): string;
@@ -21,7 +21,7 @@ export interface LiveTextProps {
 export interface LiveNumber {
   now(): number | null;
   /** Follows it past React; stands over the field's text. */
-  readonly Show: ComponentType<LiveTextProps>;
+  readonly Show: ComponentType<FollowedTextProps>;
 }
 
 export interface NumberFieldProps {
