@@ -129,10 +129,12 @@ test('several groups of the library go to their slots with one progress', async 
   await library.call('Wave for six');
   await dashboard.type(dashboard.slot, 6);
   await dashboard.button('Remember slot and times').click();
-  await library.show();
-  await library.button('New group').click();
+  for (const name of ['Empty for nine', 'Bow for seven']) {
+    await library.show();
+    await library.button('New group').click();
+    await library.call(name);
+  }
   await captureGroup(dashboard, [1300], 400);
-  await library.call('Bow for seven');
   await expect(dashboard.estimate(1)).toHaveText('≈ 1300');
 
   await dashboard.button('Slots').click();
@@ -142,8 +144,16 @@ test('several groups of the library go to their slots with one progress', async 
   const slotOf = (name: string) => several.getByRole('textbox', { name: `Slot for ${name}` });
   const all = several.getByRole('checkbox', { name: /^All \d+$/ });
   const choices = several.getByRole('list').getByRole('checkbox');
+  const cannotGo = choices.and(page.getByRole('checkbox', { checked: false }));
   await all.click();
-  await expect(choices.and(page.getByRole('checkbox', { checked: false }))).toHaveCount(0);
+  await expect(several.getByRole('checkbox', { name: /^Bow for seven/ })).toBeChecked();
+  await expect(all).toBeChecked();
+  await expect(several.getByRole('checkbox', { name: /^Empty for nine/ })).not.toBeChecked();
+  await expect(several.getByRole('listitem').filter({ hasText: 'Empty for nine' })).toContainText(
+    'Capture a frame first.',
+  );
+  await expect(several.getByRole('status')).toContainText(`${await cannotGo.count()} group`);
+  await expect(several.getByRole('button', { name: 'Download these' })).toBeEnabled();
   await all.click();
   await expect(choices.and(page.getByRole('checkbox', { checked: true }))).toHaveCount(0);
   // Its frames are read first, so the check comes a moment after the press.

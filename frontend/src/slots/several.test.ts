@@ -3,7 +3,7 @@ import { emptyGroup } from '#shared/actions/group/group.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { EMPTY_SLOT_BOOK, withStored } from '#shared/actions/slots/slotBook.ts';
 import { createDesk } from '../stores/deskUnderTest.ts';
-import { downloadOf, hindranceOf, slotFor, type Wanted } from './several.ts';
+import { downloadOf, hindranceOf, slotFor, thoseThatCan, type Wanted } from './several.ts';
 
 const RANGE = { min: 0, max: 3 };
 
@@ -36,4 +36,25 @@ test('what does not fit, is empty or wants the slot of another is told; the rest
   expect(hindrances.map((text) => text !== null)).toEqual([false, false, true, true]);
   expect(hindranceOf(bow, [{ ...wave, slot: 2 }, bow])).toBe('Slot 2 is wanted twice.');
   expect(downloadOf(wave)).toMatchObject({ documentId: 'wave', slot: 1, name: 'wave', frames: [{}, {}] });
+});
+
+test('of all groups those are taken that can go, each in its slot or a free one, and no two in the same', async () => {
+  const { compiled, device, robots } = await createDesk();
+  const on = { family: device.store.getState().family, robot: robots.current().robot };
+  const asked = (documentId: string, slot: number | null, ...positions: readonly number[]) => {
+    const group = positions.reduce(
+      (sum, position) => insertFrame(sum, 9, { durationMs: 400, targets: [{ servo: 1, position }] }),
+      emptyGroup(documentId, 'us'),
+    );
+    return { documentId, compiled: compiled.of({ ...group, slot }, on) };
+  };
+  const slotsOf = (all: readonly Wanted[]) => all.map(({ documentId, slot }) => `${documentId} ${slot}`);
+  const { can, cannot } = thoseThatCan(
+    [asked('free', null, 1000), asked('far', null, 2600), asked('bow', 2, 1000), asked('second', 2, 1200)],
+    [{ ...asked('wave', 0, 1000), slot: 0 }],
+    (own, taken) => slotFor(own, EMPTY_SLOT_BOOK, taken, RANGE),
+  );
+  expect(slotsOf(can)).toEqual(['bow 2', 'free 1']);
+  expect(slotsOf(cannot)).toEqual(['second 2', 'far 3']);
+  expect(cannot.map((one) => hindranceOf(one, can) === null)).toEqual([false, false]);
 });

@@ -35,6 +35,26 @@ export function hindranceOf(one: Wanted, all: readonly Wanted[]): string | null 
   return isTaken ? words.slots.several.sameSlot(one.slot) : null;
 }
 
+/**
+ * Beside what is wanted already: of those that are asked for, the ones that can go, and the others. A slot goes to the group that
+ * names it, before one that takes any. `placeOf`: as `slotFor`, beside the slots that are taken.
+ */
+export function thoseThatCan(
+  asked: readonly Omit<Wanted, 'slot'>[],
+  wanted: readonly Wanted[],
+  placeOf: (own: number | null, taken: readonly number[]) => number,
+): { readonly can: readonly Wanted[]; readonly cannot: readonly Wanted[] } {
+  const ownSlot = ({ compiled }: Omit<Wanted, 'slot'>): number | null => compiled.source.group.slot;
+  const [can, cannot]: [Wanted[], Wanted[]] = [[], []];
+  for (const one of asked.toSorted((a, b) => Number(ownSlot(a) === null) - Number(ownSlot(b) === null))) {
+    const before = [...wanted, ...can];
+    const taken = before.map(({ slot }) => slot);
+    const placed = { ...one, slot: placeOf(ownSlot(one), taken) };
+    (hindranceOf(placed, before) === null ? can : cannot).push(placed);
+  }
+  return { can, cannot };
+}
+
 export function downloadOf({ documentId, slot, compiled }: Wanted): SlotDownload {
   return { documentId, slot, name: compiled.source.group.name, frames: compiled.frames };
 }

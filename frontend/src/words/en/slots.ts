@@ -105,6 +105,8 @@ export const slotWords = {
     sameSlot: (slot: number): string => `${slotName(slot)} is wanted twice.`,
     total: (count: number, frames: number, downloadMs: number): string =>
       `${counted(count, 'group')}, ${frameCount(frames)} on the board, about ${formatRoughly(downloadMs)} to download`,
+    cannot: (count: number): string =>
+      `${counted(count, 'group')} cannot go; what keeps ${count === 1 ? 'it' : 'them'} is said beside ${count === 1 ? 'it' : 'each'}.`,
     none: 'Tick the groups that shall go to the board.',
     download: 'Download these',
     back: 'Back to one slot',

@@ -99,6 +99,7 @@ export const slotWords: typeof english = {
     sameSlot: (slot) => `${slotName(slot)}被用了两次。`,
     total: (count, frames, downloadMs) =>
       `${formatCount(count)}个动作组，控制板上${frameCount(frames)}，下载约${formatRoughly(downloadMs)}`,
+    cannot: (count) => `有${formatCount(count)}个动作组不能下载；原因写在各自旁边。`,
     none: '勾选要下载到控制板的动作组。',
     download: '下载这些',
     back: '回到单个槽位',
