@@ -20,6 +20,7 @@ from servodeck.told import (
     PortState,
     RobotTold,
     ServoNumber,
+    StopFor,
     StoredGroup,
     UnattendedRun,
 )
@@ -57,6 +58,7 @@ class StopMessage(Message):
 
     type: Literal["stop"]
     hold: Hex | None
+    why: StopFor = "person"
 
 
 class ResumeMessage(Message):
@@ -136,7 +138,7 @@ ClientMessage = Annotated[AnyClientMessage, Field(discriminator="type")]
 class Standing(Message):
     """How the gateway stands, for everybody alike. `brokenSlots` hold half a group: nobody may run them.
     `slotVersions` tell what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
-    people call whoever pressed STOP, where that is known.
+    people call whoever pressed STOP, or whose page did it for the battery, where that is known.
     """
 
     board: str

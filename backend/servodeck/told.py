@@ -135,5 +135,8 @@ class RobotTold(Message):
     revision: int
 
 
-LatchedBy = Literal["person", "silence", "loss"]
-"""Somebody pressed STOP; a driver was not heard while the robot moved; the port went away."""
+StopFor = Literal["person", "battery"]
+"""Somebody pressed STOP; the policy for a low battery, on the page of whoever drives."""
+
+LatchedBy = Literal[StopFor, "silence", "loss"]
+"""Besides these: a driver was not heard while the robot moved; the port went away."""

@@ -135,6 +135,17 @@ async def test_a_viewer_may_stop_and_ask_questions_and_nothing_more() -> None:
 
 
 @in_virtual_time
+async def test_a_stop_for_the_battery_is_told_as_such_with_whose_page_it_was() -> None:
+    async with gateway_on() as control:
+        anna, bert = Client(control, PUPIL), Client(control, GUEST)
+        await anna.send(MOVE)
+        await bert.heard()
+        take(StopMessage(type="stop", hold=None, why="battery"), anna, control)
+        stopped = [message for message in await bert.heard() if message["type"] == "state"]
+        assert [(state["latchedBy"], state["stoppedBy"]) for state in stopped][-1:] == [("battery", "Anna")]
+
+
+@in_virtual_time
 async def test_while_somebody_drives_only_they_or_an_owner_resume_and_everybody_hears_it() -> None:
     async with gateway_on() as control:
         anna, carl, bert = Client(control, PUPIL), Client(control, CARL), Client(control, GUEST)

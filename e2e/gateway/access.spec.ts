@@ -25,7 +25,8 @@ test('an owner comes in by the terminal’s link, lets a viewer in, who stops th
   const before = await stops(ptyBoard.bus);
   await ben.stop.click();
   await poll(() => stops(ptyBoard.bus)).toBeGreaterThanOrEqual(before + 3);
-  await expect(ben.status).toContainText('Stop was pressed');
+  await expect(ben.status).toContainText('Stop was pressed here');
+  await expect(owner.status).toContainText('Stopped by Ben');
 
   const used = await newDevice(browser, invitation.link);
   await expect(pairCardOf(used).problem).toContainText('used already');

@@ -19,7 +19,7 @@ test('a STOP on one screen stops the robot for both, and either may resume', asy
   await expect(other.estimate(1)).toHaveText('≈ 2000');
   await dashboard.type(dashboard.target(1), 1800);
   await other.stop.click();
-  await expect(dashboard.status).toContainText('Stopped in another window');
+  await expect(dashboard.status).toContainText('Stopped at the robot’s computer');
   await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');
   await poll(async () => ofKind(await robot.bus(), 'stop').length).toBeGreaterThanOrEqual(3);
   await dashboard.resume.click();

@@ -61,6 +61,13 @@ test.describe('at its alarm', () => {
     await dashboard.button('Start anyway').click();
     await poll(async () => ofKind(await robot.bus(), 'run')).toHaveLength(1);
   });
+
+  test('a robot that was taken to rest says that nobody pressed Stop @everyWay', async ({ dashboard }) => {
+    await dashboard.feedBy('2S pack', { policy: 'Go to rest and stop' });
+    await expect(dashboard.status).toContainText('The robot’s setting for a low battery stopped it', {
+      timeout: 40_000,
+    });
+  });
 });
 
 for (const { batteryMv, volts, word } of [

@@ -11,7 +11,7 @@ log = logging.getLogger("servodeck.robot")
 
 @dataclass(frozen=True, slots=True)
 class Cause:
-    """`name` is for people: who pressed STOP."""
+    """`name` is for people: who pressed STOP, or whose page did it for the battery."""
 
     by: LatchedBy
     name: str | None = None

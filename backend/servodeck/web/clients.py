@@ -198,7 +198,7 @@ def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:
     with refusing(seat, None):  # a bad pose is told, and the stop goes out all the same
         hold = judge_hold(message.hold, control.board.taken_for)
     with refusing(seat, None):
-        control.stop(hold, seat, Cause("person", seat.caller.name))
+        control.stop(hold, seat, Cause(message.why, seat.caller.name))
 
 
 def answer(seat: Seat, message_id: int, left: Left) -> None:

@@ -120,6 +120,7 @@ export const SPECIMENS: readonly Specimen[] = [
   { name: 'Stopped, failed', state: latched('pressed', 'failed'), ...LATCHED },
   { name: 'Stopped in a first move', state: latched('pressed', 'sent', [3, 5]), ...LATCHED },
   { name: 'Stopped elsewhere', way: REMOTE, state: latched('elsewhere', 'sent'), ...DRIVEN },
+  { name: 'Stopped for the battery', state: latched('battery', 'sent'), ...LATCHED },
   { name: 'Stopped for want of a driver', way: REMOTE, state: latched('unwatched', 'sent'), ...DRIVEN },
   { name: 'Back after a loss', state: latched('reconnected', 'sent'), pose: 'unknown', ...DRIVEN },
   { name: 'Lost with countdown', state: lost('lost', 3_600_000), pose: 'unknown', frames: 3 },

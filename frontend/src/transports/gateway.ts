@@ -254,9 +254,9 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
         typeof action === 'string' ? { type: 'lease', action } : { type: 'give', to: action.giveTo },
       ),
     letGoOn: (forMs) => postIfOpen({ type: 'continue', forMs }),
-    halt(hold) {
+    halt(hold, why) {
       return new Promise((resolve, reject) => {
-        post({ type: 'stop', hold: hold && compactHex(hold) });
+        post({ type: 'stop', hold: hold && compactHex(hold), why: why === 'battery' ? 'battery' : 'person' });
         halting.add({ resolve, reject });
       });
     },

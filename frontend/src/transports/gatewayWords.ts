@@ -12,6 +12,7 @@ import type { MotionTold, PortState, StateMessage } from './messages.generated.t
 
 export const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, SharedLatchReason>> = {
   person: 'elsewhere',
+  battery: 'battery',
   silence: 'unwatched',
   loss: 'reconnected',
 };

@@ -52,6 +52,7 @@ export interface SendMessage {
 export interface StopMessage {
   type: 'stop';
   hold: string | null;
+  why?: 'person' | 'battery';
 }
 /**
  * Allow motion again. Moves nothing.
@@ -113,7 +114,7 @@ export interface WelcomeMessage {
   board: string;
   port: PortState;
   latch: boolean;
-  latchedBy: ('person' | 'silence' | 'loss') | null;
+  latchedBy: ('person' | 'battery' | 'silence' | 'loss') | null;
   stoppedBy: string | null;
   clients: number;
   unattended: UnattendedRun | null;
@@ -392,7 +393,7 @@ export interface StateMessage {
   board: string;
   port: PortState;
   latch: boolean;
-  latchedBy: ('person' | 'silence' | 'loss') | null;
+  latchedBy: ('person' | 'battery' | 'silence' | 'loss') | null;
   stoppedBy: string | null;
   clients: number;
   unattended: UnattendedRun | null;

@@ -38,7 +38,7 @@ export function createHappeningsReader(): (snapshot: Watched) => readonly Happen
     const happened: Happening[] = [];
     const next = LINK_HAPPENINGS[snapshot.link.status] ?? link;
     if (next !== link) happened.push(next);
-    if (snapshot.latch !== latch && isPress(snapshot.latch)) happened.push('stopped');
+    if (snapshot.latch !== latch && isOurStop(snapshot.latch)) happened.push('stopped');
     else if (latch === null && snapshot.latch !== null) happened.push('latched');
     // A link that is closed takes its latch along; nobody allowed motion.
     if (latch !== null && snapshot.latch === null && next === 'opened') happened.push('resumed');
@@ -48,7 +48,7 @@ export function createHappeningsReader(): (snapshot: Watched) => readonly Happen
   };
 }
 
-/** Each press of STOP begins with a latch of its own, also where one is set already. */
-function isPress(latch: SessionState['latch']): boolean {
-  return latch?.reason === 'pressed' && latch.stop === 'sending';
+/** Each stop from here begins with a latch of its own, also where one is set already. */
+function isOurStop(latch: SessionState['latch']): boolean {
+  return latch?.stop === 'sending' && (latch.reason === 'pressed' || latch.reason === 'battery');
 }

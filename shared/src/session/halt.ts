@@ -10,10 +10,10 @@ import { LinkError } from './linkError.ts';
 import type { Latch } from './state.ts';
 import type { SessionStore } from './store.ts';
 import { STOP_REPEATS_MS } from './timings.ts';
-import type { SharedLatchReason, Transport } from './transport.ts';
+import type { HaltReason, SharedLatchReason, Transport } from './transport.ts';
 
 export interface Halt {
-  halt(): Promise<void>;
+  halt(why?: HaltReason): Promise<void>;
   resume(): Promise<void>;
   /** Another screen stopped a shared link, `by` where a person did; what that sent is told apart. */
   latchedElsewhere(reason: SharedLatchReason, by: string | null): void;
@@ -90,9 +90,9 @@ export function createHalt(options: HaltOptions): Halt {
     await sendHold();
   }
 
-  async function haltSharedLink(): Promise<void> {
+  async function haltSharedLink(why: HaltReason): Promise<void> {
     const hold = holdPacket();
-    const done = transport.halt?.(hold);
+    const done = transport.halt?.(hold, why);
     sentByOthers(STOP_PACKET);
     if (hold !== null) sentByOthers(hold);
     await done;
@@ -115,9 +115,9 @@ export function createHalt(options: HaltOptions): Halt {
       latch({ reason, by, stop: 'sent', unheld: [] });
     },
     latchedByLoss: () => latch({ reason: 'reconnected', by: null, stop: 'failed', unheld: [] }),
-    async halt() {
-      latch({ reason: 'pressed', by: null, stop: 'sending', unheld: options.unheld() });
-      await send(transport.halt ? haltSharedLink : haltOwnLink);
+    async halt(why = 'pressed') {
+      latch({ reason: why, by: null, stop: 'sending', unheld: options.unheld() });
+      await send(transport.halt ? () => haltSharedLink(why) : haltOwnLink);
     },
     async resume() {
       requireReady(store);

@@ -21,7 +21,7 @@ import { createResync } from './resync.ts';
 import type { LinkState, ServoMotion, SessionEvents, SessionState } from './state.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { createSessionStore, NOTHING_READ } from './store.ts';
-import type { SlotGroup, Transport } from './transport.ts';
+import type { HaltReason, SlotGroup, Transport } from './transport.ts';
 import { createWakefulClock } from './wakefulClock.ts';
 
 export interface SessionOptions {
@@ -64,7 +64,7 @@ export interface Session {
   /** Ends the running group after its frame in progress. Leaves everything else free to move. */
   stopGroup(): Promise<void>;
   /** STOP: see safety.md section 1. Resolves when the whole sequence has left the wire. */
-  halt(): Promise<void>;
+  halt(why?: HaltReason): Promise<void>;
   /** Allows motion again. Moves nothing. */
   resume(): Promise<void>;
   /** Erases every slot of the board. */

@@ -7,7 +7,13 @@ import type { Family } from '../protocol/families.ts';
 import type { Lease } from './lease.ts';
 import type { Identity } from './identity.ts';
 import type { LinkError } from './linkError.ts';
-import type { DownloadProgress, RobotOnBoard, SharedLatchReason, SlotVersions } from './transport.ts';
+import type {
+  DownloadProgress,
+  HaltReason,
+  RobotOnBoard,
+  SharedLatchReason,
+  SlotVersions,
+} from './transport.ts';
 
 export type LinkState =
   | { readonly status: 'closed' }
@@ -25,11 +31,11 @@ export type LinkState =
 /** Motion is refused while this is not null; only `resume` clears it. */
 export interface Latch {
   /**
-   * `pressed` here, `elsewhere` by another screen, `unwatched`: its driver was not heard while it moved, or set because the
+   * `pressed` here, `elsewhere` by another screen, `battery`: a policy, here or there, `unwatched`: its driver was not heard while it moved, or set because the
    * link came back and nobody has looked yet.
    */
-  readonly reason: 'pressed' | SharedLatchReason;
-  /** People's name for whoever stopped it `elsewhere`. */
+  readonly reason: HaltReason | SharedLatchReason;
+  /** People's name for whoever stopped it elsewhere; null where it was here. */
   readonly by: string | null;
   /** `sending`: the stop packets are on their way. `sent`: they left the wire. `confirmed`: the board said so. */
   readonly stop: 'sending' | 'sent' | 'confirmed' | 'failed';

@@ -8,7 +8,10 @@ import type { Lease, LeaseAction } from './lease.ts';
 import type { LinkError } from './linkError.ts';
 
 /** Why a shared link (gateway) refuses motion: another screen, no driver while it moved, or a port that was lost. */
-export type SharedLatchReason = 'elsewhere' | 'unwatched' | 'reconnected';
+export type SharedLatchReason = 'elsewhere' | 'battery' | 'unwatched' | 'reconnected';
+
+/** Who asks for a stop: a person's hand, or the battery's policy on this page. */
+export type HaltReason = 'pressed' | 'battery';
 
 export interface TransportEvents {
   /** Bytes from the board, in order, in whatever pieces they came; `whole` where they are whole packets for sure. */
@@ -125,7 +128,7 @@ export interface Transport {
    * A shared link's own stop lane: purge, stop three times, send `hold`, latch. Where it is absent the session does that
    * itself with `send`.
    */
-  halt?(hold: Uint8Array | null): Promise<void>;
+  halt?(hold: Uint8Array | null, why: HaltReason): Promise<void>;
   resume?(): Promise<void>;
   /**
    * Only a link that nobody shares: the page is about to go. Hands the packet over before it returns, and the link is lost.

@@ -266,7 +266,7 @@ describe('a robot that goes to rest', () => {
     ]);
     expect(latch()).toBeNull();
     await clock.advance(REST_MOVE_MS);
-    expect(latch()).toMatchObject({ reason: 'pressed' });
+    expect(latch()).toMatchObject({ reason: 'battery' });
     expect(told()).not.toContain(words.battery.goingToRest(REST_WARNING_MS));
     expect(told()).toContain(words.battery.rested('6.50\u00a0V'));
     await clock.advance(1000);

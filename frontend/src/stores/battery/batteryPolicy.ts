@@ -91,7 +91,7 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
       if (!isThere) return;
       notices.takeBack(announcement());
       notices.tell('danger', words.battery.rested(volts()));
-      device.halt();
+      device.halt('battery');
     });
   }
 

@@ -13,7 +13,7 @@ import { LinkError } from '#shared/session/linkError.ts';
 import type { Session } from '#shared/session/session.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
-import type { SlotGroup, Transport } from '#shared/session/transport.ts';
+import type { HaltReason, SlotGroup, Transport } from '#shared/session/transport.ts';
 import { words } from '../../words/words.ts';
 import { createLateNews } from './lateNews.ts';
 import { createLimitGate } from './limitGate.ts';
@@ -71,7 +71,7 @@ export interface Device {
   calibrate(servo: number | null): void;
   /** Moves the servo that is calibrated, as far as its board can. */
   creep(position: number, durationMs: number): void;
-  halt(): void;
+  halt(why?: HaltReason): void;
   resume(): void;
   /** About who drives a robot that is shared. */
   lease(action: LeaseAction): void;
@@ -332,7 +332,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     creep(position, durationMs) {
       if (calibrated !== null && send([{ servo: calibrated, position }], durationMs)) refresh();
     },
-    halt: () => attempt((current) => current.halt()),
+    halt: (why) => attempt((current) => current.halt(why)),
     resume: () => attempt((current) => current.resume()),
     lease: (action) => session?.lease(action),
     letGoOn: (forMs) => session?.letGoOn(forMs),

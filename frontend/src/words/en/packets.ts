@@ -85,7 +85,7 @@ const HAPPENINGS: Readonly<Record<Happening, string>> = {
   opened: 'Link ready',
   lost: 'Link lost',
   closed: 'Link closed',
-  stopped: 'Stop was pressed',
+  stopped: 'Stopped from here',
   latched: 'Motion waits for Resume',
   resumed: 'Motion allowed again',
 };

@@ -4,8 +4,8 @@ import { formatList } from './numbers.ts';
 import { named } from './lease.ts';
 
 const STOPPED_AT: Readonly<Record<string, string>> = {
-  'This computer': 'Stopped in another window',
-  'A script on this computer': 'Stopped by a script on this computer',
+  'This computer': 'Stopped at the robot’s computer',
+  'A script on this computer': 'Stopped by a script on the robot’s computer',
 };
 
 export const stopWords = {
@@ -17,7 +17,8 @@ export const stopWords = {
   mayResume: (driver: string | null): string =>
     driver === null ? 'Only a driver may choose Resume' : `${named(driver)} or an owner may choose Resume`,
   reason: {
-    pressed: 'Stop was pressed',
+    pressed: 'Stop was pressed here',
+    battery: 'The robot’s setting for a low battery stopped it',
     unwatched: 'Its driver was gone while it moved',
     reconnected: 'The link came back; look at the robot first',
   },

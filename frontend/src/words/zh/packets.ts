@@ -84,7 +84,7 @@ const HAPPENINGS: Readonly<Record<Happening, string>> = {
   opened: '连接就绪',
   lost: '连接断开',
   closed: '连接关闭',
-  stopped: '按下了停止',
+  stopped: '从这里停止',
   latched: '运动等待恢复',
   resumed: '允许再次运动',
 };

@@ -5,8 +5,8 @@ import { formatList } from './numbers.ts';
 import { named } from './lease.ts';
 
 const STOPPED_AT: Readonly<Record<string, string>> = {
-  'This computer': '在另一个窗口停止',
-  'A script on this computer': '由这台电脑上的脚本停止',
+  'This computer': '在连着机器人的电脑上停止',
+  'A script on this computer': '由连着机器人的电脑上的脚本停止',
 };
 
 export const stopWords: Words['stop'] = {
@@ -17,7 +17,8 @@ export const stopWords: Words['stop'] = {
   resumed: (by) => `${named(by)}选择了恢复：机器人可以再次运动。`,
   mayResume: (driver) => (driver === null ? '只有操控者可以恢复' : `只有${named(driver)}或所有者可以恢复`),
   reason: {
-    pressed: '按下了停止',
+    pressed: '这里按下了停止',
+    battery: '按机器人的低电量设置停止',
     unwatched: '运动时驾驶者不在了',
     reconnected: '连接恢复了；请先看看机器人',
   },
