@@ -9,6 +9,7 @@ import { CaptureStrip } from './actions/CaptureStrip.tsx';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
 import { BatteryPanel } from './battery/BatteryPanel.tsx';
 import { useBatteryTab } from './battery/useBatteryTab.ts';
+import { motionsInFrame } from './body/motionInFrame.ts';
 import { BoardPanel } from './board/BoardPanel.tsx';
 import { ConnectDialog } from './connect/ConnectDialog.tsx';
 import type { Page } from './connect/page.ts';
@@ -81,7 +82,7 @@ function Unseen() {
   useFocusKept();
   useParts();
   useEachFrame(() => {
-    device.refresh();
+    device.refresh(motionsInFrame(device));
     pad.frame();
     playback.frame();
   });

@@ -19,7 +19,8 @@ export function LiveArm() {
   const family = useDevice((state) => state.family);
   const frame = useRef<HTMLDivElement>(null);
   const pictureOf = (value: (motion: ServoMotion) => number | null): ArmPicture => {
-    const pose: Pose = (servo) => value(device.motion(servo));
+    const motion = device.motions();
+    const pose: Pose = (servo) => value(motion(servo));
     return armPicture(pose, family);
   };
   const estimated = (): ArmPicture => pictureOf((motion) => motion.estimated);

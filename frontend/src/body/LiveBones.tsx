@@ -3,7 +3,7 @@
 
 import { useRef } from 'react';
 import type { Robot } from '#shared/actions/robot/robot.ts';
-import type { ServoMotion } from '#shared/session/state.ts';
+import type { Motions, ServoMotion } from '#shared/session/state.ts';
 import { usePlayback, useRobot, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
@@ -21,8 +21,10 @@ export function LiveBones({ className }: { readonly className?: string | undefin
   const { device } = useStores();
   const robot = useRobot();
   const picture = useRef<SVGSVGElement>(null);
-  const now = (which: keyof ServoMotion): BonePicture | null =>
-    bonesOf(robot, (servo) => device.motion(servo)[which]);
+  const now = (which: keyof ServoMotion): BonePicture | null => {
+    const motion = device.motions();
+    return bonesOf(robot, (servo) => motion(servo)[which]);
+  };
   useMotions(
     robot.servos.map(({ servo }) => servo),
     () => {
@@ -30,7 +32,7 @@ export function LiveBones({ className }: { readonly className?: string | undefin
         const figure = picture.current?.querySelector<SVGGElement>(`[data-figure='${which}']`);
         const bones = now(which);
         if (figure instanceof SVGGElement && bones !== null) drawBones(figure, bones);
-        if (which === 'target') figure?.setAttribute('visibility', ghostVisibility(robot, device.motion));
+        if (which === 'target') figure?.setAttribute('visibility', ghostVisibility(robot, device.motions()));
       }
     },
   );
@@ -55,7 +57,7 @@ export function LiveBones({ className }: { readonly className?: string | undefin
       <g data-figure="estimated">
         <BoneFigure picture={estimated} look="solid" />
       </g>
-      <g data-figure="target" visibility={ghostVisibility(robot, device.motion)}>
+      <g data-figure="target" visibility={ghostVisibility(robot, device.motions())}>
         <BoneFigure picture={target} look="ghost" />
       </g>
       <g data-figure="preview" visibility="hidden">
@@ -66,7 +68,7 @@ export function LiveBones({ className }: { readonly className?: string | undefin
 }
 
 /** Where all of it is where it was asked to be the outline says nothing. */
-function ghostVisibility({ servos }: Robot, motion: (servo: number) => ServoMotion): 'visible' | 'hidden' {
+function ghostVisibility({ servos }: Robot, motion: Motions): 'visible' | 'hidden' {
   const isThere = servos.every(({ servo }) => {
     const { target, estimated } = motion(servo);
     return target === null || (estimated !== null && Math.abs(target - estimated) < SAME);

@@ -1,30 +1,32 @@
-// A servo's motion as of the frame that is being drawn: asked of the session once, however many needles show it.
+// The motion as of the frame that is being drawn: asked of the session once, however many needles show it.
 
-import type { ServoMotion } from '#shared/session/state.ts';
+import type { Motions, ServoMotion } from '#shared/session/state.ts';
 import type { Device } from '../stores/device/device.ts';
 import { frameAtHand } from '../ui/useEachFrame.ts';
 
 interface Seen {
   readonly frame: number;
-  readonly motions: Map<number, ServoMotion>;
+  readonly motion: Motions;
 }
 
 const seen = new WeakMap<Device, Seen>();
 
-export function motionInFrame(device: Device, servo: number): ServoMotion {
-  const motions = motionsOf(device);
-  const known = motions.get(servo);
-  if (known !== undefined) return known;
-  const motion = device.motion(servo);
-  motions.set(servo, motion);
+export const motionInFrame = (device: Device, servo: number): ServoMotion => motionsInFrame(device)(servo);
+
+export function motionsInFrame(device: Device): Motions {
+  const frame = frameAtHand();
+  const before = seen.get(device);
+  if (before?.frame === frame) return before.motion;
+  const motion = eachOnce(device.motions());
+  seen.set(device, { frame, motion });
   return motion;
 }
 
-function motionsOf(device: Device): Map<number, ServoMotion> {
-  const frame = frameAtHand();
-  const before = seen.get(device);
-  if (before?.frame === frame) return before.motions;
-  const motions = new Map<number, ServoMotion>();
-  seen.set(device, { frame, motions });
-  return motions;
+function eachOnce(motion: Motions): Motions {
+  const asked = new Map<number, ServoMotion>();
+  return (servo) => {
+    const known = asked.get(servo) ?? motion(servo);
+    asked.set(servo, known);
+    return known;
+  };
 }

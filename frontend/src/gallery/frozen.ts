@@ -42,6 +42,6 @@ export function frozenSession(
     sendRaw: nothing,
     play: nothing,
     stopPlaying: () => undefined,
-    motion: (servo) => motions[servo] ?? { target: null, estimated: null },
+    motions: () => (servo) => motions[servo] ?? { target: null, estimated: null },
   };
 }

@@ -61,8 +61,9 @@ function together(stores: Stores, servo: number, position: number): Pick<GangMov
 /** Where each was asked to be, else where it may stand. */
 function standOf(stores: Stores, members: readonly Member[]): Stand {
   const stand: Record<number, number> = {};
+  const motion = stores.device.motions();
   for (const { servo } of members) {
-    const at = stores.device.motion(servo.servo).target ?? guessNow(stores, servo);
+    const at = motion(servo.servo).target ?? guessNow(stores, servo);
     if (at !== null) stand[servo.servo] = at;
   }
   return stand;

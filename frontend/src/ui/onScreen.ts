@@ -29,10 +29,7 @@ export const watchSize = shared<ResizeObserverEntry>(
   (hear) => new ResizeObserver((entries) => hear(entries)),
 );
 
-/** So far behind the edge of whatever scrolls a turn of the wheel may bring it into sight; a browser without `scrollMargin` counts
- * what is in sight alone. */
-const BESIDE = { rootMargin: '64px', scrollMargin: '64px' };
-
+/** Of what is in sight alone: a margin around what scrolls has the browser work all of it out anew in each frame. */
 export const watchSight = shared<IntersectionObserverEntry>(
-  (hear) => new IntersectionObserver((entries) => hear(entries), BESIDE),
+  (hear) => new IntersectionObserver((entries) => hear(entries)),
 );

@@ -205,7 +205,7 @@ test('whichever sliders are moved and when, each ends where it was asked, and no
           }
         expect(ended).toEqual(asked);
         expect(problems).toEqual([]);
-        for (const [servo, position] of asked) expect(session.motion(servo).target).toBe(position);
+        for (const [servo, position] of asked) expect(session.motions()(servo).target).toBe(position);
       },
     ),
     { numRuns: 60 * TIMES },

@@ -226,7 +226,7 @@ describe('run', () => {
     await rig.clock.advance(1_200);
     expect(rig.session.state.activity).toEqual({ kind: 'idle' });
     expect(rig.transport.board.runningSlot()).toBeNull();
-    expect(rig.session.motion(1).estimated).toBe(rig.transport.board.pulse(1));
+    expect(rig.session.motions()(1).estimated).toBe(rig.transport.board.pulse(1));
   });
 
   test('of another group stops the one that runs first (S46)', async () => {

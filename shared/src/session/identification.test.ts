@@ -202,7 +202,7 @@ describe('the heartbeat', () => {
     await rig.clock.advance(4_000);
     expect(rig.session.state.link).toMatchObject({ status: 'stale' });
     expect(rig.session.state.latch).toMatchObject({ reason: 'reconnected' });
-    expect(rig.session.motion(1)).toEqual({ target: null, estimated: null });
+    expect(rig.session.motions()(1)).toEqual({ target: null, estimated: null });
     await rig.clock.advance(8_000);
     expect(rig.session.state.link).toEqual({ status: 'ready' });
     expect(rig.session.state.latch).toMatchObject({ reason: 'reconnected', stop: 'sent' });

@@ -97,11 +97,11 @@ test('whoever looks on knows as well as the driver where the robot is, also when
   await clock.advance(1_000);
   follow({ kind: 'move', targets: [{ servo: 1, position: 1_000 }], durationMs: 1_000 });
   await clock.advance(500);
-  expect(session.motion(1)).toEqual({ target: 1_000, estimated: 1_250 });
+  expect(session.motions()(1)).toEqual({ target: 1_000, estimated: 1_250 });
   latch('unwatched');
   follow({ kind: 'move', targets: [{ servo: 1, position: 1_240 }], durationMs: 20 });
   await clock.advance(100);
-  expect(session.motion(1)).toEqual({ target: 1_240, estimated: 1_240 });
+  expect(session.motions()(1)).toEqual({ target: 1_240, estimated: 1_240 });
   expect(session.state.latch?.reason).toBe('unwatched');
 });
 

@@ -52,7 +52,7 @@ describe('a lost link', () => {
     transport.unplug();
     await clock.advance(100);
     expect(await run).toMatchObject({ code: 'lost' });
-    expect(session.motion(1)).toEqual({ target: null, estimated: null });
+    expect(session.motions()(1)).toEqual({ target: null, estimated: null });
     expect(session.state.activity).toEqual({ kind: 'idle' });
   });
 

@@ -84,11 +84,11 @@ describe('moving', () => {
     session.move([{ servo: 1, position: 2_000 }], 1_000);
     await clock.advance(500);
     const perTick = 20;
-    expect(Math.abs((session.motion(1).estimated ?? 0) - transport.board.pulse(1))).toBeLessThanOrEqual(
+    expect(Math.abs((session.motions()(1).estimated ?? 0) - transport.board.pulse(1))).toBeLessThanOrEqual(
       perTick,
     );
     await clock.advance(1_000);
-    expect(session.motion(1)).toEqual({ target: 2_000, estimated: 2_000 });
+    expect(session.motions()(1)).toEqual({ target: 2_000, estimated: 2_000 });
     expect(transport.board.pulse(1)).toBe(2_000);
   });
 });

@@ -48,7 +48,7 @@ async function joined(before: MotionBefore, knownBoard: BoardId = 'doc') {
   const session = createSession({ transport, clock });
   const whenReady: (number | null)[] = [];
   session.subscribe({
-    state: ({ link }) => link.status === 'ready' && whenReady.push(session.motion(1).estimated),
+    state: ({ link }) => link.status === 'ready' && whenReady.push(session.motions()(1).estimated),
   });
   await session.open();
   return { clock, line, session, durations, whenReady };
@@ -57,7 +57,7 @@ async function joined(before: MotionBefore, knownBoard: BoardId = 'doc') {
 test('a servo that others moved is known as soon as it is ready, and its first move from here is not slow', async () => {
   const { clock, session, durations, whenReady } = await joined(BEFORE);
   expect(whenReady[0]).toBe(2_000);
-  expect(session.motion(1)).toEqual({ target: 2_000, estimated: 2_000 });
+  expect(session.motions()(1)).toEqual({ target: 2_000, estimated: 2_000 });
   session.move([{ servo: 1, position: 1_900 }], 100);
   await clock.advance(1_000);
   session.move([{ servo: 2, position: 1_900 }], 100);
@@ -81,7 +81,7 @@ test('where the link was lost since then nothing of it is known', async () => {
   line.plugIn();
   await clock.advance(10_000);
   expect(session.state.link.status).toBe('ready');
-  expect(session.motion(1)).toEqual({ target: null, estimated: null });
+  expect(session.motions()(1)).toEqual({ target: null, estimated: null });
 });
 
 test('nothing of it is believed of a board that has to be asked first which one it is', async () => {
@@ -90,5 +90,5 @@ test('nothing of it is believed of a board that has to be asked first which one 
   expect(session.state.link).toMatchObject({ status: 'refused', error: { code: 'boardUnknown' } });
   await session.choose(familyOf('doc'));
   expect(session.state.link.status).toBe('ready');
-  expect(session.motion(1)).toEqual({ target: null, estimated: null });
+  expect(session.motions()(1)).toEqual({ target: null, estimated: null });
 });

@@ -32,7 +32,7 @@ describe('a packet sent by hand', () => {
     const sent = sentBy(rig);
     expect(await send(rig, MOVE_SLOWLY)).toBeNull();
     expect(sent).toEqual([MOVE_SLOWLY]);
-    expect(rig.session.motion(1).target).toBe(2_000);
+    expect(rig.session.motions()(1).target).toBe(2_000);
     expect(rig.transport.board.target(1)).toBe(2_000);
   });
 

@@ -47,7 +47,7 @@ describe('reading positions', () => {
     const rig = await rigOf('xarm');
     await outcome(rig, rig.session.readPositions([1]));
     const at = rig.transport.board.pulse(1);
-    expect(rig.session.motion(1)).toEqual({ target: null, estimated: at });
+    expect(rig.session.motions()(1)).toEqual({ target: null, estimated: at });
     rig.session.move([{ servo: 1, position: at + 100 }], 200);
     await rig.clock.advance(1_000);
     rig.session.move([{ servo: 2, position: 500 }], 200);
@@ -163,9 +163,9 @@ describe('release', () => {
 
   test('nobody knows any more where those servos are', async () => {
     const rig = await posed();
-    expect(rig.session.motion(1).estimated).toBe(600);
+    expect(rig.session.motions()(1).estimated).toBe(600);
     await outcome(rig, rig.session.release([1]));
-    expect(rig.session.motion(1)).toEqual({ target: null, estimated: null });
+    expect(rig.session.motions()(1)).toEqual({ target: null, estimated: null });
     expect(Object.keys(rig.session.state.reported)).toEqual(['2', '3', '4', '5', '6']);
   });
 

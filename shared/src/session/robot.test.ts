@@ -8,9 +8,9 @@ test('a released servo is unknown again: it drops (X7)', async () => {
   const robot = createRobotEstimate(family('xarm'), clock);
   robot.applied({ kind: 'move', durationMs: 1_500, targets: [{ servo: 1, position: 500 }] });
   await clock.advance(2_000);
-  expect(robot.motion(1)).toEqual({ target: 500, estimated: 500 });
+  expect(robot.motions()(1)).toEqual({ target: 500, estimated: 500 });
   robot.applied({ kind: 'release', servos: [1] });
-  expect(robot.motion(1)).toEqual({ target: null, estimated: null });
+  expect(robot.motions()(1)).toEqual({ target: null, estimated: null });
 });
 
 test('a group is played at the speed the board was told (X3), and nobody knows it after a restart', async () => {
@@ -22,9 +22,9 @@ test('a group is played at the speed the board was told (X3), and nobody knows i
   robot.applied({ kind: 'setSpeed', slot: 8, percent: 50 });
   robot.applied({ kind: 'run', slot: 8, times: 1 });
   await clock.advance(1_500);
-  expect(robot.motion(1)).toEqual({ target: 2_000, estimated: null });
+  expect(robot.motions()(1)).toEqual({ target: 2_000, estimated: null });
   await clock.advance(600);
-  expect(robot.motion(1)).toEqual({ target: 2_000, estimated: 2_000 });
+  expect(robot.motions()(1)).toEqual({ target: 2_000, estimated: 2_000 });
   robot.forget();
   expect(robot.groupMs(8)).toBeNull();
 });
@@ -36,11 +36,11 @@ test('a group somebody started at the board keeps everything unknown until it en
   robot.heard({ kind: 'runStarted', slot: 8, times: 1 });
   robot.applied(move);
   await clock.advance(200);
-  expect([robot.moving(), robot.motion(1).estimated]).toEqual([true, null]);
+  expect([robot.moving(), robot.motions()(1).estimated]).toEqual([true, null]);
   robot.groupEnded(8);
   robot.applied(move);
   await clock.advance(200);
-  expect([robot.moving(), robot.motion(1).estimated]).toEqual([false, 1_200]);
+  expect([robot.moving(), robot.motions()(1).estimated]).toEqual([false, 1_200]);
 });
 
 test("a servo that LeArm's group blurred is moved slowly, but not for as long as the group lasts", async () => {

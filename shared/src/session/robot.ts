@@ -25,7 +25,7 @@ import type { Family } from '../protocol/families.ts';
 import type { Report } from '../protocol/reports.ts';
 import { createGroupMemory } from './groupMemory.ts';
 import type { MoveCommand } from './moveBuffer.ts';
-import type { ServoMotion } from './state.ts';
+import type { Motions } from './state.ts';
 import { FIRST_MOVE_MS } from './timings.ts';
 
 export interface RobotEstimate {
@@ -33,7 +33,7 @@ export interface RobotEstimate {
   applied(command: Command): void;
   /** The board said something just now; the end of a group is told by `groupEnded`. */
   heard(report: Report): void;
-  motion(servo: number): ServoMotion;
+  motions(): Motions;
   /** Nobody has moved it, and the board has not said where it stands. */
   isUnknown(servo: number): boolean;
   /** The move with the duration its unknown servos need (safety.md: first move). */
@@ -81,10 +81,11 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
       memory.setSpeed(command.slot, isHeard ? command.percent : null);
     },
     heard: (report) => (motion = afterReport(motion, report, clock.now(), board)),
-    motion(servo) {
+    motions() {
       const nowMs = clock.now();
-      motion = advance(motion, nowMs, board);
-      return { target: targetOf(motion, servo), estimated: positionAt(motion, servo, nowMs) };
+      const known = advance(motion, nowMs, board);
+      motion = known;
+      return (servo) => ({ target: targetOf(known, servo), estimated: positionAt(known, servo, nowMs) });
     },
     isUnknown,
     softened(move) {

@@ -18,7 +18,7 @@ import { LinkError } from './linkError.ts';
 import { createReceiver } from './receiver.ts';
 import { createReplies } from './replies.ts';
 import { createResync } from './resync.ts';
-import type { LinkState, ServoMotion, SessionEvents, SessionState } from './state.ts';
+import type { LinkState, Motions, SessionEvents, SessionState } from './state.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { createSessionStore, NOTHING_READ } from './store.ts';
 import type { HaltReason, SlotGroup, Transport } from './transport.ts';
@@ -90,7 +90,8 @@ export interface Session {
   /** Plays from the page. Resolves at the end or after `stopPlaying`. */
   play(frames: readonly Frame[], options?: { readonly times?: number }): Promise<void>;
   stopPlaying(): void;
-  motion(servo: number): ServoMotion;
+  /** As of now. */
+  motions(): Motions;
 }
 
 export function createSession(options: SessionOptions): Session {
@@ -299,7 +300,7 @@ export function createSession(options: SessionOptions): Session {
     cancelDownload: () => driver.groups.cancelDownload(),
     play: (frames, playing) => driver.live.play(frames, playing?.times ?? 1),
     stopPlaying: () => driver.live.stopPlaying(),
-    motion: (servo) => driver.core.robot.motion(servo),
+    motions: () => driver.core.robot.motions(),
   };
 }
 

@@ -110,7 +110,7 @@ test('what is told of its frames after its end does not make the board deaf', as
   follow({ kind: 'download', slot: 5, frameCount: 1, frameIndex: 0, frame: WAVE[0]! });
   void session.run(5, 1).catch(() => undefined);
   await clock.advance(400);
-  expect(session.motion(1)).toEqual({ target: 1_600, estimated: 1_600 });
+  expect(session.motions()(1)).toEqual({ target: 1_600, estimated: 1_600 });
 });
 
 test('one that somebody else began is shown, refuses motion, and can be called off', async () => {

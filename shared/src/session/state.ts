@@ -106,6 +106,9 @@ export interface ServoMotion {
   readonly estimated: number | null;
 }
 
+/** Of each servo, all as of one moment. */
+export type Motions = (servo: number) => ServoMotion;
+
 export type Traffic = { readonly atMs: number; readonly bytes: Uint8Array } &
   /** Null where it is no command: filler after a cut packet, or a number that the board ignores, sent by hand. */
   (

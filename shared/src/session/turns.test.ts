@@ -33,14 +33,14 @@ describe('servos nobody knows', () => {
     const rig = await createRig();
     rig.session.move(pose(1_800), 0);
     expect(rig.session.state.waitingToStart).toEqual([2, 3, 4, 5, 6]);
-    expect(rig.session.motion(2)).toEqual({ target: null, estimated: null });
+    expect(rig.session.motions()(2)).toEqual({ target: null, estimated: null });
     await rig.clock.advance(2 * FIRST_MOVE_STAGGER_MS + 50);
     expect(rig.session.state.waitingToStart).toEqual([4, 5, 6]);
     await rig.clock.advance(firstMovesMs(SERVOS.length));
     expectSlowOneByOne(rig);
     expect(startsOf(rig).map(({ servo }) => servo)).toEqual(SERVOS);
     expect(rig.session.state.waitingToStart).toEqual([]);
-    expect(rig.session.motion(6)).toEqual({ target: 1_800, estimated: 1_800 });
+    expect(rig.session.motions()(6)).toEqual({ target: 1_800, estimated: 1_800 });
     expect(rig.transport.board.pulse(6)).toBe(1_800);
   });
 
@@ -126,7 +126,7 @@ describe('servos nobody knows', () => {
         await rig.clock.advance(firstMovesMs(SERVOS.length) + 2_500);
         expectSlowOneByOne(rig);
         for (const servo of startsOf(rig).map((start) => start.servo))
-          expect(rig.session.motion(servo).estimated).toBe(rig.transport.board.pulse(servo));
+          expect(rig.session.motions()(servo).estimated).toBe(rig.transport.board.pulse(servo));
       }),
       { numRuns: 60 * TIMES },
     );

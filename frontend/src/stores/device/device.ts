@@ -12,7 +12,7 @@ import type { LeaseAction } from '#shared/session/lease.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { Session } from '#shared/session/session.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
-import type { ServoMotion, SessionState } from '#shared/session/state.ts';
+import type { Motions, ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { HaltReason, SlotGroup, Transport } from '#shared/session/transport.ts';
 import { words } from '../../words/words.ts';
 import { createLateNews } from './lateNews.ts';
@@ -51,7 +51,8 @@ export interface Device {
   /** What the session's way leads to became known. */
   describe(session: Session, way: Way): void;
   detach(): Promise<void>;
-  /** What it was last asked for, from the moment on that it was, and where it is by now. */
+  /** What each was last asked for, from the moment on that it was, and where it is by now: as of this moment. */
+  motions(): Motions;
   motion(servo: number): ServoMotion;
   /** What the robot was last asked for, without servos that nobody asked for anything. */
   pose(): readonly ServoTarget[];
@@ -60,7 +61,7 @@ export interface Device {
   /** From now on each run and each playing asks first; `anyway` begins what was refused, once. */
   guardRuns(mayBegin: RunGuard): void;
   /** Looks what became of the motion; to be called while the page is drawn, once a frame. */
-  refresh(): void;
+  refresh(motion?: Motions): void;
   /** Servos whose newest target has not left yet. */
   waiting(): number;
   /** False where it was refused; then the person was told why. */
@@ -147,17 +148,22 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
 
   robots.store.subscribe(() => takeUpRobot(store.getState().snapshot));
 
-  function motion(servo: number): ServoMotion {
-    if (session === null) return NO_MOTION;
-    const { target, estimated } = session.motion(servo);
-    const sent = target === null ? null : Math.round(meant(servo, target));
-    return {
-      target: book.target(servo, sent, session.state.waitingToStart.includes(servo)),
-      estimated: estimated === null ? null : meant(servo, estimated),
+  function motions(): Motions {
+    if (session === null) return () => NO_MOTION;
+    const onBoardNow = session.motions();
+    const { waitingToStart } = session.state;
+    return (servo) => {
+      const { target, estimated } = onBoardNow(servo);
+      const sent = target === null ? null : Math.round(meant(servo, target));
+      return {
+        target: book.target(servo, sent, waitingToStart.includes(servo)),
+        estimated: estimated === null ? null : meant(servo, estimated),
+      };
     };
   }
 
   function pose(): readonly ServoTarget[] {
+    const motion = motions();
     const asked = robot().servos.flatMap(({ servo }) => {
       const { target } = motion(servo);
       return target === null ? [] : [{ servo, position: target }];
@@ -170,6 +176,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   function isUnderWay(): boolean {
+    const motion = motions();
     return robot().servos.some(({ servo }) => {
       const { target, estimated } = motion(servo);
       // Without a target we moved it nowhere, even where the board told of it.
@@ -177,7 +184,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     });
   }
 
-  function refresh(): void {
+  function refresh(motion: Motions = motions()): void {
     const before = store.getState();
     const servos = robot().servos.map(({ servo }) => servo);
     const known = sameList(
@@ -221,11 +228,11 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     lateNews.told(error);
   }
 
-  /** False where it was refused; then the person was told why. */
-  function send(targets: readonly ServoTarget[], pace: Pace): boolean {
+  /** `onIt`: the same in the board's own figures. False where it was refused; then the person was told why. */
+  function send(targets: readonly ServoTarget[], onIt: readonly ServoTarget[], pace: Pace): boolean {
     if (session === null) return false;
     try {
-      session.move(onBoard(robot(), targets), moveDurationMs(pace, targets, session.state.family, motion));
+      session.move(onIt, moveDurationMs(pace, targets, session.state.family, motions()));
       book.wish(targets);
       lateNews.asked();
       return true;
@@ -236,7 +243,8 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   function drag(targets: readonly ServoTarget[], pace: Pace): boolean {
-    return session !== null && gate.targets(targets) !== null && send(targets, pace);
+    const onIt = session === null ? null : gate.targets(targets);
+    return onIt !== null && send(targets, onIt, pace);
   }
 
   function attempt(work: (session: Session) => Promise<unknown>, settled: Settled = () => undefined): void {
@@ -313,7 +321,8 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       if (described === session) store.setState({ way });
     },
     detach,
-    motion,
+    motions,
+    motion: (servo) => motions()(servo),
     pose,
     isAtRest,
     guardRuns: (guard) => (mayBegin = guard),
@@ -330,7 +339,9 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       session?.calibrate(servo);
     },
     creep(position, durationMs) {
-      if (calibrated !== null && send([{ servo: calibrated, position }], durationMs)) refresh();
+      if (calibrated === null) return;
+      const targets = [{ servo: calibrated, position }];
+      if (send(targets, onBoard(robot(), targets), durationMs)) refresh();
     },
     halt: (why) => attempt((current) => current.halt(why)),
     resume: () => attempt((current) => current.resume()),

@@ -4,7 +4,7 @@
 
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
-import type { ServoMotion } from '#shared/session/state.ts';
+import type { Motions } from '#shared/session/state.ts';
 
 /** `hand`, or milliseconds set by the person. */
 export type MoveTime = 'hand' | number;
@@ -23,7 +23,7 @@ export function moveDurationMs(
   pace: Pace,
   targets: readonly ServoTarget[],
   { position }: Family,
-  motion: (servo: number) => ServoMotion,
+  motion: Motions,
 ): number {
   if (typeof pace === 'number') return pace;
   const span = position.max - position.min;

@@ -157,7 +157,7 @@ export function createPad(options: PadOptions): Pad {
   function obey(dtMs: number): void {
     const { robot } = robots.current();
     const driving = {
-      ...{ mapping: mapping(), robot, place: device.motion },
+      ...{ mapping: mapping(), robot, place: device.motions() },
       isLocked: (servo: number) => isLocked({ view, robots }, servo),
     };
     const moment = step(driving, inputs, dtMs, driven);

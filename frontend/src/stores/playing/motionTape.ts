@@ -45,8 +45,9 @@ export function createMotionTape({ device, robots, clock }: MotionTapeOptions): 
   let owner = robots.current().id;
 
   function poseNow(): ReadonlyMap<number, number> {
+    const motion = device.motions();
     const known = robots.current().robot.servos.flatMap(({ servo }): [number, number][] => {
-      const { estimated } = device.motion(servo);
+      const { estimated } = motion(servo);
       return estimated === null ? [] : [[servo, Math.round(estimated)]];
     });
     return new Map(known);
