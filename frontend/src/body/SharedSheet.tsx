@@ -17,7 +17,7 @@ import {
 import styles from './SharedSheet.module.css';
 
 /** Whatever else moves a row, its pictures are behind it no longer than this. */
-const MEASURED_EACH_MS = 250;
+const MEASURED_EACH_MS = 500;
 
 export interface SharedSheetProps {
   /** Where the list is, left out: in the flow of the page. */
@@ -31,7 +31,7 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
   const isInSight = useSight(list);
   const [sheet] = useState(createSheet);
   const parts = useRef<readonly Placed[]>([]);
-  const measuredMs = useRef(0);
+  const measuredIn = useRef(-1);
   const covered = useRef<Cover>({ left: 0, top: 0, width: 0, height: 0 });
 
   useLayoutEffect(() => sheet.measureAnew());
@@ -40,8 +40,9 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
     return watchSize(list.current, sheet.measureAnew);
   }, [sheet]);
   useEachFrame((nowMs) => {
-    if (nowMs - measuredMs.current < MEASURED_EACH_MS) return;
-    measuredMs.current = nowMs;
+    const beat = Math.floor(nowMs / MEASURED_EACH_MS);
+    if (beat === measuredIn.current) return;
+    measuredIn.current = beat;
     sheet.measureAnew();
   });
 

@@ -1,10 +1,10 @@
 // The log at the foot of the page: folded it is one line with the latest packet, unfolded the whole log.
 
-import { useState } from 'react';
+import type { LogEntry } from '../stores/device/traffic.ts';
 import { useStores, useView } from '../stores/stores.ts';
 import { Button as AriaButton } from 'react-aria-components/Button';
 import { Icon } from '../ui/Icon.tsx';
-import { useFollow } from '../ui/useFollow.ts';
+import { LiveText } from '../ui/LiveText.tsx';
 import { words } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import { LogPanel } from './LogPanel.tsx';
@@ -41,18 +41,22 @@ export function LogDrawer() {
 
 function Latest() {
   const { traffic } = useStores().device;
-  const [nextId, show] = useState(traffic.store.getState().nextId);
-  useFollow({ read: () => traffic.store.getState().nextId, draw: show, eachMs: PACKET_READABLE_MS });
-  // It may have been cleared since.
-  const { oldestId } = traffic.store.getState();
-  if (nextId <= oldestId) return <span className={styles.latest}>{words.log.empty}</span>;
-  const latest = traffic.at(nextId - 1);
+  const latest = (): LogEntry | null => {
+    const { oldestId, nextId } = traffic.store.getState();
+    return nextId > oldestId ? traffic.at(nextId - 1) : null;
+  };
+  const said = (): string => {
+    const now = latest();
+    return now === null ? words.log.empty : `${arrowOf(now.entry)} ${meaning(now)}`;
+  };
+  const bytes = (): string => {
+    const now = latest();
+    return now === null ? '' : bytesText(now);
+  };
   return (
     <>
-      <span className={styles.latest}>
-        {arrowOf(latest.entry)} {meaning(latest)}
-      </span>
-      <code className={styles.bytes}>{bytesText(latest)}</code>
+      <LiveText isFixed className={styles.latest} text={said} eachMs={PACKET_READABLE_MS} />
+      <LiveText isFixed className={styles.bytes} text={bytes} eachMs={PACKET_READABLE_MS} />
     </>
   );
 }

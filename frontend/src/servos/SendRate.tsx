@@ -7,8 +7,8 @@ import { sentSince } from './sentSince.ts';
 import styles from './MoveTimeControl.module.css';
 
 const WINDOW_MS = 1000;
-/** Fast enough to follow, slow enough to read. */
-const WRITE_EACH_MS = 250;
+/** Together with the latest packet of the log: text that changes has the page laid out. */
+const WRITE_EACH_MS = 500;
 
 export function SendRate() {
   const { device } = useStores();

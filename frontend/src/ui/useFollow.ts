@@ -1,7 +1,7 @@
 // Draws what changes by itself, past React: in sight as it changes, out of sight once it has come to rest. Dozens of servos move
 // at once, and what nobody sees would cost as much as the rest. Knows no servo.
 
-import { use, useLayoutEffect, useRef } from 'react';
+import { use, useLayoutEffect, useRef, useState } from 'react';
 import { Sight, type InSight } from './sight.ts';
 import { useEachFrame } from './useEachFrame.ts';
 
@@ -29,11 +29,12 @@ export function useFollow<T>(follow: Follow<T>): void {
   const latest = useRef<{ readonly value: T } | null>(null);
   const drawn = useRef<{ readonly value: T } | null>(null);
   const readIn = useRef(-1);
+  const [turnMs] = useState(nextTurn);
   // Whatever React wrote meanwhile is another thing than what was drawn.
   useLayoutEffect(() => void (drawn.current = null));
   useEachFrame((nowMs) => {
     const isFollowed = isInSight.current && !onlyAtRest;
-    const beat = beatOf(nowMs, isFollowed ? eachMs : REST_MS);
+    const beat = isFollowed ? beatOf(nowMs, eachMs) : beatOf(nowMs + turnMs, REST_MS);
     if (beat === readIn.current) return;
     readIn.current = beat;
     const before = latest.current;
@@ -52,3 +53,11 @@ export function useFollow<T>(follow: Follow<T>): void {
 
 /** All that is read now and then is read in one frame: the frames in between are spared the layout. */
 const beatOf = (nowMs: number, eachMs: number): number => (eachMs === 0 ? nowMs : Math.floor(nowMs / eachMs));
+
+let lastTurnMs = 0;
+
+/** What is looked at out of sight is looked at in turns: hundreds of looks in one frame would make that one late. */
+function nextTurn(): number {
+  lastTurnMs = (lastTurnMs + REST_MS / 15) % REST_MS;
+  return lastTurnMs;
+}
