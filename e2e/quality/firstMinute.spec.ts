@@ -36,6 +36,23 @@ test('a way that is not possible here says why', async ({ page, servers }) => {
   );
 });
 
+test('the simulated robot that is open is not offered once more, another board is', async ({
+  page,
+  servers,
+}) => {
+  const dashboard = dashboardOf(page);
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.link).toHaveText(/Ready/);
+  await dashboard.button('Connect').click();
+  const simulated = dashboard.connectDialog.getByRole('group', { name: 'Simulated robot' });
+  await expect(simulated.getByRole('button', { name: 'The simulated robot is open' })).toBeDisabled();
+  await simulated.getByRole('combobox').selectOption('lsc-24');
+  await simulated.getByRole('button', { name: 'Use the simulated robot' }).click();
+  await dashboard.button('Connect').click();
+  await expect(simulated.getByRole('combobox')).toHaveValue('lsc-24');
+  await expect(simulated.getByRole('button', { name: 'The simulated robot is open' })).toBeDisabled();
+});
+
 test('a chooser that is closed without a choice is no failure of the page', async ({ page, servers }) => {
   await page.addInitScript(() => {
     Serial.prototype.requestPort = () =>

@@ -55,7 +55,11 @@ export function ConnectWays(props: ConnectWaysProps) {
         about={words.connect.simulated.about}
         isCurrent={current?.kind === 'simulated'}
       >
-        <SimulatedWay board={state.board} onSimulate={props.onSimulate} />
+        <SimulatedWay
+          board={state.board}
+          isOpen={props.isReady && current?.kind === 'simulated'}
+          onSimulate={props.onSimulate}
+        />
       </WayCard>
       <footer className={styles.foot}>
         <p className={styles.dim}>{words.connect.intro}</p>
@@ -97,11 +101,14 @@ function WayCard({ title, about, isCurrent, more, children }: WayCardProps) {
   );
 }
 
-function SimulatedWay({
-  board,
-  onSimulate,
-}: Pick<ConnectWaysProps, 'onSimulate'> & { readonly board: FamilyId }) {
+interface SimulatedWayProps extends Pick<ConnectWaysProps, 'onSimulate'> {
+  readonly board: FamilyId;
+  readonly isOpen: boolean;
+}
+
+function SimulatedWay({ board, isOpen, onSimulate }: SimulatedWayProps) {
   const [chosen, setChosen] = useState(board);
+  const isThisOpen = isOpen && chosen === board;
   return (
     <>
       <select
@@ -118,7 +125,9 @@ function SimulatedWay({
             </option>
           ))}
       </select>
-      <Button onPress={() => onSimulate(chosen)}>{words.connect.simulated.open}</Button>
+      <Button isDisabled={isThisOpen} onPress={() => onSimulate(chosen)}>
+        {isThisOpen ? words.connect.simulated.isOpen : words.connect.simulated.open}
+      </Button>
     </>
   );
 }

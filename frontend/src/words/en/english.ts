@@ -163,6 +163,7 @@ export const english = {
       about: 'A board in this page. Nothing real moves.',
       board: 'Which board to simulate',
       open: 'Use the simulated robot',
+      isOpen: 'The simulated robot is open',
     },
   },
 

@@ -155,6 +155,7 @@ export const chinese: Words = {
       about: '页面里的一块控制板。没有真的东西在动。',
       board: '模拟哪种控制板',
       open: '使用模拟机器人',
+      isOpen: '模拟机器人已打开',
     },
   },
 
