@@ -46,8 +46,10 @@ test('what another browser stored in a slot is told, and whether it is the group
     .getByRole('option', { name: 'Slot 0: Bow of the other browser. Not this group as it is now' })
     .click();
   await expect(slots.getByRole('region', { name: 'Slot 0' })).toContainText(
-    /Bow of the other browser, downloaded by .+, .*\d\d:\d\d.*, version [0-9a-f]{6}/,
+    /Bow of the other browser, 2 frames, 0.8 sec, downloaded by .+, .*\d\d:\d\d.*, version [0-9a-f]{6}/,
   );
+  await slots.getByRole('button', { name: 'Compare' }).click();
+  await expect(slots.getByRole('status')).toContainText('On the board 2 frames, 0.8 sec; here 0 frames');
   await slots.getByRole('button', { name: 'Download several' }).click();
   await slots.getByRole('checkbox', { name: /^Bow of the other browser/ }).click();
   const slotOfOwn = slots.getByRole('textbox', { name: 'Slot for Bow of the other browser' });
@@ -58,10 +60,21 @@ test('what another browser stored in a slot is told, and whether it is the group
   await library.show();
   await library.open('Bow of the other browser');
   await expect(other.board).toContainText('Holds this group, as it is now.');
-  await dashboard.page.close();
+  await other.button('Take over').click();
   await other.button('Erase everything').click();
-  await expect(
-    other.page.getByText('Downloaded by others, and not restored from here: 0 Bow of the other browser.'),
-  ).toBeVisible();
+  const question = other.page.getByRole('alertdialog');
+  await expect(question).toContainText('Can be restored afterwards: 0 Bow of the other browser.');
+  await question.getByRole('button', { name: 'Erase every slot' }).click();
+  await other.button('Slots').click();
+  await slots.getByRole('button', { name: 'Restore all 1' }).click();
+  await expect(slots.getByRole('option', { name: /^Slot 0: Bow of the other browser/ })).toBeVisible();
+  expect(ofKind(await robot.bus(), 'download').map(({ slot, frame }) => [slot, frame.targets])).toEqual(
+    [1000, 1400, 1000, 1400].map((position) => [0, [{ servo: 1, position }]]),
+  );
+  await expect(slots.getByRole('button', { name: /^Restore all/ })).toHaveCount(0);
+  await dashboard.button('Slots').click();
+  const slotsThere = dashboard.page.getByRole('dialog', { name: 'Slots of the board' });
+  await expect(slotsThere.getByRole('option', { name: /^Slot 0: Bow of the other browser/ })).toBeVisible();
+  await expect(slotsThere.getByRole('button', { name: /^Restore all/ })).toHaveCount(0);
   await elsewhere.close();
 });

@@ -106,7 +106,7 @@ test('the map of slots knows an older copy, compares it, and brings back what an
 
   await dashboard.button('Erase everything').click();
   const asks = page.getByRole('alertdialog');
-  await expect(asks).toContainText('Downloaded from here, and can be restored afterwards: 8 New group.');
+  await expect(asks).toContainText('Can be restored afterwards: 8 New group.');
   await asks.getByRole('button', { name: 'Erase every slot' }).click();
   await expect(dashboard.notices).toContainText('Every slot is empty.');
   await dashboard.button('Slots').click();

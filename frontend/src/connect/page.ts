@@ -36,6 +36,7 @@ import { createPoses } from '../stores/driving/poses.ts';
 import { createRobotKeeping } from '../stores/robots/robotKeeping.ts';
 import { followRobot } from '../stores/robots/robotOfLink.ts';
 import { createRobots } from '../stores/robots/robots.ts';
+import { findOthersGroups } from '../stores/slots/othersGroups.ts';
 import { createSlots } from '../stores/slots/slots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createTimeline } from '../stores/timeline/timeline.ts';
@@ -141,6 +142,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   lookAfresh({ library, view, timeline });
   bringSelectionBack({ document: written, timeline, view });
   followPlace({ document: written, library, view });
+  findOthersGroups({ device, robots, slots, compiled, library, keeper });
   stores.view.subscribe(({ tab, kiosk }) => {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(false);
   });

@@ -20,8 +20,6 @@ const VERSION_LENGTH = 6;
 export function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | null }) {
   const slot = useView((state) => state.slot);
   const { id, commands } = useDevice((state) => state.family);
-  const record = useSlots((state) => recordOf(state.book, slot));
-  const others = useSnapshot((snapshot) => snapshot.slotVersions?.[slot]);
   const fate = useFates()(slot);
   const trigger = slotTrigger(id, slot);
   return (
@@ -29,27 +27,7 @@ export function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | 
       <h3>{words.slots.name(slot)}</h3>
       <Chip truth={FATE_TRUTH[fate]}>{words.slots.badge[fate]}</Chip>
       <p>{words.slots.about(fate)}</p>
-      {record !== undefined && (
-        <p className={styles.dim}>
-          {words.slots.stored(
-            record.name,
-            words.numbers.formatMoment(record.storedAtMs),
-            record.frames.length,
-            totalDurationMs(record.frames),
-            record.fingerprint.slice(0, VERSION_LENGTH),
-          )}
-        </p>
-      )}
-      {record === undefined && others !== undefined && (
-        <p className={styles.dim}>
-          {words.slots.storedByOthers(
-            others.name,
-            others.by,
-            others.atMs === null ? null : words.numbers.formatMoment(others.atMs),
-            others.version.slice(0, VERSION_LENGTH),
-          )}
-        </p>
-      )}
+      <Held slot={slot} />
       {trigger !== null && <p className={styles.warning}>{words.slots.trigger(trigger)}</p>}
       <Verbs />
       {commands.includes('download') && <DownloadControl />}
@@ -60,6 +38,33 @@ export function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | 
       )}
       <Restore />
     </section>
+  );
+}
+
+/** As it was noted here; what others stored, as the link tells of it. */
+function Held({ slot }: { readonly slot: number }) {
+  const record = useSlots((state) => recordOf(state.book, slot));
+  const others = useSnapshot((snapshot) => snapshot.slotVersions?.[slot]);
+  if (record !== undefined && record.by === undefined) {
+    const { name, storedAtMs, frames, fingerprint } = record;
+    const when = words.numbers.formatMoment(storedAtMs);
+    const version = fingerprint.slice(0, VERSION_LENGTH);
+    return (
+      <p className={styles.dim}>
+        {words.slots.stored(name, when, frames.length, totalDurationMs(frames), version)}
+      </p>
+    );
+  }
+  if (others === undefined) return null;
+  const { name, by, atMs } = others;
+  const size = record && words.slots.several.about(record.frames.length, totalDurationMs(record.frames));
+  const when = atMs === null ? null : words.numbers.formatMoment(atMs);
+  const version = others.version.slice(0, VERSION_LENGTH);
+  return (
+    <>
+      <p className={styles.dim}>{words.slots.storedByOthers(name, by, when, version, size ?? null)}</p>
+      {record === undefined && <p className={styles.dim}>{words.slots.notInLibrary}</p>}
+    </>
   );
 }
 

@@ -37,6 +37,10 @@ export function createSharedSlots(before: SlotVersions = {}) {
       versions = { ...versions, [slot]: storedGroup(stored) };
       if (isTold) changed();
     },
+    othersErase() {
+      versions = {};
+      changed();
+    },
     sharedSlots(next: () => void): SharedSlots {
       changed = next;
       return {

@@ -39,6 +39,8 @@ export interface Slots {
   cancel(): void;
   /** What a shared link says was stored there last, '' for nothing; undefined on one's own. */
   versionIn(slot: number): string | undefined;
+  /** What somebody else stored, once it was found whole; as long as it still stands there. */
+  noteOthers(record: SlotRecord): void;
   erase(): void;
   /** Downloads again what the last erase took. */
   restoreAll(): void;
@@ -96,7 +98,8 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     // From here on nobody knows what is left, whatever the board will say.
     if (isErasing(state) && !isErasing(before)) keep(withErasing(store.getState().book));
     noteDownload(state);
-    noteVersions(state);
+    // Until it has ended, versions may still be told that it has taken.
+    if (!isErasing(state)) noteVersions(state);
   });
 
   /** Others may have stored something there while this page was away. */
@@ -108,6 +111,12 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
   function versionIn(slot: number): string | undefined {
     const { slotVersions } = device.store.getState().snapshot;
     return slotVersions === null ? undefined : (slotVersions[slot]?.version ?? '');
+  }
+
+  function noteOthers(record: SlotRecord): void {
+    const { book } = store.getState();
+    const isKnown = book.stored.some(({ slot }) => slot === record.slot);
+    if (!isKnown && versionIn(record.slot) === record.fingerprint) keep(withStored(book, record));
   }
 
   function recordOf({ slot, name, documentId, frames }: SlotDownload): SlotRecord {
@@ -168,6 +177,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
   return {
     store,
     versionIn,
+    noteOthers,
     download,
     cancel: () => device.cancelDownload(),
     erase: () =>

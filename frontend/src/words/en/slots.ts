@@ -69,15 +69,24 @@ export const slotWords = {
       : { select: 'SELECT', key: 'key', chain: 'chain' }[trigger.kind],
   stored: (name: string, when: string, count: number, durationMs: number, version: string): string =>
     `${name === '' ? 'Without a name' : name}, ${frameCount(count)}, ${formatSeconds(durationMs)}, downloaded ${when}, version ${version}`,
-  storedByOthers: (name: string, by: string, when: string | null, version: string): string =>
+  /** `size`: null where nobody knows. */
+  storedByOthers: (
+    name: string,
+    by: string,
+    when: string | null,
+    version: string,
+    size: string | null,
+  ): string =>
     [
       name === '' ? 'Without a name' : name,
+      size,
       by === '' ? 'downloaded elsewhere' : `downloaded by ${by}`,
       when,
       `version ${version}`,
     ]
       .filter((part) => part !== null)
       .join(', '),
+  notInLibrary: 'The library does not hold this version: it can be neither compared nor restored from here.',
   run: 'Run',
   compare: 'Compare',
   same: 'The copy on the board and the group on this page are the same.',
@@ -87,9 +96,9 @@ export const slotWords = {
   differs: (servo: number, onBoard: number | null, here: number | null): string =>
     `Servo ${formatWhole(servo)}: ${onBoard === null ? 'not moved' : formatWhole(onBoard)} on the board, ${here === null ? 'not moved' : formatWhole(here)} here`,
   willGo: (groups: readonly { readonly slot: number; readonly name: string }[]): string =>
-    `Downloaded from here, and can be restored afterwards: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}.`,
+    `Can be restored afterwards: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}.`,
   ofOthersWillGo: (groups: readonly { readonly slot: number; readonly name: string }[]): string =>
-    `Downloaded by others, and not restored from here: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()))}.`,
+    `Downloaded by others in a version that the library does not hold, and not restored: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()))}.`,
   restoreAll: (count: number): string => `Restore all ${formatCount(count)}`,
   restoreHint: 'Downloads again what the last erase took',
   job: (done: number, count: number): string => `${formatCount(done)} of ${counted(count, 'group')}`,

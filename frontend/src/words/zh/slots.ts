@@ -69,10 +69,11 @@ export const slotWords: typeof english = {
       : { select: 'SELECT', key: '按键', chain: '接续' }[trigger.kind],
   stored: (name, when, count, durationMs, version) =>
     `${name === '' ? '无名称' : name}，${frameCount(count)}，${formatSeconds(durationMs)}，下载于${when}，版本${version}`,
-  storedByOthers: (name, by, when, version) =>
-    [name === '' ? '无名称' : name, by === '' ? '由别处下载' : `由${by}下载`, when, `版本${version}`]
+  storedByOthers: (name, by, when, version, size) =>
+    [name === '' ? '无名称' : name, size, by === '' ? '由别处下载' : `由${by}下载`, when, `版本${version}`]
       .filter((part) => part !== null)
       .join('，'),
+  notInLibrary: '库里没有这个版本：不能从这里比较，也不能从这里恢复。',
   run: '运行',
   compare: '比较',
   same: '控制板上的副本与这个页面上的动作组相同。',
@@ -82,9 +83,9 @@ export const slotWords: typeof english = {
   differs: (servo, onBoard, here) =>
     `${formatWhole(servo)}号舵机：控制板上${place(onBoard)}，这里${place(here)}`,
   willGo: (groups) =>
-    `从这里下载的内容之后可以恢复：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}。`,
+    `之后可以恢复：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}。`,
   ofOthersWillGo: (groups) =>
-    `由别人下载、不能从这里恢复的内容：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()))}。`,
+    `由别人下载、库里没有该版本、不能恢复的内容：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()))}。`,
   restoreAll: (count) => `全部恢复（${formatCount(count)}）`,
   restoreHint: '重新下载上次擦除的内容',
   job: (done, count) => `${formatCount(done)}/${formatCount(count)}个动作组`,

@@ -16,6 +16,7 @@ const recordSchema = z.strictObject({
   documentId: z.optional(z.string()),
   /** Since 1970. */
   storedAtMs: z.number(),
+  by: z.optional(z.string()),
   /** Of the frames as the board got them, with the trims of that day. */
   fingerprint: z.string(),
   /** As the person means them: each is its duration, then servo and position by turns. */
@@ -44,6 +45,8 @@ export interface SlotRecord {
   /** Which document of the library it is; null where nobody noted it. */
   readonly documentId: string | null;
   readonly storedAtMs: number;
+  /** Somebody else, where it was not downloaded from here. */
+  readonly by?: string;
   readonly fingerprint: string;
   readonly frames: readonly Frame[];
 }
@@ -73,6 +76,10 @@ const without = (records: readonly SlotRecord[], slot: number): readonly SlotRec
 
 const bySlot = (one: SlotRecord, other: SlotRecord): number => one.slot - other.slot;
 
+/** Of a slot that is in both, the newer. */
+const joined = (records: readonly SlotRecord[], newer: readonly SlotRecord[]): readonly SlotRecord[] =>
+  newer.reduce((sum, record) => [...without(sum, record.slot), record], records).toSorted(bySlot);
+
 export function withStored(book: SlotBook, record: SlotRecord): SlotBook {
   return {
     ...book,
@@ -88,18 +95,27 @@ export function withUnknown(book: SlotBook, slot: number): SlotBook {
   return { ...book, stored: without(book.stored, slot), isEmptied: false };
 }
 
-/** By the word of whoever sees all downloads. What does not stand there is not there any more. */
+/**
+ * By the word of whoever sees all downloads: where something else stands by now, what was there is gone; where nothing does,
+ * somebody has erased it; and what an erase took stands there again, whoever brought it back.
+ */
 export function withVersions(book: SlotBook, versions: VersionsTold): SlotBook {
-  const stored = book.stored.filter(({ slot, fingerprint }) => versions[slot]?.version === fingerprint);
+  const isThere = ({ slot, fingerprint }: SlotRecord): boolean => versions[slot]?.version === fingerprint;
+  const isErased = ({ slot }: SlotRecord): boolean => versions[slot] === undefined;
+  const [taken, back] = [book.stored.filter(isErased), book.erased.filter(isThere)];
+  const stored = joined(book.stored.filter(isThere), back);
+  const erased = joined(book.erased.filter(isErased), taken);
   const isEmptied = book.isEmptied && Object.keys(versions).length === stored.length;
-  if (stored.length === book.stored.length && isEmptied === book.isEmptied) return book;
-  return { ...book, stored, isEmptied };
+  const isSame =
+    [...taken, ...back].length === 0 &&
+    stored.length === book.stored.length &&
+    erased.length === book.erased.length;
+  return isSame && isEmptied === book.isEmptied ? book : { ...book, stored, erased, isEmptied };
 }
 
 /** An erase has begun: nobody knows what is left. */
 export function withErasing({ stored, erased, begun }: SlotBook): SlotBook {
-  const gone = stored.reduce((sum, record) => [...without(sum, record.slot), record], erased);
-  return { stored: [], erased: [...gone].sort(bySlot), isEmptied: false, begun };
+  return { stored: [], erased: joined(erased, stored), isEmptied: false, begun };
 }
 
 export const withErased = (book: SlotBook): SlotBook => ({ ...book, isEmptied: true });
@@ -161,8 +177,9 @@ export function slotBookFromText(text: string): Read<SlotBook> {
   return { value: { ...lists, isEmptied, begun: [begun].flat().map(unpacked) } };
 }
 
-function unpacked(record: z.infer<typeof recordSchema>): SlotRecord {
-  return { ...record, documentId: record.documentId ?? null, frames: record.frames.map(frameOf) };
+function unpacked({ by, documentId, frames, ...record }: z.infer<typeof recordSchema>): SlotRecord {
+  const named = { documentId: documentId ?? null, ...(by !== undefined && { by }) };
+  return { ...record, ...named, frames: frames.map(frameOf) };
 }
 
 function frameOf([durationMs = 0, ...pairs]: readonly number[]): Frame {

@@ -189,6 +189,19 @@ describe('the word of whoever sees all downloads', () => {
     expect(withVersions(book, {}).stored).toEqual([]);
   });
 
+  test('what somebody else erased can be brought back, until somebody has, or has put something else there', () => {
+    const erased = withVersions(book, { 3: versions[3]! });
+    expect([erased.stored, erased.erased]).toEqual([[recordOf(book, 3)], [recordOf(book, 5)]]);
+    expect(withVersions(erased, { 3: versions[3]! })).toBe(erased);
+    expect(withVersions(erased, versions)).toEqual(book);
+    expect(withVersions(erased, { 3: versions[3]!, 5: told('another') }).erased).toEqual([]);
+  });
+
+  test('what somebody else stored is kept as theirs', () => {
+    const theirs = withStored(book, { ...record(7), by: 'Bert' });
+    expect(slotBookFromText(slotBookToText(theirs))).toEqual({ value: theirs });
+  });
+
   test('a board of which every slot is known to be empty is one no more where something was stored', () => {
     const emptied = withStored(withErased(EMPTY_SLOT_BOOK), record(3));
     expect(withVersions(emptied, { 3: told(record(3).fingerprint) })).toBe(emptied);
