@@ -73,7 +73,7 @@ test('a vendor’s file is opened, improved with curves and undo, fits, and the 
 
 function groupIn(text: string): ActionGroup {
   const read = groupFromText(text);
-  if ('problem' in read) throw new Error(read.problem);
+  if ('problem' in read) throw new Error(read.problem.code);
   return read.value;
 }
 

@@ -16,7 +16,7 @@ export interface Answer extends Omit<WorkedOut, 'frames'> {
 addEventListener('message', ({ data, ports: [port] }: MessageEvent<Order>) => {
   const { groupText, options } = data;
   const read = groupFromText(groupText);
-  if ('problem' in read) throw new TypeError(read.problem);
+  if ('problem' in read) throw new TypeError(read.problem.code);
   const { frames, ...rest } = workedOut({ group: read.value, ...options });
   const numbers = Int32Array.from(numbersOf(frames));
   port?.postMessage({ ...rest, numbers } satisfies Answer, [numbers.buffer]);

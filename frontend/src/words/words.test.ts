@@ -52,6 +52,14 @@ describe('the words', () => {
     expect(english.errorSentence('outOfRange')).toBe('This value is out of range.');
   });
 
+  test('why a file of ours is refused is said in Chinese, with its place alone as the file has it', () => {
+    for (const code of ['notOurs', 'otherVersion', 'badValue', 'servoTwice', 'poseMissing'] as const) {
+      for (const said of [chinese.poses.importFailed, chinese.library.notImported])
+        expect(said({ code, at: '7' }).replace('Servodeck', ''), code).not.toMatch(/[a-z]/iu);
+    }
+    expect(chinese.poses.importFailed({ code: 'badValue', at: 'content.poses' })).toContain('content.poses');
+  });
+
   test('nothing shouts, nothing is empty', () => {
     for (const [path, text] of [...texts, ...plainTexts(chinese, 'chinese')]) {
       expect(text, path).not.toMatch(/[!！]|oops/iu);

@@ -1,8 +1,18 @@
-// A value as JSON that carries its format and version, and back through a schema. Knows no particular value.
+// A value as JSON that carries its format and version, and back through a schema. Knows no particular value; the sentences are
+// the page's.
 
 import type * as z from 'zod/mini';
 
-export type Read<T> = { readonly value: T } | { readonly problem: string };
+export type TextFlawCode =
+  ('notOurs' | 'otherVersion' | 'badValue') | ('sameNumber' | 'servoTwice' | 'servoOrder' | 'poseMissing');
+
+/** What is wrong with it. `at` is the place or what is called so; empty where it is all of it. */
+export interface TextFlaw {
+  readonly code: TextFlawCode;
+  readonly at: string;
+}
+
+export type Read<T> = { readonly value: T } | { readonly problem: TextFlaw };
 
 /** For people and their files: a line for each fact. */
 export function versionedText(format: string, content: unknown): string {
@@ -16,23 +26,22 @@ export function versionedLine(format: string, content: unknown): string {
 
 const versioned = (format: string, content: unknown) => ({ format, version: 1, content });
 
-/** `flawOf` judges what no schema can; it says what is wrong, or null. `kind` says whose file was expected. */
+/** `flawOf` judges what no schema can; it says what is wrong, or null. */
 export function readVersioned<T>(
   text: string,
-  kind: string,
   schema: z.ZodMiniType<{ content: T }>,
-  flawOf: (content: T) => string | null,
+  flawOf: (content: T) => TextFlaw | null,
 ): Read<T> {
-  const read = readJson(text, kind, schema);
+  const read = readJson(text, schema);
   if ('problem' in read) return read;
   const { content } = read.value;
   const flaw = flawOf(content);
   return flaw === null ? { value: content } : { problem: flaw };
 }
 
-export function readJson<T>(text: string, kind: string, schema: z.ZodMiniType<T>): Read<T> {
+export function readJson<T>(text: string, schema: z.ZodMiniType<T>): Read<T> {
   const parsed = schema.safeParse(jsonIn(text));
-  return parsed.success ? { value: parsed.data } : { problem: problemOf(parsed.error.issues, kind) };
+  return parsed.success ? { value: parsed.data } : { problem: flawIn(parsed.error.issues) };
 }
 
 function jsonIn(text: string): unknown {
@@ -43,9 +52,8 @@ function jsonIn(text: string): unknown {
   }
 }
 
-type Issues = readonly { readonly path: readonly PropertyKey[]; readonly message: string }[];
-
-function problemOf([first]: Issues, kind: string): string {
-  if (first === undefined || first.path.length === 0) return `this is no ${kind} file of Servodeck`;
-  return `${first.path.join('.')}: ${first.message}`;
+function flawIn([first]: readonly z.core.$ZodIssue[]): TextFlaw {
+  const path = first?.path ?? [];
+  if (path.length === 0 || path[0] === 'format') return { code: 'notOurs', at: '' };
+  return path[0] === 'version' ? { code: 'otherVersion', at: '' } : { code: 'badValue', at: path.join('.') };
 }

@@ -3,6 +3,7 @@ import { addPose, markRest } from '#shared/actions/poses/poseEdits.ts';
 import { undoLabel } from '#shared/actions/history.ts';
 import { poseBookToText } from '#shared/actions/poses/poseText.ts';
 import { createDesk } from '../deskUnderTest.ts';
+import { words } from '../../words/words.ts';
 import { INITIAL_SERVO_VIEW } from '../servoView.ts';
 
 const at = (position: number) => ({ unit: 'us' as const, targets: [{ servo: 1, position }] });
@@ -142,7 +143,7 @@ describe('the book', () => {
     expect(desk.book().poses).toHaveLength(4);
     expect(desk.told()).toEqual([
       expect.stringContaining('Gripper: 2600 is out of range'),
-      expect.stringContaining('no pose file'),
+      words.poses.importFailed({ code: 'notOurs', at: '' }),
     ]);
   });
 });

@@ -7,6 +7,6 @@ import { LibraryError } from '#shared/actions/library/keeper.ts';
 /** Throws a LibraryError where this version cannot read it. */
 export function groupOf(text: string): ActionGroup {
   const read = groupFromText(text);
-  if ('problem' in read) throw new LibraryError('failed', read.problem);
+  if ('problem' in read) throw new LibraryError('unreadable', read.problem.code);
   return read.value;
 }

@@ -1,14 +1,8 @@
 // The whole library as one file, and a file into the library: all of it or nothing, beside what is there. Knows no place.
 
 import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { groupFromText, groupToText, sameGroup } from '#shared/actions/group/groupText.ts';
-import {
-  LibraryError,
-  listedOf,
-  type GroupFacts,
-  type Keeper,
-  type Listed,
-} from '#shared/actions/library/keeper.ts';
+import { groupToText, sameGroup } from '#shared/actions/group/groupText.ts';
+import { listedOf, type GroupFacts, type Keeper, type Listed } from '#shared/actions/library/keeper.ts';
 import {
   libraryFromText,
   libraryToText,
@@ -17,6 +11,7 @@ import {
 } from '#shared/actions/library/libraryText.ts';
 import { words } from '../../words/words.ts';
 import type { Notices } from '../notices.ts';
+import { groupOf } from './groupOf.ts';
 
 export interface LibraryFiles {
   /** null where it failed; then the person was told why. */
@@ -75,7 +70,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
   ): Promise<{ readonly fate: Fate; readonly id: string }> {
     if (!present.some((one) => one.id === id)) return { fate: 'added', id };
     const { text } = await keeper.read(id);
-    return sameGroup(read(text), group) ? { fate: 'same', id } : { fate: 'changed', id: newId() };
+    return sameGroup(groupOf(text), group) ? { fate: 'same', id } : { fate: 'changed', id: newId() };
   }
 
   async function stage(keeper: Keeper, id: string, document: BundledDocument): Promise<void> {
@@ -104,13 +99,7 @@ async function bundle(keeper: Keeper, { id, facts }: Listed): Promise<BundledDoc
   const { text } = await keeper.read(id);
   const versions = await keeper.versions(id);
   const kept = versions.map(async ({ id: version, name, atMs }): Promise<BundledVersion> => ({
-    ...{ name, atMs, group: read(await keeper.readVersion(id, version)) },
+    ...{ name, atMs, group: groupOf(await keeper.readVersion(id, version)) },
   }));
-  return { id, updatedAtMs: facts.updatedAtMs, group: read(text), versions: await Promise.all(kept) };
-}
-
-function read(text: string): ActionGroup {
-  const group = groupFromText(text);
-  if ('problem' in group) throw new LibraryError('failed', group.problem);
-  return group.value;
+  return { id, updatedAtMs: facts.updatedAtMs, group: groupOf(text), versions: await Promise.all(kept) };
 }

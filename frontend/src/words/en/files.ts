@@ -8,12 +8,18 @@ import { UNIT_RANGE, type Meaning } from '#shared/actions/files/units.ts';
 import type { PositionUnit } from '../numbers.ts';
 import { counted, formatList, formatSeconds, formatWhole, unitSymbol } from './numbers.ts';
 
-const PROBLEMS: Readonly<Record<ProblemCode, (found: string) => string>> = {
+export const PROBLEMS: Readonly<Record<ProblemCode, (found: string) => string>> = {
   empty: () => 'The file is empty.',
   tooLarge: () => 'The file is larger than 8 MB, and no action group is.',
   unreadable: () => 'The browser could not read it. Perhaps it is a folder.',
   unknownFormat: () => 'This is none of the formats that can be opened here.',
-  notOurs: (found) => `It cannot be read as an action group of Servodeck: ${found}.`,
+  notOurs: () => 'It is no such file of Servodeck.',
+  otherVersion: () => 'Another version of Servodeck has written it.',
+  badValue: (found) => `The value of ${found} is none that can be.`,
+  sameNumber: (found) => `${found === '' ? 'T' : `${found}: t`}wo of its parts have the same number.`,
+  servoTwice: (found) => `${found}: a servo is there twice.`,
+  servoOrder: (found) => `Frame ${found}: its servos are not in ascending order, each once.`,
+  poseMissing: () => 'It names a pose that is not in it.',
   noFrames: () => 'There is no frame in it.',
   tooManyFrames: (found) => `It has ${found} frames; a group has 10000 at most.`,
   cutShort: () => 'The file ends too early; a part of it is missing.',

@@ -1,6 +1,8 @@
 // Words about the library: where action groups are kept, found again and brought back.
 
 import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
+import type { TextFlaw } from '#shared/actions/versionedText.ts';
+import { PROBLEMS as FLAWS } from './files.ts';
 import { counted, formatLongAge, formatNames, formatSeconds, formatWhen } from './numbers.ts';
 
 const frames = (count: number): string => counted(count, 'frame');
@@ -13,6 +15,7 @@ const PROBLEMS: Readonly<Record<LibraryErrorCode, string>> = {
   busy: 'Another program holds the library. What you write stays in this browser until it lets go.',
   tooLarge: 'This group is too large for the library. It stays in this browser alone; make it shorter.',
   unreachable: 'The gateway does not answer. What you write stays in this browser until it does.',
+  unreadable: 'This version of Servodeck cannot read this group.',
   failed: 'The library cannot be used',
 };
 
@@ -83,7 +86,7 @@ export const libraryWords = {
   problem: (code: LibraryErrorCode, detail: string): string =>
     code === 'failed' ? `${PROBLEMS.failed}: ${detail}.` : PROBLEMS[code],
 
-  notImported: (problem: string): string => `Nothing was taken from the file: ${problem}.`,
+  notImported: ({ code, at }: TextFlaw): string => `Nothing was taken from the file. ${FLAWS[code](at)}`,
   unreadableFile: 'The file could not be read.',
   imported: (added: number, changed: number, same: number): string =>
     [

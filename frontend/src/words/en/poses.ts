@@ -1,5 +1,7 @@
 // Words about poses: capturing, changing and going to them.
 
+import type { TextFlaw } from '#shared/actions/versionedText.ts';
+import { PROBLEMS } from './files.ts';
 import { formatMs, formatPercent, formatWhole } from './numbers.ts';
 
 export const poseWords = {
@@ -70,7 +72,7 @@ export const poseWords = {
   fileName: (robot: string): string => `${robot} poses`,
   import: 'Import poses',
   export: 'Export poses',
-  importFailed: (problem: string): string => `No pose was taken from the file: ${problem}.`,
+  importFailed: ({ code, at }: TextFlaw): string => `No pose was taken from the file. ${PROBLEMS[code](at)}`,
   unreadableFile: 'The file could not be read.',
 
   steps: {

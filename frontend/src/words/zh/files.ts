@@ -10,13 +10,19 @@ import type { fileWords as english } from '../en/files.ts';
 import type { PositionUnit } from '../numbers.ts';
 import { formatSeconds, formatWhole, unitSymbol } from './numbers.ts';
 
-/** What a program or a schema said of the file is English, for whoever writes such files: left out. */
-const PROBLEMS: Readonly<Record<ProblemCode, (found: string) => string>> = {
+/** What a program said of the file is English, for whoever writes such files: left out. */
+export const PROBLEMS: Readonly<Record<ProblemCode, (found: string) => string>> = {
   empty: () => '文件是空的。',
   tooLarge: () => '文件超过8 MB，动作组不会这么大。',
   unreadable: () => '浏览器无法读取它，可能是一个文件夹。',
   unknownFormat: () => '这里打不开这种格式。',
-  notOurs: () => '这不是 Servodeck 的动作组文件，或者文件已损坏。',
+  notOurs: () => '这不是 Servodeck 的这种文件，或者文件已损坏。',
+  otherVersion: () => '它是由另一个版本的 Servodeck 写的。',
+  badValue: (found) => `${found} 的值不合理。`,
+  sameNumber: (found) => `${found === '' ? '' : `${found}：`}其中两个部分的编号相同。`,
+  servoTwice: (found) => `${found}：同一个舵机出现了两次。`,
+  servoOrder: (found) => `第${found}帧：舵机没有按编号从小到大排列，或者有重复。`,
+  poseMissing: () => '它提到的姿态不在文件里。',
   noFrames: () => '里面没有帧。',
   tooManyFrames: (found) => `它有${found}帧，动作组最多10000帧。`,
   cutShort: () => '文件不完整，后面缺了一部分。',

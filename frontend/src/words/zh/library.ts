@@ -2,6 +2,7 @@
 
 import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
 import type { libraryWords as english } from '../en/library.ts';
+import { PROBLEMS as FLAWS } from './files.ts';
 import { formatCount, formatLongAge, formatNames, formatSeconds, formatWhen } from './numbers.ts';
 
 const groups = (count: number): string => `${formatCount(count)}个动作组`;
@@ -13,6 +14,7 @@ const PROBLEMS: Readonly<Record<LibraryErrorCode, string>> = {
   busy: '另一个程序占用着动作库。你写的内容先留在本浏览器里，等它放开。',
   tooLarge: '这个动作组太大，动作库放不下。它只留在本浏览器里；请把它改短。',
   unreachable: '网关没有应答。你写的内容先留在本浏览器里，等它恢复。',
+  unreadable: '这个版本的 Servodeck 读不了这个动作组。',
   failed: '动作库无法使用',
 };
 
@@ -77,7 +79,7 @@ export const libraryWords: typeof english = {
   setAside: (file) => `动作库文件已损坏。它已完好地另存为${file}，并新建了动作库。`,
   problem: (code, detail) => (code === 'failed' ? `${PROBLEMS.failed}：${detail}。` : PROBLEMS[code]),
 
-  notImported: (problem) => `没有从文件里取出任何内容：${problem}。`,
+  notImported: ({ code, at }) => `没有从文件里取出任何内容。${FLAWS[code](at)}`,
   unreadableFile: '文件无法读取。',
   imported: (added, changed, same) =>
     [

@@ -1,6 +1,7 @@
 // Words about poses, in Chinese.
 
 import type { poseWords as english } from '../en/poses.ts';
+import { PROBLEMS } from './files.ts';
 import { formatMs, formatPercent, formatWhole } from './numbers.ts';
 
 export const poseWords: typeof english = {
@@ -70,7 +71,7 @@ export const poseWords: typeof english = {
   import: '导入姿态',
   export: '导出姿态',
   // Where a file is damaged is told in English, for whoever writes such files.
-  importFailed: () => '没有导入任何姿态：这不是 Servodeck 的姿态文件，或者文件已损坏。',
+  importFailed: ({ code, at }) => `没有导入任何姿态。${PROBLEMS[code](at)}`,
   unreadableFile: '无法读取这个文件。',
 
   steps: {

@@ -83,7 +83,7 @@ function readText(file: GroupFile, decode: Decode): Reading {
 
 function readOurs(text: string): ActionGroup {
   const read = groupFromText(text);
-  if ('problem' in read) throw new Unreadable('notOurs', read.problem);
+  if ('problem' in read) throw new Unreadable(read.problem.code, read.problem.at);
   return read.value;
 }
 

@@ -3,6 +3,7 @@
 
 import type { Frame } from '../../protocol/commands.ts';
 import type { ActionGroup } from '../group/group.ts';
+import type { TextFlawCode } from '../versionedText.ts';
 
 export type Unit = ActionGroup['unit'];
 
@@ -10,7 +11,8 @@ export type Unit = ActionGroup['unit'];
 export type Place = { readonly line: number } | { readonly frame: number };
 
 export type ProblemCode =
-  | ('empty' | 'tooLarge' | 'unreadable' | 'unknownFormat' | 'notOurs')
+  | ('empty' | 'tooLarge' | 'unreadable' | 'unknownFormat')
+  | TextFlawCode
   | ('noFrames' | 'tooManyFrames' | 'cutShort')
   | ('badMove' | 'badTime' | 'badServo' | 'badPosition')
   | ('unpaired' | 'notClosed' | 'encrypted' | 'unknownTag')

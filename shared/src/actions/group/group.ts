@@ -8,6 +8,7 @@
 import * as z from 'zod/mini';
 import { COLOURS } from '../colours.ts';
 import type { Frame, ServoTarget } from '../../protocol/commands.ts';
+import type { TextFlaw } from '../versionedText.ts';
 
 /** `hold`: stays at the key before and jumps at the end, as fast as the servo can. */
 export const EASINGS = ['linear', 'in', 'out', 'inOut', 'hold'] as const;
@@ -78,12 +79,12 @@ export function emptyGroup(name: string, unit: ActionGroup['unit']): ActionGroup
 }
 
 /** What no shape can say is wrong, as a sentence; null where nothing is. */
-export function flawOfGroup({ frames, markers, nextId }: ActionGroup): string | null {
+export function flawOfGroup({ frames, markers, nextId }: ActionGroup): TextFlaw | null {
   const ids = [...frames, ...markers].map((one) => one.id);
-  if (new Set(ids).size < ids.length) return 'two of its parts have the same id';
-  if (ids.some((one) => one >= nextId)) return 'its next id was used already';
+  if (new Set(ids).size < ids.length || ids.some((one) => one >= nextId))
+    return { code: 'sameNumber', at: '' };
   const index = frames.findIndex(({ targets }) => !isAscending(targets));
-  return index === -1 ? null : `frame ${index + 1}: its servos are not in ascending order, each once`;
+  return index === -1 ? null : { code: 'servoOrder', at: String(index + 1) };
 }
 
 const isAscending = (targets: readonly ServoTarget[]): boolean =>

@@ -57,24 +57,40 @@ describe('a group as text', () => {
   });
 
   test.each([
-    ['another version', groupToText(SAMPLE).replace('"version":1', '"version":2'), 'version'],
-    ['a unit nobody has', changed((group) => ({ ...group, unit: 'degrees' })), 'content.unit'],
-    ['a name beyond 64 characters', changed((group) => ({ ...group, name: 'a'.repeat(65) })), 'content.name'],
-    ['a time that is no whole number', changed(withFrame({ durationMs: 1.5 })), 'frames.0.durationMs'],
-    ['a target without a position', changed(withFrame({ targets: [{ servo: 1 }] })), 'targets.0.position'],
-    ['frames that are no list', changed((group) => ({ ...group, frames: {} })), 'content.frames'],
+    ['another version', groupToText(SAMPLE).replace('"version":1', '"version":2'), 'otherVersion'],
+    ['a unit nobody has', changed((group) => ({ ...group, unit: 'degrees' })), 'badValue', 'content.unit'],
+    [
+      'a name beyond 64 characters',
+      changed((group) => ({ ...group, name: 'a'.repeat(65) })),
+      'badValue',
+      'content.name',
+    ],
+    [
+      'a time that is no whole number',
+      changed(withFrame({ durationMs: 1.5 })),
+      'badValue',
+      'content.frames.0.durationMs',
+    ],
+    [
+      'a target without a position',
+      changed(withFrame({ targets: [{ servo: 1 }] })),
+      'badValue',
+      'content.frames.0.targets.0.position',
+    ],
+    ['frames that are no list', changed((group) => ({ ...group, frames: {} })), 'badValue', 'content.frames'],
     [
       'an id used twice',
       changed((group) => ({ ...group, frames: [...group.frames, ...group.frames] })),
-      'same id',
+      'sameNumber',
     ],
-    ['a next id that is taken', changed((group) => ({ ...group, nextId: 1 })), 'next id'],
+    ['a next id that is taken', changed((group) => ({ ...group, nextId: 1 })), 'sameNumber'],
     [
       'servos out of order',
       changed(withFrame({ targets: [2, 1].map((servo) => ({ servo, position: 1500 })) })),
-      'frame 1: its servos',
+      'servoOrder',
+      '1',
     ],
-  ])('%s is refused, with the place', (_, text, place) => {
-    expect(groupFromText(text)).toEqual({ problem: expect.stringContaining(place) as string });
+  ])('%s is refused, with the place', (_, text, code, at = '') => {
+    expect(groupFromText(text)).toEqual({ problem: { code, at } });
   });
 });

@@ -1,5 +1,5 @@
 // An action group as text with a version, and back; the same for storage and files. Reading trusts nothing and says what is
-// wrong in a sentence. Knows no place to store anything and no board's limits.
+// wrong. Knows no place to store anything and no board's limits.
 
 import * as z from 'zod/mini';
 import { readVersioned, versionedLine, versionedText, type Read } from '../versionedText.ts';
@@ -29,5 +29,5 @@ export const sameGroup = (one: ActionGroup, other: ActionGroup): boolean => plai
 const plain = (group: ActionGroup): string => JSON.stringify(groupSchema.safeParse(group).data);
 
 export function groupFromText(text: string): Read<ActionGroup> {
-  return readVersioned(text, 'action group', groupFileSchema, flawOfGroup);
+  return readVersioned(text, groupFileSchema, flawOfGroup);
 }

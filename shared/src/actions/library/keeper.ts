@@ -110,6 +110,7 @@ export const LIBRARY_ERROR_CODES = [
   'busy', // another program holds the keeper's file
   'tooLarge', // more than a keeper takes
   'unreachable', // the gateway does not answer
+  'unreadable', // this version cannot read what is kept
   'failed', // anything else; the message says what
 ] as const;
 

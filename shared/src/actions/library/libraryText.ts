@@ -3,7 +3,7 @@
 
 import * as z from 'zod/mini';
 import { flawOfGroup, groupSchema, type ActionGroup } from '../group/group.ts';
-import { readVersioned, versionedText, type Read } from '../versionedText.ts';
+import { readVersioned, versionedText, type Read, type TextFlaw } from '../versionedText.ts';
 
 const FORMAT = 'servodeck-library';
 
@@ -46,14 +46,14 @@ export interface Bundle {
 export const libraryToText = (bundle: Bundle): string => versionedText(FORMAT, bundle);
 
 export const libraryFromText = (text: string): Read<Bundle> =>
-  readVersioned<Bundle>(text, 'library', libraryFileSchema, flawOfBundle);
+  readVersioned<Bundle>(text, libraryFileSchema, flawOfBundle);
 
-function flawOfBundle({ documents }: Bundle): string | null {
-  if (new Set(documents.map(({ id }) => id)).size < documents.length) return 'a document is there twice';
+function flawOfBundle({ documents }: Bundle): TextFlaw | null {
+  if (new Set(documents.map(({ id }) => id)).size < documents.length) return { code: 'sameNumber', at: '' };
   for (const { group, versions } of documents) {
     for (const one of [group, ...versions.map((version) => version.group)]) {
       const flaw = flawOfGroup(one);
-      if (flaw !== null) return `${group.name}: ${flaw}`;
+      if (flaw !== null) return { ...flaw, at: [group.name, flaw.at].join(' ').trim() };
     }
   }
   return null;

@@ -5,6 +5,7 @@ import * as z from 'zod/mini';
 import { COLOURS } from '../colours.ts';
 import { POSE_MS, poseRefSchema } from '../poses/pose.ts';
 import { NAME_LENGTH } from '../robot/robot.ts';
+import type { TextFlaw } from '../versionedText.ts';
 
 const whole = (min: number, max: number) => z.number().check(z.int(), z.gte(min), z.lte(max));
 const id = whole(1, Number.MAX_SAFE_INTEGER);
@@ -70,11 +71,11 @@ export function keyOf(pressed: string): string | null {
 }
 
 /** What cannot be on a page, as words for people; null where nothing is wrong. */
-export function flawOfPage({ macros, nextId }: MacroPage): string | null {
+export function flawOfPage({ macros, nextId }: MacroPage): TextFlaw | null {
   const ids = macros.map((macro) => macro.id);
   if (new Set(ids).size < ids.length || ids.some((one) => one >= nextId))
-    return 'two buttons share one number';
+    return { code: 'sameNumber', at: '' };
   const keys = macros.flatMap(({ key }) => (key === null ? [] : [key]));
-  if (keys.some((key) => keyOf(key) !== key)) return 'a button has a key that no button may have';
-  return new Set(keys).size < keys.length ? 'two buttons share one key' : null;
+  const areKeys = keys.every((key) => keyOf(key) === key) && new Set(keys).size === keys.length;
+  return areKeys ? null : { code: 'badValue', at: 'key' };
 }

@@ -15,5 +15,5 @@ const fileSchema = z.strictObject({
 export const macroPageToText = (page: MacroPage): string => versionedText(FORMAT, page);
 
 export function macroPageFromText(text: string): Read<MacroPage> {
-  return readVersioned(text, 'button', fileSchema, flawOfPage);
+  return readVersioned(text, fileSchema, flawOfPage);
 }

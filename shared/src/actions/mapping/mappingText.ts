@@ -15,5 +15,5 @@ const fileSchema = z.strictObject({
 export const mappingToText = (mapping: Mapping): string => versionedText(FORMAT, mapping);
 
 export function mappingFromText(text: string): Read<Mapping> {
-  return readVersioned(text, 'mapping', fileSchema, () => null);
+  return readVersioned(text, fileSchema, () => null);
 }

@@ -4,6 +4,7 @@
 import * as z from 'zod/mini';
 import type { ServoTarget } from '../../protocol/commands.ts';
 import { NAME_LENGTH } from '../robot/robot.ts';
+import type { TextFlaw } from '../versionedText.ts';
 
 /** `home`: every servo at its home. `rest`: the pose marked as such, else home. */
 export const POSE_VERBS = ['home', 'rest'] as const;
@@ -47,13 +48,13 @@ export function poseOf(book: PoseBook, id: number | null): Pose | undefined {
 }
 
 /** What cannot be in a book, as words for people; null where nothing is wrong. */
-export function flawOfBook({ poses, restId, applied, nextId }: PoseBook): string | null {
+export function flawOfBook({ poses, restId, applied, nextId }: PoseBook): TextFlaw | null {
   const ids = poses.map(({ id }) => id);
-  if (new Set(ids).size < ids.length || ids.some((id) => id >= nextId)) return 'two poses share one number';
+  if (new Set(ids).size < ids.length || ids.some((id) => id >= nextId)) return { code: 'sameNumber', at: '' };
   const named = [restId, typeof applied === 'number' ? applied : null];
-  if (named.some((id) => id !== null && !ids.includes(id))) return 'it names a pose that is not there';
+  if (named.some((id) => id !== null && !ids.includes(id))) return { code: 'poseMissing', at: '' };
   const double = poses.find(
     ({ targets }) => new Set(targets.map(({ servo }) => servo)).size < targets.length,
   );
-  return double === undefined ? null : `${double.name}: a servo is there twice`;
+  return double === undefined ? null : { code: 'servoTwice', at: double.name };
 }

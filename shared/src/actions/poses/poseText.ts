@@ -1,5 +1,5 @@
 // A book of poses as text with a version, and back; the same for storage and files. Reading trusts nothing and says what is
-// wrong in a sentence. Knows no place to store anything and no robot's limits.
+// wrong. Knows no place to store anything and no robot's limits.
 
 import * as z from 'zod/mini';
 import { flawOfBook, poseBookSchema, type PoseBook } from './pose.ts';
@@ -16,5 +16,5 @@ const fileSchema = z.strictObject({
 export const poseBookToText = (book: PoseBook): string => versionedText(FORMAT, book);
 
 export function poseBookFromText(text: string): Read<PoseBook> {
-  return readVersioned(text, 'pose', fileSchema, flawOfBook);
+  return readVersioned(text, fileSchema, flawOfBook);
 }

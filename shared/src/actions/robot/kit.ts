@@ -21,7 +21,7 @@ export function kitToText(kit: Kit): string {
 
 /** null where a newer version has written it, or nobody. */
 export function kitFromText(text: string): Kit | null {
-  const read = readJson(text, 'robot', fileSchema);
+  const read = readJson(text, fileSchema);
   return 'value' in read ? read.value.kit : null;
 }
 

@@ -170,7 +170,7 @@ export function slotBookToText({ stored, erased, isEmptied, begun }: SlotBook): 
 }
 
 export function slotBookFromText(text: string): Read<SlotBook> {
-  const read = readVersioned(text, 'slot', fileSchema, () => null);
+  const read = readVersioned(text, fileSchema, () => null);
   if ('problem' in read) return read;
   const { stored, erased, isEmptied, begun = [] } = read.value;
   const lists = { stored: stored.map(unpacked), erased: erased.map(unpacked) };

@@ -89,7 +89,7 @@ describe('the book of slots', () => {
       (key, value: unknown) => (key === 'documentId' ? undefined : value),
     );
     const read = slotBookFromText(text);
-    if (!('value' in read)) throw new Error(read.problem);
+    if (!('value' in read)) throw new Error(read.problem.code);
     expect(fateOf(read.value, NOW, 5, group)).toBe('same');
     expect(fateOf(read.value, NOW, 5, edited)).toBe('other');
     expect(JSON.parse(slotBookToText(read.value))).toEqual(JSON.parse(text));
