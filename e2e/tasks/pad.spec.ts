@@ -101,6 +101,16 @@ test('a held key turns its servo; leaving the window ends it though the key is n
   expect(await lastTarget(robot.bus, 1)).toBe(reached);
 });
 
+test('T keeps what the pad has just done, also while it drives', async ({ dashboard, robot, page, pad }) => {
+  await startDriving(dashboard);
+  await pad.hold(RIGHT_TRIGGER);
+  await poll(() => lastTarget(robot.bus, 1)).toBeGreaterThan(1700);
+  await pad.hold();
+  await page.keyboard.press('t');
+  const dialog = page.getByRole('dialog', { name: 'Recorded motion' });
+  await expect(dialog).toContainText(/positions become \d+ keys/);
+});
+
 test('servos that nobody knows are asked for and go home slowly', async ({ dashboard, robot, page, pad }) => {
   await switchOn(page);
   await pad.hold(RIGHT_TRIGGER);

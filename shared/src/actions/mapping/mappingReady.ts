@@ -1,5 +1,6 @@
 // The mapping a robot has until somebody makes another: sticks, triggers and bumpers for its first six servos in the order of an
-// arm (servo 1 the gripper, 6 the base), and a pair of keys for each. Moves nothing until it is switched on.
+// arm (servo 1 the gripper, 6 the base), and a pair of keys for each. Moves nothing until it is switched on. T is nobody's: it keeps
+// what the hand has just done.
 
 import type { Binding, Feel, Input, Mapping } from './mapping.ts';
 import type { Robot } from '../robot/robot.ts';
@@ -19,8 +20,8 @@ const TURNS: readonly { readonly more: readonly Input[]; readonly less: readonly
   { more: [button(5), key('KeyW')], less: [button(4), key('KeyS')] },
   { more: [axis(2), key('KeyE')], less: [key('KeyD')] },
   { more: [key('KeyR')], less: [axis(3), key('KeyF')] },
-  { more: [key('KeyT')], less: [axis(1), key('KeyG')] },
-  { more: [axis(0), key('KeyY')], less: [key('KeyH')] },
+  { more: [key('KeyY')], less: [axis(1), key('KeyH')] },
+  { more: [axis(0), key('KeyU')], less: [key('KeyJ')] },
 ];
 
 /** B on most pads, the circle on some. */
