@@ -101,6 +101,26 @@ test.describe('on a screen of fine pixels', () => {
   });
 });
 
+test('two quick taps answer one question of the calibration', async ({ page, servers }) => {
+  const dashboard = dashboardOf(page);
+  const robots = robotDialogOf(dashboard);
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500', { timeout: 15_000 });
+  await robots.opener.tap();
+  await robots.button('Calibrate').tap();
+  const { touch } = await fingersOf(page);
+  const at = await middleOf(robots.button(/^Keep 500/));
+  // As long as a person takes to read what is asked.
+  const askedMs = await page.evaluate(() => performance.now());
+  await page.waitForFunction((sinceMs) => performance.now() > sinceMs + 600, askedMs);
+  for (let taps = 0; taps < 2; taps += 1) {
+    await touch('touchStart', at);
+    await touch('touchEnd');
+  }
+  await expect(robots.button('Lowest, done')).toBeVisible();
+  await expect(robots.button('Highest')).toHaveAttribute('aria-current', 'step');
+});
+
 test('the main job needs nothing but fingers', async ({ page, servers }) => {
   test.slow();
   const dashboard = dashboardOf(page);

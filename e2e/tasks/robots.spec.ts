@@ -55,6 +55,29 @@ test('a servo is calibrated from nothing, and what was set holds everywhere @eve
   await poll(() => lastTarget(robot.bus, 1)).toBe(lowest);
 });
 
+test('a double press answers one question of the calibration, not the next one too', async ({
+  dashboard,
+  page,
+}) => {
+  const robots = robotDialogOf(dashboard);
+  await robots.opener.click();
+  await robots.button('Calibrate').click();
+  await robots.button('Go slowly to the middle').click();
+  await expect(robots.dialog.getByText('≈ 1500')).toBeVisible();
+  await robots.button(/^Keep 500/).click();
+  await robots.creepUntil('higher', () => poll(() => settledAt(robots)).toBeGreaterThan(1550));
+  await settledAt(robots);
+  await robots.button('Set highest here').dblclick();
+  await expect(robots.button('Home')).toHaveAttribute('aria-current', 'step');
+  await expect(robots.button('Highest, done')).toBeVisible();
+  await robots.button('Set home here').focus();
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Enter');
+  await expect(robots.button('Home, done')).toBeVisible();
+  await expect(robots.button('Direction')).toHaveAttribute('aria-current', 'step');
+  await expect(robots.button('Turn a little')).toBeVisible();
+});
+
 /** Where the servo was sent to, once the button that was held is let go. */
 async function settledAt({ now }: ReturnType<typeof robotDialogOf>): Promise<number> {
   const read = async (): Promise<number> => Number.parseInt((await now.textContent()) ?? '', 10);

@@ -10,6 +10,7 @@ import { Button } from '../ui/Button.tsx';
 import { Mark } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
+import { Answer } from './Answer.tsx';
 import { DirectionStep } from './DirectionStep.tsx';
 import { EndStep } from './EndStep.tsx';
 import { MotionGate } from './MotionGate.tsx';
@@ -138,9 +139,9 @@ function Steps({ at: { servo, progress, go } }: At) {
 function KeepServo({ at: { servo, progress, keepServo } }: At) {
   if (isServoDone(progress, servo)) return null;
   return (
-    <Button tone="quiet" onPress={keepServo}>
+    <Answer key={servo.servo} tone="quiet" onPress={keepServo}>
       {words.calibration.keepServo(words.robots.called(servo))}
-    </Button>
+    </Answer>
   );
 }
 

@@ -9,8 +9,8 @@ import { useTarget } from '../servos/useTarget.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
-import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import { sightOf } from './sight.ts';
 import { awayFrom, sideOf, startTurning, type TurnPhase } from './turning.ts';
@@ -32,13 +32,13 @@ function TooLittleRoom({ at: { robot, servo, isFinished, keep, go } }: At) {
     <>
       <Ask>{words.calibration.tooLittleRoom(servo, unit)}</Ask>
       <div className={styles.actions}>
-        <Button tone={isFinished ? 'plain' : 'primary'} onPress={() => go(servo.servo, 'min')}>
+        <Answer tone={isFinished ? 'plain' : 'primary'} onPress={() => go(servo.servo, 'min')}>
           {words.calibration.setEnds}
-        </Button>
+        </Answer>
         {!isFinished && (
-          <Button tone="quiet" onPress={keep}>
+          <Answer tone="quiet" onPress={keep}>
             {words.calibration.leaveAsIs}
-          </Button>
+          </Answer>
         )}
       </div>
     </>
@@ -72,23 +72,23 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
       )}
       <div className={styles.actions}>
         {isAway ? (
-          <Button tone="primary" onPress={() => device.creep(servo.home, GENTLE_MOVE_MS)}>
+          <Answer tone="primary" onPress={() => device.creep(servo.home, GENTLE_MOVE_MS)}>
             {words.calibration.goTo(servo.home, unit)}
-          </Button>
+          </Answer>
         ) : (
-          <Button tone={isAsked ? 'plain' : 'primary'} isPending={isTurning || isOnItsWay} onPress={turn}>
+          <Answer tone={isAsked ? 'plain' : 'primary'} isPending={isTurning || isOnItsWay} onPress={turn}>
             {words.calibration.turn}
-          </Button>
+          </Answer>
         )}
       </div>
       <p className={styles.asked}>{isAsked ? sight.asked[sideOf(servo) > 0 ? 'right' : 'left'] : ''}</p>
       <div className={styles.actions}>
-        <Button tone={isAsked ? 'primary' : 'plain'} isDisabled={!isAsked} onPress={answer(false)}>
+        <Answer tone={isAsked ? 'primary' : 'plain'} isDisabled={!isAsked} onPress={answer(false)}>
           {words.calibration.same}
-        </Button>
-        <Button isDisabled={!isAsked} onPress={answer(true)}>
+        </Answer>
+        <Answer isDisabled={!isAsked} onPress={answer(true)}>
           {words.calibration.other}
-        </Button>
+        </Answer>
       </div>
     </>
   );

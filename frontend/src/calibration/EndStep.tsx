@@ -8,8 +8,8 @@ import { ReachBar } from '../robots/ReachBar.tsx';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useTarget } from '../servos/useTarget.ts';
 import { useStores } from '../stores/stores.ts';
-import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import { CreepControl } from './CreepControl.tsx';
 import { sightOf } from './sight.ts';
@@ -51,14 +51,14 @@ export function EndStep({ at, end }: EndStepProps) {
         {movedHome(progress, servo)}
       </p>
       <div className={styles.actions}>
-        <Button tone={setTone} onPress={() => take(at, end, target)}>
+        <Answer tone={setTone} onPress={() => take(at, end, target)}>
           {words.calibration.set[end]}
-        </Button>
-        <Button tone={keepTone} onPress={isAwayFromHome ? keepAndGo : keep}>
+        </Answer>
+        <Answer tone={keepTone} onPress={isAwayFromHome ? keepAndGo : keep}>
           {isAwayFromHome
             ? words.calibration.keepAndGo(servo.home, unit)
             : words.calibration.keep(servo[end], unit)}
-        </Button>
+        </Answer>
       </div>
     </>
   );

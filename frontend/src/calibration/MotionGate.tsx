@@ -9,8 +9,8 @@ import { FAMILIES } from '#shared/protocol/families.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
-import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 
 export interface MotionGateProps {
@@ -33,9 +33,9 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
       <>
         <Ask>{words.calibration.stopped}</Ask>
         {mayResume(lease) ? (
-          <Button tone="primary" onPress={device.resume}>
+          <Answer tone="primary" onPress={device.resume}>
             {words.stop.resume}
-          </Button>
+          </Answer>
         ) : (
           <p>{words.stop.mayResume(lease?.driver ?? null)}</p>
         )}
@@ -47,13 +47,13 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
   return (
     <>
       <Ask>{words.calibration.unknown}</Ask>
-      <Button tone="primary" onPress={() => device.creep(middleOf(robot, servo), GENTLE_MOVE_MS)}>
+      <Answer tone="primary" onPress={() => device.creep(middleOf(robot, servo), GENTLE_MOVE_MS)}>
         {words.calibration.goHome}
-      </Button>
+      </Answer>
       {homes.length > 1 && (
-        <Button onPress={() => device.move(homes, GENTLE_MOVE_MS)}>
+        <Answer onPress={() => device.move(homes, GENTLE_MOVE_MS)}>
           {words.calibration.allHome(homes.length)}
-        </Button>
+        </Answer>
       )}
     </>
   );

@@ -2,8 +2,8 @@
 
 import { flawOf, servoOf } from '#shared/actions/robot/robot.ts';
 import { changeServo, fromPartner } from '#shared/actions/robot/robotEdits.ts';
-import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
@@ -21,16 +21,16 @@ export function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly a
         {fits ? words.calibration.partnerFigures(min, home, max) : words.calibration.partnerNot}
       </p>
       <div className={styles.actions}>
-        <Button
+        <Answer
           tone="primary"
           isDisabled={!fits}
           onPress={() => accept((all) => changeServo(all, partner.servo, change), { partner: partner.servo })}
         >
           {words.calibration.takeOver(words.robots.called(partner))}
-        </Button>
-        <Button tone="quiet" onPress={keep}>
+        </Answer>
+        <Answer tone="quiet" onPress={keep}>
           {words.calibration.leaveAsIs}
-        </Button>
+        </Answer>
       </div>
     </>
   );

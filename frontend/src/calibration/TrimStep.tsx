@@ -3,8 +3,8 @@
 import { changeServo, homeAtCentre } from '#shared/actions/robot/robotEdits.ts';
 import { TRIM, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
-import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
@@ -21,17 +21,17 @@ export function TrimStep({
       <Ask>{sentence(robot, servo, change)}</Ask>
       <div className={styles.actions}>
         {change !== null && (
-          <Button
+          <Answer
             tone={isFinished ? 'plain' : 'primary'}
             onPress={() => accept((all) => changeServo(all, servo.servo, change))}
           >
             {words.calibration.trimSet(centre)}
-          </Button>
+          </Answer>
         )}
         {!isFinished && (
-          <Button tone={change === null ? 'primary' : 'quiet'} onPress={keep}>
+          <Answer tone={change === null ? 'primary' : 'quiet'} onPress={keep}>
             {change === null ? words.calibration.goOn : words.calibration.leaveAsIs}
-          </Button>
+          </Answer>
         )}
       </div>
     </>

@@ -1,0 +1,38 @@
+// A button that answers the question of a step. The next step's buttons stand where the last one's were, so that a hand need not
+// look for them: the second half of a double press would answer a question that nobody has read, and set home at an end. A mouse
+// says itself that it is pressed twice; a finger is not taken at its word before it could have read; a key has nothing to press,
+// because the question has the focus (Ask).
+
+import { useRef, useState, type MouseEvent } from 'react';
+import { useStores } from '../stores/stores.ts';
+import { Button, type ButtonProps } from '../ui/Button.tsx';
+import styles from './CalibrationWizard.module.css';
+
+/** Systems take two presses for a double one up to then. */
+const READ_MS = 500;
+
+export interface AnswerProps extends Omit<ButtonProps, 'onPress'> {
+  onPress(): void;
+}
+
+export function Answer({ onPress, ...rest }: AnswerProps) {
+  const { clock } = useStores().device;
+  const [askedMs] = useState(clock.now);
+  const isEcho = useRef(false);
+
+  function look({ detail, nativeEvent }: MouseEvent): void {
+    const isFinger = nativeEvent instanceof PointerEvent && nativeEvent.pointerType === 'touch';
+    isEcho.current = isFinger ? clock.now() - askedMs < READ_MS : detail > 1;
+  }
+
+  return (
+    <span className={styles.answer} onClickCapture={look}>
+      <Button
+        {...rest}
+        onPress={({ pointerType }) => {
+          if (pointerType === 'keyboard' || !isEcho.current) onPress();
+        }}
+      />
+    </span>
+  );
+}
