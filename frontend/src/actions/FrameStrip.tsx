@@ -4,9 +4,10 @@
 import { useMemo, useState, type CSSProperties, type KeyboardEvent } from 'react';
 import { indexOfFrame } from '#shared/actions/group/groupEdits.ts';
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
-import { useGroup, useStores, useView } from '../stores/stores.ts';
+import { useStores, useView } from '../stores/stores.ts';
 import { showFrame } from '../timeline/inStep.ts';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';
+import { useInFrame } from '../ui/useInFrame.ts';
 import { words } from '../words/words.ts';
 import { FrameCard } from './FrameCard.tsx';
 import { framePoses } from './framePoses.ts';
@@ -21,7 +22,7 @@ const ATTRIBUTE = 'data-frame';
 
 export function FrameStrip() {
   const stores = useStores();
-  const group = useGroup();
+  const group = useInFrame(stores.document.store, ({ present }) => present);
   const selected = useView((state) => state.selectedFrame);
   const playing = usePlayedFrame();
   const whole = useWholeFrames();

@@ -8,13 +8,15 @@ import { maxErrorOf, obstacles } from '../stores/group/compiled.ts';
 import { editServoView, useCompiled, useDevice, useDocument, useStores } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
+import { useInFrame } from '../ui/useInFrame.ts';
 import { words } from '../words/words.ts';
 import { Problems } from './Problems.tsx';
 import field from '../ui/Field.module.css';
 import styles from './CompileRow.module.css';
 
 export function CompileRow() {
-  const { latest, isFresh } = useCompiled((state) => state);
+  const { compiled } = useStores();
+  const { latest, isFresh } = useInFrame(compiled.store, (state) => state);
   const { report, source } = latest;
   const isEmpty = source.group.frames.length === 0;
   const fits = obstacles(report, 'board').length === 0;

@@ -2,25 +2,19 @@
 // out: what follows it is drawn past React. So is what the servo panel changes all the time while it drags.
 
 import { useShallow } from 'zustand/react/shallow';
-import {
-  useDevice,
-  useGroup,
-  useRobot,
-  useServoView,
-  useStores,
-  useTimeline,
-  useView,
-} from '../stores/stores.ts';
+import { useDevice, useRobot, useServoView, useStores, useTimeline, useView } from '../stores/stores.ts';
+import { useInFrame } from '../ui/useInFrame.ts';
 import { deskOf, type Desk } from './desk.ts';
 
 export type SeenDesk = Omit<Desk, 'state'> & { readonly state: Omit<Desk['state'], 'playheadMs'> };
 
 export function useDesk(): SeenDesk {
-  useGroup();
+  const stores = useStores();
+  useInFrame(stores.document.store, ({ present }) => present);
   useRobot();
   useDevice((state) => state.family);
   useView((state) => state.positionsIn);
   useServoView((view) => view);
   useTimeline(useShallow(({ playheadMs: _, ...shown }) => shown));
-  return deskOf(useStores());
+  return deskOf(stores);
 }

@@ -1,8 +1,9 @@
 // Undo and redo of one history, each named by what it takes back or brings again. Knows no particular history.
 
-import { useStore, type StoreApi } from 'zustand';
+import type { StoreApi } from 'zustand';
 import { redoLabel, undoLabel, type History } from '#shared/actions/history.ts';
 import { words } from '../words/words.ts';
+import { useInFrame } from '../ui/useInFrame.ts';
 import { IconButton } from '../ui/Button.tsx';
 
 export interface UndoToolsProps {
@@ -14,8 +15,8 @@ export interface UndoToolsProps {
 }
 
 export function UndoTools({ of }: UndoToolsProps) {
-  const back = useStore(of.store, undoLabel);
-  const forth = useStore(of.store, redoLabel);
+  const back = useInFrame(of.store, undoLabel);
+  const forth = useInFrame(of.store, redoLabel);
   return (
     <>
       <IconButton
