@@ -30,6 +30,7 @@ import { StoresContext, useStores, useView } from './stores/stores.ts';
 import type { Undoable } from './stores/undoable.ts';
 import type { Tab as TabName, Theme } from './stores/view.ts';
 import { TopBar } from './topBar/TopBar.tsx';
+import { Hints } from './ui/Hints.tsx';
 import { Icon, type IconName } from './ui/Icon.tsx';
 import { useEachFrame } from './ui/useEachFrame.ts';
 import { useFocusKept } from './ui/useFocusKept.ts';
@@ -69,6 +70,7 @@ function Dashboard({ page }: { readonly page: Page }) {
       <LibraryDialog />
       {!isKiosk && <TakeThatKey />}
       <PeopleDialog />
+      <Hints />
     </div>
   );
 }

@@ -5,7 +5,6 @@ import { Toolbar } from 'react-aria-components/Toolbar';
 import { EASINGS, type Easing } from '#shared/actions/group/group.ts';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { Hint } from '../ui/Hint.tsx';
 import { Select } from '../ui/Select.tsx';
 import type { KeySet } from '../stores/timeline/keySet.ts';
 import { ToggleButton } from '../ui/ToggleButton.tsx';
@@ -53,20 +52,18 @@ export const TimelineTools = memo(function TimelineTools({
       <EasingChoice />
       <div className={styles.group}>
         {SWITCHES.map(([name, hint]) => (
-          <Hint key={name} text={words.timeline[hint]}>
-            <Switch name={name} />
-          </Hint>
+          <Switch key={name} name={name} hint={words.timeline[hint]} />
         ))}
       </div>
     </Toolbar>
   );
 });
 
-function Switch({ name }: { readonly name: (typeof SWITCHES)[number][0] }) {
+function Switch({ name, hint }: { readonly name: (typeof SWITCHES)[number][0]; readonly hint: string }) {
   const { timeline } = useStores();
   const isOn = useTimeline((state) => state[name]);
   return (
-    <ToggleButton isOn={isOn} onChange={(wanted) => timeline.setState({ [name]: wanted })}>
+    <ToggleButton isOn={isOn} hint={hint} onChange={(wanted) => timeline.setState({ [name]: wanted })}>
       {words.timeline.switches[name]}
     </ToggleButton>
   );

@@ -3,7 +3,7 @@
 import type { ReactNode } from 'react';
 import { Button as AriaButton, type ButtonProps as AriaButtonProps } from 'react-aria-components/Button';
 import { cx } from './cx.ts';
-import { Hint } from './Hint.tsx';
+import { hinted } from './Hints.tsx';
 import { Icon, type IconName } from './Icon.tsx';
 import styles from './Button.module.css';
 
@@ -17,13 +17,16 @@ export interface ButtonProps extends Omit<AriaButtonProps, 'className' | 'childr
 }
 
 export function Button({ tone = 'plain', icon, wide = false, hint, children, ...rest }: ButtonProps) {
-  const button = (
-    <AriaButton {...rest} className={cx(styles.button, styles[tone], wide && styles.wide)}>
+  return (
+    <AriaButton
+      {...rest}
+      {...(hint === undefined ? {} : hinted(hint))}
+      className={cx(styles.button, styles[tone], wide && styles.wide)}
+    >
       {icon !== undefined && <Icon name={icon} />}
       <span className={styles.label}>{children}</span>
     </AriaButton>
   );
-  return hint === undefined ? button : <Hint text={hint}>{button}</Hint>;
 }
 
 export interface IconButtonProps extends Omit<AriaButtonProps, 'className' | 'children' | 'style'> {
@@ -33,10 +36,13 @@ export interface IconButtonProps extends Omit<AriaButtonProps, 'className' | 'ch
 
 export function IconButton({ icon, label, ...rest }: IconButtonProps) {
   return (
-    <Hint text={label}>
-      <AriaButton {...rest} aria-label={label} className={cx(styles.button, styles.quiet, styles.square)}>
-        <Icon name={icon} />
-      </AriaButton>
-    </Hint>
+    <AriaButton
+      {...rest}
+      {...hinted(label)}
+      aria-label={label}
+      className={cx(styles.button, styles.quiet, styles.square)}
+    >
+      <Icon name={icon} />
+    </AriaButton>
   );
 }

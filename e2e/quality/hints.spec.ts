@@ -1,0 +1,39 @@
+// What a control is for shows where the pointer rests and where the keyboard is, and is gone as soon as anything is done.
+
+import type { Locator, Page } from '@playwright/test';
+import { dashboardOf } from '../fixtures/dashboard.ts';
+import { expect, test } from '../fixtures/test.ts';
+
+const hintIn = (page: Page): Locator => page.getByRole('tooltip');
+
+test('a hint shows where the pointer rests, follows it, and goes with a press', async ({ page, servers }) => {
+  await page.goto((await servers.files()).url);
+  const { bar, link } = dashboardOf(page);
+  await expect(link).toHaveText(/Simulated/);
+  const appearance = bar.getByRole('button', { name: /^Appearance/ });
+  const tools = page.getByRole('toolbar', { name: 'Change the timeline' });
+  await appearance.hover();
+  await expect(hintIn(page)).toHaveText(/^Appearance/);
+  await tools.getByRole('button', { name: 'Snap', exact: true }).hover();
+  await expect(hintIn(page)).toHaveText(/Alt/);
+  await expect(tools.getByRole('button', { name: 'Snap', exact: true })).toHaveAccessibleDescription(/Alt/);
+  await page.mouse.down();
+  await expect(hintIn(page)).toBeHidden();
+  await page.mouse.up();
+  await page.mouse.move(700, 400);
+  await expect(hintIn(page)).toBeHidden();
+});
+
+test('a hint shows at what the keyboard leads to, and goes with the next key', async ({ page, servers }) => {
+  await page.goto((await servers.files()).url);
+  const { bar, link } = dashboardOf(page);
+  await expect(link).toHaveText(/Simulated/);
+  const appearance = bar.getByRole('button', { name: /^Appearance/ });
+  await appearance.focus();
+  await page.keyboard.press('Shift+Tab');
+  await page.keyboard.press('Tab');
+  await expect(appearance).toBeFocused();
+  await expect(hintIn(page)).toHaveText(/^Appearance/);
+  await page.keyboard.press('Escape');
+  await expect(hintIn(page)).toBeHidden();
+});

@@ -1,0 +1,69 @@
+// Which element's hint is to be shown: that of what the pointer rests on, or of what the keyboard leads to, until anything is done.
+// A finger has no hover and sees none. Knows no tooltip.
+
+export const HINT = 'data-hint';
+
+/** Long enough for a pointer on its way to something else. */
+const REST_MS = 500;
+/** Whoever reads one hint after the other waits for the first alone. */
+const AWAKE_MS = 300;
+
+/** `show` is told whose hint is to be seen; null: none. */
+export function attach(page: Document, show: (element: Element | null) => void) {
+  let at: Element | null = null;
+  let isShown = false;
+  let shownUntilMs = -Infinity;
+  let timer: ReturnType<typeof setTimeout> | undefined;
+
+  function reveal(): void {
+    isShown = true;
+    show(at);
+  }
+
+  function hide(): void {
+    clearTimeout(timer);
+    if (!isShown) return;
+    isShown = false;
+    shownUntilMs = performance.now();
+    show(null);
+  }
+
+  function come(element: Element | null, delayMs: number): void {
+    if (element === at) return;
+    const isAwake = isShown || performance.now() - shownUntilMs < AWAKE_MS;
+    hide();
+    at = element;
+    if (element !== null) timer = setTimeout(reveal, isAwake ? 0 : delayMs);
+  }
+
+  const listening = new AbortController();
+  const on = <Name extends keyof DocumentEventMap>(
+    name: Name,
+    hear: (event: DocumentEventMap[Name]) => void,
+  ) => page.addEventListener(name, hear, { signal: listening.signal, capture: true, passive: true });
+  on('pointerover', (event) => {
+    if (event.pointerType !== 'touch') come(hintedAround(event.target), REST_MS);
+  });
+  on('pointerout', (event) => {
+    if (event.relatedTarget === null) come(null, 0);
+  });
+  on('focusin', ({ target }) => {
+    const element = hintedAround(target);
+    if (element?.matches(':focus-visible') === true) come(element, 0);
+  });
+  on('focusout', () => come(null, 0));
+  on('pointerdown', hide);
+  on('keydown', hide);
+  on('scroll', hide);
+
+  return {
+    hide,
+    detach(): void {
+      listening.abort();
+      hide();
+    },
+  };
+}
+
+const hintedAround = (target: EventTarget | null): Element | null =>
+  target instanceof Element ? target.closest(`[${HINT}]`) : null;
