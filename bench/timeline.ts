@@ -68,7 +68,7 @@ function editsOf(refs: readonly KeyRef[]): Readonly<Record<string, Edit>> {
     '300 keys moved': move(some),
     'all keys moved': move(refs),
     'all keys moved with ripple': move(refs, true),
-    '300 keys deleted': (group) => deleteKeys(group, some),
+    '300 keys deleted': (group) => deleteKeys(group, some, { ripple: false }),
     'all swings halved': (group) => scaleAmplitude(group, refs, 0.5, 'mean'),
     'time inserted': (group) => insertTime(group, 30_000, 500),
     'time deleted': (group) => deleteTime(group, range),

@@ -73,7 +73,7 @@ export function remove(desk: Desk): void {
     const refs = changeable(desk);
     apply(desk, {
       label: () => words.timeline.steps.delete(refs.length),
-      edit: (group) => deleteKeys(group, refs),
+      edit: (group) => deleteKeys(group, refs, { ripple: desk.state.ripples }),
     });
   }
 }
@@ -107,7 +107,7 @@ export function cut(desk: Desk): Clip | null {
   if (clip !== null)
     apply(desk, {
       label: () => words.timeline.steps.cut(refs.length),
-      edit: (group) => deleteKeys(group, refs),
+      edit: (group) => deleteKeys(group, refs, { ripple: desk.state.ripples }),
     });
   return clip;
 }

@@ -51,7 +51,7 @@ const KEY_EDITS: Readonly<Record<string, Edit>> = {
       group,
       refs.map((ref) => ({ ...ref, position: delta })),
     ),
-  deleteKeys: (group, { refs }) => deleteKeys(group, refs),
+  deleteKeys: (group, { refs }) => deleteKeys(group, refs, STAY),
   scaleAmplitude: (group, { refs, factor }) => scaleAmplitude(group, refs, factor, 'mean'),
   pasteKeys: (group, { refs, fromMs }) => pasteKeys(group, copyKeys(group, refs), fromMs, STAY).group,
   duplicateKeys: (group, { refs, delta }) => duplicateKeys(group, refs, delta, STAY).group,
@@ -60,6 +60,7 @@ const KEY_EDITS: Readonly<Record<string, Edit>> = {
 const OTHER_EDITS: Readonly<Record<string, Edit>> = {
   'moveKeys with ripple': (group, { refs, delta }) =>
     moveKeys(group, refs, { deltaMs: delta, deltaPosition: delta }, RIPPLE),
+  'deleteKeys with ripple': (group, { refs }) => deleteKeys(group, refs, RIPPLE),
   'pasteKeys with ripple': (group, { refs, fromMs }) =>
     pasteKeys(group, copyKeys(group, refs), fromMs, RIPPLE).group,
   moveBoundary: (group, { frameId, delta, ripple }) => moveBoundary(group, frameId, delta, { ripple }),

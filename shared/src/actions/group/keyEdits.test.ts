@@ -94,7 +94,7 @@ describe('a key', () => {
   ] as const)('gone, its frame with note "%s" and colour %s is one of %i left', (note, colour, left) => {
     const frame = { durationMs: 500, targets: [{ servo: 1, position: 1500 }] };
     const pair = insertFrame(insertFrame(emptyGroup('Wave', 'us'), 0, { ...frame, note, colour }), 1, frame);
-    const group = deleteKeys(pair, [{ frameId: 1, servo: 1 }]);
+    const group = deleteKeys(pair, [{ frameId: 1, servo: 1 }], STAY);
     expect(group.frames).toHaveLength(left);
     expect(totalDurationMs(group.frames)).toBe(1000);
   });
@@ -116,6 +116,23 @@ describe('a key', () => {
 });
 
 describe('with ripple', () => {
+  test('frames that lose all their keys go with their time, and what is behind comes so much sooner', () => {
+    fc.assert(
+      fc.property(withGroup(someGroup(), someRefs), ([group, refs]) => {
+        const stayed = deleteKeys(group, refs, STAY);
+        const ids = new Set(stayed.frames.map(({ id }) => id));
+        const left = group.frames.filter(({ id }) => ids.has(id));
+        const closed = deleteKeys(group, refs, RIPPLE);
+        expect(closed.frames.map(({ id, durationMs }) => [id, durationMs])).toEqual(
+          left.map(({ id, durationMs }) => [id, durationMs]),
+        );
+        expect(closed.frames.map(({ targets }) => targets)).toEqual(
+          stayed.frames.map(({ targets }) => targets),
+        );
+      }),
+    );
+  });
+
   test('everything behind the earliest key goes along', () => {
     fc.assert(
       fc.property(

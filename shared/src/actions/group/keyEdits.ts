@@ -45,9 +45,15 @@ export function setPositions(group: ActionGroup, keys: readonly KeyPosition[]): 
 
 const nameOf = (frameId: number, servo: number): string => `${frameId}/${servo}`;
 
-/** Frames left without a key go, unless they carry a note or a colour. */
-export function deleteKeys(group: ActionGroup, refs: readonly KeyRef[]): ActionGroup {
+/** Frames left without a key go, unless they carry a note or a colour; with `ripple` their time goes too. */
+export function deleteKeys(group: ActionGroup, refs: readonly KeyRef[], { ripple }: Ripple): ActionGroup {
   const { kept } = lifted(group, refs);
+  if (ripple) {
+    const closed = kept
+      .filter((moment) => isVacated(moment, group))
+      .reduce((sum, { frame }) => setDuration(sum, frame.id, 0, { ripple }), group);
+    return deleteKeys(closed, refs, { ripple: false });
+  }
   return withMoments(
     group,
     kept.filter((moment) => !isVacated(moment, group)),
