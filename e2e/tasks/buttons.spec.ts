@@ -120,3 +120,13 @@ test('a button moves to another place by key, and is deleted, and each is undone
   await page.keyboard.press('Control+z');
   await poll(names).toEqual(['Pose 1, key G', 'Button 2']);
 });
+
+test('a key that is given to another button is said to have left the first', async ({ dashboard, page }) => {
+  await makeButton(dashboard, page);
+  await dashboard.button('Add button').click();
+  await dashboard.button('Set a key').click();
+  await page.keyboard.press('g');
+  await expect(buttonOf(page, 'Button 2')).toHaveAccessibleName('Button 2, key G');
+  await expect(buttonOf(page, 'Pose 1')).toHaveAccessibleName('Pose 1');
+  await expect(dashboard.notices).toContainText('G was the key of Pose 1, which has none now.');
+});

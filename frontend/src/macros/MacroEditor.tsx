@@ -115,14 +115,17 @@ function Colours({ macro: { id, name, colour } }: MacroProps) {
 }
 
 function KeyField({ macro: { id, name, key } }: MacroProps) {
-  const { macros } = useStores();
+  const { macros, notices } = useStores();
   const [isListening, setListening] = useState(false);
   const setKey = (wanted: string | null): void => {
     setListening(false);
+    const { present } = macros.store.getState();
+    const loser = present.macros.find((one) => wanted !== null && one.key === wanted && one.id !== id);
     macros.edit(
       () => words.macros.edits.key(name),
       (page) => changeMacro(page, id, { key: wanted }),
     );
+    if (loser !== undefined) notices.tell('info', words.macros.keyTaken(wanted ?? '', loser.name));
   };
   /** Before the button takes it for a press. Esc has been STOP already, and ends the listening. */
   const listen = (event: KeyboardEvent): void => {

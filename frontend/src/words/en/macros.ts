@@ -37,6 +37,8 @@ export const macroWords = {
   setKey: 'Set a key',
   pressKey: 'Press a key',
   noKey: 'Remove the key',
+  keyTaken: (key: string, from: string): string =>
+    `${key.toUpperCase()} was the key of ${from}, which has none now.`,
   keyed: (name: string, key: string | null): string =>
     key === null ? name : `${name}, key ${key.toUpperCase()}`,
   earlier: 'Move button earlier',
