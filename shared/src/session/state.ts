@@ -31,8 +31,8 @@ export type LinkState =
 /** Motion is refused while this is not null; only `resume` clears it. */
 export interface Latch {
   /**
-   * `pressed` here, `elsewhere` by another screen, `battery`: a policy, here or there, `unwatched`: its driver was not heard while it moved, or set because the
-   * link came back and nobody has looked yet.
+   * `pressed` here, `elsewhere` on another screen, `battery`: its policy, here or there, `unwatched`: its driver was not heard while
+   * it moved, `reconnected`: the link came back and nobody has looked yet.
    */
   readonly reason: HaltReason | SharedLatchReason;
   /** People's name for whoever stopped it elsewhere; null where it was here. */

@@ -16,7 +16,10 @@ export const PROBLEMS: Readonly<Record<ProblemCode, (found: string) => string>> 
   notOurs: () => 'It is no such file of Servodeck.',
   otherVersion: () => 'Another version of Servodeck has written it.',
   badValue: (found) => `The value of ${found} is none that can be.`,
-  sameNumber: (found) => `${found === '' ? 'T' : `${found}: t`}wo of its parts have the same number.`,
+  sameNumber: (found) =>
+    found === ''
+      ? 'Two of its parts have the same number.'
+      : `${found}: two of its parts have the same number.`,
   servoTwice: (found) => `${found}: a servo is there twice.`,
   servoOrder: (found) => `Frame ${found}: its servos are not in ascending order, each once.`,
   poseMissing: () => 'It names a pose that is not in it.',
