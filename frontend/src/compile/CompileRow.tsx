@@ -4,7 +4,8 @@
 import { select } from '../stores/servoView.ts';
 import { MOST_ERROR_UNITS } from '#shared/actions/group/group.ts';
 import { setMeta } from '#shared/actions/group/groupEdits.ts';
-import { maxErrorOf, obstacles } from '../stores/group/compiled.ts';
+import { maxErrorOf } from '#shared/actions/group/maxError.ts';
+import { obstacles } from '../stores/group/compiled.ts';
 import { editServoView, useCompiled, useDevice, useDocument, useStores } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';

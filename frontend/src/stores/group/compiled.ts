@@ -4,8 +4,8 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { maxErrorOf } from '#shared/actions/group/maxError.ts';
 import type { Clock } from '#shared/clock.ts';
-import type { Family } from '#shared/protocol/families.ts';
 import type { Device } from '../device/device.ts';
 import type { Document } from './document.ts';
 import type { RobotStore } from '../robots/robots.ts';
@@ -30,8 +30,6 @@ export interface CompiledStore {
   of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>): CompiledGroup;
 }
 
-/** As good as nobody can see: half a degree. */
-const USUAL_ERROR = { us: 5, steps: 2 } as const;
 /** After the last change: a typing hand is faster. */
 const QUIET_MS = 250;
 
@@ -104,11 +102,6 @@ export function createCompiled({ document, device, robots, clock, aside }: Compi
   });
 
   return { store, now, of };
-}
-
-/** What the group says, in its own unit. */
-export function maxErrorOf({ unit, maxErrorUnits }: ActionGroup, family: Family): number {
-  return (unit === family.unit ? maxErrorUnits : undefined) ?? USUAL_ERROR[family.unit];
 }
 
 const sourceOf = (group: ActionGroup, { family, robot }: Pick<Source, 'family' | 'robot'>): Source => ({

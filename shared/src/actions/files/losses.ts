@@ -20,7 +20,7 @@ export function lossesIn(format: SaveFormat, group: ActionGroup): readonly Loss[
   const { completed, lacking } = filled(group);
   const isProgram = format === 'python' || format === 'arduino';
   const found: Readonly<Record<LossCode, boolean | readonly number[]>> = {
-    easings: frames.flatMap(({ easing }, index) => (easing === 'linear' ? [] : [index + 1])),
+    easings: isProgram ? [] : frames.flatMap(({ easing }, index) => (easing === 'linear' ? [] : [index + 1])),
     marks: markers.length > 0 || frames.some(({ note, colour }) => note !== '' || colour !== null),
     about: robot !== '' || tags.length > 0,
     times: times !== 1 && !isProgram,

@@ -10,6 +10,7 @@ import { python } from '../../../../scripts/python.mjs';
 import { encodeCommand } from '../../protocol/encode.ts';
 import { FAMILIES, type Family } from '../../protocol/families.ts';
 import { toHex } from '../../protocol/hex.ts';
+import { compile } from '../group/compile.ts';
 import { emptyGroup, type ActionGroup } from '../group/group.ts';
 import { insertFrame } from '../group/groupEdits.ts';
 import { readyRobot, type ReadyRobotId } from '../robot/readyRobots.ts';
@@ -150,6 +151,19 @@ describe('the Python program', () => {
         [20, 1600, 1625],
       ]),
     );
+  });
+
+  test('takes a curve in the straight ways that the board would get', async () => {
+    const turns = [1000, 2000].map((position) => ({ durationMs: 600, targets: [{ servo: 1, position }] }));
+    const group = turns.reduce<ActionGroup>(
+      (sum, frame, index) => insertFrame(sum, index, { ...frame, easing: 'inOut' }),
+      emptyGroup('Wave', 'us'),
+    );
+    const text = await textOf('python', group, family, robot);
+    const rows = [...text.matchAll(/^ {4}\((\d+), \{1: (\d+)\}\),$/gm)].map(([, ...row]) => row.map(Number));
+    const { frames } = compile(group, { family, robot, maxErrorUnits: 5 });
+    expect(frames.length).toBeGreaterThan(turns.length);
+    expect(rows).toEqual(frames.map(({ durationMs, targets }) => [durationMs, targets[0]!.position]));
   });
 
   test('has the first frame take its whole time, however long its packet took to leave', async () => {

@@ -4,7 +4,9 @@
 import type { Frame } from '../../protocol/commands.ts';
 import { encodeCommand } from '../../protocol/encode.ts';
 import type { Family } from '../../protocol/families.ts';
+import { compile } from '../group/compile.ts';
 import type { ActionGroup } from '../group/group.ts';
+import { maxErrorOf } from '../group/maxError.ts';
 import { onBoard, type Robot } from '../robot/robot.ts';
 import { filled } from './filled.ts';
 import { misfitsOf, type Misfit } from './fit.ts';
@@ -26,11 +28,18 @@ export function programOf(
 ): { readonly program: Program } | { readonly misfits: readonly Misfit[] } {
   const misfits = misfitsOf(group, family, robot).filter(({ code }) => !STORED_ONLY.includes(code));
   if (misfits.length > 0) return { misfits };
-  const frames = filled(group).frames.map(({ durationMs, targets }) => ({
+  const frames = straightened(group, family).map(({ durationMs, targets }) => ({
     durationMs,
     targets: onBoard(robot, targets),
   }));
   return { program: { group, family, frames } };
+}
+
+/** A curve takes as many straight ways as this page would play it in; straight ways stay the frames they are. */
+function straightened(group: ActionGroup, family: Family): readonly Frame[] {
+  return group.frames.every(({ easing }) => easing === 'linear')
+    ? filled(group).frames
+    : compile(group, { family, maxErrorUnits: maxErrorOf(group, family) }).frames;
 }
 
 /** What limits a board's memory limits no program. */
