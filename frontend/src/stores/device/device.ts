@@ -6,15 +6,15 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import { sameList } from '#shared/actions/group/groupEdits.ts';
 import { fromBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
 import type { Clock } from '#shared/clock.ts';
-import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
+import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import type { LeaseAction } from '#shared/session/lease.ts';
-import { LinkError } from '#shared/session/linkError.ts';
 import type { Session } from '#shared/session/session.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { Motions, ServoMotion, SessionState } from '#shared/session/state.ts';
-import type { HaltReason, SlotGroup, Transport } from '#shared/session/transport.ts';
+import type { Transport } from '#shared/session/transport.ts';
 import { words } from '../../words/words.ts';
+import { createBoardVerbs, type BoardVerbs } from './boardVerbs.ts';
 import { createLateNews } from './lateNews.ts';
 import { createLimitGate } from './limitGate.ts';
 import { moveDurationMs, type Pace } from './moveTime.ts';
@@ -42,7 +42,7 @@ export interface DeviceState {
   readonly isMoving: boolean;
 }
 
-export interface Device {
+export interface Device extends BoardVerbs {
   readonly store: StoreApi<DeviceState>;
   readonly traffic: TrafficLog;
   readonly clock: Clock;
@@ -58,8 +58,6 @@ export interface Device {
   pose(): readonly ServoTarget[];
   /** Nothing moves and nothing is under way, so far as anybody can know. */
   isAtRest(): boolean;
-  /** From now on each run and each playing asks first; `anyway` begins what was refused, once. */
-  guardRuns(mayBegin: RunGuard): void;
   /** Looks what became of the motion; to be called while the page is drawn, once a frame. */
   refresh(motion?: Motions): void;
   /** Servos whose newest target has not left yet. */
@@ -72,8 +70,6 @@ export interface Device {
   calibrate(servo: number | null): void;
   /** Moves the servo that is calibrated, as far as its board can. */
   creep(position: number, durationMs: number): void;
-  halt(why?: HaltReason): void;
-  resume(): void;
   /** About who drives a robot that is shared. */
   lease(action: LeaseAction): void;
   /** The run under way may go on without this page, for so long at most; null: it may not. */
@@ -81,34 +77,7 @@ export interface Device {
   retryNow(): void;
   /** Holds for later sessions too. */
   setAutoReconnect(enabled: boolean): void;
-  identify(): void;
-  choose(family: Family): void;
-  /** `settled` hears whether the board took it, as far as anybody can know. */
-  run(slot: number, times: number, settled?: Settled): void;
-  stopGroup(): void;
-  /** `settled` hears whether the board said so. */
-  erase(settled?: Settled): void;
-  readBattery(): void;
-  /** Unasked, so nobody is told that it failed: another screen's question may have met this one on the board (S52). */
-  watchBattery(): void;
-  readPositions(servos: readonly number[]): void;
-  /** Firmware and trims, one question after the other. */
-  readDetails(): void;
-  setSpeed(slot: number | null, percent: number): void;
-  release(servos: readonly number[]): void;
-  sendRaw(packet: Uint8Array): void;
-  /** One after the other. `settled` hears whether all of them are stored. */
-  download(groups: readonly SlotGroup[], settled?: Settled): void;
-  cancelDownload(): void;
-  /** `times` 0: until stopped. `settled` hears whether the last frame was played: not after a pause, a stop or a failure. */
-  play(frames: readonly Frame[], times: number, settled: Settled): void;
-  stopPlaying(): void;
 }
-
-export type Settled = (isDone: boolean) => void;
-
-/** Whether something may begin to run now. Where not, it tells the person and may offer to begin it anyway. */
-export type RunGuard = (anyway: () => void) => boolean;
 
 const NOTHING = { way: null, snapshot: INITIAL_STATE, known: [], isMoving: false } as const;
 
@@ -130,13 +99,10 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   const lateNews = createLateNews(clock, notices);
   let session: Session | null = null;
   let unsubscribe = (): void => undefined;
-  let paused = false;
   let autoReconnect = true;
-  let mayBegin: RunGuard = () => true;
   let saidOfResume = '';
   let calibrated: number | null = null;
 
-  const setPaused = (on: boolean): boolean => (paused = on);
   const robot = (): Robot => robots.current().robot;
   const meant = (servo: number, onBoardAt: number): number => fromBoard(robot(), servo, onBoardAt);
   const gate = createLimitGate(robot, (refusal) => notices.tell('warning', refusal));
@@ -247,33 +213,6 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     return onIt !== null && send(targets, onIt, pace);
   }
 
-  function attempt(work: (session: Session) => Promise<unknown>, settled: Settled = () => undefined): void {
-    if (session === null) return settled(false);
-    work(session).then(
-      (isDone) => {
-        lateNews.asked();
-        settled(isDone !== false);
-      },
-      (error: unknown) => {
-        tellError(error);
-        settled(false);
-      },
-    );
-  }
-
-  /** As `attempt`, where nothing forbids that something runs. */
-  function attemptRun(
-    work: (session: Session) => Promise<unknown>,
-    settled: Settled = () => undefined,
-  ): void {
-    const asked = session;
-    const anyway = (): void => {
-      if (session === asked) attempt(work);
-    };
-    if (session !== null && mayBegin(anyway)) attempt(work, settled);
-    else settled(false);
-  }
-
   async function detach(): Promise<void> {
     const former = session;
     unsubscribe();
@@ -285,22 +224,10 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     await former?.close();
   }
 
-  /** False where it was called off. */
-  async function downloadTo(current: Session, groups: readonly SlotGroup[]): Promise<boolean> {
-    const slots = groups.map(({ slot }) => slot);
-    try {
-      await current.download(groups);
-      notices.tell('info', words.board.downloaded(slots));
-      return true;
-    } catch (error) {
-      if (!(error instanceof LinkError && error.code === 'cancelled')) throw error;
-      const broken = slots.find((slot) => current.state.brokenSlots.includes(slot));
-      notices.tell('warning', words.board.downloadCancelled(broken ?? null));
-      return false;
-    }
-  }
+  const verbs = createBoardVerbs({ session: () => session, ...{ gate, notices, lateNews, tellError } });
 
   return {
+    ...verbs,
     store,
     traffic,
     clock,
@@ -325,7 +252,6 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     motion: (servo) => motions()(servo),
     pose,
     isAtRest,
-    guardRuns: (guard) => (mayBegin = guard),
     refresh,
     waiting: book.waiting,
     move(targets, pace) {
@@ -343,56 +269,12 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       const targets = [{ servo: calibrated, position }];
       if (send(targets, onBoard(robot(), targets), durationMs)) refresh();
     },
-    halt: (why) => attempt((current) => current.halt(why)),
-    resume: () => attempt((current) => current.resume()),
     lease: (action) => session?.lease(action),
     letGoOn: (forMs) => session?.letGoOn(forMs),
     retryNow: () => session?.retryNow(),
     setAutoReconnect(enabled) {
       autoReconnect = enabled;
       session?.setAutoReconnect(enabled);
-    },
-    identify: () => attempt((current) => current.identify()),
-    choose: (chosen) => attempt((current) => current.choose(chosen)),
-    run: (slot, times, settled) => attemptRun((current) => current.run(slot, times), settled),
-    stopGroup: () => attempt((current) => current.stopGroup()),
-    erase: (settled) =>
-      attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased)), settled),
-    readBattery: () => attempt((current) => current.readBattery()),
-    watchBattery: () => void session?.readBattery().catch(() => undefined),
-    readPositions: (servos) => attempt((current) => current.readPositions(servos)),
-    readDetails: () => attempt((current) => current.readVersion().then(() => current.readOffsets())),
-    setSpeed: (slot, percent) =>
-      attempt((current) =>
-        current
-          .setSpeed(slot, percent)
-          .then(() => notices.tell('info', words.board.speedSent(slot, percent))),
-      ),
-    release: (servos) => attempt((current) => current.release(servos)),
-    download(groups, settled = () => undefined) {
-      const onIt = gate.groups(groups);
-      if (onIt === null) settled(false);
-      else attempt((current) => downloadTo(current, onIt), settled);
-    },
-    sendRaw(packet) {
-      if (gate.lets(packet)) attempt((current) => current.sendRaw(packet));
-    },
-    cancelDownload: () => attempt((current) => current.cancelDownload()),
-    play(frames, times, settled) {
-      const onIt = gate.frames(frames);
-      if (onIt === null) {
-        settled(false);
-        return;
-      }
-      attemptRun(async (current) => {
-        setPaused(false);
-        await current.play(onIt, { times });
-        return !paused && current.state.latch === null && current.state.link.status === 'ready';
-      }, settled);
-    },
-    stopPlaying() {
-      setPaused(true);
-      session?.stopPlaying();
     },
   };
 }
