@@ -81,6 +81,21 @@ test('F6 goes from part to part, each time to where the keys were in it', async 
   await next('Shift+F6', dashboard.slider(6));
 });
 
+test('arrows go through the three that are worked on, and back', async ({ page, servers }) => {
+  const part = (name: string): Locator => page.getByRole('radio', { name });
+  await page.goto((await servers.files()).url);
+  await part('Action group').focus();
+  for (const [key, name] of [
+    ['ArrowRight', 'Poses'],
+    ['ArrowRight', 'Keys and pad'],
+    ['ArrowLeft', 'Poses'],
+  ] as const) {
+    await page.keyboard.press(key);
+    await expect(part(name)).toBeChecked();
+    await expect(part(name)).toBeFocused();
+  }
+});
+
 test('a dialog shares the focus with STOP alone, and gives it back', async ({ page, servers }) => {
   const dashboard = dashboardOf(page);
   await page.goto((await servers.files()).url);
