@@ -67,6 +67,22 @@ test('a scroll over the sliders moves no servo, a drag of a thumb does', async (
   expect(await target()).toBeLessThan(1500 + (95 / track.width) * 2000);
 });
 
+test('what has the focus stands below the picture that stays in sight', async ({ page, servers }) => {
+  const dashboard = dashboardOf(page);
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.link).toHaveText(/Ready/);
+  await dashboard.slider(6).focus();
+  for (const servo of [5, 4, 3, 2, 1]) {
+    await dashboard.slider(servo).focus();
+    const isMet = () =>
+      dashboard.slider(servo).evaluate((slider) => {
+        const { x, y, width, height } = slider.getBoundingClientRect();
+        return document.elementFromPoint(x + width / 2, y + height / 2) === slider;
+      });
+    await expect.poll(isMet, { message: `servo ${servo}` }).toBe(true);
+  }
+});
+
 /** The longer side of the longest of what is drawn. */
 const largestPicture = (page: Page): Promise<number> =>
   page.evaluate(() => {
