@@ -28,11 +28,15 @@ async function openDesk() {
   const store = createStore<LibraryState>(() => ({
     ...{ place: 'gateway', documents: [], openId: 'at hand', isKept: true },
   }));
-  findOthersGroups({ device, robots, compiled, slots, library: { store }, keeper: Promise.resolve(keeper) });
+  const refreshed: string[] = [];
+  const library = { store, refresh: () => Promise.resolve(void refreshed.push('the list')) };
+  const read: string[] = [];
+  const watched = { ...keeper, read: (id: string) => (read.push(id), keeper.read(id)) };
+  findOthersGroups({ device, robots, compiled, slots, library, keeper: Promise.resolve(watched) });
   const on = { family: device.store.getState().family, robot: robots.current().robot };
   let revision = 0;
   return {
-    ...{ ...desk, ...gateway, keeper },
+    ...{ ...desk, ...gateway, keeper, read, refreshed },
     versionOf: (group: ActionGroup) => compiled.of(group, on).fingerprint,
     async shelve(group: ActionGroup): Promise<void> {
       const facts = factsOf(group, { updatedAtMs: 0, robot: '' });
@@ -54,6 +58,14 @@ test('what others stored is known whole where the library holds that version of 
   othersStore(8, { version: versionOf(groupAt(1000, 1400)) });
   await draw(100);
   expect(known()).toEqual([[5, 'Bert', 2]]);
+});
+
+test('what the library does not list is asked of the list, once, and not read', async () => {
+  const { othersStore, read, refreshed, draw } = await openDesk();
+  othersStore(5, { version: 'of Bert', documentId: 'new' });
+  othersStore(6, { version: 'of Bert', documentId: 'new' });
+  await draw(100);
+  expect([refreshed, read]).toEqual([['the list'], []]);
 });
 
 test('a version that was kept under a name counts, and one that the library gets later', async () => {

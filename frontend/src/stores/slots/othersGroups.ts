@@ -16,7 +16,7 @@ export interface OthersGroupsOptions {
   readonly robots: RobotStore;
   readonly slots: Slots;
   readonly compiled: CompiledStore;
-  readonly library: Pick<Library, 'store'>;
+  readonly library: Pick<Library, 'store' | 'refresh'>;
   readonly keeper: Promise<Pick<Keeper, 'read' | 'versions' | 'readVersion'>>;
 }
 
@@ -24,6 +24,8 @@ export function findOthersGroups(options: OthersGroupsOptions): void {
   const { device, robots, slots, compiled, library } = options;
   let isLooking = false;
   let isAskedAgain = false;
+  /** Documents that were not in the list when it was read for them. */
+  const listedFor = new Set<string>();
 
   function unfound(): readonly (readonly [slot: number, stored: StoredGroup])[] {
     const { link, slotVersions } = device.store.getState().snapshot;
@@ -46,7 +48,7 @@ export function findOthersGroups(options: OthersGroupsOptions): void {
   }
 
   async function lookFor(slot: number, { documentId, version, name, by, atMs }: StoredGroup): Promise<void> {
-    if (documentId === null) return;
+    if (documentId === null || !isListed(documentId)) return;
     for await (const text of textsOf(documentId)) {
       const read = groupFromText(text);
       if ('problem' in read) continue;
@@ -56,6 +58,14 @@ export function findOthersGroups(options: OthersGroupsOptions): void {
       slots.noteOthers({ slot, name, documentId, frames, fingerprint, storedAtMs: atMs ?? 0, by });
       return;
     }
+  }
+
+  /** One that is new is on its way to the library: the list is read once more for it. */
+  function isListed(documentId: string): boolean {
+    if (library.store.getState().documents.some(({ id }) => id === documentId)) return true;
+    if (!listedFor.has(documentId)) void library.refresh();
+    listedFor.add(documentId);
+    return false;
   }
 
   /** As it is now, then its named versions from the newest on. */
