@@ -143,3 +143,21 @@ test.describe('with thirty-two servos', () => {
     await expect(dashboard.estimate(32)).toHaveText('≈ 1510');
   });
 });
+
+test.describe('on a tablet', () => {
+  test.use({ viewport: { width: 820, height: 1180 } });
+
+  test('thumbs are drawn again where the list comes back into sight', async ({ dashboard, page }) => {
+    await dashboard.type(dashboard.target(1), 1700);
+    await expect(dashboard.estimate(1)).toHaveText('≈ 1700');
+    await dashboard.target(1).focus();
+    const drawn = await dashboard.slider(1).screenshot();
+    await dashboard.capture.click();
+    await dashboard.button('Download').click();
+    await expect(dashboard.board).toContainText('Up to date');
+    await expect(dashboard.slider(1)).not.toBeInViewport();
+    await dashboard.target(1).focus();
+    await page.mouse.move(0, 0);
+    await poll(async () => (await dashboard.slider(1).screenshot()).equals(drawn)).toBe(true);
+  });
+});

@@ -47,7 +47,7 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
   });
 
   function place(): void {
-    const cover = coverOf(parts.current);
+    const cover = coverOf(parts.current, covered.current);
     if (canvas.current === null || isSameCover(cover, covered.current)) return;
     covered.current = cover;
     const { left, top, width, height } = cover;

@@ -71,10 +71,11 @@ const placed = (top: number, height: number): Placed => ({
 });
 
 test('the canvas covers all of them, on whole pixels', () => {
-  expect(coverOf([placed(40.5, 20), placed(96.5, 30.2)])).toEqual({
+  const before = { left: 0, top: 0, width: 300, height: 150 };
+  expect(coverOf([placed(40.5, 20), placed(96.5, 30.2)], before)).toEqual({
     ...{ left: 20, top: 40, width: 45, height: 87 },
   });
-  expect(coverOf([])).toEqual({ left: 0, top: 0, width: 0, height: 0 });
+  expect(coverOf([], before)).toBe(before);
 });
 
 test('each is painted where it stands, as large as it is, on a whole pixel of the screen', () => {

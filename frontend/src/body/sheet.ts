@@ -92,9 +92,9 @@ export interface Cover {
   readonly height: number;
 }
 
-/** As much as all of them take, on whole pixels. */
-export function coverOf(parts: readonly Placed[]): Cover {
-  if (parts.length === 0) return { left: 0, top: 0, width: 0, height: 0 };
+/** As much as all of them take, on whole pixels. Where none is in sight it stays: a canvas without a size is not drawn any more. */
+export function coverOf(parts: readonly Placed[], before: Cover): Cover {
+  if (parts.length === 0) return before;
   const left = Math.floor(Math.min(...parts.map((part) => part.left)));
   const top = Math.floor(Math.min(...parts.map((part) => part.top)));
   const right = Math.ceil(Math.max(...parts.map((part) => part.left + part.size.width)));
