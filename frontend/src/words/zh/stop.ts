@@ -19,7 +19,7 @@ export const stopWords: Words['stop'] = {
   reason: {
     pressed: '这里按下了停止',
     battery: '按机器人的低电量设置停止',
-    unwatched: '运动时驾驶者不在了',
+    unwatched: '运动时操控者不在了',
     reconnected: '连接恢复了；请先看看机器人',
   },
   stoppedBy: (by) => (by === null ? '在另一个屏幕上停止' : (STOPPED_AT[by] ?? `由${by}停止`)),
