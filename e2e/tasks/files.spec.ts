@@ -27,7 +27,7 @@ test('a vendor’s XML becomes frames in one step, and saved as XML it is read b
 
   await expect(files.dialog).toBeHidden();
   await expect(dashboard.frames).toHaveCount(4);
-  await expect(dashboard.frame(2)).toHaveAccessibleName('Frame 2, 400 ms, moves servo 3 and 6');
+  await expect(dashboard.frame(2)).toHaveAccessibleName('Frame 2, 400 ms, moves servos 3 and 6');
   const frames = await framesOf(dashboard);
   await dashboard.button('Undo: open wave').click();
   await expect(dashboard.frames).toHaveCount(0);

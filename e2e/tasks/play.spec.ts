@@ -207,6 +207,30 @@ test('what a hand did becomes keys: recorded on purpose, or taken after the fact
   await expect(dashboard.frame(1)).toBeVisible();
 });
 
+test('armed rows are recorded, each moved by itself, and no other', async ({ dashboard, page }) => {
+  for (const row of ['Gripper', 'Elbow']) {
+    await dashboard.button(`Row of ${row}`).click();
+    await page.getByRole('menuitem', { name: 'Arm for recording' }).click();
+  }
+  await expect(page.getByRole('img', { name: 'armed for recording' })).toHaveCount(2);
+  for (const servo of [1, 2, 4]) {
+    await dashboard.type(dashboard.target(servo), 1400);
+    await expect(dashboard.estimate(servo)).toHaveText('≈ 1400');
+  }
+  await dashboard.button('Record').click();
+  for (const servo of [1, 2, 4]) {
+    await dashboard.type(dashboard.target(servo), 1600);
+    await expect(dashboard.estimate(servo)).toHaveText('≈ 1600');
+  }
+  await dashboard.button(/^End recording/).click();
+  await page
+    .getByRole('dialog', { name: 'Recorded motion' })
+    .getByRole('button', { name: 'Make it the group' })
+    .click();
+  await expect(dashboard.frame(1)).toHaveAccessibleName(/, moves servos 1 and 4$/);
+  await expect(dashboard.frames.getByRole('button', { name: /servos? .*\b2\b/ })).toHaveCount(0);
+});
+
 test('the button that begins is the one that ends, and keeps the focus', async ({ dashboard, page }) => {
   await captureGroup(dashboard, [1000, 1400], 400);
   for (const [begins, ends] of [

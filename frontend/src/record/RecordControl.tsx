@@ -1,14 +1,16 @@
 // Recording by hand: on purpose, from a press to the next one, or after the fact, what moved in the last two minutes.
 
 import { useStore } from 'zustand';
-import { servoViewOf, useRobot, useServoView, useStores } from '../stores/stores.ts';
+import { recorded } from '../stores/servoView.ts';
+import { servoViewOf, useRobot, useServoView, useStores, type Stores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/words.ts';
 import { useOffer } from './useOffer.ts';
 
 export function RecordControl() {
-  const { tape, robots, ...stores } = useStores();
+  const stores = useStores();
+  const { tape } = stores;
   const offer = useOffer();
   const sinceMs = useStore(tape.store, (state) => state.recordingSinceMs);
   return (
@@ -16,9 +18,7 @@ export function RecordControl() {
       <Record
         sinceMs={sinceMs}
         onBegin={() => tape.record()}
-        onEnd={() =>
-          offer(tape.end(armed(servoViewOf({ ...stores, robots }).selected, robots.current().robot)))
-        }
+        onEnd={() => offer(tape.end(recorded(servoViewOf(stores), servosOf(stores)).servos))}
       />
       <Button tone="quiet" hint={words.record.takeThatHint} onPress={() => offer(tape.takeThat())}>
         {words.record.takeThat}
@@ -27,13 +27,8 @@ export function RecordControl() {
   );
 }
 
-/** The selected servos, or, where none is selected, all of them. */
-function armed(
-  selected: readonly number[],
-  { servos }: { readonly servos: readonly { readonly servo: number }[] },
-): readonly number[] {
-  return selected.length > 0 ? selected : servos.map(({ servo }) => servo);
-}
+const servosOf = ({ robots }: Pick<Stores, 'robots'>): readonly number[] =>
+  robots.current().robot.servos.map(({ servo }) => servo);
 
 interface RecordProps {
   /** null: nothing is recorded. */
@@ -44,10 +39,12 @@ interface RecordProps {
 
 /** One button for both: the focus is still on it when the recording is to end. */
 function Record({ sinceMs, onBegin, onEnd }: RecordProps) {
-  const robot = useRobot();
-  const selected = useServoView((view) => view.selected);
-  const count = armed(selected, robot).length;
-  const hint = `${words.record.recordHint}. ${words.record.armed(count, robot.servos.length)}`;
+  const all = useRobot().servos.map(({ servo }) => servo);
+  const { servos, by } = recorded(
+    useServoView((view) => view),
+    all,
+  );
+  const hint = `${words.record.recordHint}. ${words.record.keeps[by](servos.length, all.length)}`;
   return (
     <Button
       tone={sinceMs === null ? 'quiet' : 'plain'}

@@ -3,6 +3,7 @@ import {
   INITIAL_SERVO_VIEW,
   isHeld,
   selectByClick,
+  recorded,
   servoViewFor,
   toggled,
   type ServoView,
@@ -33,6 +34,13 @@ test('a servo is held while locked, or while another one is alone', () => {
   expect([1, 2].map((servo) => isHeld(locked, servo))).toEqual([false, true]);
   const solo = { ...locked, solo: [2, 3] };
   expect([1, 2, 3].map((servo) => isHeld(solo, servo))).toEqual([true, true, false]);
+});
+
+test('a recording keeps what is armed, else what is selected, else all', () => {
+  const armed = { ...withSelected(1, 3), armed: [2, 4] };
+  expect(recorded(armed, [1, 2, 3, 4])).toEqual({ servos: [2, 4], by: 'armed' });
+  expect(recorded(withSelected(1, 3), [1, 2, 3, 4])).toEqual({ servos: [1, 3], by: 'selected' });
+  expect(recorded(INITIAL_SERVO_VIEW, [1, 2, 3, 4])).toEqual({ servos: [1, 2, 3, 4], by: 'all' });
 });
 
 test('what was said of one robot says nothing of another', () => {

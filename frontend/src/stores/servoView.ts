@@ -1,4 +1,4 @@
-// How the servos of one robot are shown and handled on this screen: selected, locked, alone, hidden, folded away, and how the
+// How the servos of one robot are shown and handled on this screen: selected, locked, alone, armed, hidden, folded away, and how the
 // selected ones move together. Pure values and edits; knows no motion.
 
 export const TOGETHER = ['straight', 'mirrored', 'weighted'] as const;
@@ -19,6 +19,8 @@ export interface ServoView {
   readonly hidden: readonly number[];
   /** Their keys stay in the group and move nothing from the page. */
   readonly muted: readonly number[];
+  /** What a recording keeps; see `recorded`. */
+  readonly armed: readonly number[];
   /** Groups of which only the header is shown. */
   readonly folded: readonly string[];
   readonly together: Together;
@@ -33,6 +35,7 @@ const FRESH: ServoView = {
   solo: [],
   hidden: [],
   muted: [],
+  armed: [],
   folded: [],
   together: 'straight',
   weights: {},
@@ -53,6 +56,15 @@ export function isHeld({ locked, solo }: Pick<ServoView, 'locked' | 'solo'>, ser
 /** Nothing of the group is sent to it from the page. */
 export function isSilent({ muted, solo }: Pick<ServoView, 'muted' | 'solo'>, servo: number): boolean {
   return muted.includes(servo) || (solo.length > 0 && !solo.includes(servo));
+}
+
+/** Whose motion a recording keeps: of the armed servos, else of the selected ones, else of all. */
+export function recorded(
+  { armed, selected }: Pick<ServoView, 'armed' | 'selected'>,
+  all: readonly number[],
+): { readonly servos: readonly number[]; readonly by: 'armed' | 'selected' | 'all' } {
+  if (armed.length > 0) return { servos: armed, by: 'armed' };
+  return selected.length > 0 ? { servos: selected, by: 'selected' } : { servos: all, by: 'all' };
 }
 
 export function select(view: ServoView, selected: readonly number[]): ServoView {

@@ -144,8 +144,14 @@ function Fold({
 function Marks({ servo }: { readonly servo: number }) {
   const isLocked = useServoView((view) => isHeld(view, servo));
   const isMuted = useServoView((view) => isSilent(view, servo));
+  const isArmed = useServoView(({ armed }) => armed.includes(servo));
   return (
     <span className={styles.marks}>
+      {isArmed && (
+        <span role="img" aria-label={words.timeline.rows.armed}>
+          <Icon name="record" />
+        </span>
+      )}
       {isLocked && (
         <span role="img" aria-label={words.timeline.rows.locked}>
           <Icon name="lock" />

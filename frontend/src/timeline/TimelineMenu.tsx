@@ -173,6 +173,7 @@ function rowItems(view: ServoView, row: Row | undefined, change: ChangeView): Re
     { list: 'locked', icon: 'lock', label: isAll(view.locked) ? rows.unlock : rows.lock },
     { list: 'muted', icon: 'mute', label: isAll(view.muted) ? rows.unmute : rows.mute },
     { list: 'solo', icon: 'solo', label: isAll(view.solo) ? rows.unsolo : rows.solo },
+    { list: 'armed', icon: 'record', label: isAll(view.armed) ? rows.disarm : rows.arm },
     { list: 'hidden', icon: 'hide', label: rows.hide },
   ] as const;
   const own = items.map(({ list, icon, label }) => (

@@ -21,7 +21,10 @@ export const actionWords = {
   nothingKnown: 'Move a servo first.',
   frame: (number: number): string => `Frame ${formatWhole(number)}`,
   frameAbout: (number: number, durationMs: number, changed: readonly number[]): string => {
-    const moved = changed.length === 0 ? 'moves nothing' : `moves servo ${formatList(changed)}`;
+    const moved =
+      changed.length === 0
+        ? 'moves nothing'
+        : `moves ${changed.length === 1 ? 'servo' : 'servos'} ${formatList(changed)}`;
     return `Frame ${formatWhole(number)}, ${formatMs(durationMs)}, ${moved}`;
   },
   playingFrame: 'Playing',

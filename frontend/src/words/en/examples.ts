@@ -38,10 +38,13 @@ export const recordWords = {
   takeThatHint: 'The motion of the last two minutes becomes a group. Key: T',
   title: 'Recorded motion',
   nothing: 'Nothing moved.',
-  armed: (count: number, all: number): string =>
-    count === all
-      ? 'Records every servo'
-      : `Records the ${formatCount(count)} selected of ${formatCount(all)} servos`,
+  keeps: {
+    armed: (count: number, all: number): string =>
+      `Records what is armed, ${counted(count, 'servo')} of ${formatCount(all)}`,
+    selected: (count: number, all: number): string =>
+      `Records what is selected, ${counted(count, 'servo')} of ${formatCount(all)}; rows can be armed instead`,
+    all: (): string => 'Records every servo; rows can be armed for less',
+  },
   error: 'May be off by',
   errorField: 'How far the keys may be off what was recorded',
   result: (ms: number, samples: number, keys: number): string =>

@@ -132,12 +132,15 @@ export const timelineWords = {
     unmute: 'Unmute',
     solo: 'Play and change only this',
     unsolo: 'Play and change all again',
+    arm: 'Arm for recording',
+    disarm: 'Record no more',
     hide: 'Hide',
     foldAway: 'Fold away',
     unfold: 'Unfold',
     showHidden: (count: number): string => `Show hidden rows: ${formatCount(count)}`,
     locked: 'locked',
     muted: 'muted',
+    armed: 'armed for recording',
   },
 
   asks: {

@@ -38,8 +38,12 @@ export const recordWords: typeof englishRecord = {
   takeThatHint: '把最近两分钟的动作变成动作组。按键：T',
   title: '录下的动作',
   nothing: '没有动作。',
-  armed: (count, all) =>
-    count === all ? '录制全部舵机' : `录制选中的${formatCount(count)}/${formatCount(all)}个舵机`,
+  keeps: {
+    armed: (count, all) => `录制待录的${formatCount(count)}/${formatCount(all)}个舵机`,
+    selected: (count, all) =>
+      `录制选中的${formatCount(count)}/${formatCount(all)}个舵机；也可以在行菜单里指定`,
+    all: () => '录制全部舵机；可以在行菜单里指定要录的行',
+  },
   error: '允许偏差',
   errorField: '关键帧与录下的动作最多相差多少',
   result: (ms, samples, keys) =>

@@ -105,12 +105,15 @@ export const timelineWords: typeof english = {
     unmute: '取消静默',
     solo: '只播放和修改这一行',
     unsolo: '重新播放和修改所有行',
+    arm: '指定录制',
+    disarm: '取消录制',
     hide: '隐藏',
     foldAway: '折叠',
     unfold: '展开',
     showHidden: (count) => `显示隐藏的${formatCount(count)}行`,
     locked: '已锁定',
     muted: '已静默',
+    armed: '待录制',
   },
 
   asks: {
