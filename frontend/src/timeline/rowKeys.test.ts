@@ -46,7 +46,10 @@ test('whoever shows rows sees the very same keys until they are others', () => {
 
 test.each([
   ['a key of it came', (group: ActionGroup) => setKey(group, 3, 1000, 1500)],
-  ['a key of it went', (group: ActionGroup) => deleteKeys(group, [{ frameId: 3, servo: 3 }], { ripple: false })],
+  [
+    'a key of it went',
+    (group: ActionGroup) => deleteKeys(group, [{ frameId: 3, servo: 3 }], { ripple: false }),
+  ],
   [
     'a key of it moved in time',
     (group: ActionGroup) =>

@@ -35,6 +35,11 @@ export function mayBrush(snapshot: SessionState, target: number | null): boolean
   return drives && target !== null && motionHindrance(snapshot) === null;
 }
 
+/** What moves the robot by itself ends here for good: whoever may drive again begins it anew. */
+export function endsMotion({ link, latch, lease }: SessionState): boolean {
+  return link.status !== 'ready' || latch !== null || isWatching(lease);
+}
+
 /** null: something that takes its own time may begin, because nothing else is at it. */
 export function startHindrance(snapshot: SessionState): Hindrance | null {
   return motionHindrance(snapshot) ?? (snapshot.activity.kind === 'idle' ? null : 'busy');

@@ -4,6 +4,7 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Device } from '../device/device.ts';
+import { endsMotion } from '../device/readiness.ts';
 import { freeOf, type Locking } from '../locks.ts';
 import { createFollower } from './follower.ts';
 
@@ -31,9 +32,8 @@ export function createBlend({ device, ...locking }: Locking & { readonly device:
       follower.follow(new Map(freeOf(locking, targets).map(({ servo, position }) => [servo, position])));
   }
 
-  device.store.subscribe(({ snapshot: { latch, link } }) => {
-    if (store.getState().isLive && (latch !== null || link.status !== 'ready'))
-      store.setState({ isLive: false });
+  device.store.subscribe(({ snapshot }) => {
+    if (store.getState().isLive && endsMotion(snapshot)) store.setState({ isLive: false });
   });
 
   return {

@@ -12,7 +12,7 @@ import { limitRefusal } from '../device/limits.ts';
 import { GENTLE_MOVE_MS } from '../device/moveTime.ts';
 import type { Notices } from '../notices.ts';
 import type { Poses } from './poses.ts';
-import { startHindrance } from '../device/readiness.ts';
+import { endsMotion, startHindrance } from '../device/readiness.ts';
 import type { RobotStore } from '../robots/robots.ts';
 
 export interface MacroProgress {
@@ -117,7 +117,7 @@ export function createMacroRun({ device, poses, robots, notices, clock }: MacroR
   }
 
   device.store.subscribe(({ snapshot }) => {
-    if (store.getState() !== null && (snapshot.latch !== null || snapshot.link.status !== 'ready')) finish();
+    if (store.getState() !== null && endsMotion(snapshot)) finish();
   });
   robots.store.subscribe((state, before) => {
     if (state.present.currentId !== before.present.currentId && store.getState() !== null) finish();

@@ -3,6 +3,7 @@ import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { insertFrame, setMeta, type NewFrame } from '#shared/actions/group/groupEdits.ts';
 import { startHistory } from '#shared/actions/history.ts';
 import { positionAt, tracksOf } from '#shared/actions/group/tracks.ts';
+import type { Lease } from '#shared/session/lease.ts';
 import { words } from '../../words/words.ts';
 import { createDesk } from '../deskUnderTest.ts';
 import { createSharedSlots } from '../slots/sharedSlotsUnderTest.ts';
@@ -16,6 +17,11 @@ const frame = (durationMs: number, position: number, more: Partial<NewFrame> = {
 
 const groupOf = (...frames: readonly NewFrame[]): ActionGroup =>
   frames.reduce((group, each) => insertFrame(group, group.frames.length, each), emptyGroup('Wave', 'us'));
+
+const THEIRS: Lease = {
+  ...{ driver: 'Bert', drives: false, asker: null, asks: false, answerInMs: null, others: 1 },
+  ...{ mayDrive: true, mayTake: false, givenBy: null, candidates: [], unattended: null },
+};
 
 const WAVE = groupOf(frame(400, 1000), frame(400, 1600), frame(600, 1300));
 
@@ -345,6 +351,38 @@ describe('the robot that follows', () => {
     expect(moves().length).toBe(before);
     expect(playback.store.getState().isLive).toBe(false);
   });
+});
+
+describe('a robot that follows where somebody else takes it over', () => {
+  test.each(['playback', 'blend', 'macroRun'] as const)(
+    'does so no longer, and not again: %s',
+    async (which) => {
+      const { playback, playhead, blend, macroRun, device, draw, moves } = await deskWith(WAVE);
+      const isOn = (): boolean =>
+        which === 'macroRun'
+          ? macroRun.store.getState() !== null
+          : { playback, blend }[which].store.getState().isLive;
+      playback.set({ isLive: which === 'playback' });
+      blend.show([{ servo: 1, position: 1200 }]);
+      blend.follow(which === 'blend');
+      if (which === 'macroRun')
+        macroRun.start({
+          ...{ id: 1, name: 'Wait', colour: 'slate', key: null },
+          steps: [{ kind: 'wait', waitMs: 9000 }],
+        });
+      await draw(1700);
+      expect(isOn()).toBe(true);
+      const { snapshot } = device.store.getState();
+      device.store.setState({ snapshot: { ...snapshot, lease: THEIRS } });
+      expect(isOn()).toBe(false);
+      device.store.setState({ snapshot });
+      const before = moves().length;
+      playhead.go(800);
+      blend.show([{ servo: 1, position: 1800 }]);
+      await draw(1000);
+      expect(moves().length).toBe(before);
+    },
+  );
 });
 
 describe('playing on the board', () => {

@@ -15,7 +15,7 @@ import { createMeantPart } from './meantPart.ts';
 import type { Notices } from '../notices.ts';
 import { pageAt, previewAt, type PagePlay, type PreviewPlay } from './playedAt.ts';
 import type { Playhead } from './playhead.ts';
-import { startHindrance } from '../device/readiness.ts';
+import { endsMotion, startHindrance } from '../device/readiness.ts';
 import type { RobotStore } from '../robots/robots.ts';
 import type { Slots } from '../slots/slots.ts';
 import type { View } from '../view.ts';
@@ -192,7 +192,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
       noteActivity(next);
     }
     if (snapshot.latch !== null && before.latch === null) endPreview();
-    if (snapshot.latch !== null || snapshot.link.status !== 'ready') store.setState({ isLive: false });
+    if (endsMotion(snapshot)) store.setState({ isLive: false });
   });
 
   function noteActivity(next: Activity): void {
