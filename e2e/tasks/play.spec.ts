@@ -231,6 +231,25 @@ test('armed rows are recorded, each moved by itself, and no other', async ({ das
   await expect(dashboard.frames.getByRole('button', { name: /servos? .*\b2\b/ })).toHaveCount(0);
 });
 
+test('on a phone a recording goes on while the sliders are in front', async ({ dashboard, page }) => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  const tab = (name: string) => page.getByRole('tab', { name }).click();
+  await tab('Live');
+  await dashboard.type(dashboard.target(1), 1400);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1400');
+  await tab('Actions');
+  await dashboard.button('Record').click();
+  await tab('Live');
+  await dashboard.type(dashboard.target(1), 1900);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1900');
+  await tab('Actions');
+  await dashboard.button(/^End recording/).click();
+  const dialog = page.getByRole('dialog', { name: 'Recorded motion' });
+  await expect(dialog).toContainText(/positions become \d+ keys/);
+  await dialog.getByRole('button', { name: 'Make it the group' }).click();
+  await expect(dashboard.frame(1)).toHaveAccessibleName('Frame 1, 1500 ms, moves servo 1');
+});
+
 test('the button that begins is the one that ends, and keeps the focus', async ({ dashboard, page }) => {
   await captureGroup(dashboard, [1000, 1400], 400);
   for (const [begins, ends] of [
