@@ -49,6 +49,8 @@ test.describe('on a board with slow flash', () => {
     await expect(dashboard.estimate(1)).toHaveText('≈ 1020');
     await dashboard.button('Download').click();
     await expect(dashboard.progress).toHaveAttribute('aria-valuetext', '0 of 3 frames');
+    // Before its first frame has come the slot is what it was.
+    await poll(async () => ofKind(await robot.bus(), 'download').length).toBe(1);
     await robot.unplug();
     await expect(dashboard.link).toHaveText(/^Lost/);
     await expect(dashboard.board).toContainText('Its download did not finish.');
