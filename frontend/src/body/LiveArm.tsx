@@ -9,6 +9,7 @@ import { ArmFigure, drawArm } from './ArmFigure.tsx';
 import { BaseView, drawBase, drawHand, HandView, type InsetLook } from './insets.tsx';
 import { armPicture, JOINT, samePicture, type ArmPicture, type Pose } from './pose.ts';
 import { usePreview } from './usePreview.ts';
+import { motionsInFrame } from './motionInFrame.ts';
 import { useMotions } from './useMotions.ts';
 import styles from './LiveArm.module.css';
 
@@ -19,7 +20,7 @@ export function LiveArm() {
   const family = useDevice((state) => state.family);
   const frame = useRef<HTMLDivElement>(null);
   const pictureOf = (value: (motion: ServoMotion) => number | null): ArmPicture => {
-    const motion = device.motions();
+    const motion = motionsInFrame(device);
     const pose: Pose = (servo) => value(motion(servo));
     return armPicture(pose, family);
   };

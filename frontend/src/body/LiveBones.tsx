@@ -10,6 +10,7 @@ import { words } from '../words/words.ts';
 import { BoneFigure, drawBones } from './BoneFigure.tsx';
 import { bonesOf, type BonePicture } from './bones.ts';
 import { usePreview } from './usePreview.ts';
+import { motionsInFrame } from './motionInFrame.ts';
 import { useMotions } from './useMotions.ts';
 import styles from './LiveBones.module.css';
 
@@ -22,7 +23,7 @@ export function LiveBones({ className }: { readonly className?: string | undefin
   const robot = useRobot();
   const picture = useRef<SVGSVGElement>(null);
   const now = (which: keyof ServoMotion): BonePicture | null => {
-    const motion = device.motions();
+    const motion = motionsInFrame(device);
     return bonesOf(robot, (servo) => motion(servo)[which]);
   };
   useMotions(
@@ -32,7 +33,8 @@ export function LiveBones({ className }: { readonly className?: string | undefin
         const figure = picture.current?.querySelector<SVGGElement>(`[data-figure='${which}']`);
         const bones = now(which);
         if (figure instanceof SVGGElement && bones !== null) drawBones(figure, bones);
-        if (which === 'target') figure?.setAttribute('visibility', ghostVisibility(robot, device.motions()));
+        if (which === 'target')
+          figure?.setAttribute('visibility', ghostVisibility(robot, motionsInFrame(device)));
       }
     },
   );
@@ -57,7 +59,7 @@ export function LiveBones({ className }: { readonly className?: string | undefin
       <g data-figure="estimated">
         <BoneFigure picture={estimated} look="solid" />
       </g>
-      <g data-figure="target" visibility={ghostVisibility(robot, device.motions())}>
+      <g data-figure="target" visibility={ghostVisibility(robot, motionsInFrame(device))}>
         <BoneFigure picture={target} look="ghost" />
       </g>
       <g data-figure="preview" visibility="hidden">
