@@ -124,6 +124,9 @@ def test_a_document_takes_so_many_versions_and_no_more(library: Library) -> None
         library.keep_version("a", Version(str(number), "", number), "{}")
     with pytest.raises(OutOfRangeError):
         library.keep_version("a", Version("more", "", 0), "{}")
+    library.keep_version("a", Version("0", "Renamed", 0), "{}")
+    assert library.versions("a")[0] == Version("0", "Renamed", 0)
+    assert len(library.versions("a")) == MAX_VERSIONS
 
 
 def test_a_full_disk_refuses_and_keeps_what_was_there(tmp_path: Path) -> None:

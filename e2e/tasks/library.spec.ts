@@ -122,6 +122,24 @@ test('a version is deleted alone, and comes back', async ({ dashboard, page }) =
   await expect(library.button('Go back to First try')).toBeVisible();
 });
 
+test('a version is renamed in its place, and back', async ({ dashboard, page }) => {
+  const library = libraryOf(page);
+  await captureGroup(dashboard, [1500]);
+  await library.call('Farewell');
+  await library.show();
+  await library.more('Farewell');
+  await library.write('Name of the version', 'Draft');
+  await library.write('Name of version Draft', 'Before the show');
+  await expect(library.button('Go back to Before the show')).toBeVisible();
+  await expect(library.button('Go back to Draft')).toBeHidden();
+  await page.reload();
+  await library.show();
+  await library.more('Farewell');
+  await library.write('Name of version Before the show', 'Draft');
+  await dashboard.notices.getByRole('button', { name: 'Undo' }).click();
+  await expect(library.button('Go back to Before the show')).toBeVisible();
+});
+
 test.describe('two browsers at one gateway', () => {
   test.use({ expectedComplaint: /412/ });
 

@@ -135,9 +135,11 @@ class Library:
             return str(found(db.execute("SELECT text FROM version WHERE document = ? AND id = ?", key))[0])
 
     def keep_version(self, document: str, version: Version, text: str) -> None:
+        """Instead of the one with that id, if there is one."""
         with self._transaction() as db:
             found(db.execute("SELECT id FROM document WHERE id = ?", (document,)))
-            require_room(db, "version WHERE document = ?", (document,), MAX_VERSIONS)
+            others = "version WHERE document = ? AND id != ?"
+            require_room(db, others, (document, version.id), MAX_VERSIONS)
             db.execute("INSERT OR REPLACE INTO version VALUES (?, ?, ?, ?, ?)", (document, *version, text))
 
     def remove_version(self, document: str, version: str) -> None:

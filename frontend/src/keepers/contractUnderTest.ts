@@ -70,6 +70,16 @@ export const KEEPER_CASES: Readonly<Record<string, Case>> = {
     same(await keeper.versions(name('b')), []);
     same(await codeOf(keeper.readVersion(name('a'), name('w'))), 'notFound');
   },
+  'a version kept once more takes its new name and stays where it is': async (keeper, name) => {
+    await keeper.write(name('a'), writing(1, 0));
+    const first = { id: name('v5'), name: 'Kept', atMs: 5 };
+    const second = { id: name('v9'), name: 'Kept', atMs: 9 };
+    for (const version of [first, second]) await keeper.keepVersion(name('a'), version, '{"x":1}');
+    const renamed = { ...first, name: 'Renamed' };
+    await keeper.keepVersion(name('a'), renamed, '{"x":1}');
+    same(await keeper.versions(name('a')), [renamed, second]);
+    same(await keeper.readVersion(name('a'), name('v5')), '{"x":1}');
+  },
   'a version goes alone': async (keeper, name) => {
     await keeper.write(name('a'), writing(1, 0));
     const versions = [5, 9].map((atMs) => ({ id: name(`v${atMs}`), name: 'Kept', atMs }));

@@ -1,9 +1,10 @@
-// Named versions of a group: keeping one as it is now, going back to one, deleting one.
+// Named versions of a group: keeping one as it is now, renaming one, going back to one, deleting one.
 
 import { useEffect, useState, type SubmitEvent } from 'react';
 import type { Version } from '#shared/actions/library/keeper.ts';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
+import { NameField } from '../ui/NameField.tsx';
 import { words } from '../words/words.ts';
 import { cx } from '../ui/cx.ts';
 import field from '../ui/Field.module.css';
@@ -58,7 +59,11 @@ export function Versions({ id, onDone }: { readonly id: string; onDone(): void }
         <ul>
           {versions.toReversed().map((version) => (
             <li key={version.id} className={styles.version}>
-              <span className={styles.name}>{version.name}</span>
+              <NameField
+                label={words.library.nameOfVersion(version.name)}
+                name={version.name}
+                onRename={(wanted) => void library.renameVersion(id, version, wanted)}
+              />
               <span className={styles.about}>{words.library.at(version.atMs)}</span>
               <Button
                 aria-label={words.library.restoreVersion(version.name)}

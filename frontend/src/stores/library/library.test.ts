@@ -305,6 +305,25 @@ describe('several documents', () => {
     expect((await names()).sort()).toEqual(['One', 'Two']);
   });
 
+  test('a version is renamed where it stands, and back where that is undone', async () => {
+    const { visit } = createPlace();
+    const page = visit();
+    page.capture(1500);
+    await page.library.keepVersion(page.openId(), 'One');
+    await page.library.keepVersion(page.openId(), 'Two');
+    page.capture(1600);
+    const kept = await page.library.versions(page.openId());
+    await page.library.renameVersion(page.openId(), kept[0]!, 'Before the show');
+    const renamed = { ...kept[0]!, name: 'Before the show' };
+    expect(await page.library.versions(page.openId())).toEqual([renamed, kept[1]]);
+    expect(page.told()).toEqual([words.library.versionRenamed('One', 'Before the show')]);
+    await page.library.restoreVersion(page.openId(), renamed);
+    expect(page.group().frames).toHaveLength(1);
+    page.act();
+    await page.later();
+    expect(await page.library.versions(page.openId())).toEqual(kept);
+  });
+
   test('a named version stays as it was, and going back to it is a step', async () => {
     const { visit } = createPlace();
     const page = visit();

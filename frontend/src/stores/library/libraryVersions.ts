@@ -12,6 +12,8 @@ export interface LibraryVersions {
   versions(id: string): Promise<readonly Version[]>;
   keepVersion(id: string, name: string): Promise<void>;
   /** The person may take it back. */
+  renameVersion(id: string, version: Version, name: string): Promise<void>;
+  /** The person may take it back. */
   removeVersion(id: string, version: Version): Promise<void>;
   /** Opens the document and goes back to that version, undoably. */
   restoreVersion(id: string, version: Version): Promise<void>;
@@ -50,16 +52,27 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
     await refresh();
   }
 
+  async function renameVersion(id: string, version: Version, name: string): Promise<void> {
+    const keeper = await options.keeper;
+    const text = await keeper.readVersion(id, version.id);
+    await keeper.keepVersion(id, { ...version, name }, text);
+    tellUndoably(words.library.versionRenamed(version.name, name), () =>
+      keeper.keepVersion(id, version, text),
+    );
+    await refresh();
+  }
+
   async function removeVersion(id: string, version: Version): Promise<void> {
     const keeper = await options.keeper;
     const text = await keeper.readVersion(id, version.id);
     await keeper.removeVersion(id, version.id);
-    const undo = (): void => void attempt(keeper.keepVersion(id, version, text).then(refresh));
-    notices.tell('info', words.library.versionRemoved(version.name), {
-      label: words.library.undo,
-      act: undo,
-    });
+    tellUndoably(words.library.versionRemoved(version.name), () => keeper.keepVersion(id, version, text));
     await refresh();
+  }
+
+  function tellUndoably(text: string, undo: () => Promise<void>): void {
+    const act = (): void => void attempt(undo().then(refresh));
+    notices.tell('info', text, { label: words.library.undo, act });
   }
 
   async function restoreVersion(id: string, { id: version, name }: Version): Promise<void> {
@@ -74,6 +87,7 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
   return {
     versions,
     keepVersion: (id, name) => attempt(keepVersion(id, name)),
+    renameVersion: (id, version, name) => attempt(renameVersion(id, version, name)),
     removeVersion: (id, version) => attempt(removeVersion(id, version)),
     restoreVersion: (id, version) => attempt(restoreVersion(id, version)),
   };

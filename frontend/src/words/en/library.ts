@@ -71,6 +71,8 @@ export const libraryWords = {
   noVersions: 'A version stays as it is while you go on changing the group.',
   restoreVersion: (name: string): string => `Go back to ${name}`,
   goBack: 'Go back to it',
+  nameOfVersion: (name: string): string => `Name of version ${name}`,
+  versionRenamed: (name: string, wanted: string): string => `Version ${name} is called ${wanted} now.`,
   removeVersion: (name: string): string => `Delete version ${name}`,
   versionRemoved: (name: string): string => `Version deleted: ${name}.`,
   at: (epochMs: number): string => formatWhen(epochMs),

@@ -67,6 +67,8 @@ export const libraryWords: typeof english = {
   keepVersion: '保留版本',
   noVersions: '动作组再怎么改，保留的版本也不会变。',
   restoreVersion: (name) => `回到${name}`,
+  nameOfVersion: (name) => `版本${name}的名称`,
+  versionRenamed: (name, wanted) => `版本${name}已改名为${wanted}。`,
   removeVersion: (name) => `删除版本${name}`,
   versionRemoved: (name) => `已删除版本：${name}。`,
   goBack: '回到这一版',

@@ -98,6 +98,7 @@ export interface Keeper {
   /** Oldest first. */
   versions(id: string): Promise<readonly Version[]>;
   readVersion(id: string, version: string): Promise<string>;
+  /** Instead of the one with that id, if there is one. */
   keepVersion(id: string, version: Version, text: string): Promise<void>;
   /** For good. */
   removeVersion(id: string, version: string): Promise<void>;
