@@ -1,6 +1,7 @@
 // What a person waits for in the timeline, on the largest group a board of 32 servos can hold: an edit with what is drawn of
 // it, and the frames for the board. Beside the time that is left in a frame of the screen once everything is drawn.
 
+import { duplicateKeys } from '#shared/actions/group/clip.ts';
 import { compile } from '#shared/actions/group/compile.ts';
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
@@ -57,6 +58,7 @@ function compileFigure(group: ActionGroup, maxErrorUnits: number): Figure {
 function editsOf(refs: readonly KeyRef[]): Readonly<Record<string, Edit>> {
   const one = refs.slice(4000, 4001);
   const some = refs.slice(2000, 2300);
+  const half = refs.slice(0, refs.length / 2);
   const range = { fromMs: 20_000, toMs: 40_000 };
   const move =
     (moved: readonly KeyRef[], ripple = false): Edit =>
@@ -69,6 +71,8 @@ function editsOf(refs: readonly KeyRef[]): Readonly<Record<string, Edit>> {
     'all keys moved': move(refs),
     'all keys moved with ripple': move(refs, true),
     '300 keys deleted': (group) => deleteKeys(group, some, { ripple: false }),
+    'all keys deleted with ripple': (group) => deleteKeys(group, refs, { ripple: true }),
+    'half of all keys duplicated': (group) => duplicateKeys(group, half, 51_000, { ripple: true }).group,
     'all swings halved': (group) => scaleAmplitude(group, refs, 0.5, 'mean'),
     'time inserted': (group) => insertTime(group, 30_000, 500),
     'time deleted': (group) => deleteTime(group, range),

@@ -4,6 +4,7 @@ import { emptyGroup, totalDurationMs, type ActionGroup, type Easing } from './gr
 import { insertFrame } from './groupEdits.ts';
 import { refsOf, shapeOf, someGroup, someRefs, withGroup } from './groupsUnderTest.ts';
 import { boundedMove, deleteKeys, moveKeys, scaleAmplitude, setKey } from './keyEdits.ts';
+import { setDuration } from './timeEdits.ts';
 import { frameEnds, keysAt, positionAt, tracksOf, type KeyRef } from './tracks.ts';
 
 const SERVOS = [1, 2, 3, 4, 5, 6];
@@ -129,6 +130,18 @@ describe('with ripple', () => {
         expect(closed.frames.map(({ targets }) => targets)).toEqual(
           stayed.frames.map(({ targets }) => targets),
         );
+      }),
+    );
+  });
+
+  test('markers go along as they would if each frame went alone', () => {
+    fc.assert(
+      fc.property(withGroup(someGroup(), someRefs), ([group, refs]) => {
+        const left = new Set(deleteKeys(group, refs, STAY).frames.map(({ id }) => id));
+        const alone = group.frames
+          .filter(({ id }) => !left.has(id))
+          .reduce((sum, { id }) => setDuration(sum, id, 0, RIPPLE), group);
+        expect(deleteKeys(group, refs, RIPPLE).markers).toEqual(alone.markers);
       }),
     );
   });

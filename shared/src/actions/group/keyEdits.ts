@@ -4,8 +4,8 @@
 import type { ActionGroup, GroupFrame } from './group.ts';
 import { changed, sameList, samePose } from './groupEdits.ts';
 import { momentsOf, newMoment, placed, wholeMs, withMoments, type Moment } from './moments.ts';
-import { isVacated, lifted, servosByFrame } from './lifted.ts';
-import { setDuration, type Ripple } from './timeEdits.ts';
+import { lifted, servosByFrame } from './lifted.ts';
+import { closeFrames, setDuration, type Ripple } from './timeEdits.ts';
 import type { KeyRef } from './tracks.ts';
 
 /** What the document can write down; what a board takes is far less. */
@@ -47,17 +47,9 @@ const nameOf = (frameId: number, servo: number): string => `${frameId}/${servo}`
 
 /** Frames left without a key go, unless they carry a note or a colour; with `ripple` their time goes too. */
 export function deleteKeys(group: ActionGroup, refs: readonly KeyRef[], { ripple }: Ripple): ActionGroup {
-  const { kept } = lifted(group, refs);
-  if (ripple) {
-    const closed = kept
-      .filter((moment) => isVacated(moment, group))
-      .reduce((sum, { frame }) => setDuration(sum, frame.id, 0, { ripple }), group);
-    return deleteKeys(closed, refs, { ripple: false });
-  }
-  return withMoments(
-    group,
-    kept.filter((moment) => !isVacated(moment, group)),
-  );
+  const { kept, vacated } = lifted(group, refs);
+  const left = kept.filter(({ frame }) => !vacated.has(frame.id));
+  return ripple ? closeFrames(group, left, vacated) : withMoments(group, left);
 }
 
 export interface KeyMove {
@@ -91,7 +83,7 @@ export function moveKeys(
   move: KeyMove,
   { ripple }: Ripple,
 ): ActionGroup {
-  const { kept, keys } = lifted(group, refs);
+  const { kept, keys, vacated } = lifted(group, refs);
   const meant = keys.flatMap(({ atMs, targets }) => targets.map(({ position }) => ({ atMs, position })));
   const { deltaMs, deltaPosition } = boundedMove(meant, move);
   if (deltaMs === 0 || ripple) {
@@ -99,7 +91,6 @@ export function moveKeys(
     return ripple ? rippled(turned, refs, deltaMs) : turned;
   }
   // A frame that loses all its keys goes along with the first of them, so that it keeps its name.
-  const vacated = new Set(kept.filter((moment) => isVacated(moment, group)).map(({ frame }) => frame.id));
   const staying = kept.filter(({ frame }) => !vacated.has(frame.id));
   const moved = keys.reduce<readonly Moment[]>((moments, { atMs, frame, targets }) => {
     const there = targets.map(({ servo, position }) => ({ servo, position: position + deltaPosition }));

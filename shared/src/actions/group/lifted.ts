@@ -11,13 +11,19 @@ export interface LiftedKeys {
   readonly targets: readonly ServoTarget[];
 }
 
-/** The keys that are meant, frame by frame, and the moments without them. */
-export function lifted(
-  group: ActionGroup,
-  refs: readonly KeyRef[],
-): { readonly kept: readonly Moment[]; readonly keys: readonly LiftedKeys[] } {
+export interface Lifted {
+  /** Every moment, without these keys. */
+  readonly kept: readonly Moment[];
+  readonly keys: readonly LiftedKeys[];
+  /** The frames that had no other key and carry no note or colour: nothing is left to keep them for. */
+  readonly vacated: ReadonlySet<number>;
+}
+
+/** The keys that are meant, frame by frame, and what is left without them. */
+export function lifted(group: ActionGroup, refs: readonly KeyRef[]): Lifted {
   const meant = servosByFrame(refs);
   const keys: LiftedKeys[] = [];
+  const vacated = new Set<number>();
   const kept = momentsOf(group).map((moment) => {
     const { atMs, frame } = moment;
     const servos = meant.get(frame.id);
@@ -25,12 +31,11 @@ export function lifted(
     const targets = frame.targets.filter(({ servo }) => servos.has(servo));
     if (targets.length === 0) return moment;
     keys.push({ atMs, frame, targets });
-    return withTargets(
-      moment,
-      frame.targets.filter(({ servo }) => !servos.has(servo)),
-    );
+    const left = frame.targets.filter(({ servo }) => !servos.has(servo));
+    if (left.length === 0 && frame.note === '' && frame.colour === null) vacated.add(frame.id);
+    return withTargets(moment, left);
   });
-  return { kept, keys };
+  return { kept, keys, vacated };
 }
 
 export function servosByFrame(refs: readonly KeyRef[]): ReadonlyMap<number, ReadonlySet<number>> {
@@ -41,10 +46,4 @@ export function servosByFrame(refs: readonly KeyRef[]): ReadonlyMap<number, Read
     else own.add(servo);
   }
   return servos;
-}
-
-/** Had keys before, and nothing is left to keep it for. */
-export function isVacated({ frame }: Moment, { frames }: ActionGroup): boolean {
-  const isBare = frame.targets.length === 0 && frame.note === '' && frame.colour === null;
-  return isBare && frames.some(({ id, targets }) => id === frame.id && targets.length > 0);
 }

@@ -65,6 +65,31 @@ export function deleteTime(group: ActionGroup, { fromMs, toMs }: TimeRange): Act
   return retimed(group, closed, isOutside);
 }
 
+/** The moments that are left without these frames come so much sooner, and the markers. */
+export function closeFrames(
+  group: ActionGroup,
+  left: readonly Moment[],
+  gone: ReadonlySet<number>,
+): ActionGroup {
+  const soonerMs = timeOf(group, gone);
+  const moved = left.map((moment) => later(moment, -soonerMs(moment.atMs)));
+  return withMoments(group, moved, {
+    markers: markersAt(group.markers, (atMs) => atMs - soonerMs(atMs)),
+  });
+}
+
+/** How much of the time before an instant these frames take. */
+function timeOf({ frames }: ActionGroup, ids: ReadonlySet<number>): (atMs: number) => number {
+  const spans: { readonly fromMs: number; readonly toMs: number }[] = [];
+  let toMs = 0;
+  for (const { id, durationMs } of frames) {
+    const fromMs = toMs;
+    toMs += durationMs;
+    if (ids.has(id)) spans.push({ fromMs, toMs });
+  }
+  return (atMs) => spans.reduce((sum, span) => sum + Math.max(0, Math.min(atMs, span.toMs) - span.fromMs), 0);
+}
+
 /** The range takes `factor` times as long from its beginning. Without `ripple` it grows no farther than to what is behind it. */
 export function stretch(
   group: ActionGroup,
