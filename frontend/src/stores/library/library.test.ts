@@ -371,6 +371,42 @@ describe('files', () => {
     expect(page.told()).toContain(words.library.imported(0, 1, 1));
   });
 
+  test('while the library is waited for, an import says so, and goes on once it answers', async () => {
+    const { text } = await twoGroups();
+    const clock = createVirtualClock();
+    let answer = (_keeper: Keeper): void => undefined;
+    const page = createVisit(new Promise<Keeper>((resolve) => (answer = resolve)), clock);
+    const imported = page.library.importText(text);
+    await clock.advance(1000);
+    expect(page.told()).toEqual([words.library.importWaits]);
+    answer(createMemoryKeeper());
+    await imported;
+    expect(page.told()).toEqual([words.library.imported(2, 0, 0)]);
+    expect(page.names()).toEqual(['Bow', 'Wave']);
+  });
+
+  test('each that is asked of a library that is away says why nothing came of it', async () => {
+    const { text } = await twoGroups();
+    const { flaky, state } = unreliable(createMemoryKeeper());
+    const page = createPlace(flaky).visit();
+    await page.later();
+    state.isAway = true;
+    page.capture(1500);
+    await page.later();
+    const told = async (asked: Promise<unknown>): Promise<readonly string[]> => {
+      for (const { id } of page.notices.store.getState()) page.notices.dismiss(id);
+      await asked;
+      return page.told();
+    };
+    const away = words.library.problem('unreachable', '');
+    expect(await told(page.library.importText(text))).toEqual([
+      words.library.importFailed('unreachable', ''),
+    ]);
+    expect(await told(page.library.exportText())).toEqual([away]);
+    expect(await told(page.library.keepVersion(page.openId(), 'First'))).toEqual([away]);
+    expect(await told(page.library.remove(page.openId()))).toEqual([away]);
+  });
+
   test('a file that breaks off in the middle brings nothing in', async () => {
     const { text } = await twoGroups();
     const keeper = createMemoryKeeper();
@@ -381,7 +417,7 @@ describe('files', () => {
     await other.library.importText(text);
     await other.library.refresh();
     expect(other.names()).toEqual([]);
-    expect(other.told()).toEqual([words.library.problem('full', '')]);
+    expect(other.told()).toEqual([words.library.importFailed('full', '')]);
   });
 
   test.each(['', '{}', '[]', '{"format":"servodeck-library","version":2,"content":{"documents":[]}}'])(

@@ -10,7 +10,7 @@ import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
 import type { Label } from '#shared/actions/history.ts';
 import { factsOf } from '#shared/actions/library/facts.ts';
 import {
-  LibraryError,
+  asLibraryError,
   listedOf,
   type GroupFacts,
   type Keeper,
@@ -105,8 +105,7 @@ export function createLibrary(options: LibraryOptions): Library {
   }
 
   function tell(error: unknown): void {
-    const { code, message } =
-      error instanceof LibraryError ? error : new LibraryError('failed', String(error), { cause: error });
+    const { code, message } = asLibraryError(error);
     notices.tell('warning', words.library.problem(code, message));
   }
 
@@ -143,6 +142,11 @@ export function createLibrary(options: LibraryOptions): Library {
   function flush(): Promise<boolean> {
     document.flush();
     return shelving.flush();
+  }
+
+  function settle(): Promise<void> {
+    document.flush();
+    return shelving.settle();
   }
 
   /** The newer text stays under its name; ours goes on as a document of its own. */
@@ -240,7 +244,7 @@ export function createLibrary(options: LibraryOptions): Library {
 
   async function remove(id: string): Promise<void> {
     const { name } = await read(id);
-    if (!(await flush())) return;
+    await settle();
     const wasOpen = id === opened.id();
     await (await options.keeper).remove([id]);
     if (wasOpen) create();
@@ -271,22 +275,12 @@ export function createLibrary(options: LibraryOptions): Library {
 
   return {
     ...createLibraryFiles({
-      ...{ keeper: options.keeper, notices, newId, tell, refresh, flush },
+      ...{ keeper: options.keeper, clock: options.clock, notices, newId, tell, refresh, settle },
       factsOf: (group, updatedAtMs) => factsOf(group, { updatedAtMs, robot: '' }),
     }),
     ...createLibraryVersions({
-      ...{
-        keeper: options.keeper,
-        document,
-        notices,
-        epochMs,
-        newId,
-        attempt,
-        read,
-        open,
-        flush,
-        refresh,
-      },
+      ...{ keeper: options.keeper, document, notices, epochMs, newId },
+      ...{ attempt, read, open, settle, refresh },
     }),
     store,
     refresh: look,

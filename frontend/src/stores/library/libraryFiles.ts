@@ -1,8 +1,15 @@
 // The whole library as one file, and a file into the library: all of it or nothing, beside what is there. Knows no place.
 
+import type { Clock } from '#shared/clock.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { groupToText, sameGroup } from '#shared/actions/group/groupText.ts';
-import { listedOf, type GroupFacts, type Keeper, type Listed } from '#shared/actions/library/keeper.ts';
+import {
+  asLibraryError,
+  listedOf,
+  type GroupFacts,
+  type Keeper,
+  type Listed,
+} from '#shared/actions/library/keeper.ts';
 import {
   libraryFromText,
   libraryToText,
@@ -24,10 +31,15 @@ export interface LibraryFilesOptions {
   readonly notices: Notices;
   factsOf(group: ActionGroup, updatedAtMs: number): GroupFacts;
   newId(): string;
+  readonly clock: Clock;
   tell(error: unknown): void;
   refresh(): Promise<void>;
-  flush(): Promise<boolean>;
+  /** Until the keeper has every change; rejects where it does not take them. */
+  settle(): Promise<void>;
 }
+
+/** As long as nobody wonders. */
+const PATIENCE_MS = 700;
 
 type Fate = 'added' | 'changed' | 'same';
 
@@ -35,7 +47,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
   const { notices, newId, tell } = options;
 
   async function exportText(): Promise<string | null> {
-    if (!(await options.flush())) return null;
+    await options.settle();
     const keeper = await options.keeper;
     const documents = listedOf(await keeper.list(), 'group');
     const kept = documents.filter(({ isRemoved }) => !isRemoved);
@@ -45,7 +57,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
   }
 
   async function take(documents: readonly BundledDocument[]): Promise<void> {
-    if (!(await options.flush())) return;
+    await options.settle();
     const keeper = await options.keeper;
     const present = listedOf(await keeper.list(), 'group');
     const fates: Fate[] = [];
@@ -90,9 +102,24 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
     async importText(text) {
       const read = libraryFromText(text);
       if ('problem' in read) notices.tell('warning', words.library.notImported(read.problem));
-      else await take(read.value.documents).catch(tell);
+      else await whileToldOf(take(read.value.documents)).catch(tellNotImported);
     },
   };
+
+  /** A keeper may let one wait long. */
+  async function whileToldOf(taking: Promise<void>): Promise<void> {
+    const waiting = words.library.importWaits;
+    const leave = options.clock.after(PATIENCE_MS, () => notices.tell('warning', waiting));
+    await taking.finally(() => {
+      leave();
+      notices.takeBack(waiting);
+    });
+  }
+
+  function tellNotImported(error: unknown): void {
+    const { code, message } = asLibraryError(error);
+    notices.tell('warning', words.library.importFailed(code, message));
+  }
 }
 
 async function bundle(keeper: Keeper, { id, facts }: Listed): Promise<BundledDocument> {

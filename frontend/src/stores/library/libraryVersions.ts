@@ -30,13 +30,13 @@ interface LibraryVersionsOptions {
   attempt(work: Promise<void>): Promise<void>;
   read(id: string): Promise<ActionGroup>;
   open(id: string): Promise<void>;
-  /** Whether the keeper has every change. */
-  flush(): Promise<boolean>;
+  /** Until the keeper has every change; rejects where it does not take them. */
+  settle(): Promise<void>;
   refresh(): Promise<void>;
 }
 
 export function createLibraryVersions(options: LibraryVersionsOptions): LibraryVersions {
-  const { document, notices, epochMs, newId, attempt, read, open, flush, refresh } = options;
+  const { document, notices, epochMs, newId, attempt, read, open, settle, refresh } = options;
 
   async function versions(id: string): Promise<readonly Version[]> {
     let found: readonly Version[] = [];
@@ -46,7 +46,7 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
 
   async function keepVersion(id: string, name: string): Promise<void> {
     const text = groupToText(await read(id));
-    if (!(await flush())) return;
+    await settle();
     await (await options.keeper).keepVersion(id, { id: newId(), name, atMs: epochMs() }, text);
     notices.say(words.library.versionKept(name));
     await refresh();

@@ -23,6 +23,8 @@ export interface Shelving {
   soon(): void;
   /** Now. True when nothing that can be kept waits any more. */
   flush(): Promise<boolean>;
+  /** The same; rejects with what keeps it waiting. */
+  settle(): Promise<void>;
 }
 
 /** A pause in the writing; long enough that a drag or a held key is one write. */
@@ -33,7 +35,7 @@ export function createShelving(options: ShelvingOptions): Shelving {
   const { keeper, outbox, clock, factsOf } = options;
   let cancelTimer = (): void => undefined;
   let turn = Promise.resolve(true);
-  let hasFailed = false;
+  let failure: unknown = null;
 
   function after(delayMs: number): void {
     cancelTimer();
@@ -52,11 +54,15 @@ export function createShelving(options: ShelvingOptions): Shelving {
       // One that is refused must not keep the others waiting.
       for (const unkept of round) await keep(unkept).catch((error: unknown) => failures.push(error));
     }
-    const isFirst = !hasFailed;
-    hasFailed = failures.length > 0;
-    if (hasFailed) after(RETRY_MS);
-    if (hasFailed && isFirst) options.onFailure(failures[0]);
-    return !hasFailed;
+    const isFirst = failure === null;
+    failure = failures[0] ?? null;
+    if (failure !== null) after(RETRY_MS);
+    if (failure !== null && isFirst) options.onFailure(failure);
+    return failure === null;
+  }
+
+  async function settle(): Promise<void> {
+    if (!(await flush())) throw failure;
   }
 
   function readable(): readonly Unkept[] {
@@ -78,7 +84,7 @@ export function createShelving(options: ShelvingOptions): Shelving {
     }
   }
 
-  return { soon: () => after(PAUSE_MS), flush };
+  return { soon: () => after(PAUSE_MS), flush, settle };
 }
 
 interface Unkept extends Stored {

@@ -19,6 +19,9 @@ const PROBLEMS: Readonly<Record<LibraryErrorCode, string>> = {
   failed: 'The library cannot be used',
 };
 
+const problem = (code: LibraryErrorCode, detail: string): string =>
+  code === 'failed' ? `${PROBLEMS.failed}: ${detail}.` : PROBLEMS[code];
+
 export const libraryWords = {
   title: 'Library',
   button: 'Library',
@@ -85,10 +88,12 @@ export const libraryWords = {
     `${name} was changed elsewhere at the same time. Both are kept: the other one under its name, yours as “${copy}”.`,
   setAside: (file: string): string =>
     `The library’s file was damaged. It was set aside unharmed as ${file}, and a new library begun.`,
-  problem: (code: LibraryErrorCode, detail: string): string =>
-    code === 'failed' ? `${PROBLEMS.failed}: ${detail}.` : PROBLEMS[code],
+  problem,
 
   notImported: ({ code, at }: TextFlaw): string => `Nothing was taken from the file. ${FLAWS[code](at)}`,
+  importWaits: 'The library is waited for. What is in the file comes in as soon as it answers.',
+  importFailed: (code: LibraryErrorCode, detail: string): string =>
+    `${problem(code, detail)} Nothing was taken from the file; import it again then.`,
   unreadableFile: 'The file could not be read.',
   imported: (added: number, changed: number, same: number): string =>
     [

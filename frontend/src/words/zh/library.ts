@@ -18,6 +18,9 @@ const PROBLEMS: Readonly<Record<LibraryErrorCode, string>> = {
   failed: '动作库无法使用',
 };
 
+const problem = (code: LibraryErrorCode, detail: string): string =>
+  code === 'failed' ? `${PROBLEMS.failed}：${detail}。` : PROBLEMS[code];
+
 export const libraryWords: typeof english = {
   title: '动作库',
   button: '动作库',
@@ -79,9 +82,11 @@ export const libraryWords: typeof english = {
   recovered: (names) => `之前没有存进动作库的修改现在已存好：${formatNames(names)}。`,
   conflict: (name, copy) => `${name}同时在别处被改过。两份都留着：别处的用原名，你的叫“${copy}”。`,
   setAside: (file) => `动作库文件已损坏。它已完好地另存为${file}，并新建了动作库。`,
-  problem: (code, detail) => (code === 'failed' ? `${PROBLEMS.failed}：${detail}。` : PROBLEMS[code]),
+  problem,
 
   notImported: ({ code, at }) => `没有从文件里取出任何内容。${FLAWS[code](at)}`,
+  importWaits: '正在等动作库应答。它一应答，文件里的内容就会加进来。',
+  importFailed: (code, detail) => `${problem(code, detail)}没有从文件里取出任何内容；之后请再导入一次。`,
   unreadableFile: '文件无法读取。',
   imported: (added, changed, same) =>
     [

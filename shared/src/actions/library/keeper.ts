@@ -128,6 +128,9 @@ export class LibraryError extends Error {
   }
 }
 
+export const asLibraryError = (error: unknown): LibraryError =>
+  error instanceof LibraryError ? error : new LibraryError('failed', String(error), { cause: error });
+
 export const TRASH_MS = 30 * 24 * 3600 * 1000;
 
 /** The same text sent again is no conflict: the answer may have been lost. What is not there is taken in. */
