@@ -30,7 +30,10 @@ class Caller:
 THIS_COMPUTER = Caller("local", "This computer", "owner")
 """Whoever asks on the gateway's own computer: it is theirs."""
 
+LOCAL_SCRIPT = replace(THIS_COMPUTER, name="A script on this computer")
+LOCAL_NAMES = frozenset({THIS_COMPUTER.name, LOCAL_SCRIPT.name})
+
 
 def as_script(caller: Caller) -> Caller:
     """A token has its name already; this computer's page and its scripts shall be told apart."""
-    return replace(caller, name="A script on this computer") if caller is THIS_COMPUTER else caller
+    return LOCAL_SCRIPT if caller is THIS_COMPUTER else caller

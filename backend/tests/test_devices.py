@@ -8,6 +8,7 @@ import pytest
 
 from servodeck.access.device_file import FILE, DeviceFile
 from servodeck.access.devices import MAX_DEVICES, Devices, NoShelf
+from servodeck.callers import THIS_COMPUTER, as_script
 from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError, StorageError
 
 
@@ -115,3 +116,12 @@ def test_whoever_is_called_like_another_gets_a_number() -> None:
     assert devices.change(second.id, "Ben", None).name == "Ben"
     assert devices.change(second.id, "Ben", None).name == "Ben"
     assert devices.change(first.id, "Ben", None).name == "Ben 2"
+
+
+def test_nobody_is_called_as_whoever_sits_at_the_robot() -> None:
+    devices = Devices(NoShelf(), lambda: 7)
+    local = (THIS_COMPUTER.name, as_script(THIS_COMPUTER).name)
+    assert [devices.admit("device", name, "viewer")[0].name for name in local] == [
+        "This computer 2",
+        "A script on this computer 2",
+    ]

@@ -34,6 +34,7 @@ async def test_the_first_who_wants_to_move_drives_and_everybody_hears_it() -> No
         assert welcome["lease"]["driver"] is None
         await anna.send(MOVE)
         assert anna.lease == {
+            "you": "Anna",
             "driver": "Anna",
             "drives": True,
             "asker": None,

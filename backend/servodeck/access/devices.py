@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, Protocol
 
 from servodeck.access.credentials import digest_of, make_id, make_secret, matches
-from servodeck.callers import Caller, Role
+from servodeck.callers import LOCAL_NAMES, Caller, Role
 from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError
 from servodeck.threads import in_thread
 
@@ -113,8 +113,10 @@ class Devices:
         return found
 
     def _told_apart(self, name: str, but: Device | None = None) -> str:
-        """With a number behind it where somebody else is called so: a class has more than one Android."""
-        taken = {one.name for one in self.all if one is not but}
+        """With a number behind it where somebody else is called so: a class has more than one Android. Who
+        comes in is never called as whoever sits at the gateway's computer.
+        """
+        taken = {one.name for one in self.all if one is not but} | LOCAL_NAMES
         names = (name if count == 1 else f"{name[: MAX_NAME - 4]} {count}" for count in itertools.count(1))
         return next(one for one in names if one not in taken)
 

@@ -152,6 +152,7 @@ class Driving:
         lease = self._lease
         answer_in_s = lease.answer_in_s(self._now())
         return LeaseState(
+            you=seat.caller.name,
             driver=name_of(lease.driver),
             drives=lease.driver is seat,
             asker=name_of(lease.asker),

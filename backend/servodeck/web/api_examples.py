@@ -38,6 +38,7 @@ STATUS = {
     "unattended": {"slot": 3, "times": 2, "by": "Anna's tablet", "endsInMs": 245000},
 }
 LEASE = {
+    "you": "Dance",
     "driver": "Dance",
     "drives": True,
     "asker": None,

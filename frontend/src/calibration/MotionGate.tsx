@@ -32,12 +32,12 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
     return (
       <>
         <Ask>{words.calibration.stopped}</Ask>
-        {mayResume(lease) ? (
+        {lease === null || mayResume(lease) ? (
           <Answer tone="primary" onPress={device.resume}>
             {words.stop.resume}
           </Answer>
         ) : (
-          <p>{words.stop.mayResume(lease?.driver ?? null)}</p>
+          <p>{words.stop.mayResume(lease)}</p>
         )}
       </>
     );

@@ -30,10 +30,18 @@ export const NO_BATTERY: SessionState = { ...READY, battery: { kind: 'unread' } 
 
 export const LEASE: Lease = {
   ...{ driver: 'Anna', drives: true, asker: null, asks: false, answerInMs: null },
-  ...{ mayDrive: true, mayTake: false, givenBy: null, candidates: [], others: 3, unattended: null },
+  ...{
+    you: 'Anna',
+    mayDrive: true,
+    mayTake: false,
+    givenBy: null,
+    candidates: [],
+    others: 3,
+    unattended: null,
+  },
 };
 
-export const WATCHED: Lease = { ...LEASE, drives: false };
+export const WATCHED: Lease = { ...LEASE, you: 'Cleo', drives: false };
 
 const ALONE: Unattended = { slot: 5, times: 20, by: 'Anna', endsInMs: 245_000 };
 
@@ -47,11 +55,11 @@ export const TURNS: Readonly<Record<string, Lease>> = {
   'You drive': LEASE,
   'You drive, asked': { ...LEASE, asker: 'Bert', answerInMs: 5000 },
   'You drive, others may': { ...LEASE, candidates: PRESENT },
-  'You drive, handed over': { ...LEASE, driver: 'Bert', givenBy: 'Anna', candidates: PRESENT },
+  'You drive, handed over': { ...LEASE, you: 'Bert', driver: 'Bert', givenBy: 'Anna', candidates: PRESENT },
   'Another drives': WATCHED,
   'Another drives, asked': { ...WATCHED, asker: 'Bert', asks: true, answerInMs: 5000 },
   'Another drives, yours to take': { ...WATCHED, mayTake: true, candidates: PRESENT },
-  'Another window drives, yours to take': { ...WATCHED, driver: 'This computer', mayTake: true },
+  'Another window drives, yours to take': { ...WATCHED, driver: 'Cleo', mayTake: true },
   'Nobody drives': { ...WATCHED, driver: null },
   'You drive, it may go on': { ...LEASE, unattended: ALONE },
   'It goes on alone': { ...WATCHED, driver: null, others: 0, unattended: ALONE },

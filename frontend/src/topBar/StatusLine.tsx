@@ -76,14 +76,14 @@ function Said({ truth, text, more = '' }: { truth: Truth; text: string; more?: s
 
 function Latched({ latch }: { readonly latch: Latch }) {
   const { device } = useStores();
-  const isOurs = useSnapshot(({ lease }) => mayResume(lease));
-  const driver = useSnapshot(({ lease }) => lease?.driver ?? null);
+  const lease = useSnapshot((snapshot) => snapshot.lease);
+  const isOurs = lease === null || mayResume(lease);
   return (
     <>
       <Said
         truth={latch.stop === 'confirmed' ? 'confirmed' : latch.stop === 'failed' ? 'danger' : 'warning'}
         text={words.stop.outcome[latch.stop]}
-        more={isOurs ? latchWords(latch) : `${latchWords(latch)}. ${words.stop.mayResume(driver)}`}
+        more={isOurs ? latchWords(latch) : `${latchWords(latch)}. ${words.stop.mayResume(lease)}`}
       />
       {isOurs && (
         <Button onPress={() => device.resume()} icon="play" hint={words.stop.resumeHint}>

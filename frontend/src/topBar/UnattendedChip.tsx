@@ -14,6 +14,7 @@ export function UnattendedChip() {
   const { device } = useStores();
   const run = useSnapshot((snapshot) => snapshot.lease?.unattended ?? null);
   const isOurs = useSnapshot((snapshot) => snapshot.lease?.drives ?? false);
+  const you = useSnapshot((snapshot) => snapshot.lease?.you ?? '');
   if (run === null) return null;
   return (
     <div
@@ -26,7 +27,7 @@ export function UnattendedChip() {
         <Mark truth="commanded" />
         <div className={styles.words}>
           <p className={styles.text} aria-live="polite">
-            {isOurs ? words.lease.mayGoOn(run.slot) : words.lease.goesOn(run.slot, run.by)}
+            {isOurs ? words.lease.mayGoOn(run.slot) : words.lease.goesOn(run.slot, run.by, you)}
           </p>
           <p className={styles.more}>
             <Left key={run.endsInMs} run={run} />

@@ -4,7 +4,15 @@ import { turnOf } from './turn.ts';
 
 const LOOKS_ON: Lease = {
   ...{ driver: 'Anna', drives: false, asker: null, asks: false, answerInMs: null },
-  ...{ mayDrive: false, mayTake: false, givenBy: null, candidates: [], others: 1, unattended: null },
+  ...{
+    you: 'Ben',
+    mayDrive: false,
+    mayTake: false,
+    givenBy: null,
+    candidates: [],
+    others: 1,
+    unattended: null,
+  },
 };
 const PUPIL = { ...LOOKS_ON, mayDrive: true };
 const OWNER = { ...PUPIL, mayTake: true };
@@ -21,4 +29,11 @@ test.each<[string, Lease, readonly unknown[]]>([
   ['what nobody has is not asked for', { ...PUPIL, driver: null }, []],
 ])('%s', (_, lease, wishes) => {
   expect(turnOf(lease).acts.map(({ wish }) => wish)).toEqual(wishes);
+});
+
+test.each([
+  ['Anna', 'Anna drives'],
+  ['Ben', 'Another window drives'],
+])('%s is said to Ben as: %s', (driver, said) => {
+  expect(turnOf({ ...PUPIL, driver }).text).toBe(said);
 });

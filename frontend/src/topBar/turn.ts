@@ -20,20 +20,20 @@ export interface Turn {
 }
 
 export function turnOf(lease: Lease): Turn {
-  if (lease.drives) return lease.asker === null ? driving(lease) : beingAsked(lease.asker);
+  if (lease.drives) return lease.asker === null ? driving(lease) : beingAsked(lease, lease.asker);
   return lease.driver === null ? unclaimed(lease) : watching(lease, lease.driver);
 }
 
-const driving = ({ givenBy, others }: Lease): Turn => ({
+const driving = ({ you, givenBy, others }: Lease): Turn => ({
   truth: 'confirmed',
   text: words.lease.drives,
-  more: { said: givenBy === null ? words.lease.others(others) : words.lease.given(givenBy) },
+  more: { said: givenBy === null ? words.lease.others(others) : words.lease.given(givenBy, you) },
   acts: [{ label: words.lease.release, hint: words.lease.releaseHint, tone: 'quiet', wish: 'release' }],
 });
 
-const beingAsked = (asker: string): Turn => ({
+const beingAsked = ({ you }: Lease, asker: string): Turn => ({
   truth: 'warning',
-  text: words.lease.asker(asker),
+  text: words.lease.asker(asker, you),
   more: 'countdown',
   acts: [
     { label: words.lease.allow, tone: 'plain', wish: 'release' },
@@ -48,14 +48,14 @@ const unclaimed = ({ mayDrive }: Lease): Turn => ({
   acts: [],
 });
 
-function watching({ asks, mayDrive, mayTake }: Lease, driver: string): Turn {
+function watching({ you, asks, mayDrive, mayTake }: Lease, driver: string): Turn {
   const ask: TurnAct = asks
     ? { label: words.lease.takeBack, tone: 'quiet', wish: 'release' }
     : { label: words.lease.request, hint: words.lease.requestHint, tone: 'plain', wish: 'request' };
   const take = { label: words.lease.take, hint: words.lease.takeHint, tone: 'quiet', wish: 'take' } as const;
   return {
     truth: asks ? 'commanded' : 'neutral',
-    text: asks ? words.lease.asked(driver) : words.lease.driver(driver),
+    text: asks ? words.lease.asked(driver, you) : words.lease.driver(driver, you),
     more: asks ? 'countdown' : { said: words.lease.watching },
     acts: [...(asks || mayDrive ? [ask] : []), ...(mayTake ? [take] : [])],
   };

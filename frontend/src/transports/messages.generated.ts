@@ -205,9 +205,10 @@ export interface RobotTold {
 /**
  * Who drives and who asks to, by name; `drives` and `asks`: that is this client. `answerInMs`: how long
  * the driver may still refuse. `givenBy`: who handed it to this client, which drives. `candidates`: whom
- * this client may hand it to.
+ * this client may hand it to. `you`: this client's own name; several windows of one browser share it.
  */
 export interface LeaseState {
+  you: string;
   driver: string | null;
   drives: boolean;
   asker: string | null;

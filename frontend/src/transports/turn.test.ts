@@ -4,7 +4,7 @@ import { createTurn, type Turn } from './turn.ts';
 
 const FREE: LeaseState = {
   ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null },
-  ...{ mayDrive: true, mayTake: false, givenBy: null, candidates: [] },
+  ...{ you: 'Ben', mayDrive: true, mayTake: false, givenBy: null, candidates: [] },
 };
 const OURS: LeaseState = { ...FREE, driver: 'Anna', drives: true };
 const THEIRS: LeaseState = { ...FREE, driver: 'Bert' };

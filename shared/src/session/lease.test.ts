@@ -12,7 +12,7 @@ import type { SharedLatchReason, Transport, TransportEvents } from './transport.
 
 const FREE: Lease = {
   ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null, others: 1 },
-  ...{ mayDrive: true, mayTake: false, givenBy: null, candidates: [], unattended: null },
+  ...{ you: 'Ben', mayDrive: true, mayTake: false, givenBy: null, candidates: [], unattended: null },
 };
 const OURS: Lease = { ...FREE, driver: 'Anna', drives: true };
 const THEIRS: Lease = { ...FREE, driver: 'Bert' };

@@ -18,6 +18,8 @@ export interface Candidate {
 }
 
 export interface Lease {
+  /** What people call this end; its other windows are called so too. */
+  readonly you: string;
   /** People's name for whoever drives, null where nobody does: whoever wants to move then gets it by that. */
   readonly driver: string | null;
   /** That is this end. */

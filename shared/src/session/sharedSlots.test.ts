@@ -74,7 +74,15 @@ async function sharedSession(known: Told) {
     lease: (driver: string, drives: boolean) =>
       heard?.leased?.({
         ...{ driver, drives, asker: null, asks: false, answerInMs: null },
-        ...{ mayDrive: true, mayTake: true, givenBy: null, candidates: [], others: 1, unattended: null },
+        ...{
+          you: 'Ben',
+          mayDrive: true,
+          mayTake: true,
+          givenBy: null,
+          candidates: [],
+          others: 1,
+          unattended: null,
+        },
       }),
     follow: (command: Command) => heard?.followed?.(encodeCommand(command, familyOf('doc'))),
     stored: () => settle.resolve(),

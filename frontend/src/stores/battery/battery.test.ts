@@ -240,7 +240,7 @@ describe('a robot that goes to rest', () => {
     const line = createSimulatedTransport(clock, { onForMs: 60_000, batteryMv: 6500 });
     const others = {
       ...{ asker: null, asks: false, answerInMs: null, others: 1 },
-      ...{ mayDrive: true, mayTake: false, givenBy: null, candidates: [], unattended: null },
+      ...{ you: 'Ben', mayDrive: true, mayTake: false, givenBy: null, candidates: [], unattended: null },
     };
     const transport: Transport = {
       ...line,

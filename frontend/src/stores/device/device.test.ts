@@ -340,7 +340,7 @@ describe('a device with a session', () => {
     let resumed: SessionEvents['resumed'] = () => undefined;
     const { device, told, draw } = await createDesk((events) => (resumed = events.resumed));
     resumed('Anna');
-    expect(told()).toEqual([words.stop.resumed('Anna')]);
+    expect(told()).toEqual([words.stop.resumed('Anna', '')]);
     device.halt();
     await draw(400);
     expect(told()).toEqual([]);

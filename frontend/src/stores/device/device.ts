@@ -180,7 +180,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   function noteResumed(by: string): void {
-    saidOfResume = words.stop.resumed(by);
+    saidOfResume = words.stop.resumed(by, store.getState().snapshot.lease?.you ?? '');
     notices.tell('info', saidOfResume);
   }
 

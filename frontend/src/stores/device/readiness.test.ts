@@ -7,7 +7,15 @@ import { mayBrush, motionHindrance } from './readiness.ts';
 const READY: SessionState = { ...INITIAL_STATE, link: { status: 'ready' } };
 const LEASE: Lease = {
   ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null },
-  ...{ mayDrive: true, mayTake: false, givenBy: null, candidates: [], others: 0, unattended: null },
+  ...{
+    you: 'Ben',
+    mayDrive: true,
+    mayTake: false,
+    givenBy: null,
+    candidates: [],
+    others: 0,
+    unattended: null,
+  },
 };
 
 describe('what only brushes a servo', () => {

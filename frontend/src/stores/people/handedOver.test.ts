@@ -8,7 +8,7 @@ import { tellHandedOver } from './handedOver.ts';
 
 const OURS: Lease = {
   ...{ driver: 'Bert', drives: true, asker: null, asks: false, answerInMs: null, mayDrive: true },
-  ...{ mayTake: false, givenBy: null, candidates: [], others: 2, unattended: null },
+  ...{ you: 'Bert', mayTake: false, givenBy: null, candidates: [], others: 2, unattended: null },
 };
 
 test('whoever is handed the robot is told from whom, once', () => {

@@ -10,6 +10,7 @@ export function tellHandedOver(
 ): void {
   store.subscribe(({ snapshot: { lease } }, { snapshot: before }) => {
     const giver = lease?.givenBy ?? null;
-    if (giver !== null && giver !== before.lease?.givenBy) notices.tell('info', words.lease.given(giver));
+    if (lease !== null && giver !== null && giver !== before.lease?.givenBy)
+      notices.tell('info', words.lease.given(giver, lease.you));
   });
 }

@@ -20,7 +20,7 @@ const groupOf = (...frames: readonly NewFrame[]): ActionGroup =>
 
 const THEIRS: Lease = {
   ...{ driver: 'Bert', drives: false, asker: null, asks: false, answerInMs: null, others: 1 },
-  ...{ mayDrive: true, mayTake: false, givenBy: null, candidates: [], unattended: null },
+  ...{ you: 'Ben', mayDrive: true, mayTake: false, givenBy: null, candidates: [], unattended: null },
 };
 
 const WAVE = groupOf(frame(400, 1000), frame(400, 1600), frame(600, 1300));

@@ -15,7 +15,15 @@ import { createVisit, named } from './robotVisitUnderTest.ts';
 
 const LEASE: Lease = {
   ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null },
-  ...{ mayDrive: true, mayTake: false, givenBy: null, candidates: [], others: 1, unattended: null },
+  ...{
+    you: 'Ben',
+    mayDrive: true,
+    mayTake: false,
+    givenBy: null,
+    candidates: [],
+    others: 1,
+    unattended: null,
+  },
 };
 
 const narrowed = (robot: Robot): Robot => changeServo(robot, 4, { max: 2000 });

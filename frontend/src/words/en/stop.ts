@@ -1,5 +1,6 @@
 // Words about STOP and Resume: what became of a stop, whose it was, and who may allow motion again.
 
+import type { Lease } from '#shared/session/lease.ts';
 import { formatList } from './numbers.ts';
 import { named } from './lease.ts';
 
@@ -13,9 +14,11 @@ export const stopWords = {
   hint: 'Esc',
   resume: 'Resume',
   resumeHint: 'Allows motion again. Moves nothing.',
-  resumed: (by: string): string => `${named(by)} chose Resume: the robot may move again.`,
-  mayResume: (driver: string | null): string =>
-    driver === null ? 'Only a driver may choose Resume' : `${named(driver)} or an owner may choose Resume`,
+  resumed: (by: string, you: string): string => `${named(by, you)} chose Resume: the robot may move again.`,
+  mayResume: ({ driver, you }: Pick<Lease, 'driver' | 'you'>): string =>
+    driver === null
+      ? 'Only a driver may choose Resume'
+      : `${named(driver, you)} or an owner may choose Resume`,
   reason: {
     pressed: 'Stop was pressed here',
     battery: 'The robot’s setting for a low battery stopped it',

@@ -14,8 +14,9 @@ export const stopWords: Words['stop'] = {
   hint: 'Esc',
   resume: '恢复',
   resumeHint: '允许再次运动。这一步什么都不会动。',
-  resumed: (by) => `${named(by)}选择了恢复：机器人可以再次运动。`,
-  mayResume: (driver) => (driver === null ? '只有操控者可以恢复' : `只有${named(driver)}或所有者可以恢复`),
+  resumed: (by, you) => `${named(by, you)}选择了恢复：机器人可以再次运动。`,
+  mayResume: ({ driver, you }) =>
+    driver === null ? '只有操控者可以恢复' : `只有${named(driver, you)}或所有者可以恢复`,
   reason: {
     pressed: '这里按下了停止',
     battery: '按机器人的低电量设置停止',
