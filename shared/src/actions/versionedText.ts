@@ -4,7 +4,8 @@
 import type * as z from 'zod/mini';
 
 export type TextFlawCode =
-  ('notOurs' | 'otherVersion' | 'badValue') | ('sameNumber' | 'servoTwice' | 'servoOrder' | 'poseMissing');
+  | ('notOurs' | 'otherVersion' | 'badValue')
+  | ('sameNumber' | 'sameKey' | 'servoTwice' | 'servoOrder' | 'poseMissing');
 
 /** What is wrong with it. `at` is the place or what is called so; empty where it is all of it. */
 export interface TextFlaw {

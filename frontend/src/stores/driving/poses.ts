@@ -45,7 +45,7 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
       robots,
       key: 'servodeck.poses',
       notSaved: () => words.poses.notSaved,
-      unreadable: () => words.poses.unreadable,
+      unreadable: (flaw) => words.poses.unreadable(flaw),
     },
     ...{ fresh: () => EMPTY_BOOK, toText: poseBookToText, fromText: poseBookFromText },
     shared: { of: withoutPlace, onto: onPlaceOf },

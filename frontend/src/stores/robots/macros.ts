@@ -15,7 +15,7 @@ export function createMacros(
 ): RobotDocument<MacroPage> {
   return createRobotDocument({
     ...{ storage, notices, robots, key: 'servodeck.buttons' },
-    ...{ notSaved: () => words.macros.notSaved, unreadable: () => words.macros.unreadable },
+    ...{ notSaved: () => words.macros.notSaved, unreadable: (flaw) => words.macros.unreadable(flaw) },
     ...{ fresh: () => EMPTY_PAGE, toText: macroPageToText, fromText: macroPageFromText },
   });
 }

@@ -17,7 +17,7 @@ export function createMappings(
 ): RobotDocument<Mapping> {
   return createRobotDocument({
     ...{ storage, notices, robots, key: 'servodeck.mapping' },
-    ...{ notSaved: () => words.pad.notSaved, unreadable: () => words.pad.unreadable },
+    ...{ notSaved: () => words.pad.notSaved, unreadable: (flaw) => words.pad.unreadable(flaw) },
     ...{ fresh: readyMapping, toText: mappingToText, fromText: mappingFromText },
   });
 }

@@ -3,7 +3,7 @@
 
 import { startHistory, type History } from '#shared/actions/history.ts';
 import type { Robot } from '#shared/actions/robot/robot.ts';
-import type { Read } from '#shared/actions/versionedText.ts';
+import type { Read, TextFlaw } from '#shared/actions/versionedText.ts';
 import type { TextStorage } from '../textStorage.ts';
 import type { Notices } from '../notices.ts';
 import type { OwnRobot, RobotStore } from './robots.ts';
@@ -24,7 +24,7 @@ export interface RobotDocumentOptions<T> {
   readonly shared?: { of(value: T): T; onto(mine: T, theirs: T): T };
   /** What the person is told then. */
   notSaved(): string;
-  unreadable(): string;
+  unreadable(flaw: TextFlaw): string;
 }
 
 const elsewhere = (): string => words.robots.steps.elsewhere;
@@ -130,7 +130,7 @@ function load<T>(options: RobotDocumentOptions<T>, { id: owner, robot }: OwnRobo
     const read = options.fromText(text);
     if ('value' in read) return read.value;
     storage.setItem(`${key}.${owner}.unreadable`, text);
-    notices.tell('warning', options.unreadable());
+    notices.tell('warning', options.unreadable(read.problem));
   } catch {
     notices.tell('warning', options.notSaved());
   }

@@ -20,6 +20,7 @@ export const PROBLEMS: Readonly<Record<ProblemCode, (found: string) => string>> 
     found === ''
       ? 'Two of its parts have the same number.'
       : `${found}: two of its parts have the same number.`,
+  sameKey: (found) => `Two buttons have the same key, ${found}.`,
   servoTwice: (found) => `${found}: a servo is there twice.`,
   servoOrder: (found) => `Frame ${found}: its servos are not in ascending order, each once.`,
   poseMissing: () => 'It names a pose that is not in it.',

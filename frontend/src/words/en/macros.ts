@@ -2,6 +2,8 @@
 
 import type { Colour } from '#shared/actions/colours.ts';
 import type { MacroStep } from '#shared/actions/macros/macro.ts';
+import type { TextFlaw } from '#shared/actions/versionedText.ts';
+import { PROBLEMS } from './files.ts';
 import { counted, formatMs, formatSeconds, formatWhole } from './numbers.ts';
 import { timesWords } from './packets.ts';
 
@@ -15,7 +17,8 @@ export const macroWords = {
   noButtonsHint:
     'A button moves the robot to a pose, plays a slot, or several in turn. Poses also have Make a button. Anybody can use this page.',
   notSaved: 'The browser does not store buttons; they are kept until the page is closed.',
-  unreadable: 'The saved buttons could not be read. They were set aside unharmed.',
+  unreadable: ({ code, at }: TextFlaw): string =>
+    `The saved buttons could not be read and were set aside unharmed. ${PROBLEMS[code](at)}`,
   empty: 'This button has no steps yet.',
 
   edit: 'Edit buttons',

@@ -1,6 +1,8 @@
 // Words about driving by pad and keys: names of inputs, what they do, and what the panel says.
 
 import type { Binding, Input, Side } from '#shared/actions/mapping/mapping.ts';
+import type { TextFlaw } from '#shared/actions/versionedText.ts';
+import { PROBLEMS } from './files.ts';
 import { formatNames, formatMs, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
 import type { PositionUnit } from '../numbers.ts';
 
@@ -49,7 +51,8 @@ export const padWords = {
   drive: 'Drive',
   driveHint: 'While it is off, no key and no stick moves anything. Stop on the pad always works.',
   drivingHint: 'Keys and sticks move the robot. Letting go, or leaving this window, ends it.',
-  unreadable: 'The saved keys and pad could not be read. They were set aside unharmed.',
+  unreadable: ({ code, at }: TextFlaw): string =>
+    `The saved keys and pad could not be read and were set aside unharmed. ${PROBLEMS[code](at)}`,
   notSaved: 'The browser does not store keys and pad; they are kept until the page is closed.',
   gone: 'The pad is gone. Driving is switched off.',
   noPad: 'No pad seen. Press a button on it: the browser shows it only then.',

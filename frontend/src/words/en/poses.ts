@@ -12,7 +12,8 @@ export const poseWords = {
   missing: 'Pose that is gone',
   gone: 'This pose is gone, or it was made for a board that counts otherwise.',
   notSaved: 'The browser does not store poses; they are kept until the page is closed.',
-  unreadable: 'The saved poses could not be read. They were set aside unharmed.',
+  unreadable: ({ code, at }: TextFlaw): string =>
+    `The saved poses could not be read and were set aside unharmed. ${PROBLEMS[code](at)}`,
 
   verbs: { home: 'Home', rest: 'Rest' },
   homeHint: 'Every servo to its home',

@@ -20,6 +20,7 @@ export const PROBLEMS: Readonly<Record<ProblemCode, (found: string) => string>> 
   otherVersion: () => '它是由另一个版本的 Servodeck 写的。',
   badValue: (found) => `${found} 的值不合理。`,
   sameNumber: (found) => `${found === '' ? '' : `${found}：`}其中两个部分的编号相同。`,
+  sameKey: (found) => `两个按钮用了同一个键，${found}。`,
   servoTwice: (found) => `${found}：同一个舵机出现了两次。`,
   servoOrder: (found) => `第${found}帧：舵机没有按编号从小到大排列，或者有重复。`,
   poseMissing: () => '它提到的姿态不在文件里。',

@@ -1,6 +1,7 @@
 // Words about the page of buttons, in Chinese.
 
 import type { macroWords as english } from '../en/macros.ts';
+import { PROBLEMS } from './files.ts';
 import { formatMs, formatSeconds, formatWhole } from './numbers.ts';
 import { timesWords } from './packets.ts';
 
@@ -14,7 +15,7 @@ export const macroWords: typeof english = {
   noButtonsHint:
     '一个按钮可以让机器人到某个姿态、播放一个槽位，或依次做几件事。姿态里也有“做成按钮”。谁都能用这个页面。',
   notSaved: '浏览器不能保存按钮；关闭页面前它们一直在。',
-  unreadable: '已保存的按钮无法读取。原文件已完好地另存。',
+  unreadable: ({ code, at }) => `已保存的按钮无法读取。原文件已完好地另存。${PROBLEMS[code](at)}`,
   empty: '这个按钮还没有步骤。',
 
   edit: '编辑按钮',

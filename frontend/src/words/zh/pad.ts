@@ -2,6 +2,7 @@
 
 import type { Binding, Input, Side } from '#shared/actions/mapping/mapping.ts';
 import type { padWords as english } from '../en/pad.ts';
+import { PROBLEMS } from './files.ts';
 import { formatMs, formatNames, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
 
 /** As most pads print it; the order is the browser's standard one. */
@@ -49,7 +50,7 @@ export const padWords: typeof english = {
   drive: '操控',
   driveHint: '关闭时，按键和摇杆都不会让机器人动。手柄上的“停止”始终有效。',
   drivingHint: '按键和摇杆正在控制机器人。松开或离开这个窗口就停下。',
-  unreadable: '已保存的键盘和手柄设置无法读取。原文件已完好地另存。',
+  unreadable: ({ code, at }) => `已保存的键盘和手柄设置无法读取。原文件已完好地另存。${PROBLEMS[code](at)}`,
   notSaved: '浏览器不能保存键盘和手柄设置；关闭页面前它们一直有效。',
   gone: '手柄断开了。操控已关闭。',
   noPad: '没有发现手柄。请按一下手柄上的按键：这样浏览器才会显示它。',

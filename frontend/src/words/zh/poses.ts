@@ -12,7 +12,7 @@ export const poseWords: typeof english = {
   missing: '已不存在的姿态',
   gone: '这个姿态已不存在，或者是为另一种单位的控制板做的。',
   notSaved: '浏览器不能保存姿态；关闭页面前它们一直在。',
-  unreadable: '已保存的姿态无法读取。原文件已完好地另存。',
+  unreadable: ({ code, at }) => `已保存的姿态无法读取。原文件已完好地另存。${PROBLEMS[code](at)}`,
 
   verbs: { home: '初始姿态', rest: '休息姿态' },
   homeHint: '所有舵机回到各自的初始位',

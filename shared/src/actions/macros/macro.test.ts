@@ -91,15 +91,15 @@ describe('a page as text', () => {
     );
   });
 
-  const withKeys = (keys: readonly string[]): MacroPage => ({
+  const withKeys = (keys: readonly (string | null)[]): MacroPage => ({
     ...three,
     macros: three.macros.map((macro, index) => ({ ...macro, key: keys[index] ?? null })),
   });
 
   test.each([
     ['', 'notOurs', ''],
-    [macroPageToText(withKeys(['a', 'a'])), 'badValue', 'key'],
-    [macroPageToText(withKeys(['A'])), 'badValue', 'key'],
+    [macroPageToText(withKeys([null, 'a', 'a'])), 'sameKey', 'A: Bow, Sit'],
+    [macroPageToText(withKeys([null, 'A'])), 'badValue', 'content.macros.1.key'],
     [macroPageToText({ ...three, nextId: 3 }), 'sameNumber', ''],
     [macroPageToText(addStep(three, 1, { ...SLOT, times: 0 })), 'badValue', 'content.macros.0.steps.1.times'],
   ])('one that is damaged says where', (text, code, at) => {

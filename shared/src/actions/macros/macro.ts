@@ -70,12 +70,16 @@ export function keyOf(pressed: string): string | null {
   return /^\S$/u.test(key) ? key : null;
 }
 
-/** What cannot be on a page, as words for people; null where nothing is wrong. */
+/** What cannot be on a page; null where nothing is wrong. */
 export function flawOfPage({ macros, nextId }: MacroPage): TextFlaw | null {
   const ids = macros.map((macro) => macro.id);
   if (new Set(ids).size < ids.length || ids.some((one) => one >= nextId))
     return { code: 'sameNumber', at: '' };
-  const keys = macros.flatMap(({ key }) => (key === null ? [] : [key]));
-  const areKeys = keys.every((key) => keyOf(key) === key) && new Set(keys).size === keys.length;
-  return areKeys ? null : { code: 'badValue', at: 'key' };
+  const noKey = macros.findIndex(({ key }) => key !== null && keyOf(key) !== key);
+  if (noKey !== -1) return { code: 'badValue', at: `content.macros.${noKey}.key` };
+  for (const [index, { key, name }] of macros.entries()) {
+    const first = macros.slice(0, index).find((one) => key !== null && one.key === key);
+    if (first !== undefined) return { code: 'sameKey', at: `${key?.toUpperCase()}: ${first.name}, ${name}` };
+  }
+  return null;
 }
