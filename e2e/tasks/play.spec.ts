@@ -149,9 +149,15 @@ test('several groups of the library go to their slots with one progress', async 
   await expect(several.getByRole('checkbox', { name: /^Bow for seven/ })).toBeChecked();
   await expect(all).toBeChecked();
   await expect(several.getByRole('checkbox', { name: /^Empty for nine/ })).not.toBeChecked();
-  await expect(several.getByRole('listitem').filter({ hasText: 'Empty for nine' })).toContainText(
-    'Capture a frame first.',
+  const empty = several.getByRole('listitem').filter({ hasText: 'Empty for nine' });
+  await expect(empty).toContainText('Capture a frame first.');
+  await page.setViewportSize({ width: 1440, height: 300 });
+  const whyNot = empty.getByText('Capture a frame first.');
+  await expect(whyNot, 'whole, also where the list is longer than its place').toBeVisible();
+  await poll(async () => bottomOf(await whyNot.boundingBox()) <= bottomOf(await empty.boundingBox())).toBe(
+    true,
   );
+  await page.setViewportSize({ width: 1440, height: 900 });
   await expect(several.getByRole('status')).toContainText(`${await cannotGo.count()} group`);
   await expect(several.getByRole('button', { name: 'Download these' })).toBeEnabled();
   await all.click();
@@ -276,3 +282,7 @@ test('the robot follows the playhead step by step, and no longer after STOP', as
   await expect(follows).not.toBeChecked();
   await expect(follows).toBeDisabled();
 });
+
+function bottomOf(box: { readonly y: number; readonly height: number } | null): number {
+  return box === null ? Infinity : box.y + box.height;
+}
