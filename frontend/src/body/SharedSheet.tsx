@@ -31,7 +31,6 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
   const isInSight = useSight(list);
   const [sheet] = useState(createSheet);
   const parts = useRef<readonly Placed[]>([]);
-  const measuredIn = useRef(-1);
   const covered = useRef<Cover>({ left: 0, top: 0, width: 0, height: 0 });
 
   useLayoutEffect(() => sheet.measureAnew());
@@ -39,12 +38,7 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
     if (list.current === null) return undefined;
     return watchSize(list.current, sheet.measureAnew);
   }, [sheet]);
-  useEachFrame((nowMs) => {
-    const beat = Math.floor(nowMs / MEASURED_EACH_MS);
-    if (beat === measuredIn.current) return;
-    measuredIn.current = beat;
-    sheet.measureAnew();
-  });
+  useEachFrame(sheet.measureAnew, { eachMs: MEASURED_EACH_MS });
 
   function place(): void {
     const cover = coverOf(parts.current, covered.current);

@@ -82,13 +82,14 @@ test('each is painted where it stands, as large as it is, on a whole pixel of th
   vi.stubGlobal('devicePixelRatio', 2);
   const moves: (readonly [number, number])[] = [];
   const ctx = {
-    save: () => undefined,
-    restore: () => undefined,
     translate: (x: number, y: number) => void moves.push([x, y]),
   };
   const { look, size } = recordingPen({ width: 500, height: 300 }).pen;
   const part = placed(140.1, 20);
   paintAll({ look, size, ctx: ctx as unknown as CanvasRenderingContext2D }, [part], { left: 10, top: 100 });
-  expect(moves).toEqual([[10.5, 40]]);
+  expect(moves).toEqual([
+    [10.5, 40],
+    [-10.5, -40],
+  ]);
   expect(part.paint).toHaveBeenCalledWith(expect.objectContaining({ size: part.size }));
 });

@@ -112,10 +112,10 @@ export const isSameCover = (one: Cover, other: Cover): boolean =>
 export function paintAll(pen: Pen, parts: readonly Placed[], cover: Pick<Cover, 'left' | 'top'>): void {
   const { ctx, look } = pen;
   for (const part of parts) {
-    ctx.save();
-    ctx.translate(onPixel(part.left - cover.left), onPixel(part.top - cover.top));
+    const [x, y] = [onPixel(part.left - cover.left), onPixel(part.top - cover.top)];
+    ctx.translate(x, y);
     part.paint({ ctx, look, size: part.size });
-    ctx.restore();
+    ctx.translate(-x, -y);
   }
 }
 

@@ -1,5 +1,5 @@
-// Calls a function on each animation frame while a component is on screen: for needles that move by themselves, outside
-// React's own rounds. The browser is asked once a frame, however many there are.
+// Calls a function on each animation frame while a component is on screen, or in one frame of each beat: for needles that move by
+// themselves, outside React's own rounds. The browser is asked once a frame, however many there are.
 
 import { useEffect, useEffectEvent } from 'react';
 import { flushSync } from 'react-dom';
@@ -7,8 +7,21 @@ import { flushSync } from 'react-dom';
 /** `nowMs` is the same for all of a frame. */
 type Draw = (nowMs: number) => void;
 
-const drawers = new Set<Draw>();
-let request = 0;
+/** All that has the same beat is drawn in the same frame: the frames in between are spared the layout, and the asking. */
+export interface Beat {
+  readonly eachMs: number;
+  /** For what is not to fall together with all else of this length. */
+  readonly turnMs?: number;
+}
+
+interface OnBeat {
+  readonly drawers: Set<Draw>;
+  isDue(nowMs: number): boolean;
+}
+
+const eachFrame = new Set<Draw>();
+const onBeats = new Map<string, OnBeat>();
+let request: number | null = null;
 let frame = 0;
 
 /** A number for all that is drawn before the next frame. */
@@ -19,20 +32,49 @@ function drawAll(nowMs: number): void {
   request = requestAnimationFrame(drawAll);
   // What they tell React is laid out with what they draw, not in a frame of its own.
   flushSync(() => {
-    for (const draw of drawers) draw(nowMs);
+    for (const { drawers, isDue } of onBeats.values()) {
+      if (isDue(nowMs)) for (const draw of drawers) draw(nowMs);
+    }
+    // Last: a number of this beat may be part of what is drawn in each frame.
+    for (const draw of eachFrame) draw(nowMs);
   });
 }
 
-function add(draw: Draw): () => void {
-  if (drawers.size === 0) request = requestAnimationFrame(drawAll);
-  drawers.add(draw);
-  return () => {
-    drawers.delete(draw);
-    if (drawers.size === 0) cancelAnimationFrame(request);
+function beginBeat({ eachMs, turnMs = 0 }: Beat): OnBeat {
+  let last = -1;
+  return {
+    drawers: new Set(),
+    isDue(nowMs) {
+      const beat = Math.floor((nowMs + turnMs) / eachMs);
+      if (beat === last) return false;
+      last = beat;
+      return true;
+    },
   };
 }
 
-export function useEachFrame(draw: Draw): void {
+function drawersOf(beat: Beat): Set<Draw> {
+  if (beat.eachMs === 0) return eachFrame;
+  const key = `${beat.eachMs} ${beat.turnMs}`;
+  const known = onBeats.get(key) ?? beginBeat(beat);
+  onBeats.set(key, known);
+  return known.drawers;
+}
+
+function add(draw: Draw, beat: Beat): () => void {
+  const drawers = drawersOf(beat);
+  drawers.add(draw);
+  request ??= requestAnimationFrame(drawAll);
+  return () => {
+    drawers.delete(draw);
+    if (request === null || eachFrame.size > 0) return;
+    if ([...onBeats.values()].some((one) => one.drawers.size > 0)) return;
+    cancelAnimationFrame(request);
+    request = null;
+  };
+}
+
+export function useEachFrame(draw: Draw, { eachMs, turnMs = 0 }: Beat = { eachMs: 0 }): void {
   const drawNow = useEffectEvent(draw);
-  useEffect(() => add((nowMs) => drawNow(nowMs)), []);
+  useEffect(() => add((nowMs) => drawNow(nowMs), { eachMs, turnMs }), [eachMs, turnMs]);
 }

@@ -28,15 +28,11 @@ export function useFollow<T>(follow: Follow<T>): void {
   const isInSight = sight ?? use(Sight);
   const latest = useRef<{ readonly value: T } | null>(null);
   const drawn = useRef<{ readonly value: T } | null>(null);
-  const readIn = useRef(-1);
   const [turnMs] = useState(nextTurn);
   // Whatever React wrote meanwhile is another thing than what was drawn.
   useLayoutEffect(() => void (drawn.current = null));
-  useEachFrame((nowMs) => {
-    const isFollowed = isInSight.current && !onlyAtRest;
-    const beat = isFollowed ? beatOf(nowMs, eachMs) : beatOf(nowMs + turnMs, REST_MS);
-    if (beat === readIn.current) return;
-    readIn.current = beat;
+
+  function look(isFollowed: boolean): void {
     const before = latest.current;
     const now = { value: read() };
     latest.current = now;
@@ -48,11 +44,12 @@ export function useFollow<T>(follow: Follow<T>): void {
     }
     drawn.current = now;
     draw(now.value);
-  });
-}
+  }
 
-/** All that is read now and then is read in one frame: the frames in between are spared the layout. */
-const beatOf = (nowMs: number, eachMs: number): number => (eachMs === 0 ? nowMs : Math.floor(nowMs / eachMs));
+  const isFollowedNow = (): boolean => isInSight.current && !onlyAtRest;
+  useEachFrame(() => isFollowedNow() && look(true), { eachMs: onlyAtRest ? REST_MS : eachMs });
+  useEachFrame(() => isFollowedNow() || look(false), { eachMs: REST_MS, turnMs });
+}
 
 let lastTurnMs = 0;
 

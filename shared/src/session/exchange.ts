@@ -5,6 +5,7 @@ import type { Clock } from '../clock.ts';
 import type { Command } from '../protocol/commands.ts';
 import { encodeCommand, RangeRefusal } from '../protocol/encode.ts';
 import type { Family } from '../protocol/families.ts';
+import { checkCommand } from '../protocol/limits.ts';
 import { wireMs } from '../protocol/packet.ts';
 import type { Report, ReportKind } from '../protocol/reports.ts';
 import type { Lanes } from './lanes.ts';
@@ -13,12 +14,19 @@ import type { Replies } from './replies.ts';
 import { BABBLE_LIMIT } from './timings.ts';
 
 /** Like `encodeCommand`, with the refusal as a LinkError the page has words for. */
-export function encodeOrRefuse(command: Command, family: Family): Uint8Array {
+export const encodeOrRefuse = (command: Command, family: Family): Uint8Array =>
+  orRefuse(encodeCommand, command, family);
+
+/** The same refusal, of what is encoded later. */
+export const refuseUnfit = (command: Command, family: Family): void =>
+  orRefuse(checkCommand, command, family);
+
+function orRefuse<T>(work: (command: Command, family: Family) => T, command: Command, family: Family): T {
   if (!family.commands.includes(command.kind)) {
     throw new LinkError('notSupported', `${family.name} has no command "${command.kind}"`);
   }
   try {
-    return encodeCommand(command, family);
+    return work(command, family);
   } catch (error) {
     if (error instanceof RangeRefusal) throw new LinkError('outOfRange', error.message, { cause: error });
     throw error;

@@ -4,7 +4,7 @@
 import type { Command } from '../protocol/commands.ts';
 import type { Report } from '../protocol/reports.ts';
 import { requireReady, requireReleased, requireRest, setActivity, type Core } from './core.ts';
-import { encodeOrRefuse } from './exchange.ts';
+import { refuseUnfit } from './exchange.ts';
 import { repeatStop, STOP_PACKET } from './halt.ts';
 import { LinkError } from './linkError.ts';
 import type { SlotMemory } from './slotMemory.ts';
@@ -74,7 +74,7 @@ export function createGroups(
   async function run(slot: number, times: number): Promise<void> {
     requireReleased(core);
     const command = { kind: 'run', slot, times } as const;
-    encodeOrRefuse(command, family);
+    refuseUnfit(command, family);
     if (storing.isBroken(slot))
       throw new LinkError('slotBroken', `slot ${slot} holds half a group: download it again`);
     if (store.state.activity.kind === 'playing')
@@ -108,7 +108,7 @@ export function createGroups(
   async function erase(): Promise<void> {
     requireRest(core);
     const command = { kind: 'erase' } as const;
-    encodeOrRefuse(command, family);
+    refuseUnfit(command, family);
     setActivity(core, { kind: 'erasing' });
     robot.unstored();
     try {

@@ -3,7 +3,7 @@
 
 import type { Frame, ServoTarget } from '../protocol/commands.ts';
 import { requireReleased, setActivity, type Core } from './core.ts';
-import { encodeOrRefuse } from './exchange.ts';
+import { refuseUnfit } from './exchange.ts';
 import { LinkError } from './linkError.ts';
 import type { MoveBuffer } from './moveBuffer.ts';
 import { play, type Playing } from './player.ts';
@@ -25,8 +25,7 @@ export function createLive(core: Core, moves: MoveBuffer, turns: Turns): Live {
 
   function move(targets: readonly ServoTarget[], durationMs: number): void {
     requireReleased(core);
-    for (const target of targets)
-      encodeOrRefuse({ kind: 'move', targets: [target], durationMs }, core.family);
+    for (const target of targets) refuseUnfit({ kind: 'move', targets: [target], durationMs }, core.family);
     moves.put(targets, durationMs);
     core.lanes.wake();
   }

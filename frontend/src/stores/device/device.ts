@@ -118,11 +118,12 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     if (session === null) return () => NO_MOTION;
     const onBoardNow = session.motions();
     const { waitingToStart } = session.state;
+    const targetOf = book.targets();
     return (servo) => {
       const { target, estimated } = onBoardNow(servo);
       const sent = target === null ? null : Math.round(meant(servo, target));
       return {
-        target: book.target(servo, sent, waitingToStart.includes(servo)),
+        target: targetOf(servo, sent, waitingToStart.includes(servo)),
         estimated: estimated === null ? null : meant(servo, estimated),
       };
     };

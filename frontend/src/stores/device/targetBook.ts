@@ -4,13 +4,16 @@
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 
+/** A servo's target, where the session says that it was `sent` there. One that `isQueued` for its turn waits longer. */
+export type Targets = (servo: number, sent: number | null, isQueued: boolean) => number | null;
+
 export interface TargetBook {
   wish(targets: readonly ServoTarget[]): void;
   clear(): void;
   /** How many servos were asked for something that has not left yet, as far as they were looked at since. */
   waiting(): number;
-  /** A servo's target, where the session says that it was `sent` there. One that `isQueued` for its turn waits longer. */
-  target(servo: number, sent: number | null, isQueued: boolean): number | null;
+  /** Of all servos at one moment. */
+  targets(): Targets;
 }
 
 /** Longer than any packet waits for the wire once its turn has come; a wish that has not left by then was dropped. */
@@ -24,9 +27,8 @@ interface Wish {
 export function createTargetBook(clock: Clock): TargetBook {
   const wishes = new Map<number, Wish>();
 
-  function isOpen(wish: Wish, sent: number | null, isQueued: boolean): boolean {
+  function isOpen(wish: Wish, sent: number | null, isQueued: boolean, nowMs: number): boolean {
     if (wish.position === sent) return false;
-    const nowMs = clock.now();
     if (isQueued) wish.untilMs = nowMs + WISH_LASTS_MS;
     return nowMs < wish.untilMs;
   }
@@ -38,11 +40,14 @@ export function createTargetBook(clock: Clock): TargetBook {
     },
     clear: () => wishes.clear(),
     waiting: () => wishes.size,
-    target(servo, sent, isQueued) {
-      const wish = wishes.get(servo);
-      if (wish !== undefined && isOpen(wish, sent, isQueued)) return wish.position;
-      wishes.delete(servo);
-      return sent;
+    targets() {
+      const nowMs = clock.now();
+      return (servo, sent, isQueued) => {
+        const wish = wishes.get(servo);
+        if (wish !== undefined && isOpen(wish, sent, isQueued, nowMs)) return wish.position;
+        wishes.delete(servo);
+        return sent;
+      };
     },
   };
 }
