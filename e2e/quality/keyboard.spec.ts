@@ -224,3 +224,15 @@ test('robots, library, files, keys over time, slots and poses need no mouse', as
   await keyboard.press('Enter');
   await expect(page.getByRole('button', { name: /^Go to Pose/ })).toHaveCount(1);
 });
+
+test('a button presses once for a key that is held', async ({ page, servers }) => {
+  const dashboard = dashboardOf(page);
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
+  await dashboard.capture.click();
+  await expect(dashboard.frames).toHaveCount(1);
+  await dashboard.button('Duplicate').focus();
+  for (let repeat = 0; repeat < 5; repeat += 1) await page.keyboard.down('Enter');
+  await page.keyboard.up('Enter');
+  await expect(dashboard.frames).toHaveCount(2);
+});

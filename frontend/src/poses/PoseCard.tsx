@@ -82,7 +82,7 @@ function Go({ pose, isTabStop }: { readonly pose: Pose; readonly isTabStop: bool
       icon="play"
       label={words.poses.go(pose.name, poseMs)}
       isDisabled={!mayMove || !sameUnit}
-      excludeFromTabOrder={!isTabStop}
+      tabIndex={isTabStop ? 0 : -1}
       onPress={go}
     />
   );

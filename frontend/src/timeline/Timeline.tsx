@@ -73,7 +73,6 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
         heightPx: area.clientHeight,
         scrollTop: area.scrollTop,
       });
-    measure();
     const observer = new ResizeObserver(measure);
     observer.observe(area);
     observer.observe(lane);

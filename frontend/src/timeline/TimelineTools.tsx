@@ -43,11 +43,7 @@ export const TimelineTools = memo(function TimelineTools({
           ))}
         </div>
       ))}
-      <IconButton
-        icon="more"
-        label={words.timeline.more}
-        onPress={({ target }) => openMenu('keys', target)}
-      />
+      <IconButton icon="more" label={words.timeline.more} onPress={(button) => openMenu('keys', button)} />
       <AddsSwitch />
       <EasingChoice />
       <div className={styles.group}>

@@ -194,7 +194,8 @@ function paintKey(brush: Brush, placed: PlacedRow, key: Key, crowded: boolean): 
   const share = selectedShare(scene, placed, key);
   const isCursor = scene.state.cursor.row === placed.row.id && scene.state.cursor.frameId === key.frameId;
   if (crowded) {
-    fill(ctx, share > 0 ? look.ink : look['ink-dim'], ctx.globalAlpha, x - 1, y - 4, 2, 8);
+    ctx.fillStyle = share > 0 ? look.ink : look['ink-dim'];
+    ctx.fillRect(x - 1, y - 4, 2, 8);
   } else {
     diamond(ctx, x, y, share === 1 ? KEY_PX + 1 : KEY_PX);
     ctx.fillStyle = share === 1 ? look.ink : share > 0 ? look.edge : look.panel;

@@ -1,6 +1,6 @@
 // A button with a verb, and an icon-only one with a name. Neutral by nature: colour is kept for what is true.
 
-import type { ReactNode } from 'react';
+import type { ComponentProps, KeyboardEvent, ReactNode } from 'react';
 import { Button as AriaButton, type ButtonProps as AriaButtonProps } from 'react-aria-components/Button';
 import { cx } from './cx.ts';
 import { hinted } from './Hints.tsx';
@@ -29,20 +29,35 @@ export function Button({ tone = 'plain', icon, wide = false, hint, children, ...
   );
 }
 
-export interface IconButtonProps extends Omit<AriaButtonProps, 'className' | 'children' | 'style'> {
+export interface IconButtonProps extends Pick<
+  ComponentProps<'button'>,
+  'aria-expanded' | 'aria-haspopup' | 'tabIndex'
+> {
   readonly icon: IconName;
   readonly label: string;
+  readonly isDisabled?: boolean | undefined;
+  onPress(target: Element): void;
 }
 
-export function IconButton({ icon, label, ...rest }: IconButtonProps) {
+/** A bare button: there are dozens in a panel, and one of the library's takes as long to come up as five of them. */
+export function IconButton({ icon, label, isDisabled, onPress, ...rest }: IconButtonProps) {
   return (
-    <AriaButton
+    <button
       {...rest}
       {...hinted(label)}
+      type="button"
+      disabled={isDisabled}
       aria-label={label}
       className={cx(styles.button, styles.quiet, styles.square)}
+      onClick={({ currentTarget }) => onPress(currentTarget)}
+      onKeyDown={pressOnce}
     >
       <Icon name={icon} />
-    </AriaButton>
+    </button>
   );
+}
+
+/** A key that is held presses once. */
+function pressOnce(event: KeyboardEvent): void {
+  if (event.repeat && event.key === 'Enter') event.preventDefault();
 }
