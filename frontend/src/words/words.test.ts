@@ -1,6 +1,7 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterEach, describe, expect, test } from 'vitest';
+import { emptyGroup } from '#shared/actions/group/group.ts';
 import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
 import { english } from './en/english.ts';
 import { LANGUAGES, OWN_NAMES, preferredLanguage, speak, words } from './words.ts';
@@ -97,6 +98,14 @@ describe('the words', () => {
       (match) => match[1],
     );
     expect(written).toEqual([]);
+  });
+
+  test('how far off the board would be is a whole number with its unit, and what helps is said', () => {
+    const problem = { kind: 'deviation', servo: 1, atMs: 2000, units: 44.556, limit: 5 } as const;
+    expect(english.compile.problem(problem, emptyGroup('Wave', 'us'))).toMatch(
+      /off by 45\sµs; 5\sµs is allowed\. Give it more time, or allow a larger error\.$/,
+    );
+    expect(chinese.compile.problem(problem, emptyGroup('Wave', 'us'))).toMatch(/偏差45微秒/);
   });
 });
 

@@ -41,9 +41,9 @@ const problems: ProblemWords = {
   tooShort: ({ servo, frameId, leastMs }, group) =>
     `${servoNumber(servo)} in frame ${frameNumber(group, frameId)}: no time to get there; the board needs ${formatMs(leastMs)}.`,
   tooFast: ({ servo, atMs, degreesPerS, limit }) =>
-    `${servoNumber(servo)} before ${formatSeconds(atMs)}: ${formatWhole(degreesPerS)}° a second; servos follow up to ${formatWhole(limit)}°.`,
-  deviation: ({ servo, atMs, units, limit }) =>
-    `${servoNumber(servo)} at ${formatSeconds(atMs)} would be off by ${formatWhole(units)}; ${formatWhole(limit)} is allowed.`,
+    `${servoNumber(servo)} before ${formatSeconds(atMs)}: ${formatWhole(degreesPerS)}° a second; servos follow up to ${formatWhole(limit)}°. Give it more time.`,
+  deviation: ({ servo, atMs, units, limit }, { unit }) =>
+    `${servoNumber(servo)} at ${formatSeconds(atMs)} would be off by ${formatPosition(Math.round(units), unit)}; ${formatPosition(limit, unit)} is allowed. Give it more time, or allow a larger error.`,
 };
 
 export const compileWords = {

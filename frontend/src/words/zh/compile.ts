@@ -39,9 +39,9 @@ const problems: ProblemWords = {
   tooShort: ({ servo, frameId, leastMs }, group) =>
     `${servoNumber(servo)}，${frameNumber(group, frameId)}：没有时间到达；控制板需要${formatMs(leastMs)}。`,
   tooFast: ({ servo, atMs, degreesPerS, limit }) =>
-    `${servoNumber(servo)}，${formatSeconds(atMs)}之前：每秒${formatWhole(degreesPerS)}°；舵机最多跟得上${formatWhole(limit)}°。`,
-  deviation: ({ servo, atMs, units, limit }) =>
-    `${servoNumber(servo)}在${formatSeconds(atMs)}会偏差${formatWhole(units)}；允许${formatWhole(limit)}。`,
+    `${servoNumber(servo)}，${formatSeconds(atMs)}之前：每秒${formatWhole(degreesPerS)}°；舵机最多跟得上${formatWhole(limit)}°。请给它更多时间。`,
+  deviation: ({ servo, atMs, units, limit }, { unit }) =>
+    `${servoNumber(servo)}在${formatSeconds(atMs)}会偏差${formatPosition(Math.round(units), unit)}；允许${formatPosition(limit, unit)}。请给它更多时间，或允许更大的误差。`,
 };
 
 export const compileWords: typeof english = {
