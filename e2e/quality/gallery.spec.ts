@@ -1,5 +1,6 @@
-// Every state that the gallery knows, each alone: axe finds nothing to object to, in light, in dark and with more contrast, and
-// with the system's own colours what is chosen is still to be seen.
+// Every state that the gallery knows, each alone: axe finds nothing to object to, in light, in dark and with more contrast,
+// letters are of four sizes and two weights, and with the system's own colours what is chosen is still to be seen. What the bar
+// says is read in full on a small laptop.
 
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
@@ -33,6 +34,25 @@ function axeIn(page: Page): (rules: readonly string[] | null) => Promise<readonl
   };
 }
 
+/** Of 12, 14, 16 or 24 px, and of one of two weights; the fifth size is that of a Stop alone on its page. */
+function oddLetters(page: Page): Promise<readonly string[]> {
+  return page.evaluate(() =>
+    [...document.querySelectorAll('article *')]
+      .filter(
+        (element) => element.checkVisibility() && element.closest('[aria-keyshortcuts="Escape"]') === null,
+      )
+      .filter(
+        (element) =>
+          element.matches('input, select') || [...element.childNodes].some((one) => one.nodeType === 3),
+      )
+      .map((element) => ({ element, style: getComputedStyle(element) }))
+      .filter(({ style }) => !/^(?:12|14|16|24)px (?:400|600)$/.test(`${style.fontSize} ${style.fontWeight}`))
+      .map(
+        ({ element, style }) => `${style.fontSize} ${style.fontWeight}: ${element.outerHTML.slice(0, 120)}`,
+      ),
+  );
+}
+
 for (const from of Array.from({ length: SHARES }, (_, index) => index)) {
   test(`every state of the gallery is accessible in every look, part ${from + 1}`, async ({
     page,
@@ -43,6 +63,7 @@ for (const from of Array.from({ length: SHARES }, (_, index) => index)) {
     const objections = axeIn(page);
     const { url } = await servers.files();
     await walkGallery({ page, url, share: { of: SHARES, from } }, async (state) => {
+      expect.soft(await oddLetters(page), `${state}: letters`).toEqual([]);
       for (const { name, media, rules } of LOOKS) {
         await page.emulateMedia(media);
         expect.soft(await objections(rules), `${state}, ${name}`).toEqual([]);
@@ -51,4 +72,32 @@ for (const from of Array.from({ length: SHARES }, (_, index) => index)) {
       expect.soft(await chosenUnseen(page), `${state}: chosen, in the system’s colours`).toEqual([]);
     });
   });
+}
+
+/** What the bar says, where some of it has no room; the label of a port has its place in the dialog. */
+function cutInBar(page: Page): Promise<readonly string[]> {
+  return page.evaluate(() =>
+    [...document.querySelectorAll('article header[data-shared] p')]
+      .filter((element) => element.checkVisibility())
+      .filter(
+        ({ scrollHeight, clientHeight, scrollWidth, clientWidth }) =>
+          scrollHeight > clientHeight + 1 || scrollWidth > clientWidth + 1,
+      )
+      .map((element) => element.textContent),
+  );
+}
+
+for (const language of ['en', 'zh'] as const) {
+  for (const width of [1366, 1132]) {
+    test(`in every state the bar says all of it at ${width} pixels, ${language}`, async ({
+      page,
+      servers,
+    }) => {
+      test.slow();
+      await page.setViewportSize({ width, height: 800 });
+      await walkGallery({ page, url: (await servers.files()).url, language }, async (state) => {
+        expect.soft(await cutInBar(page), state).toEqual([]);
+      });
+    });
+  }
 }
