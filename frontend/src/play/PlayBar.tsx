@@ -41,14 +41,14 @@ export function PlayBar() {
         isDisabled={!mayStep}
         onPress={() => playback.step(-1)}
       />
-      {phase !== 'previewing' && <PlayButton phase={phase} />}
-      {(phase === null || phase === 'previewing') && <PreviewButton isOn={phase !== null} />}
+      <PlayButton phase={phase} />
       <IconButton
         icon="later"
         label={words.play.forth}
         isDisabled={!mayStep}
         onPress={() => playback.step(1)}
       />
+      <PreviewButton phase={phase} />
       <Settings isDisabled={!isIdle} />
       <RunOnBoard isDisabled={!mayPlay || !isIdle} />
       <Phase phase={phase} />
@@ -66,16 +66,17 @@ function useMayPlay(): boolean {
 }
 
 /** One button to begin and to end: the focus is still on it when what it began is to end. */
-function PlayButton({ phase }: { readonly phase: Exclude<PlaybackPhase, 'previewing'> | null }) {
+function PlayButton({ phase }: { readonly phase: PlaybackPhase | null }) {
   const { playback } = useStores();
   const mayPlay = useMayPlay();
+  const ends = phase === null || phase === 'previewing' ? null : phase;
   return (
     <Button
-      icon={phase === null ? 'play' : END_ICONS[phase]}
-      isDisabled={phase === null && !mayPlay}
-      onPress={() => (phase === null ? playback.play() : playback.pause())}
+      icon={ends === null ? 'play' : END_ICONS[ends]}
+      isDisabled={ends === null && (!mayPlay || phase !== null)}
+      onPress={() => (ends === null ? playback.play() : playback.pause())}
     >
-      {phase === null ? <PlayWords /> : endWord(phase)}
+      <PlayWords ends={ends} />
     </Button>
   );
 }
@@ -88,28 +89,29 @@ function endWord(phase: keyof typeof END_ICONS): string {
 }
 
 /** As the one to play. */
-function PreviewButton({ isOn }: { readonly isOn: boolean }) {
+function PreviewButton({ phase }: { readonly phase: PlaybackPhase | null }) {
   const { playback } = useStores();
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const isOn = phase === 'previewing';
   return (
-    <span className={styles.preview}>
-      <Button
-        icon={isOn ? 'pause' : 'eye'}
-        hint={words.play.previewHint}
-        isDisabled={isEmpty}
-        onPress={() => playback.togglePreview()}
-      >
-        {isOn ? words.play.pause : words.play.preview}
-      </Button>
-    </span>
+    <Button
+      icon={isOn ? 'pause' : 'eye'}
+      hint={words.play.previewHint}
+      isDisabled={isEmpty || (phase !== null && !isOn)}
+      onPress={() => playback.togglePreview()}
+    >
+      <span className={styles.words} data-longest={words.play.preview}>
+        <span className={styles.now}>{isOn ? words.play.pause : words.play.preview}</span>
+      </span>
+    </Button>
   );
 }
 
 /** Nobody reads a button while the playhead is dragged. */
 const SAID_EACH_MS = 500;
 
-/** From where, as the playhead goes, or how often. With room for the longest of it: what follows stays in its place. */
-function PlayWords() {
+/** From where, as the playhead goes, or how often; or what ends it. With room for the longest: what follows stays in its place. */
+function PlayWords({ ends }: { readonly ends: keyof typeof END_ICONS | null }) {
   const { playback } = useStores();
   const loops = usePlayback((state) => state.loops);
   const times = useView((view) => chosenPlace(view).times);
@@ -122,6 +124,7 @@ function PlayWords() {
         className={styles.now}
         eachMs={SAID_EACH_MS}
         text={() => {
+          if (ends !== null) return endWord(ends);
           const { fromMs, times: passes } = playback.next();
           return fromMs === null ? words.play.play(loops ? 1 : passes) : words.play.playFrom(fromMs);
         }}

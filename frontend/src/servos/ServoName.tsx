@@ -40,9 +40,9 @@ export function ServoName({ servo: own, order }: ServoNameProps) {
       <span className={styles.texts}>
         <span className={styles.joint}>{joint || name}</span>
         <span className={styles.number}>
-          {joint && joint !== name && name}
           {isReversed && <Icon name="reverse" />}
           {isLocked && <Icon name="lock" />}
+          {joint && joint !== name && name}
         </span>
       </span>
     </button>
