@@ -18,7 +18,10 @@ const NAMES = [
   ...COLOURS,
 ] as const;
 export type LookName = (typeof NAMES)[number];
-export type Look = Readonly<Record<LookName, string>> & { readonly font: string };
+export type Look = Readonly<Record<LookName, string>> & {
+  /** Small letters. */
+  readonly font: string;
+};
 
 /** What the page's colours depend on, beside its theme. */
 export const SCHEMES = [
@@ -47,7 +50,10 @@ function watched(scheme: string): MediaQueryList {
 function readLook(element: Element): Look {
   const style = getComputedStyle(element);
   const colours = Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`)]));
-  return { ...(colours as Record<LookName, string>), font: style.fontFamily };
+  return {
+    ...(colours as Record<LookName, string>),
+    font: `${style.getPropertyValue('--text-s')} ${style.fontFamily}`,
+  };
 }
 
 export const colourOf = (look: Look, colour: Colour | null): string | null =>

@@ -34,7 +34,7 @@ function paintRange({ ctx, look, scene }: Brush): void {
 
 function paintMarks({ ctx, look, scene }: Brush): void {
   const { sizes, state, widthPx } = scene;
-  ctx.font = `11px ${look.font}`;
+  ctx.font = look.font;
   ctx.textAlign = 'left';
   ctx.textBaseline = 'middle';
   const [stepMs] = markStep(state.time.msPerPx);
