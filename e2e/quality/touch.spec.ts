@@ -83,6 +83,16 @@ test('what has the focus stands below the picture that stays in sight', async ({
   }
 });
 
+async function startCalibration(page: Page, url: string) {
+  const dashboard = dashboardOf(page);
+  const robots = robotDialogOf(dashboard);
+  await page.goto(url);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500', { timeout: 15_000 });
+  await robots.opener.tap();
+  await robots.button('Calibrate').tap();
+  return robots;
+}
+
 /** The longer side of the longest of what is drawn. */
 const largestPicture = (page: Page): Promise<number> =>
   page.evaluate(() => {
@@ -97,12 +107,7 @@ test.describe('on a screen of fine pixels', () => {
     page,
     servers,
   }) => {
-    const dashboard = dashboardOf(page);
-    const robots = robotDialogOf(dashboard);
-    await page.goto((await servers.files()).url);
-    await expect(dashboard.estimate(6)).toHaveText('≈ 1500', { timeout: 15_000 });
-    await robots.opener.tap();
-    await robots.button('Calibrate').tap();
+    const robots = await startCalibration(page, (await servers.files()).url);
     const { y } = await middleOf(robots.creep('lower'));
     for (const servo of ['Gripper', 'Wrist', 'Base']) {
       await robots.button(new RegExp(`^${servo}, `)).tap();
@@ -118,12 +123,7 @@ test.describe('on a screen of fine pixels', () => {
 });
 
 test('two quick taps answer one question of the calibration', async ({ page, servers }) => {
-  const dashboard = dashboardOf(page);
-  const robots = robotDialogOf(dashboard);
-  await page.goto((await servers.files()).url);
-  await expect(dashboard.estimate(6)).toHaveText('≈ 1500', { timeout: 15_000 });
-  await robots.opener.tap();
-  await robots.button('Calibrate').tap();
+  const robots = await startCalibration(page, (await servers.files()).url);
   const { touch } = await fingersOf(page);
   const at = await middleOf(robots.button(/^Keep 500/));
   // As long as a person takes to read what is asked.
