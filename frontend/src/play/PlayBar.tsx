@@ -49,8 +49,8 @@ export function PlayBar() {
         onPress={() => playback.step(1)}
       />
       <PreviewButton phase={phase} />
-      <Settings isDisabled={!isIdle} />
       <RunOnBoard isDisabled={!mayPlay || !isIdle} />
+      <Settings isDisabled={!isIdle} />
       <Phase phase={phase} />
     </div>
   );
