@@ -4,16 +4,15 @@
 
 import { Fragment, useCallback } from 'react';
 import { rename } from '#shared/actions/group/groupEdits.ts';
-import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { BodyPicture } from '../body/Body.tsx';
-import { FilesArea, FilesButton } from '../files/FilesArea.tsx';
+import { FilesButton } from '../files/FilesArea.tsx';
 import { LibraryButton } from '../library/LibraryButton.tsx';
 import { useDevice, useDocument, useStores } from '../stores/stores.ts';
 import { EmptyState } from '../ui/EmptyState.tsx';
 import { useIsPainted } from '../ui/useIsPainted.ts';
 import { useLayout } from '../ui/useLayout.ts';
 import { NameField } from '../ui/NameField.tsx';
-import { Panel } from '../ui/Panel.tsx';
+import type { PanelParts } from '../ui/Panel.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { CaptureBar } from './CaptureBar.tsx';
@@ -22,17 +21,45 @@ import { FrameTools } from './FrameTools.tsx';
 import { Timeline } from '../timeline/Timeline.tsx';
 import styles from './ActionsPanel.module.css';
 
-export function ActionsPanel() {
-  const unit = useDocument(({ present }) => present.unit);
-  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+export const actionsParts: PanelParts = {
+  title: () => words.actions.title,
+  Note,
+  Tools,
+  Content,
+  className: styles.panel,
+};
+
+function Note() {
+  const { document } = useStores();
   const name = useDocument(({ present }) => present.name);
-  const { playback, document } = useStores();
-  const layout = useLayout();
   const call = (wanted: string): void =>
     document.edit(
       () => words.actions.steps.rename,
       (before) => rename(before, wanted),
     );
+  return (
+    <span className={styles.named}>
+      <LibraryButton />
+      <NameField label={words.actions.name} name={name} onRename={call} />
+    </span>
+  );
+}
+
+function Tools() {
+  const { document } = useStores();
+  return (
+    <>
+      <FilesButton />
+      <UndoTools of={document} />
+    </>
+  );
+}
+
+function Content() {
+  const unit = useDocument(({ present }) => present.unit);
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const { playback } = useStores();
+  const layout = useLayout();
   const isPainted = useIsPainted();
   const otherUnit = useDevice((state) => state.family.unit !== unit) && !isEmpty;
   const play = useCallback(
@@ -49,33 +76,15 @@ export function ActionsPanel() {
   );
   const inOrder = layout === 'phone' ? [frames, timeline] : [timeline, frames];
   return (
-    <FilesArea>
-      <Panel
-        title={words.actions.title}
-        tabs={<AuthoringTabs />}
-        note={
-          <span className={styles.named}>
-            <LibraryButton />
-            <NameField label={words.actions.name} name={name} onRename={call} />
-          </span>
-        }
-        tools={
-          <>
-            <FilesButton />
-            <UndoTools of={document} />
-          </>
-        }
-        className={styles.panel}
-      >
-        {otherUnit && <p className={styles.warning}>{words.actions.otherUnit(unit)}</p>}
-        {layout === 'phone' && (
-          <div className={styles.body}>
-            <BodyPicture />
-          </div>
-        )}
-        {isPainted ? inOrder : inOrder.slice(0, 1)}
-      </Panel>
-    </FilesArea>
+    <>
+      {otherUnit && <p className={styles.warning}>{words.actions.otherUnit(unit)}</p>}
+      {layout === 'phone' && (
+        <div className={styles.body}>
+          <BodyPicture />
+        </div>
+      )}
+      {isPainted ? inOrder : inOrder.slice(0, 1)}
+    </>
   );
 }
 

@@ -21,3 +21,10 @@ test('groups of files become documents; what was being written is still there', 
   page.document.undo();
   expect(page.group().frames).toHaveLength(0);
 });
+
+test('what is taken is shown, whatever was worked on', () => {
+  const page = createVisit(createMemoryKeeper(), createVirtualClock());
+  page.view.setState({ authoring: 'poses' });
+  takeGroups(page, [group('Wave')]);
+  expect(page.view.getState().authoring).toBe('group');
+});

@@ -17,6 +17,6 @@ export function takeGroups(
   );
   others.forEach(library.add);
   if (others.length > 0) notices.tell('info', words.files.inLibrary(others.length));
-  view.setState({ selectedFrame: null });
+  view.setState({ authoring: 'group', selectedFrame: null });
   notices.say(words.files.taken(group.name, group.frames.length));
 }

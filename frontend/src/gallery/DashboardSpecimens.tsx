@@ -5,7 +5,8 @@ import { fedBy } from '#shared/actions/battery/batterySupply.ts';
 import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { insertFrame, setMeta } from '#shared/actions/group/groupEdits.ts';
 import { FAMILIES, UNKNOWN_BOARD, type Family } from '#shared/protocol/families.ts';
-import { ActionsPanel } from '../actions/ActionsPanel.tsx';
+import { actionsParts } from '../actions/ActionsPanel.tsx';
+import { AuthoringPanel } from '../authoring/Authoring.tsx';
 import { BatteryPanel } from '../battery/BatteryPanel.tsx';
 import { BoardPanel } from '../board/BoardPanel.tsx';
 import { pageClock } from '../connect/page.ts';
@@ -43,7 +44,7 @@ function Dashboard({ shows }: { readonly shows: readonly Part[] }) {
       <div className={styles.panels}>
         {has('live') && <LivePanel />}
         <div className={styles.column}>
-          {has('group') && <ActionsPanel />}
+          {has('group') && <AuthoringPanel {...actionsParts} />}
           {has('board') && <BoardRow />}
           {has('log') && <Log />}
         </div>

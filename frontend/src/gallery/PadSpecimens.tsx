@@ -1,7 +1,8 @@
 // Keys and pad in each of their states: without a pad, held, driving with servos that nobody knows, in conflict.
 
 import type { Binding } from '#shared/actions/mapping/mapping.ts';
-import { PadPanel } from '../pad/PadPanel.tsx';
+import { padParts } from '../pad/PadPanel.tsx';
+import { AuthoringPanel } from '../authoring/Authoring.tsx';
 import type { Gamepadlike } from '../stores/driving/pad.ts';
 import { useStores, type Stores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
@@ -48,7 +49,7 @@ const CASES: readonly PadSpecimen[] = [
 function Driven() {
   const { pad } = useStores();
   useEachFrame(() => pad.frame());
-  return <PadPanel />;
+  return <AuthoringPanel {...padParts} />;
 }
 
 export const PADS: readonly Exhibit[] = CASES.map((specimen) => ({

@@ -8,7 +8,8 @@ import { CaptureStrip } from '../actions/CaptureStrip.tsx';
 import { ButtonsPage } from '../macros/ButtonsPage.tsx';
 import { Kiosk } from '../macros/Kiosk.tsx';
 import { BlendBar } from '../poses/BlendBar.tsx';
-import { PosesPanel } from '../poses/PosesPanel.tsx';
+import { posesParts } from '../poses/PosesPanel.tsx';
+import { AuthoringPanel } from '../authoring/Authoring.tsx';
 import { useSelectedPose } from '../poses/useSelectedPose.ts';
 import type { Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
@@ -50,8 +51,8 @@ const CASES: readonly {
   readonly edits?: boolean;
   readonly isUnknown?: boolean;
 }[] = [
-  { name: 'Poses, none', panel: <PosesPanel />, isEmpty: true },
-  { name: 'Poses', panel: <PosesPanel /> },
+  { name: 'Poses, none', panel: <AuthoringPanel {...posesParts} />, isEmpty: true },
+  { name: 'Poses', panel: <AuthoringPanel {...posesParts} /> },
   { name: 'Poses, robot follows a blend', panel: <Blend /> },
   { name: 'Capture beside the sliders', panel: <CaptureStrip /> },
   { name: 'Capture, nothing known', panel: <CaptureStrip />, isUnknown: true },

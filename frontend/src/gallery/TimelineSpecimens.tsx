@@ -5,7 +5,8 @@ import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { insertFrame, type NewFrame } from '#shared/actions/group/groupEdits.ts';
 import { moveKeys } from '#shared/actions/group/keyEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
-import { ActionsPanel } from '../actions/ActionsPanel.tsx';
+import { actionsParts } from '../actions/ActionsPanel.tsx';
+import { AuthoringPanel } from '../authoring/Authoring.tsx';
 import { select } from '../timeline/desk.ts';
 import { pressFrame } from '../timeline/inStep.ts';
 import { keySet } from '../stores/timeline/keySet.ts';
@@ -116,7 +117,7 @@ const CASES: readonly Case[] = [
 
 export const TIMELINES: readonly Exhibit[] = CASES.map((specimen) => ({
   name: specimen.name,
-  content: <ActionsPanel />,
+  content: <AuthoringPanel {...actionsParts} />,
   stores: () => storesOf(specimen),
 }));
 

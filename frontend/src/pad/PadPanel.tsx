@@ -1,7 +1,6 @@
 // Driving by keys and pad: the switch, the picture of what is held, how it feels, and which input does what.
 
 import { servoBoundBy } from '#shared/actions/mapping/mapping.ts';
-import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { isHeld } from '../stores/servoView.ts';
@@ -15,7 +14,7 @@ import {
   useStores,
 } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { Panel } from '../ui/Panel.tsx';
+import type { PanelParts } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
@@ -25,9 +24,16 @@ import { FeelControls } from './FeelControls.tsx';
 import { PadPicture } from './PadPicture.tsx';
 import styles from './PadPanel.module.css';
 
-export function PadPanel() {
+export const padParts: PanelParts = {
+  title: () => words.pad.title,
+  Tools,
+  Content,
+  className: styles.panel,
+};
+
+function Content() {
   return (
-    <Panel title={words.pad.title} tabs={<AuthoringTabs />} tools={<Tools />} className={styles.panel}>
+    <>
       <p className={styles.hint}>
         <Hint />
       </p>
@@ -38,7 +44,7 @@ export function PadPanel() {
       </div>
       <Conflicts />
       <Bindings />
-    </Panel>
+    </>
   );
 }
 

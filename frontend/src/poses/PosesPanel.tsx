@@ -2,10 +2,9 @@
 // moves only by the buttons that say so.
 
 import { useState } from 'react';
-import { AuthoringTabs } from '../authoring/AuthoringTabs.tsx';
 import { usePoses, useStores } from '../stores/stores.ts';
 import { EmptyState } from '../ui/EmptyState.tsx';
-import { Panel } from '../ui/Panel.tsx';
+import type { PanelParts } from '../ui/Panel.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { BlendBar } from './BlendBar.tsx';
@@ -16,23 +15,28 @@ import { ServoPicker } from './ServoPicker.tsx';
 import { useSelectedPose } from './useSelectedPose.ts';
 import styles from './PosesPanel.module.css';
 
-export function PosesPanel() {
-  const { poses } = useStores();
+export const posesParts: PanelParts = {
+  title: () => words.poses.title,
+  Tools,
+  Content,
+  className: styles.panel,
+};
+
+function Tools() {
+  return <UndoTools of={useStores().poses.book} />;
+}
+
+function Content() {
   const isEmpty = usePoses(({ present }) => present.poses.length === 0);
   const pose = useSelectedPose();
   const [drawer, setDrawer] = useState<Drawer | null>(null);
   return (
-    <Panel
-      title={words.poses.title}
-      tabs={<AuthoringTabs />}
-      tools={<UndoTools of={poses.book} />}
-      className={styles.panel}
-    >
+    <>
       {isEmpty ? <EmptyState title={words.poses.empty} hint={words.poses.emptyHint} /> : <PoseList />}
       <PoseTools drawer={drawer} onDrawer={setDrawer} />
       {pose !== undefined && drawer === 'servos' && <ServoPicker pose={pose} />}
       {pose !== undefined && drawer === 'blend' && <BlendBar key={pose.id} pose={pose} />}
       <PoseVerbs />
-    </Panel>
+    </>
   );
 }

@@ -1,10 +1,11 @@
 // A button with a verb, and an icon-only one with a name. Neutral by nature: colour is kept for what is true.
 
-import type { ComponentProps, KeyboardEvent, ReactNode } from 'react';
+import type { ComponentProps, ReactNode } from 'react';
 import { Button as AriaButton, type ButtonProps as AriaButtonProps } from 'react-aria-components/Button';
 import { cx } from './cx.ts';
 import { hinted } from './Hints.tsx';
 import { Icon, type IconName } from './Icon.tsx';
+import { pressOnce } from './pressOnce.ts';
 import styles from './Button.module.css';
 
 export interface ButtonProps extends Omit<AriaButtonProps, 'className' | 'children' | 'style'> {
@@ -55,9 +56,4 @@ export function IconButton({ icon, label, isDisabled, onPress, ...rest }: IconBu
       <Icon name={icon} />
     </button>
   );
-}
-
-/** A key that is held presses once. */
-function pressOnce(event: KeyboardEvent): void {
-  if (event.repeat && event.key === 'Enter') event.preventDefault();
 }

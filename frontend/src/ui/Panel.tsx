@@ -1,6 +1,6 @@
 // A titled area of the instrument: a named section with a header line for its few own controls.
 
-import { useId, type ReactNode } from 'react';
+import { useId, type ComponentType, type ReactNode } from 'react';
 import { cx } from './cx.ts';
 import { PART } from './useParts.ts';
 import styles from './Panel.module.css';
@@ -14,6 +14,15 @@ export interface PanelProps {
   readonly tools?: ReactNode;
   readonly className?: string | undefined;
   readonly children: ReactNode;
+}
+
+/** What stands in a panel that others share. */
+export interface PanelParts {
+  title(): string;
+  readonly Note?: ComponentType;
+  readonly Tools: ComponentType;
+  readonly Content: ComponentType;
+  readonly className: string | undefined;
 }
 
 export function Panel({ title, tabs, note, tools, className, children }: PanelProps) {

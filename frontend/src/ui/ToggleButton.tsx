@@ -1,8 +1,8 @@
 // A button that stays pressed: a switch for tight places.
 
-import { ToggleButton as AriaToggleButton } from 'react-aria-components/ToggleButton';
 import type { ReactNode } from 'react';
 import { hinted } from './Hints.tsx';
+import { pressOnce } from './pressOnce.ts';
 import styles from './ToggleButton.module.css';
 
 export interface ToggleButtonProps {
@@ -15,13 +15,15 @@ export interface ToggleButtonProps {
 
 export function ToggleButton({ isOn, hint, children, onChange }: ToggleButtonProps) {
   return (
-    <AriaToggleButton
+    <button
       {...(hint === undefined ? {} : hinted(hint))}
-      className={styles.button ?? ''}
-      isSelected={isOn}
-      onChange={onChange}
+      type="button"
+      className={styles.button}
+      aria-pressed={isOn}
+      onClick={() => onChange(!isOn)}
+      onKeyDown={pressOnce}
     >
       {children}
-    </AriaToggleButton>
+    </button>
   );
 }

@@ -1,6 +1,5 @@
 // Whoever works by keys sees where the focus is: when what had it is taken away or disabled, what was around it gets it. That does
-// nothing when it is pressed, so that a hasty second Enter is nobody's wish. A choice that stands anew in what it has chosen keeps it.
-// Dialogs and menus give the focus back by themselves.
+// nothing when it is pressed, so that a hasty second Enter is nobody's wish. Dialogs and menus give the focus back by themselves.
 
 import { useEffect, useRef } from 'react';
 import { useEachFrame } from './useEachFrame.ts';
@@ -21,7 +20,7 @@ export function useFocusKept(): void {
     path.current = [];
     if (held === undefined || (held.isConnected && !held.matches(':disabled'))) return;
     const next = around.find((element) => element.isConnected);
-    if (next !== undefined) focusOnce(sameChoice(around, next) ?? next);
+    if (next !== undefined) focusOnce(next);
   });
 }
 
@@ -33,12 +32,6 @@ function pathOf(target: EventTarget | null): readonly HTMLElement[] {
     element = element.parentElement;
   }
   return path.slice(0, -1);
-}
-
-function sameChoice(around: readonly HTMLElement[], within: HTMLElement): HTMLElement | null {
-  const label = around.find((element) => element.matches('fieldset'))?.ariaLabel;
-  if (!label) return null;
-  return within.querySelector<HTMLElement>(`fieldset[aria-label="${CSS.escape(label)}"] input:checked`);
 }
 
 function focusOnce(element: HTMLElement): void {
