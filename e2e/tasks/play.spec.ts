@@ -256,8 +256,11 @@ test('on a phone a recording goes on while the sliders are in front', async ({ d
   await expect(dashboard.frame(1)).toHaveAccessibleName('Frame 1, 1500 ms, moves servo 1');
 });
 
-test('the button that begins is the one that ends, and keeps the focus', async ({ dashboard, page }) => {
+test('what begins and ends moves nothing, and keeps the focus', async ({ dashboard, page }) => {
   await captureGroup(dashboard, [1000, 1400], 400);
+  const steady = [dashboard.frame(1), dashboard.button('Run on board'), dashboard.button('A frame on')];
+  const places = () => Promise.all(steady.map((one) => one.boundingBox()));
+  const before = await places();
   for (const [begins, ends] of [
     [/^Play\b/, 'Pause'],
     ['Preview', 'Pause'],
@@ -266,6 +269,7 @@ test('the button that begins is the one that ends, and keeps the focus', async (
     await dashboard.button(begins).focus();
     await page.keyboard.press('Enter');
     await expect(dashboard.button(ends)).toBeFocused();
+    expect(await places()).toEqual(before);
     await page.keyboard.press('Enter');
     await expect(dashboard.button(begins)).toBeFocused();
   }

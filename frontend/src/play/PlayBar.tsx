@@ -20,6 +20,7 @@ import {
 } from '../stores/stores.ts';
 import { timesOf } from '../timeline/groupTimes.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
+import { cx } from '../ui/cx.ts';
 import { LiveText } from '../ui/LiveText.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
@@ -50,8 +51,10 @@ export function PlayBar() {
       />
       <PreviewButton phase={phase} />
       <RunOnBoard isDisabled={!mayPlay || !isIdle} />
-      <Settings isDisabled={!isIdle} />
-      <Phase phase={phase} />
+      <div className={cx(styles.aside, !isIdle && styles.busy)}>
+        <Settings isDisabled={!isIdle} />
+        <Phase phase={phase} />
+      </div>
     </div>
   );
 }
