@@ -77,15 +77,16 @@ export interface Change {
   edit(group: ActionGroup): ActionGroup;
   /** What is selected afterwards; left out: what is still there of the selection. */
   selects?(times: GroupTimes): readonly KeyRef[];
-  /** Where the cursor is then; left out: on what is selected, or where it was. */
-  cursor?(times: GroupTimes): Cursor;
+  /** Where the cursor is then; left out: on what is selected, or where it was. `selected`: as `selects` says. */
+  cursor?(times: GroupTimes, selected: readonly KeyRef[]): Cursor;
 }
 
 export function apply({ stores }: Pick<Desk, 'stores'>, { label, edit, selects, cursor }: Change): void {
   stores.document.edit(label, edit);
   const times = timesOf(stores.document.store.getState().present);
   const wanted = selects?.(times) ?? null;
-  const next = cursor?.(times) ?? (wanted === null ? undefined : cursorAmong(deskOf(stores), wanted));
+  const next =
+    cursor?.(times, wanted ?? []) ?? (wanted === null ? undefined : cursorAmong(deskOf(stores), wanted));
   select(stores, wanted === null ? null : keySet(wanted), next);
 }
 

@@ -64,8 +64,12 @@ export function nudge(desk: Desk, ticks: number, turns: number): void {
   const refs = changeable(desk);
   const deltaPosition = turns * nudgeUnits(desk, servoAtHand(desk, refs) ?? 0);
   const move = moveOf(desk, desk.group, refs, { deltaMs, deltaPosition });
-  const cursor = (times: GroupTimes): Cursor => cursorAfter(desk, refs, move.selects(times));
-  apply(desk, { label: () => words.timeline.steps.move, ...move, cursor });
+  let { cursor } = desk.state;
+  apply(desk, {
+    label: () => words.timeline.steps.move,
+    ...move,
+    cursor: (_times, moved) => (cursor = cursorAfter(desk, refs, moved)),
+  });
   const times = timesOf(desk.stores.document.store.getState().present);
-  desk.stores.notices.say(cellName({ ...desk, times }, cursor(times)));
+  desk.stores.notices.say(cellName({ ...desk, times }, cursor));
 }

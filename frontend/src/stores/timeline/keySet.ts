@@ -10,9 +10,18 @@ export const NO_KEYS: KeySet = new Set();
 
 export const keyName = ({ frameId, servo }: KeyRef): KeyName => `${frameId}/${servo}`;
 
-export const keySet = (refs: readonly KeyRef[]): KeySet => new Set(refs.map(keyName));
+/** What a set was made of: thousands of names are not read again after each edit. */
+const made = new WeakMap<KeySet, readonly KeyRef[]>();
 
-export function refsOf(keys: KeySet): readonly KeyRef[] {
+export function keySet(refs: readonly KeyRef[]): KeySet {
+  const keys = new Set(refs.map(keyName));
+  if (keys.size === refs.length) made.set(keys, refs);
+  return keys;
+}
+
+export const refsOf = (keys: KeySet): readonly KeyRef[] => made.get(keys) ?? namedIn(keys);
+
+function namedIn(keys: KeySet): readonly KeyRef[] {
   return [...keys].map((name) => {
     const [frameId, servo] = name.split('/').map(Number);
     return { frameId: frameId ?? 0, servo: servo ?? 0 };
