@@ -1,5 +1,5 @@
-// Turns the servo a little and back, and asks whether that was the way of the arrow. Whichever side of home has more room is
-// tried, and the arrow says that side. It begins at home: going there is an act of its own.
+// Asks whether the servo turned the way of the arrow: at once where it is on its way home, which was an act of its own and shows it,
+// else after it was turned a little and back. Whichever side of home has more room is tried, and the arrow says that side.
 
 import { useEffect, useRef, useState } from 'react';
 import { changeServo } from '#shared/actions/robot/robotEdits.ts';
@@ -13,7 +13,7 @@ import { words } from '../words/words.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import { sightOf } from './sight.ts';
-import { awayFrom, sideOf, startTurning, type TurnPhase } from './turning.ts';
+import { awayFrom, homeward, sideOf, startTurning, type TurnPhase } from './turning.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
 
@@ -49,14 +49,17 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
   const { device } = useStores();
   const { phase, turn } = useTurning(servo, away);
   const target = useTarget(servo.servo);
+  const [side] = useState(() => homeward(servo, { target, estimated: device.motion(servo.servo).estimated }));
   const isMoving = useDevice((state) => state.isMoving);
   // That something moves is known a moment after it was asked to.
   const { estimated } = device.motion(servo.servo);
   const isOnItsWay = isMoving || Math.abs((estimated ?? servo.home) - servo.home) > 1;
   const isTurning = phase === 'away' || phase === 'back';
   const isAway = target !== servo.home && !isTurning;
-  // It has shown what there is to see, and comes back whatever is answered.
-  const isAsked = (phase === 'back' || phase === 'done') && !isAway;
+  const isHomeward = phase === null && side !== 0;
+  // It has shown what there is to see, and comes home whatever is answered.
+  const isAsked = (isHomeward || phase === 'back' || phase === 'done') && !isAway;
+  const way = (isHomeward ? side : sideOf(servo)) > 0 ? 'right' : 'left';
   const { unit } = FAMILIES[robot.board];
   const from = sightOf(robot, servo);
   const sight = words.calibration.sights[from];
@@ -64,10 +67,16 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
     accept((all) => changeServo(all, servo.servo, { isReversed }));
   return (
     <>
-      <Ask>{isAway ? words.calibration.homeFirst(target ?? servo.home, servo.home, unit) : sight.about}</Ask>
+      <Ask>
+        {isAway
+          ? words.calibration.homeFirst(target ?? servo.home, servo.home, unit)
+          : isHomeward
+            ? sight.homeward
+            : sight.about}
+      </Ask>
       {from !== 'gripper' && (
         <div className={styles.arrow}>
-          {phase === 'away' && <TurnArrow isClockwise={sideOf(servo) > 0} />}
+          {(isHomeward || phase === 'away') && <TurnArrow isClockwise={way === 'right'} />}
         </div>
       )}
       <div className={styles.actions}>
@@ -81,7 +90,7 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
           </Answer>
         )}
       </div>
-      <p className={styles.asked}>{isAsked ? sight.asked[sideOf(servo) > 0 ? 'right' : 'left'] : ''}</p>
+      <p className={styles.asked}>{isAsked ? sight[isHomeward ? 'askedHomeward' : 'asked'][way] : ''}</p>
       <div className={styles.actions}>
         <Answer tone={isAsked ? 'primary' : 'plain'} isDisabled={!isAsked} onPress={answer(false)}>
           {words.calibration.same}

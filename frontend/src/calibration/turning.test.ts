@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
 import { freshRobot } from '../stores/robots/robots.ts';
-import { awayFrom, startTurning, type TurnPhase } from './turning.ts';
+import { awayFrom, homeward, startTurning, type TurnPhase } from './turning.ts';
 
 function bench() {
   const clock = createVirtualClock();
@@ -85,4 +85,15 @@ describe('how far it turns', () => {
   ])('not at all where nobody would see it: %i, %i, %i', (min, home, max) => {
     expect(awayFrom({ ...freshRobot('arm', 'doc').servos[0]!, min, home, max })).toBeNull();
   });
+});
+
+test.each([
+  ['comes down to it', { target: 1500, estimated: 2400 }, -1],
+  ['comes up to it', { target: 1500, estimated: 600 }, 1],
+  ['stands there', { target: 1500, estimated: 1500 }, 0],
+  ['has too short a way to be seen', { target: 1500, estimated: 1530 }, 0],
+  ['goes elsewhere', { target: 1700, estimated: 2400 }, 0],
+  ['is where nobody knows', { target: 1500, estimated: null }, 0],
+])('a servo that is home at 1500 and %s', (_, motion, side) => {
+  expect(homeward({ ...freshRobot('arm', 'doc').servos[0]!, home: 1500 }, motion)).toBe(side);
 });

@@ -1,5 +1,5 @@
-// A servo turns a little away from home and, once it stands there, back. Ends early where nothing may move any longer.
-// Knows no session.
+// What shows a servo's direction: the way home that it is on, or a little turn away from home and, once it stands there, back, which
+// ends early where nothing may move any longer. Knows no session.
 
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Clock } from '#shared/clock.ts';
@@ -28,6 +28,16 @@ export function awayFrom(servo: RobotServo): number | null {
   const seen = Math.ceil(SEEN_DEGREES / servo.degreesPerUnit);
   if (room < seen) return null;
   return Math.round(servo.home + sideOf(servo) * Math.max(room * SHARE_OF_SIDE, seen));
+}
+
+/** The side it goes to on a way home that is long enough to be seen; 0 where it goes on none. */
+export function homeward(
+  { home, degreesPerUnit }: RobotServo,
+  { target, estimated }: Pick<ServoMotion, 'target' | 'estimated'>,
+): 1 | 0 | -1 {
+  const way = target === home && estimated !== null ? home - estimated : 0;
+  if (Math.abs(way) * degreesPerUnit < SEEN_DEGREES) return 0;
+  return way > 0 ? 1 : -1;
 }
 
 const TURN_MS = 900;

@@ -17,6 +17,11 @@ const WAYS = {
   left: 'Did it turn left first, against the clock, as the arrow did?',
 };
 
+const HOMEWARD = {
+  right: 'Does it turn right, clockwise, as the arrow does?',
+  left: 'Does it turn left, against the clock, as the arrow does?',
+};
+
 export const calibrationWords = {
   servos: 'Servos to calibrate',
   servo: (name: string, done: number, all: number): string =>
@@ -72,23 +77,33 @@ export const calibrationWords = {
     gripper: {
       about: 'Watch the gripper and press Turn a little. It moves and comes back.',
       asked: { right: 'Did it close first?', left: 'Did it open first?' },
+      homeward: 'It goes home: watch the gripper. Press Turn a little to see more.',
+      askedHomeward: { right: 'Does it close?', left: 'Does it open?' },
     },
     side: {
       about:
         'Look at the robot from the side, as in its picture, and press Turn a little. It turns and comes back.',
       asked: WAYS,
+      homeward: 'It goes home: look from the side, as in its picture. Press Turn a little to see more.',
+      askedHomeward: HOMEWARD,
     },
     above: {
       about: 'Look at the robot from above and press Turn a little. It turns and comes back.',
       asked: WAYS,
+      homeward: 'It goes home: look at it from above. Press Turn a little to see more.',
+      askedHomeward: HOMEWARD,
     },
     front: {
       about: 'Look at the hand from the front and press Turn a little. It turns and comes back.',
       asked: WAYS,
+      homeward: 'It goes home: look at the hand from the front. Press Turn a little to see more.',
+      askedHomeward: HOMEWARD,
     },
     horn: {
       about: 'Look at the horn of the servo from outside and press Turn a little. It turns and comes back.',
       asked: WAYS,
+      homeward: 'It goes home: look at its horn from outside. Press Turn a little to see more.',
+      askedHomeward: HOMEWARD,
     },
   },
   same: 'Yes, that way',

@@ -8,6 +8,11 @@ const WAYS = {
   left: '它是先像箭头那样逆时针转的吗？',
 };
 
+const HOMEWARD = {
+  right: '它像箭头那样顺时针转吗？',
+  left: '它像箭头那样逆时针转吗？',
+};
+
 export const calibrationWords: typeof english = {
   servos: '要校准的舵机',
   servo: (name, done, all) => `${name}，已完成${formatWhole(done)}步，共${formatWhole(all)}步`,
@@ -61,11 +66,33 @@ export const calibrationWords: typeof english = {
     gripper: {
       about: '看着夹爪，点“转一点”。它会动一下再回来。',
       asked: { right: '它是先闭合的吗？', left: '它是先张开的吗？' },
+      homeward: '它正在回到初始位：看着夹爪。点“转一点”可再看一次。',
+      askedHomeward: { right: '它在闭合吗？', left: '它在张开吗？' },
     },
-    side: { about: '像图中那样从侧面看机器人，点“转一点”。它会转过去再转回来。', asked: WAYS },
-    above: { about: '从上方看机器人，点“转一点”。它会转过去再转回来。', asked: WAYS },
-    front: { about: '从正面看手，点“转一点”。它会转过去再转回来。', asked: WAYS },
-    horn: { about: '从外面看舵机的舵盘，点“转一点”。它会转过去再转回来。', asked: WAYS },
+    side: {
+      about: '像图中那样从侧面看机器人，点“转一点”。它会转过去再转回来。',
+      asked: WAYS,
+      homeward: '它正在回到初始位：像图中那样从侧面看。点“转一点”可再看一次。',
+      askedHomeward: HOMEWARD,
+    },
+    above: {
+      about: '从上方看机器人，点“转一点”。它会转过去再转回来。',
+      asked: WAYS,
+      homeward: '它正在回到初始位：从上方看机器人。点“转一点”可再看一次。',
+      askedHomeward: HOMEWARD,
+    },
+    front: {
+      about: '从正面看手，点“转一点”。它会转过去再转回来。',
+      asked: WAYS,
+      homeward: '它正在回到初始位：从正面看手。点“转一点”可再看一次。',
+      askedHomeward: HOMEWARD,
+    },
+    horn: {
+      about: '从外面看舵机的舵盘，点“转一点”。它会转过去再转回来。',
+      asked: WAYS,
+      homeward: '它正在回到初始位：从外面看舵机的舵盘。点“转一点”可再看一次。',
+      askedHomeward: HOMEWARD,
+    },
   },
   same: '是，方向一致',
   other: '不是，方向相反',
