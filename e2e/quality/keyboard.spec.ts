@@ -135,7 +135,7 @@ test('what has the focus goes away, and the focus is where one goes on', async (
   await press(robots.button(/^Keep 2500/));
   await expect(asked(/half open/)).toBeFocused();
   await press(robots.button(/^Keep 1500/));
-  await expect(asked(/^Watch the gripper/)).toBeFocused();
+  await expect(asked(/: watch the gripper/)).toBeFocused();
   await expect(robots.button('Turn a little')).toBeEnabled();
   await press(robots.button('Turn a little'));
   await expect(robots.button('Yes, that way')).toBeEnabled({ timeout: 15_000 });
@@ -147,15 +147,21 @@ test('what has the focus goes away, and the focus is where one goes on', async (
 
   await page.getByRole('radio', { name: 'Poses' }).check();
   await press(dashboard.button('Capture pose'));
-  const name = page.getByRole('textbox', { name: /^Name of Pose/ });
-  await name.fill('Wave');
-  await name.press('Enter');
-  const renamed = page.getByRole('textbox', { name: 'Name of Wave' });
+  await expect(page.getByRole('textbox', { name: /^Name of Pose/ })).toBeFocused();
+  await keyboard.type('Wave');
+  await keyboard.press('Enter');
+  await expect(dashboard.button('Capture pose')).toBeFocused();
+  await page.getByRole('textbox', { name: 'Name of Wave' }).focus();
+  await keyboard.type('Bow');
+  await keyboard.press('Enter');
+  const renamed = page.getByRole('textbox', { name: /Bow/ });
   await expect(renamed).toBeFocused();
   const undo = page.getByRole('button', { name: /^Undo/ });
   await undo.focus();
   await keyboard.press('Enter');
   await expect(renamed).toBeHidden();
+  await keyboard.press('Enter');
+  await expect(page.getByRole('textbox', { name: /^Name of Pose/ })).toBeVisible();
   await keyboard.press('Enter');
   await expect(undo).toBeDisabled();
   await poll(() => page.evaluate(() => document.activeElement?.contains(document.body))).toBe(false);

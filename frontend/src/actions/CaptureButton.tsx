@@ -1,5 +1,6 @@
 // Keeps the pose that the robot was asked for; says why it cannot while nobody knows one.
 
+import type { PressEvent } from 'react-aria-components/Button';
 import { useDevice } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
@@ -8,7 +9,7 @@ import styles from './CaptureButton.module.css';
 export interface CaptureButtonProps {
   readonly label: string;
   readonly hint: string;
-  onPress(): void;
+  onPress(event: PressEvent): void;
 }
 
 export function CaptureButton({ label, hint, onPress }: CaptureButtonProps) {

@@ -1,5 +1,6 @@
 // The foot of the poses: keep the pose at hand, and the ways home and to rest, in the time that holds for every pose.
 
+import type { PressEvent } from 'react-aria-components/Button';
 import { POSE_VERBS } from '#shared/actions/poses/pose.ts';
 import { CaptureButton } from '../actions/CaptureButton.tsx';
 import { poseName } from '../stores/driving/poses.ts';
@@ -10,9 +11,15 @@ import { NumberField } from '../ui/NumberField.tsx';
 import { words } from '../words/words.ts';
 import { capturePose } from './capturePose.ts';
 import { PoseFiles } from './PoseFiles.tsx';
+import type { Captured } from './useNaming.ts';
 import styles from './PosesPanel.module.css';
 
-export function PoseVerbs() {
+export interface PoseVerbsProps {
+  /** A pose that was captured by a key has its name typed next; while keys drive, they go on driving. */
+  onNew(captured: Captured): void;
+}
+
+export function PoseVerbs({ onNew }: PoseVerbsProps) {
   const { poses } = useStores();
   const poseMs = useView((state) => state.poseMs);
   const restName = usePoses(({ present }) => poseName(present, present.restId ?? 'home'));
@@ -20,7 +27,7 @@ export function PoseVerbs() {
   const hints = { home: words.poses.homeHint, rest: words.poses.restHint(restName) };
   return (
     <div className={styles.verbs}>
-      <Capture />
+      <Capture onNew={onNew} />
       <PoseFiles />
       <span className={styles.ways}>
         {POSE_VERBS.map((verb) => (
@@ -40,15 +47,15 @@ export function PoseVerbs() {
   );
 }
 
-function Capture() {
+function Capture({ onNew }: PoseVerbsProps) {
   const stores = useStores();
-  return (
-    <CaptureButton
-      label={words.poses.capture}
-      hint={words.poses.captureHint}
-      onPress={() => capturePose(stores)}
-    />
-  );
+  const capture = ({ pointerType, target }: PressEvent): void => {
+    capturePose(stores);
+    const { selectedPose } = stores.view.getState();
+    const isByKey = pointerType === 'keyboard' && !stores.pad.store.getState().isDriving;
+    if (isByKey && selectedPose !== null) onNew({ pose: selectedPose, from: target });
+  };
+  return <CaptureButton label={words.poses.capture} hint={words.poses.captureHint} onPress={capture} />;
 }
 
 function PoseTime() {

@@ -1,7 +1,7 @@
 // The robot's poses: a contact sheet of cards, what can be done with one, and the ways to home, rest and any pose. The robot
 // moves only by the buttons that say so.
 
-import { useState } from 'react';
+import { useRef, useState } from 'react';
 import { usePoses, useStores } from '../stores/stores.ts';
 import { EmptyState } from '../ui/EmptyState.tsx';
 import type { PanelParts } from '../ui/Panel.tsx';
@@ -12,6 +12,7 @@ import { PoseList } from './PoseList.tsx';
 import { PoseTools, type Drawer } from './PoseTools.tsx';
 import { PoseVerbs } from './PoseVerbs.tsx';
 import { ServoPicker } from './ServoPicker.tsx';
+import { useNaming } from './useNaming.ts';
 import { useSelectedPose } from './useSelectedPose.ts';
 import styles from './PosesPanel.module.css';
 
@@ -30,13 +31,17 @@ function Content() {
   const isEmpty = usePoses(({ present }) => present.poses.length === 0);
   const pose = useSelectedPose();
   const [drawer, setDrawer] = useState<Drawer | null>(null);
+  const cards = useRef<HTMLDivElement>(null);
+  const name = useNaming(cards);
   return (
     <>
-      {isEmpty ? <EmptyState title={words.poses.empty} hint={words.poses.emptyHint} /> : <PoseList />}
+      <div ref={cards} className={styles.cards}>
+        {isEmpty ? <EmptyState title={words.poses.empty} hint={words.poses.emptyHint} /> : <PoseList />}
+      </div>
       <PoseTools drawer={drawer} onDrawer={setDrawer} />
       {pose !== undefined && drawer === 'servos' && <ServoPicker pose={pose} />}
       {pose !== undefined && drawer === 'blend' && <BlendBar key={pose.id} pose={pose} />}
-      <PoseVerbs />
+      <PoseVerbs onNew={name} />
     </>
   );
 }
