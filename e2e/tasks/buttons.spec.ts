@@ -121,6 +121,17 @@ test('a button moves to another place by key, and is deleted, and each is undone
   await poll(names).toEqual(['Pose 1, key G', 'Button 2']);
 });
 
+test('a key that no button may have is refused with the reason', async ({ dashboard, page }) => {
+  await makeButton(dashboard, page);
+  await dashboard.button('G').click();
+  await page.keyboard.press('Control+c');
+  await expect(dashboard.notices).toContainText('A button takes a letter, a digit or a sign');
+  await page.keyboard.press('Space');
+  await expect(buttonOf(page, 'Pose 1')).toHaveAccessibleName('Pose 1, key G');
+  await page.keyboard.press('h');
+  await expect(buttonOf(page, 'Pose 1')).toHaveAccessibleName('Pose 1, key H');
+});
+
 test('a key that is given to another button is said to have left the first', async ({ dashboard, page }) => {
   await makeButton(dashboard, page);
   await dashboard.button('Add button').click();

@@ -1,7 +1,7 @@
 // What the selected button is called, looks like and does.
 
 import { COLOURS } from '#shared/actions/colours.ts';
-import { keyOf, macroOf, type Macro } from '#shared/actions/macros/macro.ts';
+import { macroOf, type Macro } from '#shared/actions/macros/macro.ts';
 import { changeMacro, moveMacro, removeMacro } from '#shared/actions/macros/macroEdits.ts';
 import { useId, useState, type KeyboardEvent } from 'react';
 import { useMacros, useStores, useView } from '../stores/stores.ts';
@@ -9,6 +9,7 @@ import { Button, IconButton } from '../ui/Button.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { words } from '../words/words.ts';
+import { macroKey } from './macroKey.ts';
 import { StepList } from './StepList.tsx';
 import styles from './MacroEditor.module.css';
 
@@ -114,6 +115,9 @@ function Colours({ macro: { id, name, colour } }: MacroProps) {
   );
 }
 
+/** Keys that say nothing before another one is pressed. */
+const HELD_WITH_OTHERS = new Set(['Shift', 'Control', 'Alt', 'AltGraph', 'Meta']);
+
 function KeyField({ macro: { id, name, key } }: MacroProps) {
   const { macros, notices } = useStores();
   const [isListening, setListening] = useState(false);
@@ -132,9 +136,10 @@ function KeyField({ macro: { id, name, key } }: MacroProps) {
     if (!isListening || event.key === 'Tab') return;
     event.preventDefault();
     event.stopPropagation();
-    const wanted = keyOf(event.key);
+    const wanted = macroKey(event.nativeEvent);
     if (wanted !== null) setKey(wanted);
     else if (event.key === 'Escape') setListening(false);
+    else if (!event.repeat && !HELD_WITH_OTHERS.has(event.key)) notices.tell('info', words.macros.keyUnfit);
   };
   return (
     <div className={styles.row} onKeyDownCapture={listen} onBlur={() => setListening(false)}>

@@ -40,6 +40,7 @@ export const macroWords = {
   setKey: 'Set a key',
   pressKey: 'Press a key',
   noKey: 'Remove the key',
+  keyUnfit: 'A button takes a letter, a digit or a sign, without Ctrl, Alt or Command.',
   keyTaken: (key: string, from: string): string =>
     `${key.toUpperCase()} was the key of ${from}, which has none now.`,
   keyed: (name: string, key: string | null): string =>

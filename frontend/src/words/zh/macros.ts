@@ -37,6 +37,7 @@ export const macroWords: typeof english = {
   setKey: '设置按键',
   pressKey: '请按一个键',
   noKey: '去掉按键',
+  keyUnfit: '按钮只能用字母、数字或符号键，不能同时按 Ctrl、Alt 或 Command。',
   keyTaken: (key, from) => `${key.toUpperCase()}原来是“${from}”的按键，它现在没有按键了。`,
   keyed: (name, key) => (key === null ? name : `${name}，按键 ${key.toUpperCase()}`),
   earlier: '按钮前移',
