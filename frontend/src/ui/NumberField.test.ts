@@ -21,5 +21,9 @@ test('a number is read as people write it, with as many decimals as the field ha
   expect(numberIn('-12,34', 1)).toBe(-12.3);
   expect(numberIn('−4.5', 1)).toBe(-4.5);
   expect(numberIn('12.6', 0)).toBe(13);
+  expect(['1,600', '1.600', '1 600', '\u22121,600'].map((text) => numberIn(text, 0))).toEqual([
+    1600, 1600, 1600, -1600,
+  ]);
+  expect(numberIn('1,600', 1)).toBe(1.6);
   for (const text of ['', ' ', '-', '.']) expect(numberIn(text, 0)).toBeNaN();
 });

@@ -108,7 +108,7 @@ export function NumberField(props: NumberFieldProps) {
         disabled={isDisabled}
         readOnly={isReadOnly}
         {...(props.excludeFromTabOrder === true && { tabIndex: -1 })}
-        onChange={({ target }) => PARTIAL.test(target.value) && setDraft(target.value)}
+        onChange={({ target }) => PARTIAL.test(target.value.replaceAll(/\s/gu, '')) && setDraft(target.value)}
         onBlur={commit}
         onKeyDown={onKey}
       />
@@ -131,11 +131,13 @@ export function NumberField(props: NumberFieldProps) {
 }
 
 /** What may stand there on the way to a number. */
-const PARTIAL = /^\s*[-−]?\d*[.,]?\d*\s*$/u;
+const PARTIAL = /^[-−]?\d*[.,]?\d*$/u;
+const THOUSANDS = /[.,](?=\d{3}$)/u;
 
-/** NaN where it is none. A comma is taken for a point. */
+/** NaN where it is none. A comma is taken for a point; in a whole number either may part the thousands. */
 export function numberIn(text: string, decimals: 0 | 1): number {
-  const plain = text.trim().replace('−', '-').replace(',', '.');
+  const written = text.replaceAll(/\s/gu, '').replace('−', '-');
+  const plain = (decimals === 0 ? written.replace(THOUSANDS, '') : written).replace(',', '.');
   return plain === '' ? NaN : Number(Number(plain).toFixed(decimals));
 }
 
