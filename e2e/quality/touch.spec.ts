@@ -246,3 +246,18 @@ test('on a large touch screen rows of the timeline stay in sight, and Play does'
   ])
     await expect(part).toBeInViewport({ ratio: 1 });
 });
+
+test('on a tablet held upright the bar holds all that is in it', async ({ page, servers }) => {
+  const dashboard = dashboardOf(page);
+  const { url } = await servers.files();
+  for (const width of [768, 820]) {
+    await page.setViewportSize({ width, height: 1180 });
+    await page.goto(url);
+    await expect(dashboard.link).toHaveText(/Simulated/);
+    const overhang = dashboard.link.evaluate((chip) => {
+      const { right } = chip.getBoundingClientRect();
+      return Math.max(...[...chip.children].map((part) => part.getBoundingClientRect().right - right));
+    });
+    expect(await overhang, `${width} pixels`).toBeLessThan(0);
+  }
+});
