@@ -24,6 +24,31 @@ describe('the tape of motions', () => {
     expect(tape.store.getState().recordingSinceMs).toBeNull();
   });
 
+  test('what has come to rest before is no part of a recording', async () => {
+    const { tape, device, clock } = await createDesk();
+    for (const position of [1000, 1500, 1250]) {
+      device.move(at(1, position), 400);
+      while (device.motion(1).estimated !== position) await clock.advance(1);
+      tape.record();
+      await clock.advance(1000);
+      expect(tape.end([1])).toEqual([]);
+    }
+  });
+
+  test('a recording that begins amid a motion begins with where that was', async () => {
+    const { tape, device, clock } = await createDesk();
+    device.move(at(1, 1000), 0);
+    await clock.advance(2000);
+    device.move(at(1, 2000), 1000);
+    await clock.advance(517);
+    tape.record();
+    const estimated = device.motion(1).estimated ?? NaN;
+    await clock.advance(1000);
+    const samples = tape.end([1]);
+    expect(Math.abs((samples[0]?.position ?? NaN) - estimated)).toBeLessThanOrEqual(1);
+    expect(samples.at(-1)?.position).toBe(2000);
+  });
+
   test('a rest between two motions stays as long as it was', async () => {
     const { tape, device, draw } = await createDesk();
     device.move(at(1, 1000), 0);

@@ -63,9 +63,13 @@ export function createMotionTape({ device, robots, clock }: MotionTapeOptions): 
     last = now;
     const gone = moments.findIndex(({ atMs }) => atMs >= now.atMs - TAPE_MS);
     if (gone !== 0 && moments.length > 0) moments = gone === -1 ? [] : moments.slice(gone);
-    clock.after(SAMPLE_MS, sample);
   }
-  sample();
+
+  function keepSampling(): void {
+    sample();
+    clock.after(SAMPLE_MS, keepSampling);
+  }
+  keepSampling();
 
   robots.store.subscribe(() => {
     const { id } = robots.current();
@@ -75,26 +79,32 @@ export function createMotionTape({ device, robots, clock }: MotionTapeOptions): 
     store.setState({ recordingSinceMs: null });
   });
 
-  function since(fromMs: number, servos?: readonly number[]): readonly Sample[] {
-    return moments
-      .filter(({ atMs }) => atMs >= fromMs)
-      .flatMap(({ atMs, pose }) =>
-        [...pose]
-          .filter(([servo]) => servos?.includes(servo) ?? true)
-          .map(([servo, position]) => ({ atMs, servo, position })),
-      );
-  }
-
   return {
     store,
-    record: () => store.setState({ recordingSinceMs: clock.now() }),
+    record() {
+      sample();
+      store.setState({ recordingSinceMs: clock.now() });
+    },
     end(servos) {
       const { recordingSinceMs } = store.getState();
       store.setState({ recordingSinceMs: null });
-      return recordingSinceMs === null ? [] : since(recordingSinceMs - SAMPLE_MS, servos);
+      if (recordingSinceMs === null) return [];
+      const own = moments.filter(({ atMs }) => atMs >= recordingSinceMs);
+      return samplesOf(fromFirstMotion(own)).filter(({ servo }) => servos.includes(servo));
     },
-    takeThat: () => since(-Infinity),
+    takeThat: () => samplesOf(moments),
   };
+}
+
+const samplesOf = (moments: readonly Moment[]): readonly Sample[] =>
+  moments.flatMap(({ atMs, pose }) => [...pose].map(([servo, position]) => ({ atMs, servo, position })));
+
+function fromFirstMotion(moments: readonly Moment[]): readonly Moment[] {
+  const first = moments.findIndex(({ pose }, index) => {
+    const next = moments[index + 1];
+    return next !== undefined && !samePose(pose, next.pose);
+  });
+  return first === -1 ? [] : moments.slice(first);
 }
 
 /** A servo that becomes known did not move there. */
