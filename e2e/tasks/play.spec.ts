@@ -150,9 +150,9 @@ test('several groups of the library go to their slots with one progress', async 
   await expect(all).toBeChecked();
   await expect(several.getByRole('checkbox', { name: /^Empty for nine/ })).not.toBeChecked();
   const empty = several.getByRole('listitem').filter({ hasText: 'Empty for nine' });
-  await expect(empty).toContainText('Capture a frame first.');
+  await expect(empty).toContainText('It has no frame yet.');
   await page.setViewportSize({ width: 1440, height: 300 });
-  const whyNot = empty.getByText('Capture a frame first.');
+  const whyNot = empty.getByText('It has no frame yet.');
   await expect(whyNot, 'whole, also where the list is longer than its place').toBeVisible();
   await poll(async () => bottomOf(await whyNot.boundingBox()) <= bottomOf(await empty.boundingBox())).toBe(
     true,

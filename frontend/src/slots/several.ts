@@ -30,7 +30,7 @@ export function hindranceOf(one: Wanted, all: readonly Wanted[]): string | null 
   const { group } = one.compiled.source;
   const [problem] = obstacles(one.compiled.report, 'board');
   if (problem !== undefined) return words.compile.problem(problem, group);
-  if (group.frames.length === 0) return words.board.nothingToDownload;
+  if (group.frames.length === 0) return words.slots.several.noFrame;
   const isTaken = all.some((other) => other !== one && other.slot === one.slot);
   return isTaken ? words.slots.several.sameSlot(one.slot) : null;
 }

@@ -111,6 +111,7 @@ export const slotWords = {
     about: (count: number, durationMs: number): string =>
       `${frameCount(count)}, ${formatSeconds(durationMs)}`,
     slotOf: (name: string): string => `Slot for ${name}`,
+    noFrame: 'It has no frame yet.',
     sameSlot: (slot: number): string => `${slotName(slot)} is wanted twice.`,
     total: (count: number, frames: number, downloadMs: number): string =>
       `${counted(count, 'group')}, ${frameCount(frames)} on the board, about ${formatRoughly(downloadMs)} to download`,

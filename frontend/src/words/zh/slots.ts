@@ -97,6 +97,7 @@ export const slotWords: typeof english = {
     all: (count) => `全部${formatCount(count)}个`,
     about: (count, durationMs) => `${frameCount(count)}，${formatSeconds(durationMs)}`,
     slotOf: (name) => `${name}的槽位`,
+    noFrame: '还没有帧。',
     sameSlot: (slot) => `${slotName(slot)}被用了两次。`,
     total: (count, frames, downloadMs) =>
       `${formatCount(count)}个动作组，控制板上${frameCount(frames)}，下载约${formatRoughly(downloadMs)}`,
