@@ -3,11 +3,11 @@
 
 import { useRef, useState } from 'react';
 import { usePoses, useStores } from '../stores/stores.ts';
-import { EmptyState } from '../ui/EmptyState.tsx';
 import type { PanelParts } from '../ui/Panel.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { BlendBar } from './BlendBar.tsx';
+import { EmptyPoses } from './EmptyPoses.tsx';
 import { PoseList } from './PoseList.tsx';
 import { PoseTools, type Drawer } from './PoseTools.tsx';
 import { PoseVerbs } from './PoseVerbs.tsx';
@@ -36,7 +36,7 @@ function Content() {
   return (
     <>
       <div ref={cards} className={styles.cards}>
-        {isEmpty ? <EmptyState title={words.poses.empty} hint={words.poses.emptyHint} /> : <PoseList />}
+        {isEmpty ? <EmptyPoses /> : <PoseList />}
       </div>
       <PoseTools drawer={drawer} onDrawer={setDrawer} />
       {pose !== undefined && drawer === 'servos' && <ServoPicker pose={pose} />}
