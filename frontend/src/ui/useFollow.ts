@@ -6,7 +6,7 @@ import { Sight, type InSight } from './sight.ts';
 import { useEachFrame } from './useEachFrame.ts';
 
 export interface Follow<T> {
-  /** Asked once a frame for what is to be shown. */
+  /** Asked on each beat for what is to be shown. */
   read(): T;
   isSame?(one: T, other: T): boolean;
   draw(value: T): void;
@@ -46,6 +46,7 @@ export function useFollow<T>(follow: Follow<T>): void {
     draw(now.value);
   }
 
+  // What is drawn at rest alone has no beat of its own.
   const isFollowedNow = (): boolean => isInSight.current && !onlyAtRest;
   useEachFrame(() => isFollowedNow() && look(true), { eachMs: onlyAtRest ? REST_MS : eachMs });
   useEachFrame(() => isFollowedNow() || look(false), { eachMs: REST_MS, turnMs });
