@@ -4,6 +4,9 @@ import { setColour, setEasing, setNote } from '#shared/actions/group/frameEdits.
 import { clipFromText, clipToText } from './clipText.ts';
 import { smallGroup } from './timelineUnderTest.ts';
 
+/** As another window gets it. */
+const fromElsewhere = (text: string) => clipFromText(`${text}\n`);
+
 test('copied keys come back from the text that stands for them', () => {
   const refs = [
     { frameId: 2, servo: 1 },
@@ -11,7 +14,7 @@ test('copied keys come back from the text that stands for them', () => {
     { frameId: 3, servo: 3 },
   ];
   const clip = copyKeys(setEasing(smallGroup(), [3], 'hold'), refs);
-  expect(clipFromText(clipToText(clip))).toEqual(clip);
+  expect(fromElsewhere(clipToText(clip))).toEqual(clip);
 });
 
 test('so do frames, with what is said of them', () => {
@@ -20,7 +23,12 @@ test('so do frames, with what is said of them', () => {
     ['Up', null],
     ['', 'plum'],
   ]);
-  expect(clipFromText(clipToText(clip))).toEqual(clip);
+  expect(fromElsewhere(clipToText(clip))).toEqual(clip);
+});
+
+test('what was copied here is not read again', () => {
+  const clip = copyFrames(smallGroup(), [1, 3]);
+  expect(clipFromText(clipToText(clip))).toBe(clip);
 });
 
 test('any other text is no clip', () => {

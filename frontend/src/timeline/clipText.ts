@@ -4,10 +4,18 @@
 import { clipGroup, copyFrames, type Clip } from '#shared/actions/group/clip.ts';
 import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
 
-export const clipToText = (clip: Clip): string => groupToText(clipGroup(clip));
+/** What was copied here is mostly pasted here: to read it again takes longer than to paste it. */
+let latest: { readonly text: string; readonly clip: Clip } | null = null;
+
+export function clipToText(clip: Clip): string {
+  const text = groupToText(clipGroup(clip));
+  latest = { text, clip };
+  return text;
+}
 
 /** null where it is no such text. */
 export function clipFromText(text: string): Clip | null {
+  if (text === latest?.text) return latest.clip;
   const read = groupFromText(text);
   if (!('value' in read)) return null;
   return copyFrames(

@@ -103,14 +103,17 @@ function cursorAmong({ rows, state: { cursor } }: Desk, refs: readonly KeyRef[])
 
 /** The very set that was there, where it says the same: whoever shows it has nothing to do. */
 const sameOr = (before: KeySet, after: KeySet): KeySet =>
-  before.size === after.size && [...after].every((name) => before.has(name)) ? before : after;
+  before === after || (before.size === after.size && [...after].every((name) => before.has(name)))
+    ? before
+    : after;
 
 /** Null: what is still there. The frame strip goes along. */
 export function select(stores: DeskStores, wanted: KeySet | null, cursor?: Cursor): void {
   const times = timesOf(stores.document.store.getState().present);
   const before = stores.timeline.getState();
-  const keys = selectedKeys(times, wanted ?? before.selected);
-  const selected = sameOr(before.selected, keySet(keys));
+  const meant = wanted ?? before.selected;
+  const keys = selectedKeys(times, meant);
+  const selected = sameOr(before.selected, keys.length === meant.size ? meant : keySet(keys));
   setChanged(stores.timeline, { selected, marker: null, cursor: sameCursor(before.cursor, cursor) });
   const frames = new Set(keys.map(({ frameId }) => frameId));
   const at = (cursor ?? before.cursor).frameId;

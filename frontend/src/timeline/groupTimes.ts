@@ -97,16 +97,30 @@ const selections = new WeakMap<GroupTimes, WeakMap<KeySet, readonly Key[]>>();
 export function selectedKeys(times: GroupTimes, selected: KeySet): readonly Key[] {
   const ofTimes = selections.get(times) ?? new WeakMap<KeySet, readonly Key[]>();
   selections.set(times, ofTimes);
-  const keys =
-    ofTimes.get(selected) ??
-    refsOf(selected)
-      .flatMap((ref) => keyOf(times, ref) ?? [])
-      .sort(inOrder);
+  const keys = ofTimes.get(selected) ?? keysNamed(times, refsOf(selected));
   ofTimes.set(selected, keys);
   return keys;
 }
 
-const inOrder = (one: Key, other: Key): number => one.servo - other.servo || one.atMs - other.atMs;
+/** Names mostly come in the order of time: the next key of a servo stands right behind the one found last. */
+function keysNamed(times: GroupTimes, refs: readonly KeyRef[]): readonly Key[] {
+  const found = new Map<number, Key[]>();
+  const ahead = new Map<number, number>();
+  for (const ref of refs) {
+    const keys = times.tracks.get(ref.servo)?.keys ?? [];
+    const place = ahead.get(ref.servo) ?? 0;
+    const isNext = keys[place]?.frameId === ref.frameId;
+    const key = isNext ? keys[place] : keyOf(times, ref);
+    if (key === undefined) continue;
+    const own = found.get(ref.servo) ?? [];
+    if (own.length === 0) found.set(ref.servo, own);
+    if (isNext || own.length === 0) ahead.set(ref.servo, (isNext ? place : keys.indexOf(key)) + 1);
+    own.push(key);
+  }
+  return [...found]
+    .sort(([one], [other]) => one - other)
+    .flatMap(([, keys]) => keys.sort((one, other) => one.atMs - other.atMs));
+}
 
 /** The times of these keys, first and last; null where there are none. */
 export function spanOf(keys: readonly Key[]): { readonly fromMs: number; readonly toMs: number } | null {

@@ -5,12 +5,13 @@ import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { createDesk } from '../stores/deskUnderTest.ts';
 import { createDocument } from '../stores/group/document.ts';
-import { refsOf, keySet } from '../stores/timeline/keySet.ts';
+import { keySet } from '../stores/timeline/keySet.ts';
 import { createTimeline } from '../stores/timeline/timeline.ts';
 import { createView } from '../stores/view.ts';
 import { deskOf, select } from './desk.ts';
 import type { Held } from './gesture.ts';
 import { gestureOf } from './gestures.ts';
+import { selectedKeys } from './groupTimes.ts';
 import { actionOf } from './keymap.ts';
 import { keyY, sceneOf } from './scene.ts';
 import { sizesOf } from './sizes.ts';
@@ -76,7 +77,12 @@ export async function createTimelineDesk() {
     ...{ stores, desk, group, told, spotOf, press },
     select: (...keys: readonly (readonly [frameId: number, servo: number])[]) =>
       select(stores, keySet(keys.map(([frameId, servo]) => ({ frameId, servo })))),
-    selected: () => refsOf(stores.timeline.getState().selected).map(({ frameId, servo }) => [frameId, servo]),
+    /** Servo by servo, in the order of time. */
+    selected: () =>
+      selectedKeys(desk().times, stores.timeline.getState().selected).map(({ frameId, servo }) => [
+        frameId,
+        servo,
+      ]),
     drag(spot: { x: number; y: number }, x: number, y: number, held: Partial<Held> = {}) {
       const gesture = press(spot, held);
       gesture.by(x, y);
