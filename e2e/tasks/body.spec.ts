@@ -1,6 +1,7 @@
 // The servos on the body: picked on the picture, moved below it, arranged as their owner sees them. And with a finger, which
 // scrolls more often than it moves a servo.
 
+import type { Page } from '@playwright/test';
 import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
 import { robotToText } from '#shared/actions/robot/robotText.ts';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
@@ -11,6 +12,12 @@ const HUMANOID = readyRobot('humanoid16', 'doc', {
   role: (role) => role,
   limb: (limb) => limb,
 });
+
+const rememberHumanoid = (page: Page): Promise<unknown> =>
+  page.addInitScript(
+    (robots) => localStorage.getItem('servodeck.robots') ?? localStorage.setItem('servodeck.robots', robots),
+    JSON.stringify({ files: [{ id: 1, file: robotToText(HUMANOID) }], currentId: 1, nextId: 2 }),
+  );
 
 test('a servo picked on the body is moved by the one slider below @everyWay', async ({
   dashboard,
@@ -34,13 +41,7 @@ test('a servo picked on the body is moved by the one slider below @everyWay', as
 });
 
 test.describe('of a humanoid', () => {
-  test.beforeEach(({ page }) =>
-    page.addInitScript(
-      (robots) =>
-        localStorage.getItem('servodeck.robots') ?? localStorage.setItem('servodeck.robots', robots),
-      JSON.stringify({ files: [{ id: 1, file: robotToText(HUMANOID) }], currentId: 1, nextId: 2 }),
-    ),
-  );
+  test.beforeEach(({ page }) => rememberHumanoid(page));
 
   test('a servo is dragged and pushed to another place, and stays there', async ({ dashboard, page }) => {
     await page.getByRole('radio', { name: 'Body' }).check();
@@ -104,6 +105,42 @@ test.describe('of a humanoid', () => {
     await dashboard.button('leftLeg, 5 servos').click();
     await expect(dashboard.slider(3)).toBeHidden();
     await expect(dashboard.slider(9)).toBeVisible();
+  });
+});
+
+test.describe('of a humanoid on a phone', () => {
+  test.use({ hasTouch: true, isMobile: true, viewport: { width: 390, height: 844 } });
+  test.beforeEach(({ page }) => rememberHumanoid(page));
+
+  test('a pose with wide arms is whole within the picture, in the list and on the body', async ({
+    dashboard,
+    page,
+  }) => {
+    const picture = page.getByRole('img', { name: /Walker/ });
+    const overhang = () =>
+      picture.evaluate((drawn) => {
+        const room = drawn.getBoundingClientRect();
+        const boxes = [...drawn.querySelectorAll('path')].map((bone) => bone.getBoundingClientRect());
+        const [left, right] = [
+          Math.min(...boxes.map((box) => box.left)),
+          Math.max(...boxes.map((box) => box.right)),
+        ];
+        const seen = { left: Math.max(0, room.left), right: Math.min(innerWidth, room.right) };
+        return Math.max(0, Math.round(seen.left - left), Math.round(right - seen.right));
+      });
+    for (const arm of [8, 16]) {
+      await dashboard.type(dashboard.target(arm), arm === 8 ? 500 : 2500);
+      await expect(dashboard.estimate(arm)).toHaveText(arm === 8 ? '≈ 500' : '≈ 2500', { timeout: 15_000 });
+    }
+    expect(await overhang()).toBe(0);
+    await page.getByRole('radio', { name: 'Body' }).check();
+    expect(await overhang()).toBe(0);
+  });
+
+  test('servos below each other fill the screen, which scrolls as one', async ({ dashboard }) => {
+    await dashboard.slider(12).scrollIntoViewIfNeeded();
+    await dashboard.slider(9).scrollIntoViewIfNeeded();
+    for (const servo of [9, 10, 11]) await expect(dashboard.slider(servo)).toBeInViewport();
   });
 });
 

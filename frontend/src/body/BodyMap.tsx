@@ -1,6 +1,6 @@
 // The servos where they sit on the body: pressing one selects it. While arranging, they are dragged to other places instead.
 
-import { useRef, useState, type KeyboardEvent } from 'react';
+import { useRef, useState, type CSSProperties, type KeyboardEvent } from 'react';
 import type { BodyKind } from '#shared/actions/robot/robot.ts';
 import { undoActionOf } from '../actions/useUndoKeys.ts';
 import { useRobot, useServoView, useStores } from '../stores/stores.ts';
@@ -11,12 +11,14 @@ import { ArrangedPlace } from './ArrangedPlace.tsx';
 import { LiveArm } from './LiveArm.tsx';
 import { LiveBones } from './LiveBones.tsx';
 import { Place } from './Place.tsx';
+import { reachOf, type Reach } from './reach.ts';
 import { UnknownNote } from './UnknownNote.tsx';
 import styles from './BodyMap.module.css';
 
 export function BodyMap({ isArrangingFirst = false }: { readonly isArrangingFirst?: boolean }) {
   const { robots } = useStores();
-  const { body, servos } = useRobot();
+  const robot = useRobot();
+  const { body, servos } = robot;
   const hidden = useServoView((view) => view.hidden);
   const [isArranging, setArranging] = useState(isArrangingFirst);
   const stage = useRef<HTMLDivElement>(null);
@@ -34,18 +36,20 @@ export function BodyMap({ isArrangingFirst = false }: { readonly isArrangingFirs
 
   return (
     <div className={styles.map} onKeyDown={undoKey}>
-      <div className={styles.room}>
-        <div ref={stage} className={styles.stage} data-body={body}>
+      <div className={styles.room} data-body={body} style={ratioFor(reachOf(robot))}>
+        <div className={styles.stage}>
           <Picture body={body} />
-          <ul className={styles.places} aria-label={words.servoPanel.places}>
-            {shown.map((servo) =>
-              isArranging ? (
-                <ArrangedPlace key={servo.servo} servo={servo} stage={stage} />
-              ) : (
-                <Place key={servo.servo} servo={servo} order={order} />
-              ),
-            )}
-          </ul>
+          <div ref={stage} className={styles.places} style={placesIn(reachOf(robot))}>
+            <ul aria-label={words.servoPanel.places}>
+              {shown.map((servo) =>
+                isArranging ? (
+                  <ArrangedPlace key={servo.servo} servo={servo} stage={stage} />
+                ) : (
+                  <Place key={servo.servo} servo={servo} order={order} />
+                ),
+              )}
+            </ul>
+          </div>
         </div>
       </div>
       <div className={styles.foot}>
@@ -62,4 +66,19 @@ export function BodyMap({ isArrangingFirst = false }: { readonly isArrangingFirs
 function Picture({ body }: { readonly body: BodyKind }) {
   if (body === 'plain') return null;
   return <div className={styles.picture}>{body === 'arm' ? <LiveArm /> : <LiveBones />}</div>;
+}
+
+/** A body by bones has room for each of its poses. */
+function ratioFor(reach: Reach | null): CSSProperties {
+  if (reach === null) return {};
+  return { '--ratio': (reach.right - reach.left) / (reach.bottom - reach.top) } as CSSProperties;
+}
+
+/** The square that places are percent of, in that room. */
+function placesIn(reach: Reach | null): CSSProperties {
+  if (reach === null) return { inset: 0 };
+  const { left, top, right, bottom } = reach;
+  const across = (by: number): string => `${(by / (right - left)) * 100}%`;
+  const down = (by: number): string => `${(by / (bottom - top)) * 100}%`;
+  return { left: across(-left), top: down(-top), width: across(100), height: down(100) };
 }

@@ -11,6 +11,7 @@ import { BoneFigure, drawBones } from './BoneFigure.tsx';
 import { bonesOf, type BonePicture } from './bones.ts';
 import { usePreview } from './usePreview.ts';
 import { motionsInFrame } from './motionInFrame.ts';
+import { reachOf, viewBoxOf } from './reach.ts';
 import { useMotions } from './useMotions.ts';
 import styles from './LiveBones.module.css';
 
@@ -45,13 +46,13 @@ export function LiveBones({ className }: { readonly className?: string | undefin
     figure?.setAttribute('visibility', bones === null ? 'hidden' : 'visible');
     if (bones !== null && figure instanceof SVGGElement) drawBones(figure, bones);
   });
-  const [estimated, target] = [now('estimated'), now('target')];
-  if (estimated === null || target === null) return null;
+  const [estimated, target, reach] = [now('estimated'), now('target'), reachOf(robot)];
+  if (estimated === null || target === null || reach === null) return null;
   return (
     <svg
       ref={picture}
       className={cx(styles.picture, className)}
-      viewBox="0 0 100 100"
+      viewBox={viewBoxOf(reach)}
       role="img"
       aria-label={words.servoPanel.figure(robot.name)}
       data-previewing={isPreviewing}

@@ -8,6 +8,7 @@ import { ArmFigure } from './ArmFigure.tsx';
 import { BoneFigure } from './BoneFigure.tsx';
 import { bonesOf } from './bones.ts';
 import { armPicture, fraction, sameLook } from './pose.ts';
+import { roomFor, viewBoxOf } from './reach.ts';
 import styles from './PoseThumb.module.css';
 
 export interface PoseThumbProps {
@@ -42,7 +43,7 @@ export function RobotThumb({ robot, pose, changed, family }: RobotThumbProps) {
         </svg>
       )}
       {bones !== null && (
-        <svg className={styles.bones} viewBox="0 0 100 100">
+        <svg className={styles.bones} viewBox={viewBoxOf(roomFor(bones))}>
           <BoneFigure picture={bones} look="small" />
         </svg>
       )}

@@ -44,10 +44,10 @@ const FOLD = 0.65;
 const TIP = 0.7;
 
 /** Null for bodies that are not drawn by bones. */
-export function bonesOf({ body, servos }: Robot, pose: Pose): BonePicture | null {
-  if (body === 'humanoid') return humanoid(servos, pose);
-  if (body === 'hexapod') return hexapod(servos, pose);
-  return body === 'hand' ? hand(servos, pose) : null;
+export function bonesOf(robot: Robot, pose: Pose): BonePicture | null {
+  if (robot.body === 'humanoid') return humanoid(jointedLimbs(robot), pose);
+  if (robot.body === 'hexapod') return hexapod(jointedLimbs(robot), pose);
+  return robot.body === 'hand' ? hand(robot.servos, pose) : null;
 }
 
 /** What a joint does to the rest of its limb. */
@@ -76,23 +76,34 @@ const foreshortened = (degrees: number): number => Math.max(SHORTEST, Math.abs(M
 /** The servos of a limb, from the trunk on. */
 type Chain = readonly RobotServo[];
 
+export interface Limb {
+  readonly chain: Chain;
+  readonly kinematics: Kinematics;
+}
+
+/** Of a humanoid or a hexapod; others have none. */
+export function jointedLimbs({ body, servos }: Robot): readonly Limb[] {
+  if (body === 'hexapod') return chainsOf(servos, CENTRE).map((chain) => ({ chain, kinematics: lifting }));
+  if (body !== 'humanoid') return [];
+  const kinematicsOf = (chain: Chain): Kinematics => (isLeg(chain) ? standing : bending);
+  return chainsOf(servos, HUMANOID_CENTRE).map((chain) => ({ chain, kinematics: kinematicsOf(chain) }));
+}
+
 const chainsOf = (servos: readonly RobotServo[], centre: Point): readonly Chain[] =>
   limbsOf(servos).map((limb) =>
     limb.servos.toSorted((one, other) => distance(one.place, centre) - distance(other.place, centre)),
   );
 
-const trunkOf = (chains: readonly Chain[]): readonly Point[] =>
-  aroundMiddle(chains.flatMap(([root]) => (root === undefined ? [] : [root.place])));
+const trunkOf = (limbs: readonly Limb[]): readonly Point[] =>
+  aroundMiddle(limbs.map(({ chain }) => rootOf(chain)));
 
 /** It stands on the lower of its feet: where both legs bend, all of it sinks. */
-function humanoid(servos: readonly RobotServo[], pose: Pose): BonePicture {
-  const chains = chainsOf(servos, HUMANOID_CENTRE);
-  const posed = (as: Pose): readonly Bone[] =>
-    chains.flatMap((chain) => limb(chain, as, isLeg(chain) ? standing : bending));
+function humanoid(limbs: readonly Limb[], pose: Pose): BonePicture {
+  const posed = (as: Pose): readonly Bone[] => limbs.flatMap((limb) => bonesOfLimb(limb, as));
   const bones = posed(pose);
   const by = { x: 0, y: lowest(posed(() => null)) - lowest(bones) };
   return {
-    trunk: trunkOf(chains).map((corner) => added(corner, by)),
+    trunk: trunkOf(limbs).map((corner) => added(corner, by)),
     shadow: [],
     bones: bones.map((bone) => ({ ...bone, from: added(bone.from, by), to: added(bone.to, by) })),
   };
@@ -108,16 +119,15 @@ function isLeg(chain: Chain): boolean {
 
 const lowest = (bones: readonly Bone[]): number => Math.max(0, ...bones.map(({ to }) => to.y));
 
-function hexapod(servos: readonly RobotServo[], pose: Pose): BonePicture {
-  const chains = chainsOf(servos, CENTRE);
-  const trunk = trunkOf(chains);
-  const reaches = chains.map((chain) => reachDown(chain, pose)).toSorted((one, other) => other - one);
+function hexapod(limbs: readonly Limb[], pose: Pose): BonePicture {
+  const trunk = trunkOf(limbs);
+  const reaches = limbs.map(({ chain }) => reachDown(chain, pose)).toSorted((one, other) => other - one);
   const height = Math.max(0, reaches[STANDS_ON - 1] ?? 0);
   const aside = SHADOW.least + height * SHADOW.each;
   return {
     trunk,
     shadow: trunk.map((corner) => added(corner, { x: aside, y: aside })),
-    bones: chains.flatMap((chain) => limb(chain, pose, lifting)),
+    bones: limbs.flatMap((limb) => bonesOfLimb(limb, pose)),
   };
 }
 
@@ -134,22 +144,29 @@ function reachDown(chain: Chain, pose: Pose): number {
   );
 }
 
-function limb(chain: Chain, pose: Pose, kinematics: Kinematics): Bone[] {
+function bonesOfLimb(limb: Limb, pose: Pose): Bone[] {
   const bones: Bone[] = [];
-  let from = chain[0]?.place ?? CENTRE;
+  let from = rootOf(limb.chain);
   let known = true;
   const turns: number[] = [];
-  for (const [index, servo] of chain.entries()) {
+  for (const servo of limb.chain) {
     const position = pose(servo.servo);
     known &&= position !== null;
     turns.push(degreesOf(servo, position ?? servo.home));
-    const { degrees, length } = kinematics(turns);
-    const to = added(from, turned(restBone(chain, index), degrees, length));
+    const to = added(from, lastBone(limb, turns));
     bones.push({ servo: servo.servo, from, to, known });
     from = to;
   }
   return bones;
 }
+
+/** The bone of the joint that turned last, from its own start. */
+export function lastBone({ chain, kinematics }: Limb, turns: readonly number[]): Point {
+  const { degrees, length } = kinematics(turns);
+  return turned(restBone(chain, turns.length - 1), degrees, length);
+}
+
+export const rootOf = (chain: Chain): Point => chain[0]?.place ?? CENTRE;
 
 /** From this servo's place to the next one's; the last goes on as the one before it. */
 function restBone(chain: Chain, index: number): Point {
@@ -159,9 +176,12 @@ function restBone(chain: Chain, index: number): Point {
   return before === undefined ? { x: 0, y: 8 } : turned(vector(before.place, here.place), 0, TIP);
 }
 
+export const handBase = (servos: readonly RobotServo[]): RobotServo | undefined =>
+  servos.find(({ place }) => place.y > PALM.y);
+
 /** Fingers grow from the palm to their places, and the base turns all of it. */
 function hand(servos: readonly RobotServo[], pose: Pose): BonePicture {
-  const base = servos.find(({ place }) => place.y > PALM.y);
+  const base = handBase(servos);
   const turn = base === undefined ? 0 : degreesOf(base, pose(base.servo) ?? base.home) * BEND;
   const about = base?.place ?? PALM;
   const seen = (point: Point): Point => added(about, turned(vector(about, point), turn, 1));
