@@ -353,4 +353,26 @@ test.describe('with fingers', () => {
     }
     await expect(timeline.selected).toHaveCount(2);
   });
+
+  test('arrows below the lanes nudge what is selected in time and value', async ({ page, robot }) => {
+    await robot.open(page);
+    await expect(dashboardOf(page).link).toContainText('Ready');
+    await page.getByRole('tab', { name: 'Actions' }).click();
+    const timeline = timelineOf(page);
+    const arrow = (name: string) =>
+      timeline.region.getByRole('group', { name: 'By a little' }).getByRole('button', { name });
+    await expect(arrow('Later by 20 ms')).toBeDisabled();
+    const key = timeline.key('Gripper, 1.00 s, 1200 µs, linear');
+    await key.scrollIntoViewIfNeeded();
+    const { touch } = await fingersOf(page);
+    await touch('touchStart', await timeline.middleOf(key));
+    await touch('touchEnd');
+    await arrow('Later by 20 ms').tap();
+    await arrow('Higher by 1 µs').tap();
+    await arrow('Higher by 1 µs').tap();
+    await expect(timeline.key('Gripper, 1.02 s, 1202 µs, linear')).toBeAttached();
+    await arrow('Earlier by 20 ms').tap();
+    await arrow('Lower by 1 µs').tap();
+    await expect(timeline.key('Gripper, 1.00 s, 1201 µs, linear')).toBeAttached();
+  });
 });

@@ -13,6 +13,7 @@ import { changeable, whyHeld } from './desk.ts';
 import { selectedKeys } from './groupTimes.ts';
 import { selectedMarker } from './markers.ts';
 import { servoAtHand } from './moving.ts';
+import { NudgeTools } from './NudgeTools.tsx';
 import { turnText } from './positions.ts';
 import { servoRowId } from './rows.ts';
 import { useDesk, type SeenDesk } from './useDesk.ts';
@@ -33,6 +34,7 @@ export const StatusText = memo(function StatusText({ status, tells }: Said) {
         {tells !== undefined && <LiveText className={styles.dragged} text={tells} eachMs={READABLE_MS} />}
         {textOf(desk, status)}
       </p>
+      {isTouch() && <NudgeTools desk={desk} />}
       {hidden > 0 && (
         <Button tone="quiet" onPress={() => editServoView(stores, (view) => ({ ...view, hidden: [] }))}>
           {words.timeline.rows.showHidden(hidden)}

@@ -111,6 +111,13 @@ export const timelineWords = {
     nextMarker: 'Next marker',
   },
   markerVerbs,
+  nudge: 'By a little',
+  nudges: {
+    earlier: (by: string): string => `Earlier by ${by}`,
+    later: (by: string): string => `Later by ${by}`,
+    lower: (by: string): string => `Lower by ${by}`,
+    higher: (by: string): string => `Higher by ${by}`,
+  },
   more: 'More',
   change: 'Change',
   look: 'Select and look',
@@ -233,7 +240,8 @@ export const timelineWords = {
   byTouch: {
     nothing:
       'Touch a key to select it. Rest a finger for more, or drag on to select several. Two fingers zoom.',
-    selected: (about: string): string => `${about}. Drag to move. Rest a finger for more.`,
+    selected: (about: string): string =>
+      `${about}. Drag it, or nudge it with the arrows. Rest a finger for more.`,
     marker: (about: string): string => `${about}. Drag to move it. Rest a finger on it for more.`,
   },
 };

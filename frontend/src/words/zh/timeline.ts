@@ -84,6 +84,13 @@ export const timelineWords: typeof english = {
     nextMarker: '下一个标记',
   },
   markerVerbs: { marker: '重命名标记', remove: '删除标记' },
+  nudge: '微调',
+  nudges: {
+    earlier: (by) => `提前${by}`,
+    later: (by) => `推后${by}`,
+    lower: (by) => `调低${by}`,
+    higher: (by) => `调高${by}`,
+  },
   more: '更多',
   change: '修改',
   look: '选择和查看',
@@ -196,7 +203,7 @@ export const timelineWords: typeof english = {
     `${about}。方向键移动${formatWhole(tickMs)}毫秒；按住Shift为十倍。M重命名，Delete删除。`,
   byTouch: {
     nothing: '点按关键帧来选择。长按打开菜单，按住再拖动可多选。双指缩放。',
-    selected: (about) => `${about}。拖动来移动。长按打开菜单。`,
+    selected: (about) => `${about}。拖动，或用箭头微调。长按打开菜单。`,
     marker: (about) => `${about}。拖动来移动。在标记上长按打开菜单。`,
   },
 };
