@@ -50,6 +50,25 @@ test('positions are shown and typed in degrees from home', async ({ dashboard, r
   await expect(dashboard.notices).toContainText('Elbow: 91° is out of range; it takes -90° to 90°.');
 });
 
+test('a refused number is not spoken of any more once one is taken, typed or by the slider', async ({
+  dashboard,
+}) => {
+  for (const [field, wrong, right] of [
+    [dashboard.target(4), 9999, 1500],
+    [dashboard.target(4), 9999, 1600],
+    [dashboard.slot, 999, 3],
+  ] as const) {
+    await dashboard.type(field, wrong);
+    await expect(dashboard.notices).toContainText(/out of range/);
+    await dashboard.type(field, right);
+    await expect(dashboard.notices).not.toContainText(/out of range/);
+  }
+  await dashboard.type(dashboard.target(4), 9999);
+  await expect(dashboard.notices).toContainText('9999 is out of range');
+  await dashboard.slider(4).press('ArrowRight');
+  await expect(dashboard.notices).not.toContainText(/out of range/);
+});
+
 test('the wheel steps a known servo that has the focus and nothing else; a double click sends home', async ({
   dashboard,
   robot,

@@ -112,7 +112,7 @@ const FrameTime = memo(function FrameTime({ id, durationMs, number, isTabStop }:
           (group) => setDuration(group, id, wantedMs, { ripple: true }),
         )
       }
-      onRefused={(value) => notices.tell('warning', words.refused(label, value, min, max))}
+      onRefused={(value) => notices.refuse(words.refused(label, value, min, max))}
     />
   );
 });

@@ -85,7 +85,7 @@ function Thresholds({ robot: { batteryCare } }: { readonly robot: Robot }) {
     ...BATTERY_MV,
     step: 50,
     unit: words.battery.millivolts,
-    onRefused: () => notices.tell('warning', words.battery.outOfRange(BATTERY_MV.min, BATTERY_MV.max)),
+    onRefused: () => notices.refuse(words.battery.outOfRange(BATTERY_MV.min, BATTERY_MV.max)),
   };
   return (
     <div className={styles.part}>

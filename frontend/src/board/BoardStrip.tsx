@@ -45,7 +45,7 @@ function SlotField() {
         max={max}
         size="small"
         onChange={(value) => view.setState({ slot: value })}
-        onRefused={(value) => notices.tell('warning', words.refused(words.board.slot, value, min, max))}
+        onRefused={(value) => notices.refuse(words.refused(words.board.slot, value, min, max))}
       />
     </div>
   );

@@ -52,7 +52,7 @@ function MinutesField({ isDisabled }: { readonly isDisabled: boolean }) {
         isDisabled={isDisabled}
         onChange={(goOnMinutes) => view.setState({ goOnMinutes })}
         onRefused={(value) =>
-          notices.tell('warning', words.refused(words.board.goOnMinutes, value, 1, LONGEST_MINUTES))
+          notices.refuse(words.refused(words.board.goOnMinutes, value, 1, LONGEST_MINUTES))
         }
       />
     </div>

@@ -51,7 +51,7 @@ function TimesField({ untilStopped }: { readonly untilStopped: boolean }) {
         max={max}
         isDisabled={untilStopped}
         onChange={(value) => view.setState({ times: value })}
-        onRefused={(value) => notices.tell('warning', words.refused(words.board.times, value, 1, max))}
+        onRefused={(value) => notices.refuse(words.refused(words.board.times, value, 1, max))}
       />
     </div>
   );

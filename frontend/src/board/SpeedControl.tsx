@@ -34,7 +34,7 @@ export function SpeedControl() {
           step={10}
           unit={words.board.percent}
           onChange={setPercent}
-          onRefused={(value) => notices.tell('warning', words.refused(words.board.speed, value, min, max))}
+          onRefused={(value) => notices.refuse(words.refused(words.board.speed, value, min, max))}
         />
       </div>
       <div className={styles.running}>

@@ -76,7 +76,7 @@ function ErrorField() {
           )
         }
         onRefused={(units) =>
-          notices.tell('warning', words.refused(words.compile.errorField, units, 1, MOST_ERROR_UNITS))
+          notices.refuse(words.refused(words.compile.errorField, units, 1, MOST_ERROR_UNITS))
         }
       />
     </div>

@@ -96,7 +96,7 @@ function Field({ range: { min, max }, ...field }: FieldProps) {
   return (
     <NumberField
       {...{ min, max, ...field }}
-      onRefused={(value) => notices.tell('warning', words.refused(field.label, value, min, max))}
+      onRefused={(value) => notices.refuse(words.refused(field.label, value, min, max))}
     />
   );
 }

@@ -111,7 +111,7 @@ function Speed({ value, onChange }: FieldProps) {
       step={10}
       {...{ value, onChange, ...range }}
       onRefused={(wanted) =>
-        notices.tell('warning', words.refused(words.pad.speedField, wanted, range.min, range.max))
+        notices.refuse(words.refused(words.pad.speedField, wanted, range.min, range.max))
       }
     />
   );
@@ -126,7 +126,7 @@ function Time({ value, onChange }: FieldProps) {
       unit={words.servos.ms}
       step={100}
       {...{ value, onChange, min, max }}
-      onRefused={(wanted) => notices.tell('warning', words.refused(words.poses.time, wanted, min, max))}
+      onRefused={(wanted) => notices.refuse(words.refused(words.poses.time, wanted, min, max))}
     />
   );
 }
@@ -138,7 +138,7 @@ function Slot({ value, onChange }: FieldProps) {
     <NumberField
       label={words.pad.slot}
       {...{ value, onChange, min, max }}
-      onRefused={(wanted) => notices.tell('warning', words.refused(words.pad.slot, wanted, min, max))}
+      onRefused={(wanted) => notices.refuse(words.refused(words.pad.slot, wanted, min, max))}
     />
   );
 }

@@ -159,9 +159,7 @@ function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
         size="small"
         isDisabled={isDisabled}
         onChange={(percent) => playback.set({ speedPercent: percent })}
-        onRefused={(percent) =>
-          notices.tell('warning', words.refused(words.play.speedField, percent, min, max))
-        }
+        onRefused={(percent) => notices.refuse(words.refused(words.play.speedField, percent, min, max))}
       />
       <Toggle
         label={words.play.live}

@@ -73,7 +73,7 @@ function PoseTime() {
         step={100}
         unit={words.servos.ms}
         onChange={(durationMs) => view.setState({ poseMs: durationMs })}
-        onRefused={(value) => notices.tell('warning', words.refused(words.poses.time, value, min, max))}
+        onRefused={(value) => notices.refuse(words.refused(words.poses.time, value, min, max))}
       />
     </span>
   );

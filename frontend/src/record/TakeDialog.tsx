@@ -58,9 +58,7 @@ function Take({ samples, onClose }: TakeDialogProps) {
           max={MOST_ERROR}
           unit={words.numbers.unitSymbol(unit)}
           onChange={setMaxError}
-          onRefused={(value) =>
-            notices.tell('warning', words.refused(words.record.errorField, value, 1, MOST_ERROR))
-          }
+          onRefused={(value) => notices.refuse(words.refused(words.record.errorField, value, 1, MOST_ERROR))}
         />
       </div>
       <p role="status">{words.record.result(lengthOf(samples), samples.length, keyCount)}</p>

@@ -41,7 +41,7 @@ export function MoveTimeControl() {
         unit={words.servos.ms}
         isDisabled={!isTimed}
         onChange={setMs}
-        onRefused={(value) => notices.tell('warning', words.refused(words.servos.moveTime, value, min, max))}
+        onRefused={(value) => notices.refuse(words.refused(words.servos.moveTime, value, min, max))}
       />
       <p className={styles.about}>{words.servos.moveTimeAbout[isTimed ? 'timed' : 'hand']}</p>
     </div>

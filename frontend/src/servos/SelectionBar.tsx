@@ -152,8 +152,7 @@ function Weights({ selected }: SelectedProps) {
             unit={words.servoPanel.percent}
             onChange={(percent) => set(servo, percent)}
             onRefused={(value) =>
-              notices.tell(
-                'warning',
+              notices.refuse(
                 words.refused(words.servoPanel.weight(servo), value, -MOST_PERCENT, MOST_PERCENT),
               )
             }

@@ -61,16 +61,27 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
   const area = useRef<HTMLDivElement>(null);
   /** Whoever reads why turns the wheel to scroll. */
   const isRefused = useRef(false);
+  const refusal = useRef<(() => void) | null>(null);
   const touch = (): void => {
     isRefused.current = false;
   };
-  const move = (position: number): void => {
+  /** What was refused before is of no interest any more. */
+  const take = (): void => {
     touch();
+    refusal.current?.();
+    refusal.current = null;
+  };
+  const move = (position: number): void => {
+    take();
     hand.move(servo, position);
   };
   const leap = (position: number): void => {
-    touch();
+    take();
     hand.leap(servo, position);
+  };
+  const drag = (position: number): void => {
+    take();
+    hand.drag(servo, position);
   };
   useWheelSteps(area, {
     mayStep: () =>
@@ -94,7 +105,7 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
         {...{ servo: own, family, scale, isKnown, guess, blocked }}
         onMove={move}
         onLeap={leap}
-        onDrag={(position) => hand.drag(servo, position)}
+        onDrag={drag}
         onHome={() => hand.home([servo])}
       />
       <TargetField
@@ -104,7 +115,10 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
           touch();
           return hand.place(servo, position);
         }}
-        onRefused={() => (isRefused.current = true)}
+        onRefused={(takeBack) => {
+          isRefused.current = true;
+          refusal.current = takeBack;
+        }}
       />
       <div className={styles.readings}>
         <Estimate servo={servo} scale={scale} />
@@ -123,7 +137,7 @@ interface TargetFieldProps {
   onStep(position: number): void;
   /** Gives back who of those that move along stopped them at its limit, if any did. */
   onTyped(position: number): number | null;
-  onRefused(): void;
+  onRefused(takeBack: () => void): void;
 }
 
 function TargetField(props: TargetFieldProps) {
@@ -145,9 +159,10 @@ function TargetField(props: TargetFieldProps) {
     if (isStep) onStep(position);
     if (first !== null) tellStop(first);
   };
-  const refuse = (wanted: number): void => {
-    notices.tell('warning', refusal(own, wanted, scale));
-    onRefused();
+  const refuse = (wanted: number): (() => void) => {
+    const takeBack = notices.refuse(refusal(own, wanted, scale));
+    onRefused(takeBack);
+    return takeBack;
   };
   return (
     <NumberField

@@ -125,7 +125,7 @@ function Group({ document: { id, facts }, one, hindrance, toggle, setSlot }: Gro
           min={min}
           max={max}
           onChange={(slot) => setSlot(id, slot)}
-          onRefused={(slot) => notices.tell('warning', words.refused(label, slot, min, max))}
+          onRefused={(slot) => notices.refuse(words.refused(label, slot, min, max))}
         />
       )}
       {hindrance !== null && <p className={styles.warning}>{hindrance}</p>}

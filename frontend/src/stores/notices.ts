@@ -28,6 +28,8 @@ export interface Notices {
   readonly said: StoreApi<string>;
   say(text: string): void;
   tell(tone: NoticeTone, text: string, action?: NoticeAction): void;
+  /** Why a field does not take what was typed. Gives back what takes that back. */
+  refuse(text: string): () => void;
   /** It holds no longer. */
   takeBack(text: string): void;
   /** The sentence of a failure. What the person called off is no failure. */
@@ -54,9 +56,16 @@ export function createNotices(clock: Clock): Notices {
     store.setState((notices) => notices.filter((notice) => notice.id !== id), true);
   }
 
+  function takeBack(text: string): void {
+    store.setState((notices) => notices.filter((notice) => notice.text !== text), true);
+  }
+
   return {
-    ...{ store, said, tell },
-    takeBack: (text) => store.setState((notices) => notices.filter((notice) => notice.text !== text), true),
+    ...{ store, said, tell, takeBack },
+    refuse(text) {
+      tell('warning', text);
+      return () => takeBack(text);
+    },
     say: (text) => said.setState(text, true),
     tellError(error) {
       const { code, message, cause } = asLinkError(error);

@@ -1,5 +1,6 @@
 // A number one types: right-aligned, with its unit beside it. Arrow keys step by `step`, with Shift ten times as far, with
-// Alt by one. Nothing is clamped silently: a value out of range goes to `onRefused` and the field shows the old one again.
+// Alt by one. Nothing is clamped silently: a value out of range goes to `onRefused` and the field shows the old one again; what is
+// said of that holds until the next number is taken.
 // A bare input: a library's number field costs a millisecond each time its value changes, and 32 of them change at once.
 
 import { useRef, useState, type ComponentType, type KeyboardEvent, type RefObject } from 'react';
@@ -45,7 +46,8 @@ export interface NumberFieldProps {
   readonly excludeFromTabOrder?: boolean;
   /** `isStep`: by a key, from the value before. */
   onChange(value: number, isStep: boolean): void;
-  onRefused(value: number): void;
+  /** Gives back what takes it back. */
+  onRefused(value: number): () => void;
 }
 
 export function NumberField(props: NumberFieldProps) {
@@ -53,6 +55,7 @@ export function NumberField(props: NumberFieldProps) {
   const input = useRef<HTMLInputElement>(null);
   /** What is being typed; null while it is the value. */
   const [draft, setDraft] = useState<string | null>(null);
+  const refusal = useRef<(() => void) | null>(null);
   const live = typeof props.value === 'object' ? props.value : null;
   const value = (): number | null => (typeof props.value === 'object' ? (live?.now() ?? null) : props.value);
   const text = (): string => draft ?? value()?.toFixed(props.decimals ?? 0) ?? '';
@@ -65,8 +68,11 @@ export function NumberField(props: NumberFieldProps) {
 
   function take(wanted: number, isStep: boolean): void {
     setDraft(null);
-    if (Number.isNaN(wanted) || wanted === value()) return;
-    if (wanted < props.min || wanted > props.max) props.onRefused(wanted);
+    if (Number.isNaN(wanted)) return;
+    refusal.current?.();
+    refusal.current = null;
+    if (wanted === value()) return;
+    if (wanted < props.min || wanted > props.max) refusal.current = props.onRefused(wanted);
     else props.onChange(wanted, isStep);
     if (live !== null && isStep) write(text());
   }
