@@ -9,6 +9,7 @@ import { wireMs } from '../protocol/packet.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
 import { TIMES } from './faults/amount.ts';
+import { STOP_PACKET } from './halt.ts';
 import { LinkError } from './linkError.ts';
 import { firstMovesMs } from './rig.ts';
 import { createSession } from './session.ts';
@@ -70,10 +71,17 @@ function farGateway(clock: Clock, delayMs: number, line: Transport) {
       await put(packet, false);
     },
     sendNewest: (packet) => put(packet, true),
-    async halt() {
+    async halt(hold) {
       await sleep(clock, delayMs);
       isLatched = true;
       for (const waiting of queue.splice(0)) waiting.refuse(new LinkError('latched', 'stopped'));
+      // What is on the wire ends first.
+      while (!isFree) await sleep(clock, 1);
+      for (const packet of [STOP_PACKET, ...(hold === null ? [] : [hold])]) {
+        await line.send(packet);
+        await sleep(clock, GAP_MS);
+      }
+      await sleep(clock, delayMs);
     },
   };
   return { transport, left };
@@ -106,7 +114,7 @@ async function farSession(delayMs: number, servoCount: number) {
   move(500);
   await clock.advance(firstMovesMs(servoCount));
   gateway.left.length = 0;
-  return { ...gateway, clock, session, move, problems };
+  return { ...gateway, clock, line, session, move, problems };
 }
 
 test.each([0, 5, 20, 50].flatMap((delayMs) => [6, 32].map((servoCount) => [delayMs, servoCount] as const)))(
@@ -171,6 +179,23 @@ test('STOP: nothing of the gesture leaves once it has arrived, and its refusals 
   await halted;
   expect(left.length).toBe(before);
   expect(problems).toEqual([]);
+});
+
+test('STOP while frames are played: whatever was under way, the robot is taken to be where it is held', async () => {
+  for (let afterMs = 0; afterMs < 200; afterMs += 5) {
+    const { clock, session, line, problems } = await farSession(20, 2);
+    const frames = Array.from({ length: 40 }, (_, index) => ({
+      durationMs: 100,
+      targets: [{ servo: 1, position: 600 + 30 * index }],
+    }));
+    session.play(frames).catch((error: unknown) => expect(error).toMatchObject({ code: 'latched' }));
+    await clock.advance(3_000 + afterMs);
+    const halted = session.halt();
+    await clock.advance(1_000);
+    await halted;
+    expect(session.motions()(1).estimated, `stopped ${afterMs} ms later`).toBe(line.board.pulse(1));
+    expect(problems).toEqual([]);
+  }
 });
 
 test('whichever sliders are moved and when, each ends where it was asked, and nothing old is said', () =>

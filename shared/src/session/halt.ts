@@ -96,6 +96,8 @@ export function createHalt(options: HaltOptions): Halt {
     sentByOthers(STOP_PACKET);
     if (hold !== null) sentByOthers(hold);
     await done;
+    // What was under way left before it, and its word came behind.
+    if (hold !== null) sentByOthers(hold);
   }
 
   async function send(sequence: () => Promise<void>): Promise<void> {
