@@ -73,7 +73,7 @@ function Asked({ ask, onClose, onPass }: AskBoxProps & { readonly ask: Ask }) {
         className={asked.kind === 'text' ? styles.text : styles.number}
         inputMode={asked.kind === 'text' ? 'text' : 'decimal'}
         aria-label={words.timeline.asks[ask]}
-        title={words.timeline.asks[ask]}
+        title={ask === 'value' ? words.timeline.changes : words.timeline.asks[ask]}
         autoComplete="off"
         maxLength={asked.kind === 'text' ? asked.maxLength : 8}
         defaultValue={desk.state.typed || asked.initial(desk)}

@@ -28,6 +28,35 @@ test('a number in degrees turns each servo there, within what it can do', async 
   expect(keys(1)[0]).toEqual([500, there]);
 });
 
+test.each([
+  ['+10', 1010, 1510],
+  ['+=10', 1010, 1510],
+  ['-=100', 900, 1400],
+  ['−= 100', 900, 1400],
+  ['*1.2', 1200, 1800],
+  ['× 1,2', 1200, 1800],
+  ['/2', 500, 750],
+])('%s changes each of the selected keys by as much', async (text, first, second) => {
+  const { desk, select, keys, steps } = await createTimelineDesk();
+  select([1, 1], [2, 2]);
+  const before = steps();
+  expect(answer(desk(), 'value', text)).toBeNull();
+  expect([keys(1)[0], keys(2)[1]]).toEqual([
+    [500, first],
+    [1000, second],
+  ]);
+  expect(steps()).toBe(before + 1);
+});
+
+test('where one of them cannot go so far, none goes', async () => {
+  const { desk, select, group } = await createTimelineDesk();
+  select([1, 1], [2, 2]);
+  const before = group();
+  expect(answer(desk(), 'value', '*2')).toMatch(/3000 is out of range/);
+  for (const nothing of ['+', '*', '/0', '*a']) expect(answer(desk(), 'value', nothing)).toBeNull();
+  expect(group()).toBe(before);
+});
+
 test('any other is refused in words, and changes nothing', async () => {
   const { desk, select, group } = await createTimelineDesk();
   select([1, 1]);

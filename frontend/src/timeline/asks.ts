@@ -10,6 +10,7 @@ import { numberIn } from '../ui/NumberField.tsx';
 import type { Scale } from '../servos/scale.ts';
 import { words } from '../words/words.ts';
 import { apply, changeable, rangeOf, selectedFrames, type Desk } from './desk.ts';
+import { changeIn } from './changeIn.ts';
 import { keyOf, selectedKeys, spanOf, timesOf } from './groupTimes.ts';
 import { scaleAt } from './positions.ts';
 
@@ -42,13 +43,7 @@ export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
     range: commonRange,
     initial: (desk) => String(scaleAtCursor(desk).shown(changeableAtCursor(desk)?.position ?? 0)),
     decimals: (desk) => scaleAtCursor(desk).decimals,
-    take(desk, shown) {
-      const keys = changeable(desk).map((ref) => ({
-        ...ref,
-        position: scaleAt(desk, ref.servo).position(shown),
-      }));
-      apply(desk, { label: () => words.timeline.steps.value, edit: (group) => setPositions(group, keys) });
-    },
+    take: (desk, shown) => void setValues(desk, () => shown),
   },
   scaleTime: scalingTime((group, span, factor, ripple) => stretch(group, span, factor, { ripple })),
   scaleTimeBack: scalingTime(stretchBack),
@@ -130,11 +125,30 @@ export function answer(desk: Desk, ask: Ask, text: string): string | null {
     asked.take(desk, text.trim());
     return null;
   }
-  const value = numberIn(text, asked.decimals?.(desk) ?? 0);
+  const decimals = asked.decimals?.(desk) ?? 0;
+  const change = ask === 'value' ? changeIn(text, decimals) : null;
+  if (change !== null) return setValues(desk, change);
+  const value = numberIn(text, decimals);
   const { min, max } = asked.range(desk);
   if (Number.isNaN(value)) return null;
   if (value < min || value > max) return words.refused(words.timeline.asks[ask], value, min, max);
   asked.take(desk, value);
+  return null;
+}
+
+/** As they are shown. All of it or nothing: what is wrong where one of them cannot go there. */
+function setValues(desk: Desk, change: (shown: number) => number): string | null {
+  const keys = changeable(desk).map((ref) => {
+    const scale = scaleAt(desk, ref.servo);
+    return { ref, scale, shown: change(scale.shown(keyOf(desk.times, ref)?.position ?? 0)) };
+  });
+  const outside = keys.find(({ scale, shown }) => shown < scale.min || shown > scale.max);
+  if (outside !== undefined) {
+    const { shown, scale } = outside;
+    return words.refused(words.timeline.asks.value, shown, scale.min, scale.max);
+  }
+  const positions = keys.map(({ ref, scale, shown }) => ({ ...ref, position: scale.position(shown) }));
+  apply(desk, { label: () => words.timeline.steps.value, edit: (group) => setPositions(group, positions) });
   return null;
 }
 

@@ -43,8 +43,8 @@ function arrow({ direction, ticks, turns }: (typeof ARROWS)[number], far: number
 
 const OF_CLIPBOARD: readonly string[] = ['Ctrl+c', 'Ctrl+x', 'Ctrl+v'];
 
-/** Typing a number is giving it to the selected keys. */
-const DIGITS = ['0', '1', '2', '3', '4', '5', '6', '7', '8', '9'];
+/** Typing a number is giving it to the selected keys, and a factor multiplies them. */
+const DIGITS = ['0', '1', '2', '3', '4', '5', '6', '7', '8', '9', '*', '/'];
 
 const typing =
   (typed: string): KeyAction =>

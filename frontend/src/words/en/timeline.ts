@@ -150,6 +150,7 @@ export const timelineWords = {
     armed: 'armed for recording',
   },
 
+  changes: '+10, −=10, *1.2 or /2 changes each of them',
   asks: {
     value: 'Position of the selected keys',
     scaleTime: 'New length of the stretch in percent',

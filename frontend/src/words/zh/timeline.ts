@@ -123,6 +123,7 @@ export const timelineWords: typeof english = {
     armed: '待录制',
   },
 
+  changes: '+10、−=10、*1.2或/2分别改变每一个',
   asks: {
     value: '所选关键帧的位置',
     scaleTime: '这段时间的新长度，百分比',
