@@ -26,20 +26,29 @@ export interface Picture<Shown extends readonly unknown[]> {
   paint(pen: Pen, shown: Shown): void;
 }
 
-export interface CanvasProps<Shown extends readonly unknown[]> extends Picture<Shown> {
+export interface CanvasProps<Shown extends readonly unknown[]> extends Pick<Picture<Shown>, 'shown'> {
   readonly className?: string | undefined;
+  /** What was painted stays on it, for whoever paints only what is another. */
+  readonly isKept?: boolean;
+  paint(pen: Pen, shown: Shown, isClean: boolean): void;
 }
 
-interface Read<Shown> {
+/** Where it is another, nothing of what was painted is left. */
+interface Ground {
   readonly size: Size;
   readonly look: Look;
   readonly ratio: number;
+}
+
+interface Read<Shown> extends Ground {
   readonly shown: Shown;
 }
 
-export function Canvas<Shown extends readonly unknown[]>({ className, shown, paint }: CanvasProps<Shown>) {
+export function Canvas<Shown extends readonly unknown[]>(props: CanvasProps<Shown>) {
+  const { className, isKept = false, shown, paint } = props;
   const canvas = useRef<HTMLCanvasElement>(null);
   const size = useRef<Size>({ width: 0, height: 0 });
+  const painted = useRef<Ground | null>(null);
   const sight = useSight(canvas);
 
   function read(): Read<Shown> | null {
@@ -50,8 +59,10 @@ export function Canvas<Shown extends readonly unknown[]>({ className, shown, pai
 
   function draw(now: Read<Shown> | null): void {
     if (canvas.current === null || now === null) return;
-    const ctx = cleanContext(canvas.current, now);
-    if (ctx !== null) paint({ ctx, look: now.look, size: now.size }, now.shown);
+    const isClean = !isKept || painted.current === null || !isSameGround(painted.current, now);
+    const ctx = isClean ? cleanContext(canvas.current, now) : canvas.current.getContext('2d');
+    if (ctx !== null) paint({ ctx, look: now.look, size: now.size }, now.shown, isClean);
+    painted.current = now;
   }
 
   const drawNow = useEffectEvent(() => draw(read()));
@@ -70,18 +81,16 @@ export function Canvas<Shown extends readonly unknown[]>({ className, shown, pai
 function isSame(one: Read<readonly unknown[]> | null, other: Read<readonly unknown[]> | null): boolean {
   if (one === null || other === null) return one === other;
   return (
-    one.size === other.size &&
-    one.look === other.look &&
-    one.ratio === other.ratio &&
+    isSameGround(one, other) &&
     one.shown.length === other.shown.length &&
     one.shown.every((part, index) => part === other.shown[index])
   );
 }
 
-function cleanContext(
-  canvas: HTMLCanvasElement,
-  { size, ratio }: Read<readonly unknown[]>,
-): CanvasRenderingContext2D | null {
+const isSameGround = (one: Ground, other: Ground): boolean =>
+  one.size === other.size && one.look === other.look && one.ratio === other.ratio;
+
+function cleanContext(canvas: HTMLCanvasElement, { size, ratio }: Ground): CanvasRenderingContext2D | null {
   const [width, height] = [Math.round(size.width * ratio), Math.round(size.height * ratio)];
   if (canvas.width !== width) canvas.width = width;
   if (canvas.height !== height) canvas.height = height;

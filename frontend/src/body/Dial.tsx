@@ -4,7 +4,7 @@
 import { useState } from 'react';
 import type { Family } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
-import { useFollow } from '../ui/useFollow.ts';
+import { READABLE_MS, useFollow } from '../ui/useFollow.ts';
 import { words } from '../words/words.ts';
 import { Drawing } from './Drawing.tsx';
 import { paintHands } from './hands.ts';
@@ -55,7 +55,7 @@ function useIsKnown(servo: number): boolean {
   const { device } = useStores();
   const isKnownNow = (): boolean => motionInFrame(device, servo).estimated !== null;
   const [isKnown, setKnown] = useState(isKnownNow);
-  useFollow({ read: isKnownNow, draw: setKnown });
+  useFollow({ read: isKnownNow, draw: setKnown, eachMs: READABLE_MS });
   return isKnown;
 }
 

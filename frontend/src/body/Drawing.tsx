@@ -2,15 +2,19 @@
 
 import { use, useEffectEvent, useLayoutEffect, useRef } from 'react';
 import { Sight } from '../ui/sight.ts';
-import { Canvas, type CanvasProps } from './Canvas.tsx';
+import { Canvas, type Picture } from './Canvas.tsx';
 import { SheetAround, type Sheet } from './sheet.ts';
 
-export function Drawing<Shown extends readonly unknown[]>(props: CanvasProps<Shown>) {
+export interface DrawingProps<Shown extends readonly unknown[]> extends Picture<Shown> {
+  readonly className?: string | undefined;
+}
+
+export function Drawing<Shown extends readonly unknown[]>(props: DrawingProps<Shown>) {
   const sheet = use(SheetAround);
   return sheet === null ? <Canvas {...props} /> : <Part sheet={sheet} {...props} />;
 }
 
-interface PartProps<Shown extends readonly unknown[]> extends CanvasProps<Shown> {
+interface PartProps<Shown extends readonly unknown[]> extends DrawingProps<Shown> {
   readonly sheet: Sheet;
 }
 

@@ -3,6 +3,7 @@
 import { useRef } from 'react';
 import type { LookName } from '../timeline/look.ts';
 import { cx } from '../ui/cx.ts';
+import { setText } from '../ui/setText.ts';
 import { MovingText } from './MovingText.tsx';
 import styles from './MovingLabel.module.css';
 
@@ -20,15 +21,12 @@ export interface MovingLabelProps {
 export function MovingLabel({ text, colour, className, title, isSilent }: MovingLabelProps) {
   const place = useRef<HTMLSpanElement>(null);
   const write = (now: string): void => {
-    if (place.current !== null) place.current.textContent = now;
-  };
-  const cover = (isCovered: boolean): void => {
-    if (place.current !== null) place.current.style.opacity = isCovered ? '0' : '';
+    if (place.current !== null) setText(place.current, now);
   };
   return (
     <span className={cx(styles.place, className)} title={title} aria-hidden={isSilent}>
       <span ref={place} className={styles.text} />
-      <MovingText element={place} {...{ text, colour, write, cover }} />
+      <MovingText element={place} {...{ text, colour, write }} />
     </span>
   );
 }

@@ -10,29 +10,35 @@ import { Drawing } from './Drawing.tsx';
 import overlay from './overlay.module.css';
 
 const WRITTEN_EACH_MS = 1000;
+/** On an element whose text is drawn instead. */
+const DRAWN = 'data-drawn';
 
 export interface MovingTextProps extends Omit<FollowedTextProps, 'colour'> {
   readonly colour: LookName;
 }
 
 /** Over `element`, in its font, in its middle where its text is, else from its end. */
-export function MovingText({ element, colour, text, write, cover }: MovingTextProps) {
+export function MovingText({ element, colour, text, write }: MovingTextProps) {
   /** What is drawn; null while it is text. */
   const drawn = useRef<string | null>(null);
   const written = useRef('');
+  const writtenIn = useRef(0);
   const type = useRef<Type | null>(null);
 
   function rest(now: string): void {
     write(now);
     written.current = now;
     drawn.current = null;
-    cover(false);
+    element.current?.removeAttribute(DRAWN);
   }
 
-  function follow(now: string): void {
+  function follow(now: string, nowMs: number): void {
     if (drawn.current === null && now === written.current) return;
-    if (drawn.current === null) cover(true);
+    if (drawn.current === null) element.current?.setAttribute(DRAWN, '');
     drawn.current = now;
+    const second = Math.floor(nowMs / WRITTEN_EACH_MS);
+    if (second !== writtenIn.current) write(now);
+    writtenIn.current = second;
   }
 
   function typeIn(pen: Pen): Type {
@@ -43,13 +49,11 @@ export function MovingText({ element, colour, text, write, cover }: MovingTextPr
   }
 
   useLayoutEffect(() => rest(text()));
-  useFollow({ read: text, draw: rest, onlyAtRest: true });
-  useFollow({ read: text, draw: write, eachMs: WRITTEN_EACH_MS });
-  useFollow({ read: text, draw: follow, eachMs: READABLE_MS });
+  useFollow({ read: text, draw: follow, rest, eachMs: READABLE_MS });
   return (
     <Drawing
       className={overlay.over}
-      shown={() => [drawn.current, document.fonts.status] as const}
+      shown={() => [drawn.current, colour, document.fonts.status] as const}
       paint={(pen, [now]) => {
         if (now !== null) paintText(pen, typeIn(pen), pen.look[colour], now);
       }}

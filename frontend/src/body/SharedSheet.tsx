@@ -7,11 +7,11 @@ import { useEachFrame } from '../ui/useEachFrame.ts';
 import { Canvas } from './Canvas.tsx';
 import {
   coverOf,
+  createPainting,
   createSheet,
-  isSameCover,
-  paintAll,
+  isSameArea,
   SheetAround,
-  type Cover,
+  type Area,
   type Placed,
 } from './sheet.ts';
 import styles from './SharedSheet.module.css';
@@ -30,8 +30,9 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
   const canvas = useRef<HTMLDivElement>(null);
   const isInSight = useSight(list);
   const [sheet] = useState(createSheet);
+  const [paintOn] = useState(createPainting);
   const parts = useRef<readonly Placed[]>([]);
-  const covered = useRef<Cover>({ left: 0, top: 0, width: 0, height: 0 });
+  const covered = useRef<Area>({ left: 0, top: 0, width: 0, height: 0 });
 
   useLayoutEffect(() => sheet.measureAnew());
   useLayoutEffect(() => {
@@ -42,7 +43,7 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
 
   function place(): void {
     const cover = coverOf(parts.current, covered.current);
-    if (canvas.current === null || isSameCover(cover, covered.current)) return;
+    if (canvas.current === null || isSameArea(cover, covered.current)) return;
     covered.current = cover;
     const { left, top, width, height } = cover;
     Object.assign(canvas.current.style, {
@@ -70,8 +71,9 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
           <Sight value={isInSight}>
             <Canvas
               className={styles.canvas}
+              isKept
               shown={shown}
-              paint={(pen) => paintAll(pen, parts.current, covered.current)}
+              paint={(pen, _, isClean) => paintOn(pen, parts.current, covered.current, isClean)}
             />
           </Sight>
         </div>

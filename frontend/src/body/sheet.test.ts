@@ -1,7 +1,7 @@
-import { describe, expect, test, vi } from 'vitest';
+import { beforeEach, describe, expect, test, vi } from 'vitest';
 import type { Pen } from './Canvas.tsx';
 import { recordingPen } from './penUnderTest.ts';
-import { coverOf, createSheet, paintAll, type Placed } from './sheet.ts';
+import { coverOf, createPainting, createSheet, type Placed } from './sheet.ts';
 
 const LIST = elementAt({ left: 10, top: 100, width: 500, height: 2_000 });
 
@@ -65,8 +65,8 @@ describe('a sheet', () => {
   });
 });
 
-const placed = (top: number, height: number): Placed => ({
-  ...{ left: 20.3, top, size: { width: 44, height }, shown: [] },
+const placed = (top: number, height: number, shown: readonly unknown[] = []) => ({
+  ...{ part: {}, left: 20.3, top, size: { width: 44, height }, shown },
   paint: vi.fn<(pen: Pen) => void>(),
 });
 
@@ -78,18 +78,72 @@ test('the canvas covers all of them, on whole pixels', () => {
   expect(coverOf([], before)).toBe(before);
 });
 
-test('each is painted where it stands, as large as it is, on a whole pixel of the screen', () => {
-  vi.stubGlobal('devicePixelRatio', 2);
-  const moves: (readonly [number, number])[] = [];
-  const ctx = {
-    translate: (x: number, y: number) => void moves.push([x, y]),
-  };
-  const { look, size } = recordingPen({ width: 500, height: 300 }).pen;
-  const part = placed(140.1, 20);
-  paintAll({ look, size, ctx: ctx as unknown as CanvasRenderingContext2D }, [part], { left: 10, top: 100 });
-  expect(moves).toEqual([
-    [10.5, 40],
-    [-10.5, -40],
-  ]);
-  expect(part.paint).toHaveBeenCalledWith(expect.objectContaining({ size: part.size }));
+describe('what is on the canvas', () => {
+  const cover = { left: 10, top: 100, width: 500, height: 300 };
+
+  function canvas() {
+    const cleared: (readonly number[])[] = [];
+    const moves: (readonly [number, number])[] = [];
+    const ctx = {
+      clearRect: (...area: number[]) => void cleared.push(area),
+      translate: (x: number, y: number) => void moves.push([x, y]),
+    };
+    const { look, size } = recordingPen(cover).pen;
+    const paintOn = createPainting();
+    return {
+      ...{ cleared, moves },
+      paint: (parts: readonly Placed[], { onto = cover, isClean = false } = {}) =>
+        paintOn({ look, size, ctx: ctx as unknown as CanvasRenderingContext2D }, parts, onto, isClean),
+    };
+  }
+
+  beforeEach(() => vi.stubGlobal('devicePixelRatio', 2));
+
+  test('is each where it stands, as large as it is, on a whole pixel of the screen', () => {
+    const { moves, paint } = canvas();
+    const part = placed(140.1, 20);
+    paint([part]);
+    expect(moves).toEqual([
+      [10.5, 40],
+      [-10.5, -40],
+    ]);
+    expect(part.paint).toHaveBeenCalledWith(expect.objectContaining({ size: part.size }));
+  });
+
+  test('is painted again where it shows something else', () => {
+    const { cleared, paint } = canvas();
+    const [still, moving] = [placed(140, 20), placed(180, 20.2, [1])];
+    paint([still, moving]);
+    cleared.length = 0;
+    paint([still, { ...moving, shown: [2] }]);
+    expect(still.paint).toHaveBeenCalledTimes(1);
+    expect(moving.paint).toHaveBeenCalledTimes(2);
+    expect(cleared).toEqual([[10.5, 80, 44, 20.5]]);
+  });
+
+  test('leaves where it was, moved or gone', () => {
+    const { cleared, paint } = canvas();
+    const [still, moving, gone] = [placed(140, 20), placed(180, 20), placed(220, 20)];
+    paint([still, moving, gone]);
+    cleared.length = 0;
+    paint([still, { ...moving, top: 260 }]);
+    expect(cleared).toEqual([
+      [10.5, 80, 44, 20],
+      [10.5, 120, 44, 20],
+    ]);
+    expect([still, moving, gone].map((part) => part.paint.mock.calls.length)).toEqual([1, 2, 1]);
+  });
+
+  test.each([
+    ['the canvas is clean', { isClean: true }],
+    ['the canvas is elsewhere', { onto: { ...cover, top: 140 } }],
+  ])('is painted again as a whole where %s', (_, how) => {
+    const { cleared, paint } = canvas();
+    const part = placed(140, 20);
+    paint([part]);
+    cleared.length = 0;
+    paint([part], how);
+    expect(cleared).toEqual([[0, 0, 500, 300]]);
+    expect(part.paint).toHaveBeenCalledTimes(2);
+  });
 });

@@ -12,6 +12,8 @@ export interface Part<Shown extends readonly unknown[]> extends Picture<Shown> {
 }
 
 export interface Placed {
+  /** The same from frame to frame. */
+  readonly part: object;
   readonly left: number;
   readonly top: number;
   readonly size: Size;
@@ -56,12 +58,14 @@ export function createSheet(): Sheet {
       for (const kept of all) kept.box = null;
     },
     inSight(around) {
-      const seen = [...all].filter(({ sight }) => sight.current);
-      if (seen.some(({ box }) => box === null)) {
-        const corner = around.getBoundingClientRect();
-        for (const kept of seen) kept.box = kept.measured(corner);
+      let corner: DOMRect | undefined;
+      const seen: Placed[] = [];
+      for (const kept of all) {
+        if (!kept.sight.current) continue;
+        kept.box ??= kept.measured((corner ??= around.getBoundingClientRect()));
+        seen.push({ part: kept, ...kept.box, ...kept.picture() });
       }
-      return seen.flatMap(({ box, picture }) => (box === null ? [] : [{ ...box, ...picture() }]));
+      return seen;
     },
   };
 }
@@ -84,16 +88,17 @@ function keep<Shown extends readonly unknown[]>({ place, sight, shown, paint }: 
   };
 }
 
-/** What the canvas lies over, seen from the corner of the list. */
-export interface Cover {
+/** In pixels of the page. */
+export interface Area {
   readonly left: number;
   readonly top: number;
   readonly width: number;
   readonly height: number;
 }
 
-/** As much as all of them take, on whole pixels. Where none is in sight it stays: a canvas without a size is not drawn any more. */
-export function coverOf(parts: readonly Placed[], before: Cover): Cover {
+/** What the canvas lies over, seen from the corner of the list: as much as all of them take, on whole pixels. Where none is in sight it
+    stays: a canvas without a size is not drawn any more. */
+export function coverOf(parts: readonly Placed[], before: Area): Area {
   if (parts.length === 0) return before;
   const left = Math.floor(Math.min(...parts.map((part) => part.left)));
   const top = Math.floor(Math.min(...parts.map((part) => part.top)));
@@ -102,22 +107,56 @@ export function coverOf(parts: readonly Placed[], before: Cover): Cover {
   return { left, top, width: right - left, height: bottom - top };
 }
 
-export const isSameCover = (one: Cover, other: Cover): boolean =>
+export const isSameArea = (one: Area, other: Area): boolean =>
   one.left === other.left &&
   one.top === other.top &&
   one.width === other.width &&
   one.height === other.height;
 
-/** `cover`: where on the list the canvas is. */
-export function paintAll(pen: Pen, parts: readonly Placed[], cover: Pick<Cover, 'left' | 'top'>): void {
-  const { ctx, look } = pen;
-  for (const part of parts) {
-    const [x, y] = [onPixel(part.left - cover.left), onPixel(part.top - cover.top)];
-    ctx.translate(x, y);
-    part.paint({ ctx, look, size: part.size });
-    ctx.translate(-x, -y);
-  }
+interface Painted extends Placed {
+  /** Of the canvas. */
+  readonly area: Area;
 }
 
-/** Between two pixels of the screen no edge would be sharp. */
-const onPixel = (px: number): number => Math.round(px * devicePixelRatio) / devicePixelRatio;
+/** Of the pictures on a canvas few change in a frame: only those are painted again. `cover`: where on the list the canvas is. `isClean`:
+    nothing is on it any more. */
+export function createPainting() {
+  let painted = new Map<object, Painted>();
+  let ground: Area | null = null;
+  return (pen: Pen, parts: readonly Placed[], cover: Area, isClean: boolean): void => {
+    const { ctx, look } = pen;
+    if (isClean || ground === null || !isSameArea(ground, cover)) {
+      ctx.clearRect(0, 0, cover.width, cover.height);
+      painted = new Map();
+      ground = cover;
+    }
+    const wanted = new Map(parts.map((one) => [one.part, { ...one, area: areaOf(one, cover) }]));
+    for (const [part, { area, shown }] of painted) {
+      const now = wanted.get(part);
+      if (now !== undefined && isSameArea(now.area, area) && isSameShown(now.shown, shown)) continue;
+      ctx.clearRect(area.left, area.top, area.width, area.height);
+      painted.delete(part);
+    }
+    for (const [part, now] of wanted) {
+      if (painted.has(part)) continue;
+      const { left, top } = now.area;
+      ctx.translate(left, top);
+      now.paint({ ctx, look, size: now.size });
+      ctx.translate(-left, -top);
+      painted.set(part, now);
+    }
+  };
+}
+
+const isSameShown = (one: readonly unknown[], other: readonly unknown[]): boolean =>
+  one.length === other.length && one.every((value, index) => value === other[index]);
+
+/** On whole pixels of the screen: between two of them no edge would be sharp, and none could be cleared without a trace. */
+function areaOf({ left, top, size }: Placed, cover: Area): Area {
+  return {
+    left: Math.round((left - cover.left) * devicePixelRatio) / devicePixelRatio,
+    top: Math.round((top - cover.top) * devicePixelRatio) / devicePixelRatio,
+    width: Math.ceil(size.width * devicePixelRatio) / devicePixelRatio,
+    height: Math.ceil(size.height * devicePixelRatio) / devicePixelRatio,
+  };
+}

@@ -4,6 +4,7 @@
 import { useLayoutEffect, useRef } from 'react';
 import { cx } from './cx.ts';
 import styles from './LiveText.module.css';
+import { setText } from './setText.ts';
 import { useFollow } from './useFollow.ts';
 
 export interface LiveTextProps {
@@ -41,11 +42,4 @@ export function LiveText({
       <span ref={place} />
     </span>
   );
-}
-
-/** The same piece of text, where there is one: another one would be laid out anew from the ground. */
-function setText(place: HTMLElement, text: string): void {
-  const piece = place.firstChild;
-  if (!(piece instanceof Text)) place.textContent = text;
-  else if (piece.data !== text) piece.data = text;
 }

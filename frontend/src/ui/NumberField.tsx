@@ -14,8 +14,6 @@ export interface FollowedTextProps {
   readonly colour: 'ink' | 'ink-dim';
   text(): string;
   write(text: string): void;
-  /** It is shown otherwise for now. */
-  cover(isCovered: boolean): void;
 }
 
 /** A number that changes by itself. */
@@ -61,9 +59,6 @@ export function NumberField(props: NumberFieldProps) {
   const text = (): string => draft ?? value()?.toFixed(props.decimals ?? 0) ?? '';
   const write = (now: string): void => {
     if (input.current !== null && input.current.value !== now) input.current.value = now;
-  };
-  const cover = (isCovered: boolean): void => {
-    if (input.current !== null) input.current.style.opacity = isCovered ? '0' : '';
   };
 
   function take(wanted: number, isStep: boolean): void {
@@ -123,7 +118,7 @@ export function NumberField(props: NumberFieldProps) {
           <live.Show
             element={input}
             colour={isDisabled || isReadOnly ? 'ink-dim' : 'ink'}
-            {...{ text, write, cover }}
+            {...{ text, write }}
           />
         </span>
       )}

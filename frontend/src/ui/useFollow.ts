@@ -9,13 +9,19 @@ export interface Follow<T> {
   /** Asked on each beat for what is to be shown. */
   read(): T;
   isSame?(one: T, other: T): boolean;
-  draw(value: T): void;
+  /** `nowMs`: of the frame. */
+  draw(value: T, nowMs: number): void;
+  /** For what looks otherwise once it has come to rest; left out: as it was drawn. */
+  rest?(value: T): void;
   /** Left out: in each frame. */
   readonly eachMs?: number;
-  /** As if it were out of sight. */
-  readonly onlyAtRest?: boolean;
   /** Left out: that of the part of the page around it. */
   readonly sight?: InSight;
+}
+
+interface Looked<T> {
+  readonly value: T;
+  readonly sinceMs: number;
 }
 
 /** No more often can a number be read. */
@@ -24,38 +30,53 @@ export const READABLE_MS = 100;
 const REST_MS = 250;
 
 export function useFollow<T>(follow: Follow<T>): void {
-  const { read, isSame = Object.is, draw, eachMs = 0, onlyAtRest = false, sight } = follow;
+  const { read, isSame = Object.is, draw, rest, eachMs = 0, sight } = follow;
   const isInSight = sight ?? use(Sight);
-  const latest = useRef<{ readonly value: T } | null>(null);
-  const drawn = useRef<{ readonly value: T } | null>(null);
+  const latest = useRef<Looked<T> | null>(null);
+  const drawn = useRef<'nothing' | 'moving' | 'resting'>('nothing');
   const [turnMs] = useState(nextTurn);
   // Whatever React wrote meanwhile is another thing than what was drawn.
-  useLayoutEffect(() => void (drawn.current = null));
+  useLayoutEffect(() => void (drawn.current = 'nothing'));
 
-  function look(isFollowed: boolean): void {
-    const before = latest.current;
-    const now = { value: read() };
-    latest.current = now;
-    if (drawn.current !== null && isSame(drawn.current.value, now.value)) return;
-    const isAtRest = before !== null && isSame(before.value, now.value);
-    if (!isFollowed && !isAtRest) {
-      drawn.current = null;
-      return;
-    }
-    drawn.current = now;
-    draw(now.value);
+  function look(nowMs: number): boolean {
+    const value = read();
+    if (latest.current !== null && isSame(latest.current.value, value)) return false;
+    latest.current = { value, sinceMs: nowMs };
+    drawn.current = 'nothing';
+    return true;
   }
 
-  // What is drawn at rest alone has no beat of its own.
-  const isFollowedNow = (): boolean => isInSight.current && !onlyAtRest;
-  useEachFrame(() => isFollowedNow() && look(true), { eachMs: onlyAtRest ? REST_MS : eachMs });
-  useEachFrame(() => isFollowedNow() || look(false), { eachMs: REST_MS, turnMs });
+  function drawMoving(nowMs: number): void {
+    look(nowMs);
+    if (latest.current === null) return;
+    const { value, sinceMs } = latest.current;
+    if (drawn.current === 'nothing') {
+      draw(value, nowMs);
+      drawn.current = 'moving';
+    } else if (drawn.current === 'moving' && nowMs - sinceMs >= REST_MS) drawResting(value, nowMs);
+  }
+
+  function drawResting(value: T, nowMs: number): void {
+    if (rest !== undefined) rest(value);
+    else if (drawn.current === 'nothing') draw(value, nowMs);
+    drawn.current = 'resting';
+  }
+
+  useEachFrame((nowMs) => isInSight.current && drawMoving(nowMs), { eachMs });
+  useEachFrame(
+    (nowMs) => {
+      if (isInSight.current || look(nowMs) || latest.current === null) return;
+      if (drawn.current !== 'resting') drawResting(latest.current.value, nowMs);
+    },
+    { eachMs: REST_MS, turnMs },
+  );
 }
 
-let lastTurnMs = 0;
+const TURNS = 15;
+let lastTurn = 0;
 
 /** What is looked at out of sight is looked at in turns: hundreds of looks in one frame would make that one late. */
 function nextTurn(): number {
-  lastTurnMs = (lastTurnMs + REST_MS / 15) % REST_MS;
-  return lastTurnMs;
+  lastTurn = (lastTurn + 1) % TURNS;
+  return (lastTurn * REST_MS) / TURNS;
 }
