@@ -139,7 +139,7 @@ for (const colorScheme of ['light', 'dark'] as const) {
         await expectSound(look, 'connect dialog');
 
         await dashboard.button('Disconnect').click();
-        await expect(dashboard.link).toContainText('Not connected');
+        await expect(dashboard.link).toContainText('No robot');
         await expectSound(look, 'disconnected');
         // Nothing below it jumps.
         await poll(() => heightOf(dashboard.bar)).toBe(readyPx);

@@ -84,7 +84,7 @@ for (const viewport of SIZES) {
         await expectSteady(`a link ends beside ${part}`, async () => {
           await dashboard.link.click();
           await dashboard.button('Disconnect').click();
-          await expect(dashboard.link).toContainText('Not connected');
+          await expect(dashboard.link).toContainText('No robot');
         });
         await dashboard.link.click();
         await dashboard.button('Use the simulated robot').click();

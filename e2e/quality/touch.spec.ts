@@ -247,10 +247,19 @@ test('on a large touch screen rows of the timeline stay in sight, and Play does'
     await expect(part).toBeInViewport({ ratio: 1 });
 });
 
+/** Words that are not read to their end. */
+const cutIn = (place: Locator): Promise<string[]> =>
+  place.evaluate((within) =>
+    [within, ...within.querySelectorAll<HTMLElement>('*')]
+      .filter((part) => part.clientWidth > 1 && getComputedStyle(part).overflow === 'hidden')
+      .filter((part) => part.scrollWidth > part.clientWidth || part.scrollHeight > part.clientHeight + 1)
+      .map((part) => part.textContent),
+  );
+
 test('on a tablet held upright the bar holds all that is in it', async ({ page, servers }) => {
   const dashboard = dashboardOf(page);
   const { url } = await servers.files();
-  for (const width of [768, 820]) {
+  for (const width of [700, 768, 820]) {
     await page.setViewportSize({ width, height: 1180 });
     await page.goto(url);
     await expect(dashboard.link).toHaveText(/Simulated/);
@@ -259,5 +268,12 @@ test('on a tablet held upright the bar holds all that is in it', async ({ page, 
       return Math.max(...[...chip.children].map((part) => part.getBoundingClientRect().right - right));
     });
     expect(await overhang, `${width} pixels`).toBeLessThan(0);
+    expect(await cutIn(dashboard.link), `${width} pixels`).toEqual([]);
+  }
+  await page.setViewportSize({ width: 700, height: 1180 });
+  for (const state of ['Error slotChanged', 'Error otherDevice']) {
+    await page.goto(`${url}/gallery.html?language=en&state=${encodeURIComponent(state)}`);
+    await expect(page.getByRole('article', { name: state, exact: true })).toBeVisible();
+    expect.soft(await cutIn(page.getByRole('status').first()), state).toEqual([]);
   }
 });

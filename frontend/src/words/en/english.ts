@@ -56,7 +56,7 @@ export const english = {
 
   link: {
     status: {
-      closed: 'Not connected',
+      closed: 'No robot',
       opening: 'Connecting',
       identifying: 'Asking the board',
       ready: 'Ready',
