@@ -227,6 +227,36 @@ test('a second press in the same place asks for a marker’s text, and for a fra
   await expect(page.getByRole('button', { name: /^Frame 2, .*Slowly$/ })).toBeVisible();
 });
 
+test('the menu on a frame is about its keys', async ({ page, dashboard }) => {
+  await expect(dashboard.frames).toHaveCount(3);
+  const timeline = timelineOf(page);
+  const second = await timeline.middleOf(timeline.key('All servos, frame 2, 1.00 s, 2 keys'));
+  const top = (await timeline.grid.boundingBox())!.y;
+  await page.mouse.click(second.x - 30, top + HEADS_Y, { button: 'right' });
+  await page.getByRole('menuitem', { name: 'Delete keys' }).click();
+  await expect(timeline.key('Gripper, 1.00 s, 1200 µs, linear')).toBeHidden();
+  await expect(dashboard.button('Undo: delete 2 keys')).toBeVisible();
+});
+
+test('a box that is drawn past the lowest row in sight goes on through the rows', async ({
+  page,
+  dashboard,
+}) => {
+  await expect(dashboard.frames).toHaveCount(3);
+  const timeline = timelineOf(page);
+  await timeline.tools.getByRole('button', { name: 'Tall rows' }).click();
+  const first = await timeline.middleOf(timeline.key('Gripper, 0.50 s, 1000 µs, linear'));
+  const last = await timeline.middleOf(timeline.key('Gripper, 1.50 s, 1400 µs, linear'));
+  const { y, height } = (await timeline.grid.boundingBox())!;
+  await page.mouse.move(first.x - 20, last.y - 12);
+  await page.mouse.down();
+  await page.mouse.move(last.x + 20, y + height + 20, { steps: 4 });
+  await expect(timeline.region).toContainText('6 keys');
+  await page.mouse.up();
+  await page.keyboard.press('Delete');
+  await expect(dashboard.button('Undo: delete 6 keys')).toBeVisible();
+});
+
 test('a locked row keeps its keys', async ({ page, dashboard }) => {
   const timeline = timelineOf(page);
   await dashboard.button('Row of Gripper').click();

@@ -33,7 +33,7 @@ export interface Press {
 export interface Gesture {
   readonly status: StatusName;
   /** Past an end of the lanes these go on below it. */
-  readonly leadsOn?: true;
+  readonly leadsOn?: 'throughTime' | 'throughRowsToo';
   /** Where what is dragged is by now. */
   tells?(): string;
   move(spot: Spot, held: Held): void;
@@ -64,7 +64,7 @@ export function edits(
   let hasBegun = false;
   return {
     status,
-    leadsOn: true,
+    leadsOn: 'throughTime',
     ...(rest.tells === undefined ? {} : { tells: rest.tells }),
     move(spot, held) {
       const edit = moved(spot, held);

@@ -77,6 +77,35 @@ describe('lanes that go on below a drag', () => {
     ]);
   });
 
+  test('through the rows keep the corner of a box, and the rows that have gone out of sight in it', async () => {
+    const { press, selected, stores, spotOf } = await createTimelineDesk();
+    const from = { x: 80, y: spotOf(1, 1).y - 8 };
+    const gesture = press(from);
+    gesture.by(80, 20);
+    expect(selected()).toEqual([
+      [2, 1],
+      [3, 1],
+    ]);
+    expect(gesture.leadsOn).toBe('throughRowsToo');
+    stores.timeline.setState({ scrollTop: 56 });
+    gesture.by(80, 20);
+    expect(selected()).toEqual([
+      [2, 1],
+      [3, 1],
+      [2, 2],
+      [3, 2],
+      [3, 3],
+    ]);
+    // Over the row of all servos, under which the rows go on.
+    gesture.by(80, 62 - from.y);
+    expect(selected()).toEqual([
+      [2, 1],
+      [3, 1],
+      [2, 2],
+      [3, 2],
+    ]);
+  });
+
   test('show the playhead at their end while it is scrubbed past it', async () => {
     const { press, stores } = await createTimelineDesk();
     const gesture = press({ x: 100, y: 10 });

@@ -20,7 +20,8 @@ import { hitAt, keysInBox, type Hit, type Spot } from './hit.ts';
 import { pressFrame } from './inStep.ts';
 import { keyGesture } from './keyGesture.ts';
 import { lookAt, selectFrame, setTime } from './looking.ts';
-import { sceneOf } from './scene.ts';
+import { sceneOf, wholeSceneOf } from './scene.ts';
+import { topOfRows } from './sizes.ts';
 import { toldOfBox, toldOfFrame, toldOfMarker, toldOfRange } from './told.ts';
 import { msAt, panned, seenSpan, xOf } from '../stores/timeline/timeScale.ts';
 
@@ -54,7 +55,7 @@ function scrubGesture(press: Press, desk: Desk, atMs: number): Gesture {
       const wanted = onRaster(press, desk, msAt(time, x), held);
       return { playheadMs: Math.max(0, Math.ceil(fromMs), Math.min(Math.floor(toMs), wanted)) };
     });
-  return { status: 'scrub', leadsOn: true, move, end: nothing, cancel: nothing };
+  return { status: 'scrub', leadsOn: 'throughTime', move, end: nothing, cancel: nothing };
 }
 
 function rangeGesture(press: Press, desk: Desk, fromMs: number): Gesture {
@@ -62,7 +63,7 @@ function rangeGesture(press: Press, desk: Desk, fromMs: number): Gesture {
   const before = desk.state.range;
   return {
     status: 'scrub',
-    leadsOn: true,
+    leadsOn: 'throughTime',
     move({ x }, held) {
       const toMs = msAt(timeline.getState().time, x);
       const [first = 0, last = 0] = [fromMs, toMs]
@@ -154,17 +155,27 @@ function boxGesture(press: Press, desk: Desk, { row }: Hit & { kind: 'empty' }):
   const before = desk.state.selected;
   const mode = modeOf(held);
   const fromMs = msAt(desk.state.time, from.x);
+  const isOnRows = from.y >= topOfRows(press.sizes);
   const close = (): void => press.showBox(null);
   return {
     status: 'box',
-    leadsOn: true,
+    leadsOn: isOnRows ? 'throughRowsToo' : 'throughTime',
     tells: () => toldOfBox(stores),
     move(spot) {
-      // Where it was begun in time: the lanes may have gone on.
-      const corner = { ...from, x: xOf(stores.timeline.getState().time, fromMs) };
+      // Where it was begun: the lanes may have gone on.
+      const { time, scrollTop } = stores.timeline.getState();
+      const scrolledPx = isOnRows ? scrollTop - desk.state.scrollTop : 0;
+      const corner = { x: xOf(time, fromMs), y: from.y - scrolledPx };
       press.showBox({ from: corner, to: spot });
-      const scene = sceneOf(deskOf(stores), press.sizes);
-      select(stores, withKeys(before, keysInBox(scene, corner, spot), mode === 'toggles' ? 'adds' : mode));
+      const scene = wholeSceneOf(deskOf(stores), press.sizes);
+      select(
+        stores,
+        withKeys(
+          before,
+          keysInBox(scene, { corner, pointer: spot, isOnRows }),
+          mode === 'toggles' ? 'adds' : mode,
+        ),
+      );
     },
     end(isClick) {
       close();

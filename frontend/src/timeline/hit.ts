@@ -7,6 +7,7 @@ import { keysOfFrame, selectedKeys, spanOf, type GroupTimes } from './groupTimes
 import type { PlacedRow, Row } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';
 import { keyY, type Scene } from './scene.ts';
+import { topOfRows } from './sizes.ts';
 import { msAt, xOf, type Span } from '../stores/timeline/timeScale.ts';
 
 export type Hit =
@@ -128,13 +129,34 @@ const LOW_ROW_PX = 22;
 const beyondRow = (px: number, reach: number): number =>
   Math.max(0, Math.abs(px) - Math.max(0, LOW_ROW_PX - reach));
 
-/** The keys within a box on the lanes. */
-export function keysInBox(scene: Scene, one: Spot, other: Spot): readonly KeyRef[] {
-  const { all, rows, times, state, family } = scene;
+export interface Box {
+  /** Where it was begun; on rows that have been scrolled since it may be out of sight. */
+  readonly corner: Spot;
+  readonly pointer: Spot;
+  readonly isOnRows: boolean;
+}
+
+/** The keys within a box on the lanes. What is scrolled below the row of all servos is not meant by a pointer on it. */
+export function keysInBox(scene: Scene, { corner, pointer, isOnRows }: Box): readonly KeyRef[] {
+  const { all, rows, state, sizes } = scene;
+  const onRows = (spot: Spot): Spot => ({ x: spot.x, y: Math.max(topOfRows(sizes), spot.y) });
+  const withAll = !isOnRows || state.scrollTop === 0;
+  return [
+    ...(withAll ? keysBetweenSpots(scene, [all], corner, pointer) : []),
+    ...keysBetweenSpots(scene, rows, isOnRows ? corner : onRows(corner), onRows(pointer)),
+  ];
+}
+
+function keysBetweenSpots(
+  { times, state, family }: Scene,
+  rows: readonly PlacedRow[],
+  one: Spot,
+  other: Spot,
+): readonly KeyRef[] {
   const [left, right] = [Math.min(one.x, other.x), Math.max(one.x, other.x)];
   const [top, bottom] = [Math.min(one.y, other.y), Math.max(one.y, other.y)];
   const [fromMs, toMs] = [msAt(state.time, left), msAt(state.time, right)];
-  return [all, ...rows]
+  return rows
     .filter((placed) => placed.top + placed.height > top && placed.top < bottom)
     .flatMap((placed) =>
       keysInRow(placed.row, times)

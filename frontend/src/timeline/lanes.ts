@@ -9,7 +9,7 @@ import { hasAll, hitAt, type Spot } from './hit.ts';
 import { hoverAt } from './hover.ts';
 import { keySet } from '../stores/timeline/keySet.ts';
 import { lookOf, SCHEMES, type Look } from './look.ts';
-import { setTime } from './looking.ts';
+import { selectFrame, setTime, shownKeys } from './looking.ts';
 import { paint } from './paint.ts';
 import { followPointer } from './pointer.ts';
 import { sceneOf, type Scene } from './scene.ts';
@@ -152,6 +152,10 @@ function selectForMenu(stores: DeskStores, sizes: Sizes, spot: Spot): void {
   const hit = hitAt(sceneOf(desk, sizes), spot);
   if (hit.kind === 'key' && !hasAll(desk.state.selected, hit.refs))
     select(stores, keySet(hit.refs), { row: hit.row.id, frameId: hit.frameId });
+  if (hit.kind === 'head' || hit.kind === 'edge') {
+    if (!hasAll(desk.state.selected, shownKeys(desk, hit.frameId)))
+      selectFrame(desk, hit.frameId, 'replaces');
+  }
   if (hit.kind === 'marker') stores.timeline.setState({ marker: hit.id });
   if (hit.kind === 'empty' && hit.row !== null)
     stores.timeline.setState({ cursor: { row: hit.row.row.id, frameId: null } });

@@ -5,6 +5,7 @@ import { createEdgePan } from './edgePan.ts';
 import type { Spot } from './hit.ts';
 import type { Gesture, Held, Press, StatusName } from './gesture.ts';
 import { boxFrom, gestureOf, panFrom } from './gestures.ts';
+import { topOfRows } from './sizes.ts';
 
 export interface PointerHost {
   /** What a press begins with; `isTouch` tells fingers from mice and pens. */
@@ -34,7 +35,9 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
   let hasRested = false;
   const edge = createEdgePan({
     widthPx: () => lanes.clientWidth,
+    rowsPx: () => ({ top: press === null ? 0 : topOfRows(press.sizes), bottom: lanes.clientHeight }),
     pan: host.pan,
+    scroll: (byPx) => press?.scroll(byPx),
     panned: () => again(),
   });
   const listening = new AbortController();
@@ -95,7 +98,7 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
     const held = heldOf(event);
     again = () => gesture?.move(spot, held);
     again();
-    if (gesture.leadsOn === true) edge.at(spot.x);
+    if (gesture.leadsOn !== undefined) edge.at(spot, gesture.leadsOn === 'throughRowsToo');
   }
 
   function draw(from: Press): void {

@@ -44,6 +44,18 @@ export function sceneOf(desk: Desk, sizes: Sizes): Scene {
   };
 }
 
+/** With the rows that are scrolled out of sight. */
+export function wholeSceneOf(desk: Desk, sizes: Sizes): Scene {
+  const { scrollTop } = desk.state;
+  const placed = placedRows(desk.rows.slice(1), sizes);
+  return { ...sceneOf(desk, sizes), rows: placed.map((one) => onLanes(one, scrollTop, sizes)) };
+}
+
+const onLanes = (placed: PlacedRow, scrollTop: number, sizes: Sizes): PlacedRow => ({
+  ...placed,
+  top: placed.top - scrollTop + topOfRows(sizes),
+});
+
 type Sight = Pick<TimelineState, 'scrollTop' | 'heightPx'>;
 
 /** Of all rows: that of all servos, and what is seen of the others. */
@@ -58,11 +70,8 @@ function rowsInSight(
   { scrollTop, heightPx }: Sight,
   sizes: Sizes,
 ): readonly PlacedRow[] {
-  const top = topOfRows(sizes);
-  return seenRows(placedRows(rows, sizes), scrollTop, heightPx - top).map((one) => ({
-    ...one,
-    top: one.top - scrollTop + top,
-  }));
+  const seen = seenRows(placedRows(rows, sizes), scrollTop, heightPx - topOfRows(sizes));
+  return seen.map((one) => onLanes(one, scrollTop, sizes));
 }
 
 const placedAll = (row: Row, sizes: Sizes): PlacedRow => ({
