@@ -83,6 +83,39 @@ test('what has the focus stands below the picture that stays in sight', async ({
   }
 });
 
+test('what a finger holds is named, also where the picture that stays in sight was above it', async ({
+  page,
+  servers,
+}) => {
+  const dashboard = dashboardOf(page);
+  await page.goto((await servers.files()).url);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1500', { timeout: 15_000 });
+  const { touch } = await fingersOf(page);
+  await dashboard.type(dashboard.target(4), 1500);
+  await expect(dashboard.estimate(4)).toHaveText('≈ 1500');
+  const name = dashboard.servoName(4);
+  const isSeen = () =>
+    name.evaluate((button) => {
+      const { x, y, width } = button.getBoundingClientRect();
+      return button.contains(document.elementFromPoint(x + width / 2, y + 4));
+    });
+  await dashboard.slider(4).scrollIntoViewIfNeeded();
+  for (let scrolled = 0; scrolled < 60 && (await isSeen()); scrolled += 1)
+    await name.evaluate((button) => {
+      let scroller = button.parentElement;
+      while (scroller !== null && getComputedStyle(scroller).overflowY !== 'auto')
+        scroller = scroller.parentElement;
+      scroller?.scrollBy(0, 12);
+    });
+  expect(await isSeen()).toBe(false);
+  const from = await restingMiddleOf(dashboard.slider(4));
+  await touch('touchStart', from);
+  for (let x = 6; x <= 48; x += 6) await touch('touchMove', { x: from.x + x, y: from.y });
+  await expect(dashboard.target(4)).not.toHaveValue('1500');
+  expect(await isSeen()).toBe(true);
+  await touch('touchEnd');
+});
+
 async function startCalibration(page: Page, url: string) {
   const dashboard = dashboardOf(page);
   const robots = robotDialogOf(dashboard);

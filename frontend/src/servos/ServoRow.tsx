@@ -79,7 +79,11 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
     take();
     hand.leap(servo, position);
   };
+  /** A finger took it, and what it holds may be behind the picture that stays in sight. */
+  const isNewlyHeld = useRef(false);
   const drag = (position: number): void => {
+    if (isNewlyHeld.current) showName(area.current);
+    isNewlyHeld.current = false;
     take();
     hand.drag(servo, position);
   };
@@ -97,7 +101,10 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
       ref={area}
       className={styles.controls}
       onFocus={touch}
-      onPointerDown={touch}
+      onPointerDown={({ pointerType }) => {
+        touch();
+        isNewlyHeld.current = pointerType === 'touch';
+      }}
       // Not before the press is whole: a finger that scrolls past asks nobody for the robot.
       onPointerUp={() => hindrance === 'watching' && device.lease('request')}
     >
@@ -127,6 +134,9 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
     </div>
   );
 }
+
+const showName = (controls: HTMLElement | null): void =>
+  controls?.parentElement?.querySelector('button')?.scrollIntoView({ block: 'nearest' });
 
 interface TargetFieldProps {
   readonly servo: RobotServo;
