@@ -47,6 +47,25 @@ test('Escape calls a drag off, and stops the robot', async ({ dashboard, page })
   await expect(dashboard.button('Undo')).toBeDisabled();
 });
 
+test('the other button calls a drag off, and Ctrl copies what is dragged', async ({ dashboard, page }) => {
+  const timeline = timelineOf(page);
+  const second = timeline.key('Gripper, 1.00 s, 1200 µs, linear');
+  await timeline.drag('Gripper, 1.00 s, 1200 µs, linear', 60, 0);
+  await expect(second).toBeHidden();
+  await page.mouse.down({ button: 'right' });
+  await page.mouse.up({ button: 'right' });
+  await expect(second).toBeVisible();
+  await page.mouse.up();
+  await expect(page.getByRole('menu')).toBeHidden();
+  await expect(dashboard.status).toHaveText('Idle');
+  await page.keyboard.down('Control');
+  await timeline.drag('Gripper, 1.00 s, 1200 µs, linear', 60, 0);
+  await page.mouse.up();
+  await page.keyboard.up('Control');
+  await expect(dashboard.button('Undo: duplicate keys')).toBeVisible();
+  await expect(second).toBeVisible();
+});
+
 test('clicks, boxes, rows and frames select, and the strip is in step', async ({ dashboard, page }) => {
   const timeline = timelineOf(page);
   await timeline.click('Gripper, 0.50 s, 1000 µs, linear');

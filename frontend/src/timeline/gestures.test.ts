@@ -142,15 +142,36 @@ describe('the playhead', () => {
 });
 
 describe('dragging keys', () => {
-  test('with Ctrl takes all of them along; only a click takes one away', async () => {
-    const { drag, click, spotOf, select, selected, keys } = await createTimelineDesk();
+  test('with Ctrl copies all of them; only a click takes one away', async () => {
+    const { drag, click, spotOf, select, selected, keys, steps, stores } = await createTimelineDesk();
     select([1, 1], [2, 1]);
     drag(spotOf(1, 2), 10, 0, { ctrl: true });
-    expect(keys(1).map(([atMs]) => atMs)).toEqual([600, 1100, 1500]);
+    expect(keys(1)).toEqual([
+      [500, 1000],
+      [600, 1000],
+      [1000, 1200],
+      [1100, 1200],
+      [1500, 1400],
+    ]);
+    expect(steps()).toBe(1);
+    expect(stores.document.store.getState().past.at(-1)?.label()).toBe('duplicate keys');
     expect(selected()).toHaveLength(2);
     const [, [frame = 0] = []] = selected();
     click(spotOf(1, frame), { ctrl: true });
     expect(selected()).toHaveLength(1);
+  });
+
+  test('copies as long as Ctrl is held, in time; let go, they are moved themselves', async () => {
+    const { press, spotOf, keys } = await createTimelineDesk();
+    const gesture = press(spotOf(1, 2));
+    gesture.by(10, 0, { ctrl: true });
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1000, 1100, 1500]);
+    gesture.by(0, -40, { ctrl: true });
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1000, 1500]);
+    gesture.by(10, 0, {});
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1100, 1500]);
+    gesture.cancel();
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1000, 1500]);
   });
 
   test('moves them in time, on the raster of the board, in one step; others keep theirs', async () => {

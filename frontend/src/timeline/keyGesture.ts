@@ -1,4 +1,4 @@
-// A press on a key: it selects, asks for a number, or drags all selected keys in time and value.
+// A press on a key: it selects, asks for a number, or drags all selected keys in time and value, with Ctrl copies of them.
 
 import type { KeyRef } from '#shared/actions/group/tracks.ts';
 import { keySet, withKeys } from '../stores/timeline/keySet.ts';
@@ -7,7 +7,7 @@ import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
 import { draggedTo, edits, modeOf, nothing, type Gesture, type Held, type Press } from './gesture.ts';
 import { timesOf } from './groupTimes.ts';
 import { hasAll, keysBetween, type Hit, type Spot } from './hit.ts';
-import { cursorAfter, moveOf } from './moving.ts';
+import { copyOf, cursorAfter, moveOf } from './moving.ts';
 import type { Scene } from './scene.ts';
 import { toldOfKey } from './told.ts';
 
@@ -26,6 +26,7 @@ export function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' 
   const refs = changeable(desk);
   if (refs.length === 0) return { status: whyHeld(desk), move: nothing, end: nothing, cancel: nothing };
   let moved: readonly KeyRef[] = refs;
+  let copies = false;
   const own = new Set(
     desk.times.ends.filter((_, index) =>
       refs.some(({ frameId }) => frameId === desk.times.frames[index]?.id),
@@ -35,11 +36,13 @@ export function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' 
   return edits(
     press,
     'move',
-    () => words.timeline.steps.move,
+    () => (copies ? words.timeline.steps.duplicate : words.timeline.steps.move),
     (spot, now) => {
       const deltaMs = isKept(press, spot, now, 'time') ? to(spot, now) - hit.atMs : 0;
       const deltaPosition = isKept(press, spot, now, 'value') ? turnedBy(press, scene, hit, spot) : 0;
-      const move = moveOf(desk, desk.group, refs, { deltaMs, deltaPosition });
+      // In their own place there is nothing to copy.
+      copies = now.ctrl && deltaMs !== 0;
+      const move = (copies ? copyOf : moveOf)(desk, desk.group, refs, { deltaMs, deltaPosition });
       return (group) => {
         const next = move.edit(group);
         moved = move.selects(timesOf(next));
@@ -51,7 +54,7 @@ export function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' 
       shown: () => stores.timeline.setState({ selected: keySet(moved) }),
       clicked() {
         if (!wasSelected || held.shift) return;
-        // A drag with Ctrl takes all of them along, only a click takes one away.
+        // A drag with Ctrl copies all of them, only a click takes one away.
         if (held.ctrl) selectPressed(press, hit);
         else if (before.size === 1) stores.timeline.setState({ asks: 'value' });
         else select(stores, keySet(hit.refs));

@@ -1,5 +1,6 @@
 // Keys moved in time and place: by arrow keys and by dragging alike. The keys go as far as all of them can go together.
 
+import { duplicateKeys } from '#shared/actions/group/clip.ts';
 import { moveKeys, boundedMove, type KeyMove } from '#shared/actions/group/keyEdits.ts';
 import { keysAt, type Key, type KeyRef } from '#shared/actions/group/tracks.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
@@ -29,6 +30,25 @@ export function moveOf(desk: Desk, group: ActionGroup, refs: readonly KeyRef[], 
     selects: (after) => (ripples ? refs : keysAt(after.tracks, moved)),
   };
 }
+
+/** The same keys once more, so far from them, in the place of what they meet; they themselves stay. */
+export function copyOf(desk: Desk, group: ActionGroup, refs: readonly KeyRef[], wanted: KeyMove): Move {
+  const keys = refs.flatMap((ref) => keyOf(timesOf(group), ref) ?? []);
+  const deltaPosition = withinLimits(desk, keys, wanted.deltaPosition);
+  const { deltaMs } = boundedMove(keys, { ...wanted, deltaPosition });
+  const places = keys.map(({ servo, atMs }) => ({ servo, atMs: atMs + deltaMs }));
+  const copies = ({ tracks }: GroupTimes): readonly KeyRef[] => keysAt(tracks, places);
+  return {
+    edit(before) {
+      const copied = duplicateKeys(before, refs, deltaMs, STAYS).group;
+      return moveKeys(copied, copies(timesOf(copied)), { deltaMs: 0, deltaPosition }, STAYS);
+    },
+    selects: copies,
+  };
+}
+
+/** What is behind stays at its time, as it does when pasted. */
+const STAYS = { ripple: false } as const;
 
 /** All together stop where the first of them meets its limit. Keys beyond their limits may come back. */
 function withinLimits(desk: Desk, keys: readonly Key[], delta: number): number {

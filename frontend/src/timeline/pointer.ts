@@ -138,6 +138,11 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
     'contextmenu',
     (event) => {
       event.preventDefault();
+      // The other button amid a drag.
+      if (gesture !== null && hasMoved) {
+        callOff();
+        return;
+      }
       // A finger that rests also asks for a menu here; it gets ours when it is lifted.
       if (!(event instanceof PointerEvent && event.pointerType === 'touch')) host.openMenu(spotOf(event));
     },

@@ -225,7 +225,7 @@ export const timelineWords = {
     /** `about`: the key, or how many they are; `turn`: how far an arrow turns them. */
     selected: (about: string, tickMs: number, turn: string): string =>
       `${about}. Type a number, or nudge with arrows by ${formatWhole(tickMs)} ms or ${turn}; Shift: ten times. Ctrl and arrows go to a key.`,
-    move: 'Alt suspends snapping. Shift keeps to one direction. Esc calls off, and stops the robot.',
+    move: 'Ctrl copies. Alt suspends snapping. Shift keeps to one direction. Esc calls off, and stops the robot.',
     box: 'Shift or Ctrl adds to the selection.',
     scrub: 'Alt suspends snapping. Shift sets the loop range.',
     duration: 'Alt suspends snapping. Ripple decides about what is behind.',

@@ -190,7 +190,7 @@ export const timelineWords: typeof english = {
     nothing: '方向键在关键帧之间移动。回车设关键帧。在空白处拖动来选择。',
     selected: (about, tickMs, turn) =>
       `${about}。可直接输入数值，或用方向键微调${formatWhole(tickMs)}毫秒或${turn}；按住Shift为十倍。Ctrl加方向键移到别的关键帧。`,
-    move: '按住Alt暂停吸附。按住Shift只沿一个方向。Esc放弃，并停止机器人。',
+    move: '按住Ctrl复制。按住Alt暂停吸附。按住Shift只沿一个方向。Esc放弃，并停止机器人。',
     box: '按住Shift或Ctrl加选。',
     scrub: '按住Alt暂停吸附。按住Shift设循环范围。',
     duration: '按住Alt暂停吸附。联动决定后面的内容是否移动。',
