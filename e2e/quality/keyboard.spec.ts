@@ -70,7 +70,10 @@ test('F6 goes from part to part, each time to where the keys were in it', async 
   await next('F6', page.getByRole('banner'));
   await next('F6', part('Servos'));
   await dashboard.slider(6).focus();
+  const choice = page.getByRole('radio', { name: 'Action group' });
+  await next('F6', choice);
   await next('F6', part('Action group'));
+  expect(await holdsFocus(choice)).toBe(false);
   await dashboard.capture.focus();
   await next('F6', part('Timeline'));
   for (const name of ['Board', 'Battery', 'Log']) await next('F6', part(name));
@@ -78,6 +81,7 @@ test('F6 goes from part to part, each time to where the keys were in it', async 
   await next('Shift+F6', part('Log'));
   for (const name of ['Battery', 'Board', 'Timeline']) await next('Shift+F6', part(name));
   await next('Shift+F6', dashboard.capture);
+  await next('Shift+F6', choice);
   await next('Shift+F6', dashboard.slider(6));
 });
 

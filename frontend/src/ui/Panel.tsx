@@ -7,7 +7,7 @@ import styles from './Panel.module.css';
 
 export interface PanelProps {
   readonly title: string;
-  /** In the title's place for the eye: a choice of which the title is one. */
+  /** In the title's place for the eye: a choice of which the title is one. F6 goes to it by itself. */
   readonly tabs?: ReactNode;
   /** Beside the title: what the panel says of itself. */
   readonly note?: ReactNode;
@@ -33,7 +33,11 @@ export function Panel({ title, tabs, note, tools, className, children }: PanelPr
         <h2 id={headingId} className={tabs === undefined ? styles.title : styles.unseen}>
           {title}
         </h2>
-        {tabs}
+        {tabs !== undefined && (
+          <div {...PART} className={styles.tabs}>
+            {tabs}
+          </div>
+        )}
         <div className={styles.note}>{note}</div>
         <div className={styles.tools}>{tools}</div>
       </header>

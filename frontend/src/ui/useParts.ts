@@ -21,11 +21,13 @@ export function useParts(): void {
     function go(event: KeyboardEvent): void {
       if (event.key !== 'F6' || event.ctrlKey || event.altKey || event.metaKey) return;
       event.preventDefault();
-      const stops = [...document.querySelectorAll(PARTS)].flatMap((part) => {
-        const last = lastIn.get(part);
-        const stop = last !== undefined && part.contains(last) && isStop(last) ? last : firstStop(part);
-        return stop === undefined ? [] : [{ part, stop }];
-      });
+      const stops = [...document.querySelectorAll(PARTS)]
+        .flatMap((part) => {
+          const [first, last] = [firstStop(part), lastIn.get(part)];
+          const isLastThere = last !== undefined && part.contains(last) && isStop(last);
+          return first === undefined ? [] : [{ part, first, stop: isLastThere ? last : first }];
+        })
+        .toSorted((one, other) => (isBefore(one.first, other.first) ? -1 : 1));
       const here = stops.findIndex(({ part }) => part === partOf(document.activeElement));
       const next = event.shiftKey ? (here < 0 ? -1 : here - 1) : here + 1;
       stops.at(next % Math.max(1, stops.length))?.stop.focus();
@@ -43,8 +45,12 @@ export function useParts(): void {
 const partOf = (target: EventTarget | null): Element | null =>
   target instanceof Element ? target.closest(PARTS) : null;
 
+/** Of its own: a part may have others within it. */
 const firstStop = (part: Element): HTMLElement | undefined =>
-  [...part.querySelectorAll<HTMLElement>(STOPS)].find(isStop);
+  [...part.querySelectorAll<HTMLElement>(STOPS)].find((stop) => partOf(stop) === part && isStop(stop));
+
+const isBefore = (one: Element, other: Element): boolean =>
+  (one.compareDocumentPosition(other) & Node.DOCUMENT_POSITION_FOLLOWING) !== 0;
 
 /** Of a group of radio buttons Tab finds the chosen one. */
 function isStop(element: HTMLElement): boolean {
