@@ -4,6 +4,7 @@ import type { Page } from '@playwright/test';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import type { Dashboard } from '../fixtures/dashboard.ts';
 import type { Robot } from '../fixtures/robot.ts';
+import { fingersOf } from '../fixtures/fingers.ts';
 import { noteTexts } from '../fixtures/notes.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
@@ -98,6 +99,33 @@ test('the kiosk shows only buttons and Stop, also after a reload, until a long p
   await page.mouse.down();
   await expect(page.getByRole('switch', { name: 'Edit buttons' })).toBeVisible();
   await page.mouse.up();
+});
+
+test.describe('with a finger', () => {
+  test.use({ hasTouch: true, isMobile: true, viewport: { width: 390, height: 844 } });
+
+  test('the kiosk is left by one that stays, not by one that has gone elsewhere', async ({
+    dashboard,
+    page,
+  }) => {
+    await page.getByRole('tab', { name: 'Buttons' }).tap();
+    await dashboard.button('Kiosk').tap();
+    await page.reload();
+    const leave = dashboard.button('Hold for 2 seconds to leave');
+    const box = (await leave.boundingBox())!;
+    const middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+    const { touch } = await fingersOf(page);
+    await touch('touchStart', middle);
+    for (let step = 1; step <= 30; step += 1) {
+      await touch('touchMove', { x: middle.x + (step % 2), y: middle.y - 10 * step });
+      await page.evaluate(() => new Promise((done) => setTimeout(done, 100)));
+    }
+    await touch('touchEnd');
+    await expect(leave).toBeVisible();
+    await touch('touchStart', middle);
+    await expect(leave).toBeHidden();
+    await touch('touchEnd');
+  });
 });
 
 test('a button moves to another place by key, and is deleted, and each is undone', async ({

@@ -51,7 +51,11 @@ function LeaveKiosk() {
       type="button"
       className={styles.leave}
       data-held={isHeld}
-      onPointerDown={hold}
+      onPointerDown={({ currentTarget, pointerId }) => {
+        // A finger would be taken for one on it wherever it goes.
+        if (currentTarget.hasPointerCapture(pointerId)) currentTarget.releasePointerCapture(pointerId);
+        hold();
+      }}
       onPointerUp={release}
       onPointerLeave={release}
       onPointerCancel={release}
