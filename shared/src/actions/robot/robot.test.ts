@@ -56,6 +56,8 @@ describe('what is wrong with a robot', () => {
     [{ min: 1500, max: 1500 }, ofElbow({ code: 'minNotBelowMax', min: 1500, max: 1500 })],
     [{ home: 400 }, ofElbow({ code: 'home', value: 400, range: { min: 500, max: 2500 } })],
     [{ trim: 20 }, ofElbow({ code: 'beyondBoard', range: { min: 500, max: 2500 } })],
+    [{ max: 9000 }, ofElbow({ code: 'beyondBoard', range: { min: 500, max: 2500 } })],
+    [{ trim: 126 }, ofElbow({ code: 'trim', value: 126, range: { min: -125, max: 125 } })],
     [{ mirror: 9 }, ofElbow({ code: 'noMirror', mirror: 9 })],
     [{ servo: 7 }, ofElbow({ code: 'number', range: { min: 1, max: 6 } }, 7)],
   ])('%j: %j', (change, flaw) => {

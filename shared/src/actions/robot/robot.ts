@@ -64,6 +64,13 @@ export const robotSchema = z.strictObject({
   servos: z.array(servoSchema).check(z.minLength(1), z.maxLength(253)),
 });
 
+const anyWhole = z.number().check(z.int());
+
+/** With any numbers for what a servo's reach is made of: one that is out of range has a servo to be named, see `flawOf`. */
+export const roughRobotSchema = z.extend(robotSchema, {
+  servos: z.array(z.extend(servoSchema, { min: anyWhole, max: anyWhole, home: anyWhole, trim: anyWhole })),
+});
+
 export type RobotServo = Readonly<z.infer<typeof servoSchema>>;
 export type Robot = Readonly<Omit<z.infer<typeof robotSchema>, 'servos'>> & {
   readonly servos: readonly RobotServo[];

@@ -2,7 +2,7 @@
 // trusts nothing and says what is wrong. Knows no place to store anything.
 
 import * as z from 'zod/mini';
-import { flawOf, robotSchema, shapeFlaw, type Robot, type RobotFlaw } from './robot.ts';
+import { flawOf, robotSchema, roughRobotSchema, shapeFlaw, type Robot, type RobotFlaw } from './robot.ts';
 
 const FORMAT = 'servodeck-robot';
 const VERSION = 1;
@@ -12,6 +12,8 @@ const fileSchema = z.strictObject({
   version: z.literal(VERSION),
   robot: robotSchema,
 });
+
+const roughSchema = z.extend(fileSchema, { robot: roughRobotSchema });
 
 export function robotToText(robot: Robot): string {
   return `${JSON.stringify({ format: FORMAT, version: VERSION, robot }, null, 2)}\n`;
@@ -23,8 +25,9 @@ export type RobotFileFlaw = RobotFlaw | { readonly code: 'notOurs' };
 export type ReadRobot = { readonly robot: Robot } | { readonly problem: RobotFileFlaw };
 
 export function robotFromText(text: string): ReadRobot {
-  const parsed = fileSchema.safeParse(jsonIn(text));
-  if (!parsed.success) return { problem: problemOf(parsed.error) };
+  const found = jsonIn(text);
+  const parsed = fileSchema.safeParse(found);
+  if (!parsed.success) return { problem: reachFlaw(found) ?? problemOf(parsed.error) };
   const { robot } = parsed.data;
   const flaw = flawOf(robot);
   return flaw === null ? { robot } : { problem: flaw };
@@ -41,6 +44,12 @@ function jsonIn(text: string): unknown {
   } catch {
     return undefined;
   }
+}
+
+/** A number out of range, with its servo's name and what it may be. */
+function reachFlaw(found: unknown): RobotFlaw | null {
+  const { data } = roughSchema.safeParse(found);
+  return data === undefined ? null : flawOf(data.robot);
 }
 
 function problemOf(error: z.core.$ZodError): RobotFileFlaw {
