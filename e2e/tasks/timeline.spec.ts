@@ -14,6 +14,15 @@ test.beforeEach(async ({ page }) => {
   await keepGroup(page);
 });
 
+test('on a usual laptop its tools stand in one row', async ({ dashboard, page }) => {
+  await expect(dashboard.link).toBeVisible();
+  await page.setViewportSize({ width: 1366, height: 768 });
+  const { tools } = timelineOf(page);
+  const first = (await tools.getByRole('combobox', { name: 'Easing' }).boundingBox())!;
+  const last = (await tools.getByRole('button', { name: 'Tall rows' }).boundingBox())!;
+  expect(Math.abs(first.y - last.y)).toBeLessThan(8);
+});
+
 test('a key is dragged in time and value, in one step, and moves no robot', async ({
   dashboard,
   page,
