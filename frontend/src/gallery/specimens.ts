@@ -4,7 +4,7 @@
 import type { FamilyId } from '#shared/protocol/families.ts';
 import { identityFrom } from '#shared/session/identity.ts';
 import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
-import type { Latch, SessionState } from '#shared/session/state.ts';
+import type { Latch, SessionState, Unheld } from '#shared/session/state.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { Way } from '../stores/device/device.ts';
 import { SERVO_SPECIMENS, type ServoSpecimen } from './servoSpecimens.ts';
@@ -67,7 +67,7 @@ const LATCHED = { pose: 'moving', frames: 3, ...DRIVEN } as const;
 const latched = (
   reason: Latch['reason'],
   stop: Latch['stop'],
-  unheld: readonly number[] = [],
+  unheld: Unheld = [],
 ): SessionState => ({
   ...READY,
   latch: { reason, by: reason === 'elsewhere' ? 'Cleo' : null, stop, unheld },
@@ -119,6 +119,11 @@ export const SPECIMENS: readonly Specimen[] = [
   { name: 'Stopped, confirmed', state: latched('pressed', 'confirmed'), ...LATCHED },
   { name: 'Stopped, failed', state: latched('pressed', 'failed'), ...LATCHED },
   { name: 'Stopped in a first move', state: latched('pressed', 'sent', [3, 5]), ...LATCHED },
+  {
+    name: 'Stopped in a group that the board alone knows',
+    state: latched('pressed', 'sent', 'unknownGroup'),
+    ...LATCHED,
+  },
   { name: 'Stopped elsewhere', way: REMOTE, state: latched('elsewhere', 'sent'), ...DRIVEN },
   { name: 'Stopped for the battery', state: latched('battery', 'sent'), ...LATCHED },
   { name: 'Stopped for want of a driver', way: REMOTE, state: latched('unwatched', 'sent'), ...DRIVEN },

@@ -99,6 +99,7 @@ const ANSWERED_ELSEWHERE: readonly LinkErrorCode[] = ['closed', 'boardUnknown', 
 const IN_ANOTHER_TAB: readonly LinkErrorCode[] = ['heldElsewhere', 'movedAway'];
 
 function latchWords({ reason, by, unheld }: Latch): string {
+  if (unheld === 'unknownGroup') return words.stop.unheldGroup;
   if (unheld.length > 0) return words.stop.unheld(unheld);
   return reason === 'elsewhere' ? words.stop.stoppedBy(by) : words.stop.reason[reason];
 }

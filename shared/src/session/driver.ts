@@ -18,6 +18,7 @@ import type { Replies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { setSpeed } from './speed.ts';
+import type { Unheld } from './state.ts';
 import type { SharedSlots } from './transport.ts';
 import { createTurns } from './turns.ts';
 import { createUnderWay } from './underWay.ts';
@@ -41,6 +42,8 @@ export interface Driver {
   applied(command: Command): void;
   /** The newest move, or null when there is nothing to say. */
   takeMove(): Outgoing | null;
+  /** What a hold cannot freeze now. */
+  unheld(): Unheld;
   /** Ends what is under way here. What the board was asked and did not answer stays unknown. */
   drop(error: LinkError): void;
 }
@@ -94,6 +97,11 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
     takeMove() {
       const servos = turns.next(moves.servos());
       return servos.length === 0 ? null : outgoing(moves.take(servos));
+    },
+    unheld() {
+      const { activity } = store.state;
+      const isUnknown = activity.kind === 'running' && robot.groupMs(activity.slot) === null;
+      return isUnknown ? 'unknownGroup' : robot.unheld();
     },
     drop(error) {
       live.drop();

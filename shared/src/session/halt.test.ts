@@ -1,4 +1,5 @@
 import { describe, expect, test } from 'vitest';
+import { createFlashChip } from '../simulator/flashChip.ts';
 import { createRig, type Rig } from './rig.ts';
 
 async function knownAtRest(rig: Rig, position = 1_000): Promise<void> {
@@ -34,6 +35,23 @@ describe('STOP', () => {
     void rig.session.halt();
     expect(rig.session.state.latch).toMatchObject({ unheld: [3] });
     await rig.clock.advance(3_000);
+  });
+
+  test('says that a frame goes on which the board alone knows', async () => {
+    const flash = createFlashChip();
+    const before = await createRig({ flash });
+    const frames = [{ durationMs: 2_000, targets: [{ servo: 1, position: 2_000 }] }];
+    const stored = before.session.download([{ slot: 5, frames }]);
+    await before.clock.advance(5_000);
+    await stored;
+    const rig = await createRig({ flash });
+    await knownAtRest(rig);
+    void rig.session.run(5, 1);
+    await rig.clock.advance(500);
+    void rig.session.halt();
+    expect(rig.session.state.latch).toMatchObject({ unheld: 'unknownGroup' });
+    await rig.clock.advance(3_000);
+    expect(rig.transport.board.pulse(1)).toBe(2_000);
   });
 
   test('goes ahead of everything queued, and nothing else follows it', async () => {

@@ -7,7 +7,7 @@ import { UNKNOWN_BOARD } from '../protocol/families.ts';
 import { requireReady } from './core.ts';
 import type { Lanes } from './lanes.ts';
 import { LinkError } from './linkError.ts';
-import type { Latch } from './state.ts';
+import type { Latch, Unheld } from './state.ts';
 import type { SessionStore } from './store.ts';
 import { STOP_REPEATS_MS } from './timings.ts';
 import type { HaltReason, SharedLatchReason, Transport } from './transport.ts';
@@ -45,8 +45,8 @@ export interface HaltOptions {
   readonly transport: Transport;
   /** The move that freezes the robot where it is estimated to be, or null where nothing is known. */
   holdPacket(): Uint8Array | null;
-  /** Servos that it cannot freeze. */
-  unheld(): readonly number[];
+  /** What it cannot freeze. */
+  unheld(): Unheld;
   dropAll(error: LinkError): void;
   /** Books a packet that a shared link sends for us, as if it had left by our own lanes. */
   sentByOthers(packet: Uint8Array): void;

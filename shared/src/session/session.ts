@@ -141,7 +141,7 @@ export function createSession(options: SessionOptions): Session {
       const hold = driver.core.robot.hold();
       return hold && encodeOrRefuse(hold, driver.core.family);
     },
-    unheld: () => driver.core.robot.unheld(),
+    unheld: () => driver.unheld(),
     sentByOthers,
   });
   const resync = createResync(lanes);

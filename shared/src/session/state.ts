@@ -28,6 +28,9 @@ export type LinkState =
   /** Only a person can go on: no access, or nobody knows which board this is. */
   | { readonly status: 'refused'; readonly error: LinkError };
 
+/** Servos that end their slow first move; or whatever moved in the frame of a group that is known to its board alone. */
+export type Unheld = readonly number[] | 'unknownGroup';
+
 /** Motion is refused while this is not null; only `resume` clears it. */
 export interface Latch {
   /**
@@ -39,8 +42,8 @@ export interface Latch {
   readonly by: string | null;
   /** `sending`: the stop packets are on their way. `sent`: they left the wire. `confirmed`: the board said so. */
   readonly stop: 'sending' | 'sent' | 'confirmed' | 'failed';
-  /** Servos in a first move when it was pressed: nobody knows where, so they end that slow move and are not held. */
-  readonly unheld: readonly number[];
+  /** What went on in spite of it: nobody knew where to hold it. */
+  readonly unheld: Unheld;
 }
 
 export type Activity =

@@ -31,6 +31,7 @@ export const stopWords = {
     servos.length === 1
       ? `Servo ${formatList(servos)} ends its slow first move: nobody knows where to hold it`
       : `Servos ${formatList(servos)} end their slow first moves: nobody knows where to hold them`,
+  unheldGroup: 'The frame that had begun goes on to its end: only the board knows this group',
   outcome: {
     sending: 'Stopping',
     sent: 'Stop sent; this board does not confirm',

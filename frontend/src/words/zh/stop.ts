@@ -25,6 +25,7 @@ export const stopWords: Words['stop'] = {
   },
   stoppedBy: (by) => (by === null ? '在另一个屏幕上停止' : (STOPPED_AT[by] ?? `由${by}停止`)),
   unheld: (servos) => `${formatList(servos)}号舵机会走完缓慢的第一次移动：不知道该让它停在哪里`,
+  unheldGroup: '已开始的一帧会走完：只有控制板知道这个动作组',
   outcome: {
     sending: '正在停止',
     sent: '停止已发出；这种控制板不会确认',
