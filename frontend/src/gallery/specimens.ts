@@ -64,11 +64,7 @@ const TOLD: Shows = { shows: ['bar', 'live', 'board'] };
 const LATCHED = { pose: 'moving', frames: 3, ...DRIVEN } as const;
 
 /** Why nothing moves, and what is known of the stop. */
-const latched = (
-  reason: Latch['reason'],
-  stop: Latch['stop'],
-  unheld: Unheld = [],
-): SessionState => ({
+const latched = (reason: Latch['reason'], stop: Latch['stop'], unheld: Unheld = []): SessionState => ({
   ...READY,
   latch: { reason, by: reason === 'elsewhere' ? 'Cleo' : null, stop, unheld },
 });
