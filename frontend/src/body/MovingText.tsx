@@ -1,5 +1,5 @@
 // A number that changes by itself, drawn while it does: text that changes has the page laid out and painted anew. Beneath it the
-// text follows once a second, for whoever does not see; at rest it is text like any other.
+// text follows every other second, for whoever does not see; at rest it is text like any other.
 
 import { useLayoutEffect, useRef } from 'react';
 import type { LookName } from '../timeline/look.ts';
@@ -9,7 +9,7 @@ import type { Pen, Size } from './Canvas.tsx';
 import { Drawing } from './Drawing.tsx';
 import overlay from './overlay.module.css';
 
-const WRITTEN_EACH_MS = 1000;
+const WRITTEN_EACH_MS = 2000;
 /** On an element whose text is drawn instead. */
 const DRAWN = 'data-drawn';
 
@@ -36,9 +36,9 @@ export function MovingText({ element, colour, text, write }: MovingTextProps) {
     if (drawn.current === null && now === written.current) return;
     if (drawn.current === null) element.current?.setAttribute(DRAWN, '');
     drawn.current = now;
-    const second = Math.floor(nowMs / WRITTEN_EACH_MS);
-    if (second !== writtenIn.current) write(now);
-    writtenIn.current = second;
+    const beat = Math.floor(nowMs / WRITTEN_EACH_MS);
+    if (beat !== writtenIn.current) write(now);
+    writtenIn.current = beat;
   }
 
   function typeIn(pen: Pen): Type {

@@ -39,7 +39,8 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
     if (list.current === null) return undefined;
     return watchSize(list.current, sheet.measureAnew);
   }, [sheet]);
-  useEachFrame(sheet.measureAnew, { eachMs: MEASURED_EACH_MS });
+  // Not in the frame in which texts are written: it would have that one laid out twice.
+  useEachFrame(sheet.measureAnew, { eachMs: MEASURED_EACH_MS, turnMs: MEASURED_EACH_MS / 2 });
 
   function place(): void {
     const cover = coverOf(parts.current, covered.current);

@@ -12,7 +12,7 @@ import { PART } from '../ui/useParts.ts';
 import styles from './LogDrawer.module.css';
 
 /** A packet takes longer to read than a number. */
-const PACKET_READABLE_MS = 1000;
+const PACKET_READABLE_MS = 2000;
 
 export function LogDrawer() {
   const { view } = useStores();

@@ -8,7 +8,7 @@ import styles from './MoveTimeControl.module.css';
 
 const WINDOW_MS = 1000;
 /** Together with the latest packet of the log: text that changes has the page laid out. */
-const WRITE_EACH_MS = 1000;
+const WRITE_EACH_MS = 2000;
 
 export function SendRate() {
   const { device } = useStores();

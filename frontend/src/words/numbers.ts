@@ -95,9 +95,10 @@ export function numbersIn({ locale, units, gap }: Locale) {
     },
     formatMs: (ms: number): string => milliseconds.format(ms),
 
-    /** `3 sec. ago`, by whole seconds and above a minute by minutes. */
+    /** `3 sec. ago`, by whole seconds, from ten on by tens of them, and above a minute by minutes. */
     formatAge: (ms: number): string => {
-      const ageSeconds = Math.max(0, Math.round(ms / 1000));
+      const exactSeconds = Math.max(0, Math.round(ms / 1000));
+      const ageSeconds = exactSeconds < 10 ? exactSeconds : 10 * Math.round(exactSeconds / 10);
       return ageSeconds < 60
         ? ago.format(-ageSeconds, 'second')
         : ago.format(-Math.round(ageSeconds / 60), 'minute');

@@ -188,8 +188,10 @@ describe('numbers', () => {
     expect(english.numbers.formatRoughly(2_951_900)).toBe('49 min');
   });
 
-  test('ages are whole seconds, then minutes', () => {
+  test('ages are whole seconds, then tens of them, then minutes', () => {
     expect(english.numbers.formatAge(2600)).toBe('3 sec. ago');
+    expect(english.numbers.formatAge(12_400)).toBe('10 sec. ago');
+    expect(english.numbers.formatAge(56_000)).toBe('1 min. ago');
     expect(english.numbers.formatAge(180_000)).toBe('3 min. ago');
   });
 
