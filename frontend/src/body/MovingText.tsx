@@ -1,15 +1,15 @@
 // A number that changes by itself, drawn while it does: text that changes has the page laid out and painted anew. Beneath it the
 // text follows every other second, for whoever does not see; at rest it is text like any other.
 
-import { useLayoutEffect, useRef } from 'react';
+import { useLayoutEffect, useRef, useState } from 'react';
 import type { LookName } from '../timeline/look.ts';
 import type { FollowedTextProps } from '../ui/NumberField.tsx';
-import { READABLE_MS, useFollow } from '../ui/useFollow.ts';
+import { dueOn } from '../ui/useEachFrame.ts';
+import { CHANGING_EACH_MS, READABLE_MS, useFollow } from '../ui/useFollow.ts';
 import type { Pen, Size } from './Canvas.tsx';
 import { Drawing } from './Drawing.tsx';
 import overlay from './overlay.module.css';
 
-const WRITTEN_EACH_MS = 2000;
 /** On an element whose text is drawn instead. */
 const DRAWN = 'data-drawn';
 
@@ -22,7 +22,7 @@ export function MovingText({ element, colour, text, write }: MovingTextProps) {
   /** What is drawn; null while it is text. */
   const drawn = useRef<string | null>(null);
   const written = useRef('');
-  const writtenIn = useRef(0);
+  const [isDue] = useState(() => dueOn({ eachMs: CHANGING_EACH_MS }));
   const type = useRef<Type | null>(null);
 
   function rest(now: string): void {
@@ -36,9 +36,7 @@ export function MovingText({ element, colour, text, write }: MovingTextProps) {
     if (drawn.current === null && now === written.current) return;
     if (drawn.current === null) element.current?.setAttribute(DRAWN, '');
     drawn.current = now;
-    const beat = Math.floor(nowMs / WRITTEN_EACH_MS);
-    if (beat !== writtenIn.current) write(now);
-    writtenIn.current = beat;
+    if (isDue(nowMs)) write(now);
   }
 
   function typeIn(pen: Pen): Type {

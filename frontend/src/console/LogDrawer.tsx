@@ -8,11 +8,9 @@ import { LiveText } from '../ui/LiveText.tsx';
 import { words } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import { LogPanel } from './LogPanel.tsx';
+import { READABLE_MS } from '../ui/useFollow.ts';
 import { PART } from '../ui/useParts.ts';
 import styles from './LogDrawer.module.css';
-
-/** A packet takes longer to read than a number. */
-const PACKET_READABLE_MS = 2000;
 
 export function LogDrawer() {
   const { view } = useStores();
@@ -39,8 +37,11 @@ export function LogDrawer() {
   );
 }
 
+const HOW = { isFixed: true, isCalm: true, eachMs: READABLE_MS } as const;
+
 function Latest() {
   const { traffic } = useStores().device;
+  const newest = (): number => traffic.store.getState().nextId;
   const latest = (): LogEntry | null => {
     const { oldestId, nextId } = traffic.store.getState();
     return nextId > oldestId ? traffic.at(nextId - 1) : null;
@@ -55,8 +56,8 @@ function Latest() {
   };
   return (
     <>
-      <LiveText isFixed className={styles.latest} text={said} eachMs={PACKET_READABLE_MS} />
-      <LiveText isFixed className={styles.bytes} text={bytes} eachMs={PACKET_READABLE_MS} />
+      <LiveText className={styles.latest} text={said} {...HOW} about={newest} />
+      <LiveText className={styles.bytes} text={bytes} {...HOW} about={newest} />
     </>
   );
 }

@@ -2,13 +2,12 @@
 
 import { useStores } from '../stores/stores.ts';
 import { LiveText } from '../ui/LiveText.tsx';
+import { CHANGING_EACH_MS } from '../ui/useFollow.ts';
 import { words } from '../words/words.ts';
 import { sentSince } from './sentSince.ts';
 import styles from './MoveTimeControl.module.css';
 
 const WINDOW_MS = 1000;
-/** Together with the latest packet of the log: text that changes has the page laid out. */
-const WRITE_EACH_MS = 2000;
 
 export function SendRate() {
   const { device } = useStores();
@@ -18,7 +17,7 @@ export function SendRate() {
       text={() =>
         words.servoPanel.sending(sentSince(device.traffic, device.clock.now() - WINDOW_MS), device.waiting())
       }
-      eachMs={WRITE_EACH_MS}
+      eachMs={CHANGING_EACH_MS}
       className={styles.rate}
       title={words.servoPanel.sendingHint}
     />

@@ -1,16 +1,21 @@
 // A text that changes by itself, written past React: at most once a frame, or no more often than it can be read, and only
 // where it has become another one.
 
-import { useLayoutEffect, useRef } from 'react';
+import { useLayoutEffect, useRef, useState } from 'react';
 import { cx } from './cx.ts';
 import styles from './LiveText.module.css';
 import { setText } from './setText.ts';
-import { useFollow } from './useFollow.ts';
+import { dueOn } from './useEachFrame.ts';
+import { CHANGING_EACH_MS, useFollow } from './useFollow.ts';
 
 export interface LiveTextProps {
   /** Asked for what is to stand there now. */
   text(): string;
   readonly eachMs?: number;
+  /** For what is no hurry while it goes on changing: written every other second, and at rest. */
+  readonly isCalm?: boolean;
+  /** What it is about, where that is asked more quickly than the text. */
+  about?(): unknown;
   readonly className?: string | undefined;
   readonly title?: string;
   /** It changes all the time, and something else says it to screen readers. */
@@ -22,17 +27,27 @@ export interface LiveTextProps {
 export function LiveText({
   text,
   eachMs = 0,
+  isCalm = false,
+  about = text,
   className,
   title,
   isSilent = false,
   isFixed = false,
 }: LiveTextProps) {
   const place = useRef<HTMLSpanElement>(null);
-  const write = (now: string): void => {
-    if (place.current !== null) setText(place.current, now);
+  const [isDue] = useState(() => dueOn({ eachMs: CHANGING_EACH_MS }));
+  const write = (): void => {
+    if (place.current !== null) setText(place.current, text());
   };
-  useLayoutEffect(() => write(text()));
-  useFollow({ read: text, draw: write, eachMs });
+  useLayoutEffect(write);
+  useFollow({
+    read: about,
+    draw: (_, nowMs) => {
+      if (!isCalm || isDue(nowMs)) write();
+    },
+    rest: write,
+    eachMs,
+  });
   return (
     <span
       className={cx(isFixed && styles.fixed, className)}

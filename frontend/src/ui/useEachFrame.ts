@@ -16,8 +16,11 @@ export interface Beat {
 
 interface OnBeat {
   readonly drawers: Set<Draw>;
-  isDue(nowMs: number): boolean;
+  readonly isDue: Due;
 }
+
+/** Whether a beat has begun since this was asked last. */
+export type Due = (nowMs: number) => boolean;
 
 const eachFrame = new Set<Draw>();
 const onBeats = new Map<string, OnBeat>();
@@ -40,23 +43,20 @@ function drawAll(nowMs: number): void {
   });
 }
 
-function beginBeat({ eachMs, turnMs = 0 }: Beat): OnBeat {
+export function dueOn({ eachMs, turnMs = 0 }: Beat): Due {
   let last = -1;
-  return {
-    drawers: new Set(),
-    isDue(nowMs) {
-      const beat = Math.floor((nowMs + turnMs) / eachMs);
-      if (beat === last) return false;
-      last = beat;
-      return true;
-    },
+  return (nowMs) => {
+    const beat = Math.floor((nowMs + turnMs) / eachMs);
+    const isDue = beat !== last;
+    last = beat;
+    return isDue;
   };
 }
 
 function drawersOf(beat: Beat): Set<Draw> {
   if (beat.eachMs === 0) return eachFrame;
   const key = `${beat.eachMs} ${beat.turnMs}`;
-  const known = onBeats.get(key) ?? beginBeat(beat);
+  const known = onBeats.get(key) ?? { drawers: new Set(), isDue: dueOn(beat) };
   onBeats.set(key, known);
   return known.drawers;
 }

@@ -26,6 +26,8 @@ interface Looked<T> {
 
 /** No more often can a number be read. */
 export const READABLE_MS = 100;
+/** Text that goes on changing is written no more often: a frame in which text is laid out takes twice as long as others. */
+export const CHANGING_EACH_MS = 2000;
 /** Longer than a slow drag takes from one value to the next; no more often is looked at what is out of sight. */
 const REST_MS = 250;
 
