@@ -2,7 +2,6 @@
 
 import { useStores } from '../stores/stores.ts';
 import { LiveText } from '../ui/LiveText.tsx';
-import { CHANGING_EACH_MS } from '../ui/useFollow.ts';
 import { words } from '../words/words.ts';
 import { sentSince } from './sentSince.ts';
 import styles from './MoveTimeControl.module.css';
@@ -17,7 +16,7 @@ export function SendRate() {
       text={() =>
         words.servoPanel.sending(sentSince(device.traffic, device.clock.now() - WINDOW_MS), device.waiting())
       }
-      eachMs={CHANGING_EACH_MS}
+      eachMs={WINDOW_MS}
       className={styles.rate}
       title={words.servoPanel.sendingHint}
     />
