@@ -29,8 +29,9 @@ export function useStripWindow(
     const element = strip.current;
     if (element === null) return undefined;
     const measure = (): void => {
-      const first = Math.floor(element.scrollLeft / STEP_PX / CHUNK) * CHUNK;
-      const end = first + Math.ceil(element.clientWidth / STEP_PX / CHUNK + 1) * CHUNK;
+      const chunks = (px: number): number => px / STEP_PX / CHUNK;
+      const first = Math.floor(chunks(element.scrollLeft)) * CHUNK;
+      const end = Math.ceil(chunks(element.scrollLeft + element.clientWidth)) * CHUNK;
       setSeen((before) => (before.first === first && before.end === end ? before : { first, end }));
     };
     const observer = new ResizeObserver(measure);
