@@ -50,6 +50,9 @@ describe('STOP', () => {
     await rig.clock.advance(500);
     void rig.session.halt();
     expect(rig.session.state.latch).toMatchObject({ unheld: 'unknownGroup' });
+    await rig.clock.advance(500);
+    void rig.session.halt();
+    expect(rig.session.state.latch, 'pressed once more').toMatchObject({ unheld: 'unknownGroup' });
     await rig.clock.advance(3_000);
     expect(rig.transport.board.pulse(1)).toBe(2_000);
   });

@@ -100,6 +100,11 @@ export function createHalt(options: HaltOptions): Halt {
     if (hold !== null) sentByOthers(hold);
   }
 
+  /** The frame that goes on in spite of the first press does so at the next one: the group itself has ended by then. */
+  function unheldNow(): Unheld {
+    return store.state.latch?.unheld === 'unknownGroup' ? 'unknownGroup' : options.unheld();
+  }
+
   async function send(sequence: () => Promise<void>): Promise<void> {
     const sending = sequence();
     underWay = sending.catch(() => undefined);
@@ -118,7 +123,7 @@ export function createHalt(options: HaltOptions): Halt {
     },
     latchedByLoss: () => latch({ reason: 'reconnected', by: null, stop: 'failed', unheld: [] }),
     async halt(why = 'pressed') {
-      latch({ reason: why, by: null, stop: 'sending', unheld: options.unheld() });
+      latch({ reason: why, by: null, stop: 'sending', unheld: unheldNow() });
       await send(transport.halt ? () => haltSharedLink(why) : haltOwnLink);
     },
     async resume() {
