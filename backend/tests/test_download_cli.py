@@ -12,7 +12,7 @@ from typing import Any
 import httpx2
 import pytest
 
-from servodeck.cli.options_cli import REFUSED, USAGE
+from servodeck.cli.exits import FAILURE, USAGE
 from servodeck.port.wire import wire_s
 from tests.samples import DOWNLOAD
 from tests.test_cli import Served, run
@@ -94,7 +94,7 @@ def test_it_may_go_on_without_the_command(served: Served, board: Board, tmp_path
     assert begun.stdout.startswith("Begun: job ")
     assert begun.stdout.endswith(", 1 group, 40 frames.\n")
     second = run("download", f"6={wave}", "--url", served.url)
-    assert (second.exit_code, "(busy)" in second.stderr) == (REFUSED, True)
+    assert (second.exit_code, "(busy)" in second.stderr) == (FAILURE, True)
     assert run("stop", "--url", served.url).exit_code == 0
     assert {slot for slot, _ in board.stored} <= {5}
 
@@ -120,7 +120,7 @@ def test_what_ends_it_early_is_told_with_what_is_stored(served: Served, board: B
     board.silent = stopping.start
     ended = run("download", f"5={wave}", f"7={wave}", "--url", served.url)
     stopping.join()
-    assert (ended.exit_code, ended.stderr) == (REFUSED, "")
+    assert (ended.exit_code, ended.stderr) == (FAILURE, "")
     assert ended.stdout.splitlines()[0] == "Slot 5 is stored."
     assert ended.stdout.splitlines()[-1].startswith("1 of 2 groups are stored. Stopped")
 

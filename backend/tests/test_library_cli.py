@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from servodeck.cli.cli import app
-from servodeck.cli.options_cli import REFUSED
+from servodeck.cli.exits import FAILURE
 from tests.samples import ERASE
 from tests.scripted import move
 from tests.test_cli import Served, run
@@ -53,9 +53,9 @@ def test_poses_are_listed_and_gone_to_by_name_or_number(served: Served) -> None:
     assert (gone.exit_code, gone.stdout) == (0, "On its way, over in 1.5 s.\n")
     assert os.read(served.pty.board, 100) == move(1500, s1=1500)
     several = run("pose", "Rest", "--url", served.url)
-    assert (several.exit_code, "2, 3" in several.stderr) == (REFUSED, True)
+    assert (several.exit_code, "2, 3" in several.stderr) == (FAILURE, True)
     nowhere = run("pose", "../stop", "--url", served.url)
-    assert (nowhere.exit_code, nowhere.stdout) == (REFUSED, "")
+    assert (nowhere.exit_code, nowhere.stdout) == (FAILURE, "")
 
 
 def test_the_library_is_listed(served: Served) -> None:
@@ -70,5 +70,5 @@ def test_erasing_asks_first_and_tells_what_the_board_does_not_say(served: Served
     kept = CliRunner().invoke(app, ["erase", "--url", served.url], input="n\n")
     assert kept.exit_code == 1
     silent = run("erase", "--yes", "--url", served.url)
-    assert (silent.exit_code, "(noAnswer)" in silent.stderr) == (REFUSED, True)
+    assert (silent.exit_code, "(noAnswer)" in silent.stderr) == (FAILURE, True)
     assert os.read(served.pty.board, 100) == ERASE

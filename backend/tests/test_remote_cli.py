@@ -11,7 +11,7 @@ from pathlib import Path
 import httpx2
 import pytest
 
-from servodeck.cli.options_cli import INTERRUPTED, REFUSED, UNREACHABLE, USAGE
+from servodeck.cli.exits import FAILURE, INTERRUPTED, UNREACHABLE, USAGE
 from tests.samples import BATTERY, RUN, STOP
 from tests.test_cli import Served, run
 
@@ -38,7 +38,7 @@ def test_a_stop_leaves_and_refuses_motion_until_resume(served: Served) -> None:
     assert run("stop", "--url", served.url).exit_code == 0
     assert served.read_until_stops(3) == STOP * 3
     refused = run("move", "1=1500", "--url", served.url)
-    assert refused.exit_code == REFUSED
+    assert refused.exit_code == FAILURE
     assert "(latched)" in refused.stderr
     assert "servodeck resume" in refused.stderr
     assert run("resume", "--url", served.url).exit_code == 0
@@ -72,13 +72,13 @@ def test_a_bare_stop_that_fails_is_explained() -> None:
 
 def test_what_is_out_of_range_is_told_in_the_gateways_words(served: Served) -> None:
     refused = run("move", "1=2600", "--url", served.url)
-    assert (refused.exit_code, refused.stdout) == (REFUSED, "")
+    assert (refused.exit_code, refused.stdout) == (FAILURE, "")
     assert refused.stderr.startswith("position of servo 1 is 2600, allowed 500..2500")
 
 
 def test_a_silent_board_is_told_with_what_to_do(served: Served) -> None:
     silent = run("battery", "--url", served.url)
-    assert silent.exit_code == REFUSED
+    assert silent.exit_code == FAILURE
     assert "switched on" in silent.stderr
     assert os.read(served.pty.board, 100) == BATTERY
 
@@ -127,7 +127,7 @@ def test_ports_of_the_gateways_computer_are_told(served: Served) -> None:
 def test_strangers_are_told_where_a_token_comes_from_and_with_one_they_come_in(tmp_path: Path) -> None:
     served = Served("--lan", "--data", str(tmp_path), *SILENT)
     refused = run("status", "--url", served.url)
-    assert (refused.exit_code, "--token-file" in refused.stderr) == (REFUSED, True)
+    assert (refused.exit_code, "--token-file" in refused.stderr) == (FAILURE, True)
     token = tmp_path / "token"
     token.write_text(token_of(served) + "\n")
     assert run("stop", "--url", served.url, "--token-file", str(token)).exit_code == 0

@@ -10,17 +10,8 @@ from typing import Annotated, Any
 
 import typer
 
-from servodeck.cli.options_cli import (
-    INTERRUPTED,
-    REFUSED,
-    USAGE,
-    AsJson,
-    Take,
-    asked,
-    asking,
-    fail,
-    show,
-)
+from servodeck.cli.exits import FAILURE, INTERRUPTED, USAGE, fail
+from servodeck.cli.options_cli import AsJson, Take, asked, asking, show
 from servodeck.cli.remote import Remote
 
 LOOK_S = 0.2
@@ -47,7 +38,7 @@ def download(
         job = followed(remote, job, tells=not as_json)
     show(job, as_json, words_of)
     if job["status"] not in ("done", "running"):
-        raise typer.Exit(REFUSED)
+        raise typer.Exit(FAILURE)
 
 
 def handed_over(remote: Remote, groups: list[dict[str, Any]], *, take: bool) -> dict[str, Any]:

@@ -5,7 +5,6 @@ Knows options and words; no command.
 """
 
 import json
-import sys
 from collections.abc import Callable
 from functools import wraps
 from inspect import Signature, signature
@@ -14,9 +13,9 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
+from servodeck.cli.exits import FAILURE, UNREACHABLE, USAGE, fail
 from servodeck.cli.remote import HERE, RefusedError, Remote, UnreachableError
 
-USAGE, REFUSED, UNREACHABLE, INTERRUPTED = 2, 1, 3, 130
 WHAT_TO_DO = {
     "notPaired": "An owner's page makes tokens (People). Give one by --token-file or SERVODECK_TOKEN.",
     "latched": "Look at the robot, then: servodeck resume",
@@ -36,11 +35,6 @@ TokenFile = Annotated[
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="For programs.")]
 Take = Annotated[bool, typer.Option("--take", help="As an owner: also from whoever drives.")]
-
-
-def fail(message: str, code: int) -> NoReturn:
-    print(message, file=sys.stderr)
-    raise typer.Exit(code)
 
 
 def remote_at(url: Url = HERE, token: Token = "", token_file: TokenFile = None) -> Remote:
@@ -77,7 +71,7 @@ def asked(remote: Remote, method: str, path: str, body: object = None, **how: fl
 
 def explain(error: RefusedError) -> NoReturn:
     hint = WHAT_TO_DO.get(error.code)
-    fail(f"{error.detail} ({error.code}){f'{chr(10)}{hint}' if hint else ''}", REFUSED)
+    fail(f"{error.detail} ({error.code}){f'{chr(10)}{hint}' if hint else ''}", FAILURE)
 
 
 def explain_silence(remote: Remote, error: UnreachableError) -> NoReturn:

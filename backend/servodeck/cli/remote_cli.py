@@ -9,18 +9,8 @@ from typing import Annotated, Any
 
 import typer
 
-from servodeck.cli.options_cli import (
-    INTERRUPTED,
-    USAGE,
-    AsJson,
-    Take,
-    asked,
-    asking,
-    explain,
-    explain_silence,
-    fail,
-    show,
-)
+from servodeck.cli.exits import INTERRUPTED, USAGE, fail
+from servodeck.cli.options_cli import AsJson, Take, asked, asking, explain, explain_silence, show
 from servodeck.cli.remote import RefusedError, Remote, UnreachableError
 
 BEAT_S = 1.0
