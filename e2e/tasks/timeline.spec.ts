@@ -361,6 +361,22 @@ test('a stretch is pulled at its beginning, the middle button pans, and the line
   expect(moved.x).toBeCloseTo(last.x - 150, -1);
 });
 
+test('the middle button pans and pastes nothing', async ({ page, dashboard }) => {
+  await expect(dashboard.frames).toHaveCount(3);
+  const timeline = timelineOf(page);
+  await timeline.click('Gripper, 1.00 s, 1200 µs, linear');
+  await page.keyboard.press('Control+c');
+  const { x, y } = await timeline.middleOf(timeline.key('Gripper, 1.50 s, 1400 µs, linear'));
+  await page.mouse.move(x, y + 60);
+  await page.mouse.down({ button: 'middle' });
+  await page.mouse.move(x - 150, y + 60, { steps: 4 });
+  await page.mouse.up({ button: 'middle' });
+  await dashboard.frame(1).click({ button: 'middle' });
+  await expect(timeline.key('Gripper, 1.50 s, 1400 µs, linear')).toBeVisible();
+  await expect(dashboard.frames).toHaveCount(3);
+  await expect(dashboard.button('Undo')).toBeDisabled();
+});
+
 test('a muted row is not sent when the page plays', async ({ page, dashboard, robot }) => {
   await expect(dashboard.frames).toHaveCount(3);
   await dashboard.button('Row of Elbow').click();

@@ -35,6 +35,7 @@ import { Icon, type IconName } from './ui/Icon.tsx';
 import { useEachFrame } from './ui/useEachFrame.ts';
 import { useFocusKept } from './ui/useFocusKept.ts';
 import { useLayout } from './ui/useLayout.ts';
+import { useNoPasteByMouse } from './ui/useNoPasteByMouse.ts';
 import { useParts } from './ui/useParts.ts';
 import { useSpokenLocale } from './ui/useSpokenLocale.ts';
 import { words } from './words/words.ts';
@@ -82,6 +83,7 @@ function Unseen() {
   useBatteryTab();
   useUndoKeys(useWritten());
   useFocusKept();
+  useNoPasteByMouse();
   useParts();
   useEachFrame(() => {
     device.refresh(motionsInFrame(device));
