@@ -97,21 +97,21 @@ function hold(
   dtMs: number,
   before: Held | undefined,
 ): Held {
-  const way = valueOf(binding.input, inputs);
-  const firstWay = before?.firstWay ?? way;
+  const { input, action } = binding;
   const { feel } = driven.mapping;
-  const wanted = shaped(way, feel);
-  if (binding.action.kind === 'position') {
-    const isAwake = before?.isAwake === true || Math.abs(way - firstWay) > PICK_UP;
-    const from = before?.isAwake === true ? before.value : shareNow(driven, binding, binding.action);
-    return { isAwake, firstWay, value: isAwake ? smoothed(from, wanted, dtMs, feel) : from };
+  const way = valueOf(input, inputs);
+  const firstWay = before?.firstWay ?? way;
+  const wasAwake = before?.isAwake === true;
+  if (action.kind === 'position') {
+    const isAwake = wasAwake || Math.abs(way - firstWay) > PICK_UP;
+    const from = wasAwake ? before.value : shareNow(driven, binding, action);
+    return { isAwake, firstWay, value: isAwake ? smoothed(from, shaped(way, feel), dtMs, feel) : from };
   }
-  const isPulled = binding.action.kind === 'rate' ? wanted !== 0 : isPressed(binding.input, inputs);
-  const isAwake = before?.isAwake === true || !isPulled;
-  if (!isAwake || !isPulled) return { isAwake, firstWay, value: 0 };
-  if (binding.action.kind !== 'rate') return { isAwake, firstWay, value: 1 };
+  const wanted = action.kind === 'rate' ? shaped(way, feel) : Number(isPressed(input, inputs));
+  const isAwake = wasAwake || wanted === 0;
+  if (!isAwake || action.kind !== 'rate') return { isAwake, firstWay, value: isAwake ? wanted : 0 };
   // Turning round begins at rest: nothing of the other direction is left.
-  const from = before !== undefined && before.value * wanted > 0 ? before.value : 0;
+  const from = wasAwake && before.value * wanted > 0 ? before.value : 0;
   return { isAwake, firstWay, value: smoothed(from, wanted, dtMs, feel) };
 }
 
