@@ -62,12 +62,14 @@ export function edits(
 ): Gesture {
   const { document } = press.stores;
   let hasBegun = false;
+  /** It was undone, or another edit has ended it: the hand goes on with nothing. */
+  const isTaken = (): boolean => hasBegun && document.store.getState().gesture === null;
   return {
     status,
     leadsOn: 'throughTime',
     ...(rest.tells === undefined ? {} : { tells: rest.tells }),
     move(spot, held) {
-      const edit = moved(spot, held);
+      const edit = isTaken() ? null : moved(spot, held);
       if (edit === null) return;
       if (!hasBegun) document.begin(label);
       hasBegun = true;
@@ -75,11 +77,13 @@ export function edits(
       rest.shown?.();
     },
     end(isClick) {
+      if (isTaken()) return;
       if (hasBegun) document.commit();
       if (isClick) rest.clicked?.();
       else rest.ended?.();
     },
     cancel() {
+      if (isTaken()) return;
       if (hasBegun) document.cancel();
       rest.cancelled?.();
     },

@@ -43,6 +43,30 @@ test.each<[string, (desk: Desk) => void]>([
   expect(seen()).toEqual(before);
 });
 
+test('a drag that is undone amid it has done nothing, and what the hand still does counts no more', async () => {
+  const { press, spotOf, seen, keys, document, steps } = await createKeptDesk();
+  const [from, before] = [steps(), keys(1)];
+  const gesture = press(spotOf(1, 1));
+  const pressed = seen();
+  gesture.by(30, 0);
+  document.undo();
+  expect(seen()).toEqual(pressed);
+  gesture.by(40, 0);
+  gesture.end(false);
+  expect(seen()).toEqual(pressed);
+  expect(keys(1)).toEqual(before);
+  expect(steps()).toBe(from);
+});
+
+test('keys that are deleted amid a drag are not selected when the hand lets go', async () => {
+  const { press, spotOf, selected, key } = await createKeptDesk();
+  const gesture = press(spotOf(1, 1));
+  gesture.by(30, 0);
+  key('Delete');
+  gesture.cancel();
+  expect(selected()).toEqual([]);
+});
+
 test('a group that is opened again is looked at afresh', async () => {
   const { key, select, selected, document } = await createKeptDesk();
   select([2, 1]);

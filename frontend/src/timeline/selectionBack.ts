@@ -1,5 +1,5 @@
-// Undo and redo bring back what was selected when the group was left that way, and where the cursor was. Knows what is selected,
-// not what an edit does.
+// Undo, redo and a gesture that is called off bring back what was selected when the group was left that way, and where the cursor
+// was. Knows what is selected, not what an edit does.
 
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { History } from '#shared/actions/history.ts';
@@ -19,7 +19,7 @@ export function bringSelectionBack({ document, timeline, view }: Selecting): voi
   document.store.subscribe((next, before) => {
     if (next.present === before.present) return;
     left.set(before.present, looks());
-    const back = isStep(before, next) ? left.get(next.present) : undefined;
+    const back = isStep(before, next) || isCalledOff(before, next) ? left.get(next.present) : undefined;
     if (back === undefined) return;
     setChanged(timeline, back.keys);
     setChanged(view, { selectedFrame: back.selectedFrame });
@@ -29,4 +29,8 @@ export function bringSelectionBack({ document, timeline, view }: Selecting): voi
 /** Back or forth in the history, and no edit. */
 function isStep(before: History<ActionGroup>, next: History<ActionGroup>): boolean {
   return next.future.at(-1)?.value === before.present || before.future.at(-1)?.value === next.present;
+}
+
+function isCalledOff({ gesture }: History<ActionGroup>, next: History<ActionGroup>): boolean {
+  return gesture !== null && next.gesture === null && next.present === gesture.value;
 }
