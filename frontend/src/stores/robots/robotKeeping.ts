@@ -5,6 +5,7 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
 import {
+  asLibraryError,
   LibraryError,
   listedOf,
   type Keeper,
@@ -256,8 +257,7 @@ export function createRobotKeeping(options: RobotKeepingOptions): RobotKeeping {
   }
 
   function tell(error: unknown): void {
-    const { code, message } =
-      error instanceof LibraryError ? error : new LibraryError('failed', String(error), { cause: error });
+    const { code, message } = asLibraryError(error);
     notices.tell('warning', words.robots.notKept(code, message));
   }
 
