@@ -5,9 +5,11 @@ import { duplicateKeys, copyKeys, pasteKeys, type Clip, type Pasted } from '#sha
 import { mirror, setColour, setEasing } from '#shared/actions/group/frameEdits.ts';
 import type { Easing } from '#shared/actions/group/group.ts';
 import { deleteKeys, setKey } from '#shared/actions/group/keyEdits.ts';
+import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { deleteMarker } from '#shared/actions/group/markerEdits.ts';
 import { deleteTime, reverse } from '#shared/actions/group/timeEdits.ts';
 import type { Label } from '#shared/actions/history.ts';
+import { servoOf } from '#shared/actions/robot/robot.ts';
 import { keysAt, positionAt, type KeyRef } from '#shared/actions/group/tracks.ts';
 import { keySet, NO_KEYS } from '../stores/timeline/keySet.ts';
 import { isHeld } from '../stores/servoView.ts';
@@ -20,6 +22,7 @@ import {
   rowOf,
   select,
   selectedFrames,
+  whyHeld,
   type Desk,
 } from './desk.ts';
 import { allKeys, selectedKeys, spanOf, type GroupTimes } from './groupTimes.ts';
@@ -29,14 +32,14 @@ export function setKeys(desk: Desk): void {
   setKeysAt(desk, rowOf(desk, desk.state.cursor.row)?.servos ?? [], desk.state.playheadMs);
 }
 
-export function setKeysAt(desk: Desk, servos: readonly number[], atMs: number, position?: number): void {
-  const placed = servos
-    .filter((servo) => !isHeld(desk.servoView, servo))
-    .flatMap((servo) => {
-      const there = position ?? positionNow(desk, servo, atMs);
-      return there === null ? [] : [{ servo, position: there }];
-    });
-  if (placed.length === 0) return desk.stores.notices.tell('info', words.timeline.nothingToSet);
+/** Of several servos those of which nothing is known stay without, unless it is so of all: these get one at home. */
+export function setKeysAt(desk: Desk, servos: readonly number[], atMs: number): void {
+  const free = servos.filter((servo) => !isHeld(desk.servoView, servo));
+  if (free.length === 0)
+    return desk.stores.notices.tell('warning', words.timeline.status[whyHeld(desk, servos)]);
+  const known = placedAt(free, (servo) => positionNow(desk, servo, atMs));
+  const placed = known.length > 0 ? known : placedAt(free, (servo) => homeOf(desk, servo));
+  if (placed.length === 0) return desk.stores.notices.tell('info', words.actions.otherUnit(desk.group.unit));
   const { unit } = desk.family;
   apply(desk, {
     label: () => words.timeline.steps.setKey,
@@ -53,14 +56,28 @@ export function setKeysAt(desk: Desk, servos: readonly number[], atMs: number, p
   });
 }
 
+const placedAt = (
+  servos: readonly number[],
+  positionOf: (servo: number) => number | null,
+): readonly ServoTarget[] =>
+  servos.flatMap((servo) => {
+    const position = positionOf(servo);
+    return position === null ? [] : [{ servo, position }];
+  });
+
 /** On its way at that time; else where the robot was asked to be; null where neither is known. */
-function positionNow({ times, stores, group, family }: Desk, servo: number, atMs: number): number | null {
-  const track = times.tracks.get(servo);
+function positionNow(desk: Desk, servo: number, atMs: number): number | null {
+  const track = desk.times.tracks.get(servo);
   const onItsWay = track === undefined ? null : positionAt(track, atMs);
-  if (onItsWay !== null) return onItsWay;
-  const fits = group.unit === family.unit || group.frames.length === 0;
-  return fits ? stores.device.motion(servo).target : null;
+  return onItsWay ?? (countsAlike(desk) ? desk.stores.device.motion(servo).target : null);
 }
+
+/** null where the robot at hand counts otherwise, or knows no such servo. */
+const homeOf = (desk: Desk, servo: number): number | null =>
+  countsAlike(desk) ? (servoOf(desk.robot, servo)?.home ?? null) : null;
+
+const countsAlike = ({ group, family }: Desk): boolean =>
+  group.unit === family.unit || group.frames.length === 0;
 
 export function remove(desk: Desk): void {
   const { marker } = desk.state;

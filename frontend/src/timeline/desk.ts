@@ -55,11 +55,13 @@ export function changeable({ times, state, servoView }: Chosen): readonly KeyRef
   return selectedKeys(times, state.selected).filter(({ servo }) => !isHeld(servoView, servo));
 }
 
-/** Of selected keys that nothing changes: a row that alone is played and changed holds all others. */
-export function whyHeld({ times, state, servoView }: Chosen): 'locked' | 'beside' {
-  const servos = selectedKeys(times, state.selected).map(({ servo }) => servo);
-  return servos.every((servo) => servoView.locked.includes(servo)) ? 'locked' : 'beside';
+/** Of servos that nothing changes, those of the selected keys if not others: a row that alone plays and changes holds the rest. */
+export function whyHeld(desk: Chosen, servos = selectedServos(desk)): 'locked' | 'beside' {
+  return servos.every((servo) => desk.servoView.locked.includes(servo)) ? 'locked' : 'beside';
 }
+
+const selectedServos = ({ times, state }: Chosen): readonly number[] =>
+  selectedKeys(times, state.selected).map(({ servo }) => servo);
 
 /** The frames of the selected keys, in the order of time. */
 export function selectedFrames({ times, state }: Desk): readonly number[] {

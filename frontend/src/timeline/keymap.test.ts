@@ -4,6 +4,7 @@ import { startHistory } from '#shared/actions/history.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { editServoView } from '../stores/stores.ts';
 import { ALL_ROW } from '../stores/timeline/timeline.ts';
+import { words } from '../words/words.ts';
 import { chordOf, chordText } from './keymap.ts';
 import { keepInStep } from './inStep.ts';
 import { VERBS } from './verbs.ts';
@@ -202,6 +203,38 @@ describe('keys', () => {
     ]);
     expect(keys(2)).toHaveLength(3);
     expect(selected()).toEqual([[stores.timeline.getState().cursor.frameId, 1]]);
+  });
+
+  test('Enter sets a key of a servo of which nothing is known: at its home', async () => {
+    const { key, stores, keys, steps } = await createTimelineDesk();
+    stores.timeline.setState({ playheadMs: 750, cursor: { row: 'servo 5', frameId: null } });
+    const before = steps();
+    key('Enter');
+    expect(keys(5)).toEqual([[750, 1500]]);
+    stores.timeline.setState({ playheadMs: 1200, cursor: { row: ALL_ROW, frameId: null } });
+    key('Enter');
+    expect(keys(6)).toEqual([]);
+    expect(steps()).toBe(before + 2);
+  });
+
+  test('Enter sets keys of all servos in an empty group, and none on a locked row, which is told', async () => {
+    const { key, stores, keys, told, group } = await createTimelineDesk();
+    stores.document.edit(
+      () => 'empty',
+      () => emptyGroup('New', 'us'),
+    );
+    editServoView(stores, (view) => ({ ...view, locked: [2] }));
+    stores.timeline.setState({ playheadMs: 500, cursor: { row: 'servo 2', frameId: null } });
+    key('Enter');
+    expect(group().frames).toEqual([]);
+    expect(told()).toEqual([words.timeline.status.locked]);
+    stores.timeline.setState({ cursor: { row: ALL_ROW, frameId: null } });
+    key('Enter');
+    expect([1, 2, 3, 4, 5, 6].map((servo) => keys(servo))).toEqual([
+      [[500, 1500]],
+      [],
+      ...[3, 4, 5, 6].map(() => [[500, 1500]]),
+    ]);
   });
 
   test('copy, paste and duplicate; each is one step', async () => {

@@ -207,7 +207,6 @@ export const timelineWords = {
     locked: 'The selected keys are on locked rows.',
     beside: 'The selected keys are beside the row that alone plays and changes.',
   },
-  nothingToSet: 'Nothing is known of these servos yet. Move them first.',
   nothingToPaste: 'Copy some keys first.',
   noMarker: 'There is no marker yet.',
   nothingToMirror: 'These frames are the same when left and right change places.',

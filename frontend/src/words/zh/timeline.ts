@@ -178,7 +178,6 @@ export const timelineWords: typeof english = {
     locked: '所选关键帧所在的行已锁定。',
     beside: '现在只播放和修改别的行，所选关键帧不在其中。',
   },
-  nothingToSet: '这些舵机的位置还未知。请先移动它们。',
   nothingToPaste: '请先复制关键帧。',
   noMarker: '还没有标记。',
   nothingToMirror: '左右对调后，这些帧没有变化。',
