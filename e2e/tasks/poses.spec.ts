@@ -4,6 +4,7 @@ import { readFile } from 'node:fs/promises';
 import type { Page } from '@playwright/test';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import type { Dashboard } from '../fixtures/dashboard.ts';
+import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 function posesOf(page: Page) {
@@ -112,6 +113,19 @@ test('a pose is about the servos that were chosen', async ({ dashboard, page, ro
   await poll(async () => ofKind(await robot.bus(), 'move').at(-1)?.targets).toEqual([
     { servo: 1, position: 1800 },
   ]);
+});
+
+test('servos that are called alike are chosen by their limb', async ({ dashboard, page }) => {
+  const robots = robotDialogOf(dashboard);
+  await robots.opener.click();
+  await robots.button(/^Add Humanoid, 16 servos/).click();
+  await robots.button('Close').click();
+  await posesOf(page).capture(dashboard, 1800, 'Stand');
+  await page.getByRole('switch', { name: 'Servos', exact: true }).check();
+  const limb = (name: string) => page.getByRole('group', { name, exact: true });
+  await expect(limb('Left leg').getByRole('checkbox', { name: 'Knee' })).toHaveCount(1);
+  await expect(limb('Left leg').getByRole('checkbox', { name: 'Foot' })).toBeChecked();
+  await expect(limb('Right leg').getByRole('checkbox', { name: 'Foot' })).not.toBeChecked();
 });
 
 test('poses become frames of the action group, one behind the other', async ({ dashboard, page, robot }) => {

@@ -91,9 +91,9 @@ function ServoChoice({ servo, onChange }: { readonly servo: number; onChange(ser
       value={servo}
       onChange={(event) => onChange(Number(event.target.value))}
     >
-      {servos.map(({ servo: number, name }) => (
-        <option key={number} value={number}>
-          {name}
+      {servos.map((one) => (
+        <option key={one.servo} value={one.servo}>
+          {words.robots.called(one)}
         </option>
       ))}
     </select>

@@ -116,8 +116,8 @@ function Table({ onEdit }: { onEdit(at: number, binding: Binding): void }) {
 
   return (
     <ul ref={list} className={styles.rows} aria-label={words.pad.table}>
-      {rowsOf(mapping, robot, book).map(({ title, bindings }) => (
-        <li key={title} className={styles.row}>
+      {rowsOf(mapping, robot, book).map(({ id, title, bindings }) => (
+        <li key={id} className={styles.row}>
           <span className={styles.title}>{title}</span>
           <span className={styles.chips}>
             {bindings.length === 0 && <span className={styles.none}>{words.pad.none}</span>}

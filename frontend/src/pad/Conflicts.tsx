@@ -2,11 +2,11 @@
 
 import { conflicts, type Conflict, type Mapping } from '#shared/actions/mapping/mapping.ts';
 import type { PoseBook } from '#shared/actions/poses/pose.ts';
-import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
+import type { Robot } from '#shared/actions/robot/robot.ts';
 import { useMapping, usePoses, useRobot } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { words } from '../words/words.ts';
-import { rowTitle } from './rows.ts';
+import { rowTitle, servoTitle } from './rows.ts';
 import styles from './Conflicts.module.css';
 
 export function Conflicts() {
@@ -31,8 +31,7 @@ export function Conflicts() {
 }
 
 function sentenceOf(conflict: Conflict, { bindings }: Mapping, robot: Robot, book: PoseBook): string {
-  if (conflict.kind === 'sharedServo')
-    return words.pad.sharedServo(servoOf(robot, conflict.servo)?.name ?? words.pad.absent(conflict.servo));
+  if (conflict.kind === 'sharedServo') return words.pad.sharedServo(servoTitle(robot, conflict.servo));
   const [one, other] = [bindings[conflict.one], bindings[conflict.other]];
   if (one === undefined || other === undefined) return '';
   const [first, second] = [one, other].map((binding) => rowTitle(binding, robot, book));

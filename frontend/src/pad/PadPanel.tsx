@@ -96,7 +96,7 @@ function FirstMoves() {
   };
   return (
     <div className={styles.unknown}>
-      <p>{words.pad.allUnknown(unknown.map(({ name }) => name))}</p>
+      <p>{words.pad.allUnknown(unknown.map(words.robots.called))}</p>
       <Button icon="centre" hint={words.pad.firstMoveHint} onPress={goHome}>
         {words.pad.firstMove}
       </Button>

@@ -7,6 +7,7 @@ import { poseName } from '../stores/driving/poses.ts';
 import { words } from '../words/words.ts';
 
 export interface Row {
+  readonly id: string;
   readonly title: string;
   /** Places in the mapping's list. */
   readonly bindings: readonly number[];
@@ -15,22 +16,38 @@ export interface Row {
 /** What a binding does, for its row. */
 export function rowTitle(binding: Binding, robot: Robot, book: PoseBook): string {
   const servo = servoBoundBy(binding);
-  if (servo !== null) return servoOf(robot, servo)?.name ?? words.pad.absent(servo);
+  if (servo !== null) return servoTitle(robot, servo);
   const { action } = binding;
   if (action.kind === 'pose') return words.pad.poseRow(poseName(book, action.pose));
   return action.kind === 'run' ? words.pad.slotRow(action.slot) : words.pad.stopRow;
 }
 
-/** Servos are there without a binding too. Two servos of one name share a row, and are not to be told apart anywhere else. */
+export function servoTitle(robot: Robot, servo: number): string {
+  const own = servoOf(robot, servo);
+  return own === undefined ? words.pad.absent(servo) : words.robots.called(own);
+}
+
+/** Servos are there without a binding too. */
 export function rowsOf({ bindings }: Mapping, robot: Robot, book: PoseBook): readonly Row[] {
-  const titles = bindings.map((binding) => rowTitle(binding, robot, book));
-  const all = new Set([...robot.servos.map(({ name }) => name), ...titles]);
-  return [...all].map((title) => ({
-    title,
-    bindings: titles
-      .flatMap((one, at) => (one === title ? [at] : []))
+  const ids = bindings.map((binding) => rowId(binding, rowTitle(binding, robot, book)));
+  const titles = new Map([
+    ...robot.servos.map(({ servo }) => [servoRowId(servo), servoTitle(robot, servo)] as const),
+    ...bindings.map((binding, at) => [ids[at] ?? '', rowTitle(binding, robot, book)] as const),
+  ]);
+  return [...titles].map(([id, title]) => ({
+    ...{ id, title },
+    bindings: ids
+      .flatMap((one, at) => (one === id ? [at] : []))
       .toSorted((one, other) => placeInRow(bindings[one]) - placeInRow(bindings[other])),
   }));
+}
+
+const servoRowId = (servo: number): string => `servo ${servo}`;
+
+/** Whatever else is called alike does the same. */
+function rowId(binding: Binding, title: string): string {
+  const servo = servoBoundBy(binding);
+  return servo === null ? title : servoRowId(servo);
 }
 
 const ORDER = ['axis', 'button', 'key'] as const;

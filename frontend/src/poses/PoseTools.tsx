@@ -83,7 +83,7 @@ function Shapes() {
   const reshape = (label: PoseLabel, shape: typeof mirroredTargets) => (): void => {
     const { targets, held } = shape(robot, pose?.targets ?? []);
     edit(label, (book, id) => setPose(book, id, targets));
-    if (held.length > 0) notices.tell('warning', words.poses.held(held.map(({ name }) => name)));
+    if (held.length > 0) notices.tell('warning', words.poses.held(held.map(words.robots.called)));
   };
 
   const addToGroup = (): void => {

@@ -3,6 +3,8 @@
 
 import type { Pose } from '#shared/actions/poses/pose.ts';
 import { setPose } from '#shared/actions/poses/poseEdits.ts';
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
+import { limbsOf } from '../body/limbs.ts';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import styles from './PosesPanel.module.css';
@@ -24,25 +26,32 @@ export function ServoPicker({ pose }: { readonly pose: Pose }) {
     );
   }
 
+  const choice = ({ servo, name }: RobotServo) => {
+    const isIn = included.has(servo);
+    const isLast = isIn && included.size === 1;
+    return (
+      <label key={servo} className={styles.servo}>
+        <input
+          type="checkbox"
+          checked={isIn}
+          disabled={isIn ? isLast : !sameUnit || !known.includes(servo)}
+          onChange={({ target }) => choose(servo, target.checked)}
+        />
+        {name}
+      </label>
+    );
+  };
+
   return (
     <fieldset className={styles.drawer} aria-label={words.poses.servosOf(included.size, servos.length)}>
       <p className={styles.hint}>{words.poses.servosHint}</p>
-      <div className={styles.servos}>
-        {servos.map(({ servo, name }) => {
-          const isIn = included.has(servo);
-          const isLast = isIn && included.size === 1;
-          return (
-            <label key={servo} className={styles.servo}>
-              <input
-                type="checkbox"
-                checked={isIn}
-                disabled={isIn ? isLast : !sameUnit || !known.includes(servo)}
-                onChange={({ target }) => choose(servo, target.checked)}
-              />
-              {name}
-            </label>
-          );
-        })}
+      <div className={styles.limbs}>
+        {limbsOf(servos).map(({ group, servos: members }) => (
+          <fieldset key={group} className={styles.limb}>
+            {group !== '' && <legend className={styles.limbName}>{group}</legend>}
+            <div className={styles.servos}>{members.map(choice)}</div>
+          </fieldset>
+        ))}
       </div>
     </fieldset>
   );

@@ -161,7 +161,10 @@ function TargetField(props: TargetFieldProps) {
     const met = servoOf(robots.current().robot, first);
     if (met === undefined) return;
     const read = scaleOf(met, device.store.getState().family, view.getState().positionsIn);
-    notices.tell('warning', words.servoPanel.stoppedBy(nameOf(met), read.text(met.min), read.text(met.max)));
+    notices.tell(
+      'warning',
+      words.servoPanel.stoppedBy(words.robots.called(met), read.text(met.min), read.text(met.max)),
+    );
   };
   const take = (wanted: number, isStep: boolean): void => {
     const position = scale.position(wanted);
@@ -194,7 +197,5 @@ function TargetField(props: TargetFieldProps) {
 
 function refusal(servo: RobotServo, shown: number, { min, max, unit }: Scale) {
   const text = (value: number): string => (unit === '°' ? `${value}°` : `${value}`);
-  return words.servoPanel.refused(nameOf(servo), text(shown), text(min), text(max));
+  return words.servoPanel.refused(words.robots.called(servo), text(shown), text(min), text(max));
 }
-
-const nameOf = ({ servo, name }: RobotServo): string => name || words.servos.name(servo);

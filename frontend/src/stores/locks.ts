@@ -1,8 +1,8 @@
 // What a person has locked on this screen stays out of everything that is driven from it by hand. Knows no device.
 
-import { servoOf } from '#shared/actions/robot/robot.ts';
 import { words } from '../words/words.ts';
 import type { RobotStore } from './robots/robots.ts';
+import { servoName } from './servoName.ts';
 import { isHeld, servoViewFor } from './servoView.ts';
 import type { View } from './view.ts';
 
@@ -27,6 +27,6 @@ export function stayingOf(locking: Locking, targets: readonly { readonly servo: 
   const { robot } = locking.robots.current();
   const names = targets
     .filter(({ servo }) => isLocked(locking, servo))
-    .map(({ servo }) => servoOf(robot, servo)?.name ?? words.servos.name(servo));
+    .map(({ servo }) => servoName(robot, servo));
   return names.length === 0 ? null : words.servoPanel.staying(names);
 }

@@ -6,7 +6,6 @@ import type { Clock } from '#shared/clock.ts';
 import type { Input, Mapping } from '#shared/actions/mapping/mapping.ts';
 import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/actions/mapping/mappingInputs.ts';
 import { AT_REST, step, type Begun, type DriveState } from '#shared/actions/mapping/mappingStep.ts';
-import { servoOf } from '#shared/actions/robot/robot.ts';
 import { words } from '../../words/words.ts';
 import { isLocked } from '../locks.ts';
 import type { View } from '../view.ts';
@@ -15,6 +14,7 @@ import type { Notices } from '../notices.ts';
 import { motionHindrance } from '../device/readiness.ts';
 import type { Poses } from './poses.ts';
 import type { RobotStore } from '../robots/robots.ts';
+import { servoName } from '../servoName.ts';
 import type { Undoable } from '../undoable.ts';
 
 /** What is needed of a pad of the browser. */
@@ -165,7 +165,7 @@ export function createPad(options: PadOptions): Pad {
     if (moment.moves.length > 0) device.move(moment.moves, 'hand');
     moment.begun.forEach(begin);
     const newly = (servos: readonly number[]): readonly string[] =>
-      servos.filter((servo) => !staying.includes(servo)).map((servo) => servoOf(robot, servo)?.name ?? '');
+      servos.filter((servo) => !staying.includes(servo)).map((servo) => servoName(robot, servo));
     for (const name of newly(moment.unknown)) notices.tell('warning', words.pad.unknown(name));
     for (const name of newly(moment.locked)) notices.tell('info', words.servoPanel.staying([name]));
     staying = [...moment.unknown, ...moment.locked];

@@ -117,7 +117,7 @@ export const robotWords = {
   },
   /** Both knees of a body are called Knee. */
   called: ({ name, group }: { readonly name: string; readonly group: string }): string =>
-    group === '' ? name : `${name}, ${group}`,
+    group === '' ? name : `${name} (${group})`,
   title: 'Robots',
   button: (name: string): string => `Robot: ${name}`,
   own: 'Described',

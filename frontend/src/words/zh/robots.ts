@@ -121,7 +121,7 @@ export const robotWords: typeof english = {
     import: '导入机器人',
     elsewhere: '另一屏幕上的更改',
   },
-  called: ({ name, group }) => (group === '' ? name : `${name}，${group}`),
+  called: ({ name, group }) => (group === '' ? name : `${name}（${group}）`),
   title: '机器人',
   button: (name) => `机器人：${name}`,
   own: '已描述的机器人',

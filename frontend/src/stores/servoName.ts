@@ -1,0 +1,10 @@
+// What a servo is called in sentences: with its limb, for both knees of a body are called Knee.
+
+import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
+import { words } from '../words/words.ts';
+
+/** By its number where the robot has no such servo. */
+export function servoName(robot: Robot, servo: number): string {
+  const own = servoOf(robot, servo);
+  return own === undefined ? words.servos.name(servo) : words.robots.called(own);
+}
