@@ -161,6 +161,22 @@ test('until a number is typed in its field, what writes none is meant for the ke
   await expect(timeline.key('Gripper, 1.00 s, 1250 µs, linear')).toBeVisible();
 });
 
+test('a field that is left without a number typed in it does nothing', async ({ page, dashboard }) => {
+  const timeline = timelineOf(page);
+  const { keyboard } = page;
+  const time = page.getByRole('textbox', { name: 'Time to insert at the playhead in milliseconds' });
+  await timeline.grid.focus();
+  await keyboard.press('i');
+  await expect(time).toBeFocused();
+  await timeline.click('Elbow, 1.50 s, 1500 µs, linear');
+  await expect(time).toBeHidden();
+  await expect(dashboard.button('Undo')).toBeDisabled();
+  await keyboard.press('Home');
+  await keyboard.press('i');
+  await keyboard.press('Enter');
+  await expect(timeline.key('Elbow, 2.00 s, 1500 µs, linear')).toBeVisible();
+});
+
 test('six rows need no scroll bar', async ({ page, dashboard }) => {
   await page.setViewportSize({ width: 1000, height: 1000 });
   await expect(dashboard.frames).toHaveCount(3);

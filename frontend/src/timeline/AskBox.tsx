@@ -65,6 +65,8 @@ function Asked({ ask, onClose, onPass }: AskBoxProps & { readonly ask: Ask }) {
     const problem = answer(deskOf(stores), ask, text);
     if (problem !== null) stores.notices.tell('warning', problem);
   };
+  /** A number nobody typed is taken by Enter alone: whoever leaves the field has thought better of it. */
+  const isLeftAlone = (text: string): boolean => asked.kind === 'number' && text === asked.initial(desk);
   return (
     <div className={styles.box} style={place ?? {}}>
       <input
@@ -78,7 +80,7 @@ function Asked({ ask, onClose, onPass }: AskBoxProps & { readonly ask: Ask }) {
         maxLength={asked.kind === 'text' ? asked.maxLength : 8}
         defaultValue={desk.state.typed || asked.initial(desk)}
         onFocus={({ target }) => desk.state.typed === '' && target.select()}
-        onBlur={(event) => take(event.target.value)}
+        onBlur={({ target }) => (isLeftAlone(target.value) ? close() : take(target.value))}
         onKeyDown={(event) => {
           if (event.key === 'Enter') take(event.currentTarget.value);
           if (event.key === 'Escape') close();

@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
 import { servoOf } from '#shared/actions/robot/robot.ts';
+import { words } from '../words/words.ts';
 import { answer } from './asks.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';
 
@@ -92,6 +93,15 @@ test('from its end a stretch is scaled so far as there is room before it', async
   expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1250, 1500]);
   answer(desk(), 'scaleTimeBack', '150');
   expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1125, 1500]);
+});
+
+test('time inserted where nothing stands behind it changes nothing, and that is told', async () => {
+  const { desk, stores, told, steps } = await createTimelineDesk();
+  const before = steps();
+  stores.timeline.setState({ playheadMs: 1500 });
+  answer(desk(), 'insertTime', '400');
+  expect(told()).toEqual([words.timeline.nothingBehind]);
+  expect(steps()).toBe(before);
 });
 
 test('time, notes and markers', async () => {

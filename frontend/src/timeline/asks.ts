@@ -60,11 +60,9 @@ export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
     range: ({ family }) => ({ min: 1, max: family.durationMs.max }),
     initial: () => '500',
     take(desk, durationMs) {
-      const { playheadMs } = desk.state;
-      apply(desk, {
-        label: () => words.timeline.steps.insertTime,
-        edit: (group) => insertTime(group, playheadMs, durationMs),
-      });
+      const next = insertTime(desk.group, desk.state.playheadMs, durationMs);
+      if (next === desk.group) desk.stores.notices.tell('info', words.timeline.nothingBehind);
+      else apply(desk, { label: () => words.timeline.steps.insertTime, edit: () => next });
     },
   },
   note: {

@@ -95,11 +95,15 @@ export function remove(desk: Desk): void {
   }
 }
 
-/** The keys of the selected stretch go with their time. */
+/** From the first to the last of the selected keys: the frames go with their time, which begins where the one before ends. */
 export function removeTime(desk: Desk): void {
   const span = spanOf(selectedKeys(desk.times, desk.state.selected));
   if (span === null) return;
-  apply(desk, { label: () => words.timeline.steps.deleteTime, edit: (group) => deleteTime(group, span) });
+  const fromMs = desk.times.ends.findLast((endMs) => endMs < span.fromMs) ?? 0;
+  apply(desk, {
+    label: () => words.timeline.steps.deleteTime,
+    edit: (group) => deleteTime(group, { fromMs, toMs: span.toMs }),
+  });
 }
 
 /** null where nothing is selected. */

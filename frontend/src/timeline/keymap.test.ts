@@ -150,7 +150,14 @@ describe('keys', () => {
     key('<');
     expect(at()).toBe(500);
     expect(stores.notices.said.getState()).toBe('0.50 s');
+    key('PageDown', { shiftKey: true });
+    expect(at()).toBe(700);
+    key('PageUp', { shiftKey: true });
+    key('PageUp', { shiftKey: true });
+    expect(at()).toBe(300);
     key('Home');
+    key('PageUp', { shiftKey: true });
+    expect(at()).toBe(0);
     key('<');
     expect(at()).toBe(0);
   });
@@ -278,6 +285,19 @@ describe('keys', () => {
       [500, 2000],
       [1500, 1000],
     ]);
+  });
+
+  test('Shift+Delete takes the frames of the selected keys, each with the time before it', async () => {
+    const { key, keys, select } = await createTimelineDesk();
+    select([2, 1]);
+    key('Delete', { shiftKey: true });
+    expect(keys(1)).toEqual([
+      [500, 1000],
+      [1000, 1400],
+    ]);
+    select([1, 2], [3, 1]);
+    key('Delete', { shiftKey: true });
+    expect([keys(1), keys(2), keys(3)]).toEqual([[], [], []]);
   });
 
   test('reverse turns the selected stretch round', async () => {

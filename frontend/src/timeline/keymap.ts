@@ -3,7 +3,7 @@
 
 import { mayBeNegative } from './asks.ts';
 import type { Desk } from './desk.ts';
-import { page, stepTick, stepTo, toggleAtCursor, walk } from './looking.ts';
+import { page, stepTicks, stepTo, toggleAtCursor, walk } from './looking.ts';
 import { nudgeMarker } from './markers.ts';
 import { nudge } from './moving.ts';
 import { VERBS, mayRun } from './verbs.ts';
@@ -66,10 +66,12 @@ const ACTIONS: ReadonlyMap<string, KeyAction> = new Map<string, KeyAction>([
   ...DIGITS.map((digit): [string, KeyAction] => [digit, typing(digit)]),
   ['Home', (desk) => stepTo(desk, 0)],
   ['End', (desk) => stepTo(desk, desk.times.lengthMs)],
-  ['<', (desk) => stepTick(desk, -1)],
-  ['>', (desk) => stepTick(desk, 1)],
+  ['<', (desk) => stepTicks(desk, -1)],
+  ['>', (desk) => stepTicks(desk, 1)],
   ['PageUp', (desk) => page(desk, -1)],
   ['PageDown', (desk) => page(desk, 1)],
+  ['Shift+PageUp', (desk) => stepTicks(desk, -FAR)],
+  ['Shift+PageDown', (desk) => stepTicks(desk, FAR)],
   ['Backspace', VERBS.remove.run],
   ['=', VERBS.zoomIn.run],
   // The same key with Shift, which no number begins with.

@@ -26,11 +26,11 @@ export function stepTo(desk: Desk, atMs: number): void {
   desk.stores.notices.say(words.timeline.instant(desk.stores.timeline.getState().playheadMs));
 }
 
-/** To the board's next tick, or the one before. */
-export function stepTick(desk: Desk, side: -1 | 1): void {
+/** By so many of the board's ticks, the first one from where it is. */
+export function stepTicks(desk: Desk, count: number): void {
   const { tickMs } = desk.family.motion;
   const ticks = desk.state.playheadMs / tickMs;
-  stepTo(desk, (side === 1 ? Math.floor(ticks) + 1 : Math.ceil(ticks) - 1) * tickMs);
+  stepTo(desk, ((count > 0 ? Math.floor(ticks) : Math.ceil(ticks)) + count) * tickMs);
 }
 
 /** Most of what is in sight, so that the eye finds where it was. */

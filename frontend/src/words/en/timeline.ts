@@ -207,6 +207,7 @@ export const timelineWords = {
     locked: 'The selected keys are on locked rows.',
     beside: 'The selected keys are beside the row that alone plays and changes.',
   },
+  nothingBehind: 'Nothing stands behind the playhead.',
   nothingToPaste: 'Copy some keys first.',
   noMarker: 'There is no marker yet.',
   nothingToMirror: 'These frames are the same when left and right change places.',

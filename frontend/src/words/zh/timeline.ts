@@ -178,6 +178,7 @@ export const timelineWords: typeof english = {
     locked: '所选关键帧所在的行已锁定。',
     beside: '现在只播放和修改别的行，所选关键帧不在其中。',
   },
+  nothingBehind: '播放头之后没有内容。',
   nothingToPaste: '请先复制关键帧。',
   noMarker: '还没有标记。',
   nothingToMirror: '左右对调后，这些帧没有变化。',
