@@ -208,7 +208,11 @@ test('everything is done by keyboard alone', async ({ page, dashboard }) => {
   await expect(timeline.key('Gripper, 1.00 s, 1202 µs, linear')).toBeHidden();
   await keyboard.press('Control+a');
   await keyboard.press('Shift+F10');
-  await page.getByRole('menuitem', { name: 'Easing' }).press('ArrowRight');
+  const easing = page.getByRole('menuitem', { name: 'Easing' });
+  await expect(page.getByRole('menuitem', { name: 'Set key' })).toBeFocused();
+  await keyboard.type('ea');
+  await expect(easing).toBeFocused();
+  await easing.press('ArrowRight');
   await page.getByRole('menuitem', { name: 'hold', exact: true }).press('Enter');
   await expect(timeline.key('Elbow, 1.50 s, 1500 µs, hold')).toBeVisible();
   await expect(dashboard.button('Undo: hold')).toBeEnabled();

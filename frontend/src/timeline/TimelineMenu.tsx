@@ -109,14 +109,16 @@ function VerbItem({ verb }: { readonly verb: VerbName }) {
   const stores = useStores();
   const { icon, keys, run } = VERBS[verb];
   const { state } = deskOf(stores);
+  const name = verbName(verb, state);
   return (
     <MenuItem
       className={styles.item ?? ''}
+      textValue={name}
       isDisabled={!mayRun(deskOf(stores), VERBS[verb])}
       onAction={() => run(deskOf(stores))}
     >
       <Icon name={icon} />
-      {verbName(verb, state)}
+      {name}
       <kbd className={styles.keys}>{chordText(keys)}</kbd>
     </MenuItem>
   );
@@ -131,7 +133,7 @@ function Submenu(props: {
 }) {
   return (
     <SubmenuTrigger>
-      <MenuItem className={styles.item ?? ''} isDisabled={props.isDisabled}>
+      <MenuItem className={styles.item ?? ''} textValue={props.label} isDisabled={props.isDisabled}>
         {props.label}
         <span className={styles.more}>
           <Icon name="later" />
@@ -180,6 +182,7 @@ function rowItems(view: ServoView, row: Row | undefined, change: ChangeView): Re
     <MenuItem
       key={list}
       className={styles.item ?? ''}
+      textValue={label}
       onAction={() => change((before) => ({ ...before, [list]: toggled(before[list], servos) }))}
     >
       <Icon name={icon} />
@@ -191,14 +194,16 @@ function rowItems(view: ServoView, row: Row | undefined, change: ChangeView): Re
 
 function foldItem(view: ServoView, limb: string, change: ChangeView): React.ReactElement {
   const isFolded = view.folded.includes(limb);
+  const label = isFolded ? words.timeline.rows.unfold : words.timeline.rows.foldAway;
   return (
     <MenuItem
       key="folded"
       className={styles.item ?? ''}
+      textValue={label}
       onAction={() => change((before) => ({ ...before, folded: toggled(before.folded, [limb]) }))}
     >
       <Icon name={isFolded ? 'later' : 'down'} />
-      {isFolded ? words.timeline.rows.unfold : words.timeline.rows.foldAway}
+      {label}
     </MenuItem>
   );
 }
