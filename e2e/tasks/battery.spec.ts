@@ -23,7 +23,9 @@ test('of a pack it tells what is left, and how it went in words', async ({ dashb
   await expect(dashboard.battery).toContainText('2S pack');
   await expect(dashboard.battery).toContainText('≈ 54 %', { timeout: 20_000 });
   await expect(
-    page.getByRole('img', { name: 'Volts in this visit: lowest 7.50 V, highest 7.50 V, now 7.50 V; 0 runs' }),
+    page.getByRole('img', {
+      name: 'Volts measured in this visit: lowest 7.50 V, highest 7.50 V, now 7.50 V; 0 runs',
+    }),
   ).toBeVisible();
 });
 

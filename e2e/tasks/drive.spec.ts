@@ -16,11 +16,12 @@ test('a slider stepped by key moves the servo, slowly at first, and the estimate
 }) => {
   await expect(dashboard.estimate(3)).toBeHidden();
   await dashboard.slider(3).press('ArrowRight');
-  await expect(dashboard.slider(3)).toHaveAttribute('aria-valuetext', '1501 µs');
+  await expect(dashboard.slider(3)).toHaveAttribute('aria-valuetext', '1501 µs, commanded');
   await poll(() => lastTarget(robot.bus, 3)).toBe(1501);
   const [first] = ofKind(await robot.bus(), 'move');
   expect(first?.durationMs).toBeGreaterThanOrEqual(1500);
   await expect(dashboard.estimate(3)).toHaveText('≈ 1501');
+  await expect(dashboard.servoRow(3).getByRole('group', { name: 'Estimated' })).toHaveText('≈ 1501');
 });
 
 test('a dragged slider takes the servo along to where it is let go', async ({ dashboard, robot }) => {

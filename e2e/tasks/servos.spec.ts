@@ -45,7 +45,7 @@ test('positions are shown and typed in degrees from home', async ({ dashboard, r
   await page.getByRole('group', { name: 'Positions in' }).getByRole('radio', { name: '°' }).check();
   await dashboard.type(dashboard.target(4), 45);
   await poll(() => lastTarget(robot.bus, 4)).toBe(2000);
-  await expect(dashboard.slider(4)).toHaveAttribute('aria-valuetext', '45.0°');
+  await expect(dashboard.slider(4)).toHaveAttribute('aria-valuetext', '45.0°, commanded');
   await dashboard.type(dashboard.target(4), 91);
   await expect(dashboard.notices).toContainText('Elbow: 91° is out of range; it takes -90° to 90°.');
 });
@@ -157,7 +157,7 @@ test.describe('with thirty-two servos', () => {
     await poll(() => lastTarget(robot.bus, 32)).toBe(1510);
     await expect(dashboard.slider(32)).not.toBeInViewport();
     await expect(dashboard.slider(32)).toHaveValue('1510');
-    await expect(dashboard.slider(32)).toHaveAttribute('aria-valuetext', '1510 µs');
+    await expect(dashboard.slider(32)).toHaveAttribute('aria-valuetext', '1510 µs, commanded');
     await expect(dashboard.target(32)).toHaveValue('1510');
     await expect(dashboard.estimate(32)).toHaveText('≈ 1510');
   });

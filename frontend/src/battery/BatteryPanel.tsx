@@ -28,9 +28,9 @@ export function BatteryPanel() {
     <Panel title={words.battery.title} tools={<Tools />}>
       <div className={styles.reading}>
         <div className={styles.figures}>
-          <p className={styles.volts} title={words.battery.measured}>
+          <div className={styles.volts} role="group" title={words.battery.measured}>
             {voltsText(batteryMv, supply)}
-          </p>
+          </div>
           <p className={styles.kind}>
             <Share />
             {words.battery.kind[kind]}
@@ -75,7 +75,12 @@ const isBusy = (activity: string): boolean => activity === 'downloading' || acti
 function Share() {
   const { gauge, supply } = useBattery((state) => state);
   const share = gauge.isSettled && gauge.restMv !== null ? percentOf(gauge.restMv, supply) : null;
-  return share !== null && <span className={styles.share}>{words.battery.percent(share)}</span>;
+  if (share === null) return null;
+  return (
+    <span className={styles.share} role="group" title={words.battery.estimated}>
+      {words.battery.percent(share)}
+    </span>
+  );
 }
 
 function About() {

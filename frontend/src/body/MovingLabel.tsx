@@ -13,6 +13,7 @@ export interface MovingLabelProps {
   readonly colour: LookName;
   /** Gives it a width and a height. */
   readonly className: string | undefined;
+  /** What kind of number it is: for whoever points at it, and for ears. */
   readonly title?: string;
   /** It changes all the time, and something else says it to screen readers. */
   readonly isSilent?: boolean;
@@ -24,7 +25,11 @@ export function MovingLabel({ text, colour, className, title, isSilent }: Moving
     if (place.current !== null) setText(place.current, now);
   };
   return (
-    <span className={cx(styles.place, className)} title={title} aria-hidden={isSilent}>
+    <span
+      className={cx(styles.place, className)}
+      {...(title !== undefined && { title, role: 'group' })}
+      aria-hidden={isSilent}
+    >
       <span ref={place} className={styles.text} />
       <MovingText element={place} {...{ text, colour, write }} />
     </span>

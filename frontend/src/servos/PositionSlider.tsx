@@ -108,7 +108,7 @@ export function PositionSlider({
 }
 
 function valueText(scale: Scale, target: number | null, guess: number | null): string {
-  if (target !== null) return scale.text(target);
+  if (target !== null) return words.servoPanel.commanded(scale.text(target));
   return guess === null ? words.servos.unknownValue : words.firstMoves.guessedValue(scale.text(guess));
 }
 

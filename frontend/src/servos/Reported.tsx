@@ -17,9 +17,9 @@ export function Reported({ servo, scale }: { readonly servo: number; readonly sc
   const nowMs = useNow(device.clock.now, AGE_REFRESH_MS);
   if (reading === undefined) return null;
   return (
-    <>
+    <span className={styles.reported} role="group" title={words.truth.confirmed}>
       <Chip truth="confirmed">{scale.digits(fromBoard(robot, servo, reading.position))}</Chip>
       <span className={styles.age}>{words.servos.age(nowMs - reading.atMs)}</span>
-    </>
+    </span>
   );
 }

@@ -14,8 +14,9 @@ import {
 
 export const batteryWords = {
   title: 'Battery',
-  gauge: 'Battery voltage',
+  gauge: 'Measured battery voltage',
   measured: 'Battery voltage, as the board measured it last',
+  estimated: 'What is left, estimated from the volts at rest',
   noVolts: '– V',
   above: (volts: string): string => `> ${volts}`,
   unread: 'Not read yet',
@@ -86,8 +87,8 @@ export const batteryWords = {
 
   tab: (volts: string, product: string): string => `Low battery, ${volts} – ${product}`,
   plot: (lowest: string, highest: string, now: string, runs: number): string =>
-    `Volts in this visit: lowest ${lowest}, highest ${highest}, now ${now}; ${counted(runs, 'run')}`,
-  noPlot: 'Volts in this visit: none yet',
+    `Volts measured in this visit: lowest ${lowest}, highest ${highest}, now ${now}; ${counted(runs, 'run')}`,
+  noPlot: 'Volts measured in this visit: none yet',
   timeOfDay: formatTimeOfDay,
   tick: formatTick,
 };

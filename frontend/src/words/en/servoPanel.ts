@@ -15,6 +15,8 @@ export const servoPanelWords = {
   someUnknown: (servos: readonly number[]): string =>
     `${servosText(servos)}: position unknown, the first move may be slow.`,
   estimated: (position: string): string => `≈ ${position}`,
+  /** For ears: `1500 µs, commanded`. */
+  commanded: (position: string): string => `${position}, commanded`,
   positionsIn: 'Positions in',
   degrees: '°',
   /** For ears: everything that the row shows beside its figures. */

@@ -13,8 +13,9 @@ import {
 
 export const batteryWords: typeof english = {
   title: '电池',
-  gauge: '电池电压',
+  gauge: '测得的电池电压',
   measured: '电池电压，控制板最近一次测得',
+  estimated: '剩余电量，由静止电压估算',
   noVolts: '– V',
   above: (volts) => `> ${volts}`,
   unread: '尚未读取',
@@ -77,8 +78,8 @@ export const batteryWords: typeof english = {
 
   tab: (volts, product) => `电量低，${volts} – ${product}`,
   plot: (lowest, highest, now, runs) =>
-    `本次电压：最低${lowest}，最高${highest}，现在${now}；运行${formatCount(runs)}次`,
-  noPlot: '本次电压：还没有读数',
+    `本次测得的电压：最低${lowest}，最高${highest}，现在${now}；运行${formatCount(runs)}次`,
+  noPlot: '本次测得的电压：还没有读数',
   timeOfDay: formatTimeOfDay,
   tick: formatTick,
 };

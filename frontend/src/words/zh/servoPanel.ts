@@ -11,6 +11,7 @@ export const servoPanelWords: typeof english = {
   figure: (robot) => `${robot}；实线是估算，轮廓是目标，虚线是未知，点线是预览`,
   someUnknown: (servos) => `${servosText(servos)}：位置未知，第一次移动可能很慢。`,
   estimated: (position) => `≈ ${position}`,
+  commanded: (position) => `${position}，目标`,
   positionsIn: '位置单位',
   degrees: '°',
   about: (name, joint, marks) => [name, ...(joint === name ? [] : [joint]), ...marks].join('，'),
