@@ -98,13 +98,19 @@ module.exports = {
       'transports-know-no-page',
       'A transport carries bytes.',
       { path: `${page}transports/` },
-      { path: page, pathNot: `${page}transports/` },
+      { path: page, pathNot: `${page}(transports|gateway)/` },
     ),
     forbid(
       'keepers-know-no-page',
       'A keeper keeps texts.',
       { path: `${page}keepers/`, pathNot: test },
-      { path: page, pathNot: `${page}keepers/` },
+      { path: page, pathNot: `${page}(keepers|gateway)/` },
+    ),
+    forbid(
+      'gateway-requests-know-nothing',
+      'A request of the gateway is made by those who know what it is for.',
+      { path: `${page}gateway/` },
+      { pathNot: `${page}gateway/` },
     ),
     forbid(
       'stores-know-no-panel',

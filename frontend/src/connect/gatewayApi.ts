@@ -3,9 +3,9 @@
 
 import type { Clock } from '#shared/clock.ts';
 import type { BoardId } from '#shared/protocol/families.ts';
-import { OWN_PAGE } from '../keepers/ownPage.ts';
 import { LinkError } from '#shared/session/linkError.ts';
-import { askGateway, isRecord, withBody } from '../transports/gatewayHttp.ts';
+import { isRecord } from '../gateway/request.ts';
+import { askGateway } from '../transports/gatewayHttp.ts';
 
 export interface GatewayStatus {
   /** The port in use, null when none is. */
@@ -30,7 +30,7 @@ const FROM_HERE_PASSING = 500;
 /** null where no gateway answers: the page came from elsewhere, or the gateway is gone. */
 export async function readGateway(withinMs = ANSWER_WITHIN_MS): Promise<GatewayStatus | null> {
   try {
-    const status: unknown = await ask('api/status', withinMs);
+    const status: unknown = await askGateway('api/status', { withinMs });
     if (!isRecord(status) || !isRecord(status.port)) return null;
     const { device, code } = status.port;
     // Whatever has its name now is one to be chosen like any other.
@@ -58,13 +58,13 @@ export async function hasGateway(clock: Clock): Promise<boolean> {
 
 /** Ports of the gateway's machine, the likely ones first. */
 export async function readPorts(withinMs = ANSWER_WITHIN_MS): Promise<readonly GatewayPort[]> {
-  const list: unknown = await ask('api/ports', withinMs);
+  const list: unknown = await askGateway('api/ports', { withinMs });
   if (!Array.isArray(list)) throw new LinkError('internal', 'the gateway’s list of ports is no list');
   return list.filter(isPort).map(({ device, description, inUse }) => ({ device, description, inUse }));
 }
 
 export async function openGatewayPort(device: string, board: BoardId): Promise<void> {
-  await ask('api/port', ANSWER_WITHIN_MS, { device, board });
+  await askGateway('api/port', { method: 'PUT', body: { device, board }, withinMs: ANSWER_WITHIN_MS });
 }
 
 /** The gateway's WebSocket beside the page. */
@@ -72,11 +72,6 @@ export function gatewayUrl(): string {
   const url = new URL('ws', document.baseURI);
   url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
   return url.href;
-}
-
-/** Without a body it is a question. */
-function ask(path: string, withinMs: number, body?: object): Promise<unknown> {
-  return askGateway(path, body === undefined ? { headers: OWN_PAGE } : withBody('PUT', body), withinMs);
 }
 
 function isPort(value: unknown): value is GatewayPort {

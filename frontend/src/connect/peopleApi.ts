@@ -2,7 +2,7 @@
 // PeopleError.
 
 import * as z from 'zod/mini';
-import { OWN_PAGE } from '../keepers/ownPage.ts';
+import { GatewayProblem, request, type Asking } from '../gateway/request.ts';
 import { PeopleError, type PeopleApi, type PeopleErrorCode } from '../stores/people/people.ts';
 import type {
   Invitation,
@@ -92,30 +92,21 @@ export const peopleApi: PeopleApi = {
 
 async function ask<T>(
   path: string,
-  method: string,
+  method: NonNullable<Asking['method']>,
   schema: z.ZodMiniType<T>,
   body?: object,
   withinMs = ANSWER_WITHIN_MS,
 ): Promise<T> {
-  const response = await fetch(`api/${path}`, {
-    method,
-    signal: AbortSignal.timeout(withinMs),
-    headers: { ...OWN_PAGE, ...(body !== undefined && { 'content-type': 'application/json' }) },
-    ...(body !== undefined && { body: JSON.stringify(body) }),
-  }).catch((error: unknown) => {
-    throw new PeopleError('unreachable', 'the gateway does not answer', { cause: error });
+  const answer = await request(`api/${path}`, { method, body, withinMs }).catch((error: unknown) => {
+    throw asPeopleError(error);
   });
-  const answer: unknown = await response.json().catch(() => null);
-  if (!response.ok) throw problem(answer);
   const read = schema.safeParse(answer);
   if (!read.success) throw new PeopleError('unreachable', 'no gateway is at this address');
   return read.data;
 }
 
-const problemSchema = z.object({ code: z.string(), detail: z.string() });
-
-function problem(answer: unknown): PeopleError {
-  const read = problemSchema.safeParse(answer);
-  if (!read.success) return new PeopleError('unreachable', 'no gateway is at this address');
-  return new PeopleError(CODES[read.data.code] ?? 'refused', read.data.detail);
+function asPeopleError(error: unknown): unknown {
+  if (!(error instanceof GatewayProblem)) return error;
+  const code = error.code === null ? 'unreachable' : (CODES[error.code] ?? 'refused');
+  return new PeopleError(code, error.message, { cause: error });
 }

@@ -7,7 +7,7 @@ import {
   type Keeper,
   type LibraryErrorCode,
 } from '#shared/actions/library/keeper.ts';
-import { OWN_PAGE } from './ownPage.ts';
+import { GatewayProblem, request, type Asking } from '../gateway/request.ts';
 import type {
   DocumentIds,
   DocumentWrite,
@@ -75,26 +75,23 @@ async function mark(verb: 'remove' | 'restore', ids: readonly string[]): Promise
   await ask(`/${verb}`, 'POST', nothing, wanted);
 }
 
-async function ask<T>(path: string, method: string, schema: z.ZodMiniType<T>, body?: object): Promise<T> {
-  const response = await fetch(`api/library${path}`, {
-    method,
-    signal: AbortSignal.timeout(ANSWER_WITHIN_MS),
-    headers: { ...OWN_PAGE, ...(body !== undefined && { 'content-type': 'application/json' }) },
-    ...(body !== undefined && { body: JSON.stringify(body) }),
-  }).catch((error: unknown) => {
-    throw new LibraryError('unreachable', 'the gateway does not answer', { cause: error });
+async function ask<T>(
+  path: string,
+  method: NonNullable<Asking['method']>,
+  schema: z.ZodMiniType<T>,
+  body?: object,
+): Promise<T> {
+  const asking = { method, body, withinMs: ANSWER_WITHIN_MS };
+  const answer = await request(`api/library${path}`, asking).catch((error: unknown) => {
+    throw problem(error);
   });
-  const answer: unknown = await response.json().catch(() => null);
-  if (!response.ok) throw problem(answer);
   const read = schema.safeParse(answer);
   if (!read.success) throw new LibraryError('failed', 'the gateway’s answer is none');
   return read.data;
 }
 
-const problemSchema = z.object({ code: z.string(), detail: z.string() });
-
-function problem(answer: unknown): LibraryError {
-  const read = problemSchema.safeParse(answer);
-  if (!read.success) return new LibraryError('unreachable', 'no gateway is at this address');
-  return new LibraryError(CODES[read.data.code] ?? 'failed', read.data.detail);
+function problem(error: unknown): unknown {
+  if (!(error instanceof GatewayProblem)) return error;
+  const code = error.code === null ? 'unreachable' : (CODES[error.code] ?? 'failed');
+  return new LibraryError(code, error.message, { cause: error });
 }

@@ -5,7 +5,8 @@ import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
 import type { Frame } from '#shared/protocol/commands.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { SharedSlots, SlotGroup, SlotVersions } from '#shared/session/transport.ts';
-import { askGateway, isRecord, refusal, withBody } from './gatewayHttp.ts';
+import { isRecord } from '../gateway/request.ts';
+import { askGateway, refusal } from './gatewayHttp.ts';
 import type { JobState, StateMessage } from './messages.generated.ts';
 
 /** As large as half a megabyte, which a slow network takes a while for. */
@@ -45,7 +46,7 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
   async function handOver(portion: readonly SlotGroup[], behind?: string): Promise<string> {
     const nonce = await begin();
     const body = { groups: portion.map(toBody), nonce, ...(behind !== undefined && { behind }) };
-    const taken = await askGateway('api/download', withBody('POST', body), TAKEN_WITHIN_MS);
+    const taken = await askGateway('api/download', { method: 'POST', body, withinMs: TAKEN_WITHIN_MS });
     if (!isRecord(taken) || typeof taken.id !== 'string')
       throw new LinkError('internal', 'the gateway’s answer is no job');
     return taken.id;
@@ -78,7 +79,7 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
     },
     async cancel() {
       if (job?.status !== 'running') return;
-      await askGateway(`api/jobs/${job.id}`, { method: 'DELETE' }, TAKEN_WITHIN_MS);
+      await askGateway(`api/jobs/${job.id}`, { method: 'DELETE', withinMs: TAKEN_WITHIN_MS });
     },
     told(next) {
       job = next;
