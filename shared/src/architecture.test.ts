@@ -18,8 +18,9 @@ const mayKnow: Record<string, readonly string[]> = {
   'shared/recording': ['shared/session', 'shared/simulator', 'shared/protocol', 'shared/clock'],
   'frontend/words': ['shared'],
   'frontend/ui': ['frontend/words'],
-  'frontend/transports': ['shared'],
-  'frontend/keepers': ['shared'],
+  'frontend/gateway': [],
+  'frontend/transports': ['frontend/gateway', 'shared'],
+  'frontend/keepers': ['frontend/gateway', 'shared'],
   'frontend/stores': ['frontend/words', 'shared'],
 };
 const importStatement =

@@ -4,7 +4,7 @@ import type { MotionBefore } from '#shared/motion/before.ts';
 import { isHarmless } from '#shared/protocol/commands.ts';
 import { FAMILIES, type BoardId } from '#shared/protocol/families.ts';
 import { toHex } from '#shared/protocol/hex.ts';
-import { parseCommand } from '#shared/protocol/parse.ts';
+import { commandIn } from '#shared/protocol/parse.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { SharedLatchReason } from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
@@ -24,7 +24,7 @@ export function boardNamed(text: string): BoardId {
 
 /** Needs nobody's leave. */
 export function isQuestion(packet: Uint8Array): boolean {
-  const command = parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
+  const command = commandIn(packet);
   return command !== null && isHarmless(command);
 }
 

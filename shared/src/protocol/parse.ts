@@ -31,6 +31,11 @@ export function parseCommand({ command, params }: Packet): Command | null {
   }
 }
 
+/** The same of a packet's bytes, header and all. */
+export function commandIn(packet: Uint8Array): Command | null {
+  return parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
+}
+
 /** Those that only some families have. */
 function familyCommand(command: number, params: Uint8Array): Command | null {
   switch (command) {

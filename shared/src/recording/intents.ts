@@ -3,7 +3,7 @@
 
 import type { Command, Frame } from '../protocol/commands.ts';
 import { HEADER } from '../protocol/packet.ts';
-import { parseCommand } from '../protocol/parse.ts';
+import { commandIn } from '../protocol/parse.ts';
 import type { Entry } from './recording.ts';
 
 /** A session has an operation of its own for each. */
@@ -128,8 +128,4 @@ const isLastFrame = ({ frameIndex, frameCount }: DownloadCommand): boolean => fr
 
 function padded(frames: readonly Frame[], frame: Frame, count: number): readonly Frame[] {
   return Array.from({ length: count }, (_, index) => frames[index] ?? frame);
-}
-
-function commandIn(bytes: Uint8Array): Command | null {
-  return parseCommand({ command: bytes[3] ?? 0, params: bytes.subarray(4) });
 }

@@ -4,7 +4,7 @@
 import { expect, test } from 'vitest';
 import type { MotionBefore } from '../motion/before.ts';
 import { family as familyOf, type BoardId } from '../protocol/families.ts';
-import { parseCommand } from '../protocol/parse.ts';
+import { commandIn } from '../protocol/parse.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
 import { createSession } from './session.ts';
@@ -40,7 +40,7 @@ async function joined(before: MotionBefore, knownBoard: BoardId = 'doc') {
       return line.open(events);
     },
     send(packet) {
-      const command = parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
+      const command = commandIn(packet);
       if (command?.kind === 'move') durations.push(command.durationMs);
       return line.send(packet);
     },

@@ -3,9 +3,9 @@
 
 import type { Clock } from '../clock.ts';
 import type { MotionBefore } from '../motion/before.ts';
-import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
+import type { Frame, ServoTarget } from '../protocol/commands.ts';
 import { UNKNOWN_BOARD, type Family } from '../protocol/families.ts';
-import { parseCommand } from '../protocol/parse.ts';
+import { commandIn } from '../protocol/parse.ts';
 import type { Report } from '../protocol/reports.ts';
 import { createDriver, type Driver } from './driver.ts';
 import { encodeOrRefuse } from './exchange.ts';
@@ -302,8 +302,4 @@ export function createSession(options: SessionOptions): Session {
     stopPlaying: () => driver.live.stopPlaying(),
     motions: () => driver.core.robot.motions(),
   };
-}
-
-function commandIn(packet: Uint8Array): Command | null {
-  return parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
 }

@@ -3,7 +3,7 @@
 
 import { fromBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
-import { parseCommand } from '#shared/protocol/parse.ts';
+import { commandIn } from '#shared/protocol/parse.ts';
 import type { SlotGroup } from '#shared/session/transport.ts';
 import { limitRefusal } from './limits.ts';
 
@@ -40,7 +40,7 @@ export function createLimitGate(robot: () => Robot, refuse: (refusal: string) =>
   }
 
   function lets(packet: Uint8Array): boolean {
-    const command = parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
+    const command = commandIn(packet);
     if (command?.kind !== 'move') return true;
     const meant = command.targets.map(({ servo, position }) => ({
       servo,

@@ -9,6 +9,7 @@ import * as z from 'zod/mini';
 import { COLOURS } from '../colours.ts';
 import type { Frame, ServoTarget } from '../../protocol/commands.ts';
 import type { TextFlaw } from '../versionedText.ts';
+import { runningId, targetSchema, whole } from '../schemas.ts';
 
 /** `hold`: stays at the key before and jumps at the end, as fast as the servo can. */
 export const EASINGS = ['linear', 'in', 'out', 'inOut', 'hold'] as const;
@@ -23,22 +24,19 @@ export const MAX_FRAMES = 10_000;
 const MAX_MARKERS = 1000;
 const MAX_TAGS = 20;
 
-const whole = (min: number, max: number) => z.number().check(z.int(), z.gte(min), z.lte(max));
-const id = whole(1, Number.MAX_SAFE_INTEGER);
-
 const frameSchema = z.strictObject({
   /** Tells frames apart while they move about in the list; never used twice, means nothing outside the document. */
-  id,
+  id: runningId,
   durationMs: whole(0, 0xffff),
   /** In ascending servo order, each servo once. */
-  targets: z.array(z.strictObject({ servo: whole(0, 0xff), position: whole(0, 0xffff) })),
+  targets: z.array(targetSchema),
   easing: z.enum(EASINGS),
   note: z.string().check(z.maxLength(NOTE_LENGTH)),
   colour: z.nullable(z.enum(COLOURS)),
 });
 
 const markerSchema = z.strictObject({
-  id,
+  id: runningId,
   /** Since the group began. */
   atMs: whole(0, 0xffff * MAX_FRAMES),
   text: z.string().check(z.maxLength(NOTE_LENGTH)),
@@ -61,7 +59,7 @@ export const groupSchema = z.strictObject({
   frames: z.array(frameSchema).check(z.maxLength(MAX_FRAMES)),
   markers: z.array(markerSchema).check(z.maxLength(MAX_MARKERS)),
   /** The next unused id of a frame or marker: an undone frame comes back as itself. */
-  nextId: id,
+  nextId: runningId,
 });
 
 export type Marker = Readonly<z.infer<typeof markerSchema>>;

@@ -2,11 +2,9 @@
 // they may lie, and the one rule about writing that all of them follow. Knows no group, no robot and no place.
 
 import * as z from 'zod/mini';
+import { count, targetSchema, whole } from '../schemas.ts';
 
-const whole = (max: number) => z.number().check(z.int(), z.gte(0), z.lte(max));
-const count = whole(Number.MAX_SAFE_INTEGER);
 const name = z.string().check(z.maxLength(64));
-const target = z.strictObject({ servo: whole(0xff), position: whole(0xffff) });
 
 const groupFactsSchema = z.strictObject({
   kind: z.literal('group'),
@@ -19,7 +17,7 @@ const groupFactsSchema = z.strictObject({
   durationMs: count,
   unit: z.enum(['us', 'steps']),
   /** Its picture. */
-  pose: z.array(target).check(z.maxLength(256)),
+  pose: z.array(targetSchema).check(z.maxLength(256)),
 });
 
 /** What whoever keeps it goes by itself: limits and poses are as the board counts. */
@@ -29,10 +27,15 @@ const robotFactsSchema = z.strictObject({
   board: name,
   updatedAtMs: count,
   limits: z.array(
-    z.strictObject({ servo: whole(0xff), name: z.string(), min: whole(0xffff), max: whole(0xffff) }),
+    z.strictObject({ servo: whole(0, 0xff), name: z.string(), min: whole(0, 0xffff), max: whole(0, 0xffff) }),
   ),
   poses: z.array(
-    z.strictObject({ id: count, name: z.string(), unit: z.enum(['us', 'steps']), targets: z.array(target) }),
+    z.strictObject({
+      id: count,
+      name: z.string(),
+      unit: z.enum(['us', 'steps']),
+      targets: z.array(targetSchema),
+    }),
   ),
 });
 

@@ -4,10 +4,10 @@
 import * as z from 'zod/mini';
 import { flawOfGroup, groupSchema, type ActionGroup } from '../group/group.ts';
 import { readVersioned, versionedText, type Read, type TextFlaw } from '../versionedText.ts';
+import { count } from '../schemas.ts';
 
 const FORMAT = 'servodeck-library';
 
-const count = z.number().check(z.int(), z.gte(0));
 const versionSchema = z.strictObject({
   name: z.string().check(z.maxLength(64)),
   atMs: count,

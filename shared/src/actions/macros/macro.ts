@@ -6,9 +6,7 @@ import { COLOURS } from '../colours.ts';
 import { POSE_MS, poseRefSchema } from '../poses/pose.ts';
 import { NAME_LENGTH } from '../robot/robot.ts';
 import type { TextFlaw } from '../versionedText.ts';
-
-const whole = (min: number, max: number) => z.number().check(z.int(), z.gte(min), z.lte(max));
-const id = whole(1, Number.MAX_SAFE_INTEGER);
+import { runningId, whole } from '../schemas.ts';
 
 export const WAIT_MS = { min: 100, max: 600_000 } as const;
 export const SLOT = { min: 0, max: 255 } as const;
@@ -34,7 +32,7 @@ const stepSchema = z.discriminatedUnion('kind', [
 
 const macroSchema = z.strictObject({
   /** Never used twice; means nothing outside its page. */
-  id,
+  id: runningId,
   name: z.string().check(z.trim(), z.minLength(1), z.maxLength(NAME_LENGTH)),
   colour: z.enum(COLOURS),
   /** One sign in lower case, as `keyOf` gives it; null for none. */
@@ -44,7 +42,7 @@ const macroSchema = z.strictObject({
 
 export const macroPageSchema = z.strictObject({
   macros: z.array(macroSchema).check(z.maxLength(MAX_MACROS)),
-  nextId: id,
+  nextId: runningId,
 });
 
 export type MacroStep = Readonly<z.infer<typeof stepSchema>>;

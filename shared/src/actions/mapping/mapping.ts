@@ -3,12 +3,12 @@
 
 import * as z from 'zod/mini';
 import { POSE_MS, poseRefSchema } from '../poses/pose.ts';
+import { whole } from '../schemas.ts';
 
 /** Which part of an axis counts: all of it with its sign, or one side as if it were a button. */
 export const SIDES = ['whole', 'minus', 'plus'] as const;
 export type Side = (typeof SIDES)[number];
 
-const whole = (min: number, max: number) => z.number().check(z.int(), z.gte(min), z.lte(max));
 const index = whole(0, 63);
 const servo = whole(1, 253);
 

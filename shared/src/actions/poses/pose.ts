@@ -5,6 +5,7 @@ import * as z from 'zod/mini';
 import type { ServoTarget } from '../../protocol/commands.ts';
 import { NAME_LENGTH } from '../robot/robot.ts';
 import type { TextFlaw } from '../versionedText.ts';
+import { runningId, targetSchema } from '../schemas.ts';
 
 /** `home`: every servo at its home. `rest`: the pose marked as such, else home. */
 export const POSE_VERBS = ['home', 'rest'] as const;
@@ -12,25 +13,23 @@ export const POSE_VERBS = ['home', 'rest'] as const;
 /** How long the way to a pose may be asked to take. */
 export const POSE_MS = { min: 0, max: 30_000 } as const;
 
-const count = z.number().check(z.int(), z.gte(0), z.lte(0xffff));
-const poseId = z.number().check(z.int(), z.gte(1));
-export const poseRefSchema = z.union([z.enum(POSE_VERBS), poseId]);
+export const poseRefSchema = z.union([z.enum(POSE_VERBS), runningId]);
 export type PoseRef = z.infer<typeof poseRefSchema>;
 
 const poseSchema = z.strictObject({
   /** Never used twice, so an undone pose comes back as itself; means nothing outside its book. */
-  id: poseId,
+  id: runningId,
   name: z.string().check(z.trim(), z.minLength(1), z.maxLength(NAME_LENGTH)),
   unit: z.enum(['us', 'steps']),
-  targets: z.array(z.strictObject({ servo: count, position: count })).check(z.minLength(1), z.maxLength(253)),
+  targets: z.array(targetSchema).check(z.minLength(1), z.maxLength(253)),
 });
 
 export const poseBookSchema = z.strictObject({
   poses: z.array(poseSchema).check(z.maxLength(1000)),
-  restId: z.nullable(poseId),
+  restId: z.nullable(runningId),
   /** What the robot was sent to last by a pose; it may have moved since. */
   applied: z.nullable(poseRefSchema),
-  nextId: poseId,
+  nextId: runningId,
 });
 
 export type Pose = Readonly<Omit<z.infer<typeof poseSchema>, 'targets'>> & {

@@ -5,11 +5,10 @@ import * as z from 'zod/mini';
 import type { Frame } from '../../protocol/commands.ts';
 import { GROUP_NAME_LENGTH } from '../group/group.ts';
 import { readVersioned, type Read } from '../versionedText.ts';
-
-const whole = (max: number) => z.number().check(z.int(), z.gte(0), z.lte(max));
+import { whole } from '../schemas.ts';
 
 const recordSchema = z.strictObject({
-  slot: whole(255),
+  slot: whole(0, 255),
   /** The group's. */
   name: z.string().check(z.maxLength(GROUP_NAME_LENGTH)),
   /** The library's; books of earlier versions name none. */
@@ -20,7 +19,7 @@ const recordSchema = z.strictObject({
   /** Of the frames as the board got them, with the trims of that day. */
   fingerprint: z.string(),
   /** As the person means them: each is its duration, then servo and position by turns. */
-  frames: z.array(z.array(whole(0xffff)).check(z.minLength(1))),
+  frames: z.array(z.array(whole(0, 0xffff)).check(z.minLength(1))),
 });
 
 const bookSchema = z.strictObject({
