@@ -102,12 +102,17 @@ async def control_of(connection: HTTPConnection) -> Control:
     return control
 
 
+def routes(prefix: str) -> APIRouter:
+    """For our own page and for scripts; whatever they refuse for is a Problem."""
+    return APIRouter(
+        prefix=prefix,
+        dependencies=[Depends(called_by_own_page)],
+        responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
+    )
+
+
 Controlled = Annotated[Control, Depends(control_of)]
-api = APIRouter(
-    prefix="/api",
-    dependencies=[Depends(called_by_own_page)],
-    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
-)
+api = routes("/api")
 socket = APIRouter()
 
 

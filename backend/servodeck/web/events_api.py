@@ -8,7 +8,6 @@ import asyncio
 import contextlib
 from typing import Annotated
 
-from fastapi import APIRouter, Depends
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
@@ -18,7 +17,7 @@ from servodeck.access.roles import VIEWER
 from servodeck.callers import Caller
 from servodeck.driving.control import Control
 from servodeck.errors import BusyError
-from servodeck.web.api import Controlled, Problem, called_by_own_page
+from servodeck.web.api import Controlled, routes
 
 # A line that says nothing: whoever is gone is found out, and nothing between closes a stream for its silence.
 SILENCE_S = 15.0
@@ -26,11 +25,7 @@ CLOSE_WAIT_S = 0.1
 HEADERS = [(b"content-type", b"text/event-stream; charset=utf-8"), (b"x-accel-buffering", b"no")]
 EXAMPLE = 'data: {"type": "state", "board": "doc", "latch": true, "clients": 2}\n\n'
 
-events_api = APIRouter(
-    prefix="/api",
-    dependencies=[Depends(called_by_own_page)],
-    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
-)
+events_api = routes("/api")
 
 
 class EventStream(Response):

@@ -5,7 +5,6 @@
 import asyncio
 from typing import Annotated
 
-from fastapi import APIRouter, Depends
 from pydantic import Field
 
 from servodeck.access.roles import DRIVER, VIEWER
@@ -15,7 +14,7 @@ from servodeck.messages import Nonce
 from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.schema import Message
 from servodeck.told import JobState
-from servodeck.web.api import Controlled, Problem, called_by_own_page
+from servodeck.web.api import Controlled, routes
 from servodeck.web.motion_api import Scripted, Servo, Take
 
 
@@ -67,11 +66,7 @@ class DownloadWish(Message):
     take: Take = False
 
 
-jobs_api = APIRouter(
-    prefix="/api",
-    dependencies=[Depends(called_by_own_page)],
-    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
-)
+jobs_api = routes("/api")
 
 
 @jobs_api.post("/download", status_code=202)

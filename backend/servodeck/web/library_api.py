@@ -7,7 +7,7 @@ the robot on the board, which is told behind it.
 import json
 from typing import Annotated
 
-from fastapi import APIRouter, Depends, Path
+from fastapi import Depends, Path
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import HTTPConnection
 
@@ -30,7 +30,7 @@ from servodeck.library.library_messages import (
     facts_of,
 )
 from servodeck.library.robot_of_board import ReadFacts
-from servodeck.web.api import Controlled, Problem, called_by_own_page
+from servodeck.web.api import Controlled, routes
 
 
 async def library_of(connection: HTTPConnection) -> Library:
@@ -51,11 +51,7 @@ def robots_in(library: Library) -> ReadFacts:
 
 Kept = Annotated[Library, Depends(library_of)]
 Id = Annotated[str, Path(pattern=r"^[A-Za-z0-9-]{1,64}$")]
-library_api = APIRouter(
-    prefix="/api/library",
-    dependencies=[Depends(called_by_own_page)],
-    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
-)
+library_api = routes("/api/library")
 
 
 @library_api.get("", dependencies=[VIEWER])

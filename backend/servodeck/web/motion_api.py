@@ -5,7 +5,7 @@ decides nothing.
 from collections.abc import Mapping
 from typing import Annotated
 
-from fastapi import APIRouter, Depends, Path, Request
+from fastapi import Depends, Path, Request
 from pydantic import Field
 from starlette.requests import HTTPConnection
 
@@ -15,7 +15,7 @@ from servodeck.driving.scripts import RunOutcome, ScriptAction, Scripts
 from servodeck.messages import ContinueMs, PersonId
 from servodeck.schema import Message
 from servodeck.told import LeaseState
-from servodeck.web.api import Problem, called_by_own_page
+from servodeck.web.api import routes
 
 Servo = Annotated[str, Field(pattern=r"^[1-9][0-9]{0,2}$")]
 Take = Annotated[bool, Field(description="An owner's: without asking whoever drives.")]
@@ -88,11 +88,7 @@ async def scripts_of(connection: HTTPConnection) -> Scripts:
 
 Scripted = Annotated[Scripts, Depends(scripts_of)]
 Driving = Annotated[Caller, DRIVER]
-motion_api = APIRouter(
-    prefix="/api",
-    dependencies=[Depends(called_by_own_page)],
-    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
-)
+motion_api = routes("/api")
 
 
 @motion_api.post("/move")

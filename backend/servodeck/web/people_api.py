@@ -6,7 +6,7 @@ Decides no role and makes no secret. What was changed holds at once; it is writt
 import contextlib
 from typing import Annotated
 
-from fastapi import APIRouter, Depends, Request, Response
+from fastapi import Depends, Request, Response
 from starlette.requests import HTTPConnection
 
 from servodeck.access.devices import Device
@@ -17,7 +17,7 @@ from servodeck.callers import Caller
 from servodeck.driving.control import Control
 from servodeck.driving.scripts import Scripts
 from servodeck.errors import ForbiddenError, MalformedError, StorageError
-from servodeck.web.api import Controlled, Problem, called_by_own_page
+from servodeck.web.api import Controlled, routes
 from servodeck.web.motion_api import Scripted
 from servodeck.web.people_messages import (
     Invitation,
@@ -39,11 +39,7 @@ from servodeck.web.people_messages import (
 COOKIE_S = 400 * 24 * 3600
 
 Entered = Annotated[Entrance, Depends(entrance_of)]
-people_api = APIRouter(
-    prefix="/api",
-    dependencies=[Depends(called_by_own_page)],
-    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
-)
+people_api = routes("/api")
 
 
 async def base_of(connection: HTTPConnection) -> str:

@@ -6,7 +6,7 @@ Translates for `robot_of_board` and `scripts`; decides which pose a name means.
 from collections.abc import Sequence
 from typing import Annotated
 
-from fastapi import APIRouter, Depends, Path, Request
+from fastapi import Path, Request
 from pydantic import Field
 
 from servodeck.access.roles import VIEWER
@@ -15,7 +15,7 @@ from servodeck.library.library_messages import Name, NamedPose
 from servodeck.protocol.families import Family
 from servodeck.protocol.limits import UNITS
 from servodeck.schema import Message
-from servodeck.web.api import Controlled, Problem, called_by_own_page
+from servodeck.web.api import Controlled, routes
 from servodeck.web.motion_api import Driving, MoveBegun, Scripted, Take, begin_move
 
 
@@ -32,11 +32,7 @@ class ApplyWish(Message):
 
 
 GENTLY = ApplyWish()
-poses_api = APIRouter(
-    prefix="/api/poses",
-    dependencies=[Depends(called_by_own_page)],
-    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
-)
+poses_api = routes("/api/poses")
 
 
 @poses_api.get("", dependencies=[VIEWER])

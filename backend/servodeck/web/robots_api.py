@@ -2,14 +2,12 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Depends
-
 from servodeck.access.roles import DRIVER
 from servodeck.callers import Caller
 from servodeck.errors import NotDrivingError
 from servodeck.library.library_messages import Id
 from servodeck.schema import Message
-from servodeck.web.api import Controlled, Problem, called_by_own_page
+from servodeck.web.api import Controlled, routes
 
 
 class RobotChoice(Message):
@@ -19,11 +17,7 @@ class RobotChoice(Message):
     instead_of: Id | None = None
 
 
-robots_api = APIRouter(
-    prefix="/api",
-    dependencies=[Depends(called_by_own_page)],
-    responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
-)
+robots_api = routes("/api")
 
 
 @robots_api.put("/robot", status_code=204)
