@@ -48,6 +48,19 @@ describe('a press on a key', () => {
   });
 });
 
+test('a press on a key that is called off selects what was selected before, as where a second finger comes', async () => {
+  const { press, spotOf, select, selected, stores } = await createTimelineDesk();
+  select([3, 2]);
+  const before = stores.timeline.getState().cursor;
+  press(spotOf(1, 1)).cancel();
+  expect(selected()).toEqual([[3, 2]]);
+  const gesture = press(spotOf(1, 1));
+  gesture.by(30, 0);
+  gesture.cancel();
+  expect(selected()).toEqual([[3, 2]]);
+  expect(stores.timeline.getState().cursor).toEqual(before);
+});
+
 describe('lanes that go on below a drag', () => {
   const goOn = (stores: { timeline: Timeline }, byMs: number): void =>
     stores.timeline.setState(({ time }) => ({ time: { ...time, fromMs: time.fromMs + byMs } }));

@@ -60,7 +60,7 @@ export function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' 
         else select(stores, keySet(hit.refs));
       },
       ended: () => select(stores, keySet(moved), cursorAfter(desk, refs, moved)),
-      cancelled: () => select(stores, before),
+      cancelled: () => select(stores, scene.state.selected, scene.state.cursor),
     },
   );
 }

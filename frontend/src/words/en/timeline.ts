@@ -241,8 +241,7 @@ export const timelineWords = {
   byTouch: {
     nothing:
       'Touch a key to select it. Rest a finger for more, or drag on to select several. Two fingers zoom.',
-    selected: (about: string): string =>
-      `${about}. Drag it, or nudge it with the arrows. Rest a finger for more.`,
+    selected: (about: string): string => `${about}. Drag, or nudge with the arrows. Rest a finger for more.`,
     marker: (about: string): string => `${about}. Drag to move it. Rest a finger on it for more.`,
   },
 };
