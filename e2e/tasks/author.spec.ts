@@ -5,7 +5,7 @@ import type { Dashboard } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
 import { noteAttribute, noteTexts } from '../fixtures/notes.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
-import { keepGroup } from '../fixtures/timeline.ts';
+import { keepGroup, timelineOf } from '../fixtures/timeline.ts';
 
 /** Each frame's time, in order: what tells the frames apart here. */
 async function frameTimes(dashboard: Dashboard): Promise<readonly string[]> {
@@ -145,6 +145,31 @@ test.describe('of several frames', () => {
     await page.keyboard.press('Control+v');
     await poll(() => frameTimes(dashboard)).toEqual(['300', '100', '200']);
     await expect(dashboard.frame(2)).toBeFocused();
+  });
+});
+
+test.describe('what the board cannot do', () => {
+  test.beforeEach(({ page }) =>
+    keepGroup(
+      page,
+      Array.from({ length: 260 }, (_, index) => (index < 5 ? 2700 + index : 1000 + 20 * (index % 2))),
+    ),
+  );
+
+  test('is listed, what is about all of it first, and a line leads to the very key', async ({
+    dashboard,
+    page,
+  }) => {
+    await dashboard.button('Details').click();
+    const problems = page.getByRole('list', { name: 'What does not fit' }).getByRole('button');
+    await expect(problems).toHaveCount(5);
+    await expect(problems.first()).toContainText('the board takes 255');
+    await problems.last().click();
+    await expect(problems).toHaveCount(6);
+    await problems.nth(2).click();
+    const selected = timelineOf(page).selected;
+    await expect(selected).toHaveCount(1);
+    await expect(selected).toHaveAccessibleName('Gripper, 1.00 s, 2701 µs, linear');
   });
 });
 

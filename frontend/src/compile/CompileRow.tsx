@@ -1,16 +1,16 @@
 // What the group becomes on the board: whether it fits, what it costs, how far off it is and where, and what does not fit. A click
 // on a place goes there.
 
-import { select } from '../stores/servoView.ts';
 import { MOST_ERROR_UNITS } from '#shared/actions/group/group.ts';
 import { setMeta } from '#shared/actions/group/groupEdits.ts';
 import { maxErrorOf } from '#shared/actions/group/maxError.ts';
 import { obstacles } from '../stores/group/compiled.ts';
-import { editServoView, useCompiled, useDevice, useDocument, useStores } from '../stores/stores.ts';
+import { useCompiled, useDevice, useDocument, useStores } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { useInFrame } from '../ui/useInFrame.ts';
 import { words } from '../words/words.ts';
+import { goToPlace } from './places.ts';
 import { Problems } from './Problems.tsx';
 import field from '../ui/Field.module.css';
 import styles from './CompileRow.module.css';
@@ -86,17 +86,17 @@ function ErrorField() {
 function Worst() {
   const stores = useStores();
   const { worst, shiftedMs } = useCompiled((state) => state.latest.report);
-  const unit = useCompiled((state) => state.latest.source.group.unit);
+  const group = useCompiled((state) => state.latest.source.group);
   if (worst === null) return <p className={styles.dim}>{words.compile.exact}</p>;
   const { servo, atMs, units, degrees } = worst;
-  const go = (): void => {
-    stores.playhead.show(Math.round(atMs));
-    editServoView(stores, (view) => select(view, [servo]));
-  };
   return (
     <p className={styles.figures}>
-      <button type="button" className={styles.place} onClick={go}>
-        {words.compile.worst(units, unit, degrees, servo, atMs)}
+      <button
+        type="button"
+        className={styles.place}
+        onClick={() => goToPlace(stores, { servo, atMs }, group)}
+      >
+        {words.compile.worst(units, group.unit, degrees, servo, atMs)}
       </button>
       {shiftedMs > 0 && <span>{words.compile.shifted(Math.ceil(shiftedMs))}</span>}
     </p>

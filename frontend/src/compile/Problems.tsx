@@ -1,11 +1,11 @@
-// The list of what the board cannot do with the group; each line leads to its place.
+// The list of what the board cannot do with the group, what is about all of it first; each line leads to its place.
 
+import { useState } from 'react';
 import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { frameEnds } from '#shared/actions/group/tracks.ts';
-import { select } from '../stores/servoView.ts';
-import { editServoView, useCompiled, useStores } from '../stores/stores.ts';
+import { obstacles } from '../stores/group/compiled.ts';
+import { useCompiled, useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
+import { goToPlace } from './places.ts';
 import styles from './CompileRow.module.css';
 
 const SHOWN = 4;
@@ -13,31 +13,32 @@ const SHOWN = 4;
 export function Problems() {
   const stores = useStores();
   const { report, source } = useCompiled((state) => state.latest);
-  const { problems } = report;
+  const [isWhole, setIsWhole] = useState(false);
+  const must = new Set(obstacles(report, 'board'));
+  const rankOf = (problem: CompileProblem): number => (must.has(problem) ? Number('servo' in problem) : 2);
+  const problems = report.problems.toSorted((one, other) => rankOf(one) - rankOf(other));
+  const more = isWhole ? 0 : problems.length - SHOWN;
   if (problems.length === 0) return null;
-  const go = (problem: CompileProblem): void => {
-    const atMs = placeOf(problem, source.group);
-    if (atMs !== null) stores.playhead.show(atMs);
-    if ('frameId' in problem) stores.view.setState({ selectedFrame: problem.frameId });
-    if ('servo' in problem) editServoView(stores, (view) => select(view, [problem.servo]));
-  };
   return (
     <ul className={styles.problems} aria-label={words.compile.problems}>
-      {problems.slice(0, SHOWN).map((problem, index) => (
+      {problems.slice(0, more > 0 ? SHOWN : undefined).map((problem, index) => (
         <li key={index}>
-          <button type="button" className={styles.place} onClick={() => go(problem)}>
+          <button
+            type="button"
+            className={styles.place}
+            onClick={() => goToPlace(stores, problem, source.group)}
+          >
             {words.compile.problem(problem, source.group)}
           </button>
         </li>
       ))}
-      {problems.length > SHOWN && <li>{words.compile.more(problems.length - SHOWN)}</li>}
+      {more > 0 && (
+        <li>
+          <button type="button" className={styles.place} onClick={() => setIsWhole(true)}>
+            {words.compile.more(more)}
+          </button>
+        </li>
+      )}
     </ul>
   );
-}
-
-/** When in the group it is; null where it is about all of it. */
-function placeOf(problem: CompileProblem, { frames }: ActionGroup): number | null {
-  if ('atMs' in problem) return Math.round(problem.atMs);
-  if (!('frameId' in problem)) return null;
-  return frameEnds(frames)[frames.findIndex(({ id }) => id === problem.frameId)] ?? null;
 }

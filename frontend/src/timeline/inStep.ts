@@ -2,9 +2,11 @@
 // selected elsewhere is selected here, all of the group stays in sight until the person looks closer, and so does the
 // playhead.
 
+import type { KeyRef } from '#shared/actions/group/tracks.ts';
 import { deskOf, select, type Desk, type DeskStores } from './desk.ts';
 import { endOfFrame, selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { cursorLeft, fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
+import { servoRowId } from './rows.ts';
 import { paged, xOf } from '../stores/timeline/timeScale.ts';
 import { ALL_ROW, type TimelineState } from '../stores/timeline/timeline.ts';
 import { keyName, keySet, withKeys } from '../stores/timeline/keySet.ts';
@@ -67,6 +69,13 @@ export function showFrame(stores: DeskStores, frameId: number | null): void {
   if (frameId === null || endMs === null) return stores.view.setState({ selectedFrame: frameId });
   selectFrame(desk, frameId, 'replaces');
   lookAt(desk, endMs);
+}
+
+/** One key of it, in its own row: what is typed next is meant for it alone. */
+export function showKey(stores: DeskStores, ref: KeyRef): void {
+  const desk = deskOf(stores);
+  select(stores, keySet([ref]), { row: servoRowId(ref.servo), frameId: ref.frameId });
+  lookAt(desk, endOfFrame(desk.times, ref.frameId) ?? desk.state.playheadMs);
 }
 
 /** Several, with `lead` as the one that is looked at. */
