@@ -165,7 +165,7 @@ test.describe('what the board cannot do', () => {
     await expect(problems).toHaveCount(5);
     await expect(problems.first()).toContainText('the board takes 255');
     await problems.last().click();
-    await expect(problems).toHaveCount(6);
+    await expect(problems).toHaveCount(7);
     await problems.nth(2).click();
     const selected = timelineOf(page).selected;
     await expect(selected).toHaveCount(1);
