@@ -1,6 +1,6 @@
 // The action group being written: its name, its keys over time, its frames, and what can be done with them. A phone shows the
-// frames first. Edits go to the document alone;
-// the robot moves only by Play and by loading a pose.
+// frames first, and what begins one right below them. Edits go to the document alone; the robot moves only by Play and by loading a
+// pose.
 
 import { Fragment, useCallback } from 'react';
 import { rename } from '#shared/actions/group/groupEdits.ts';
@@ -13,6 +13,7 @@ import { useIsPainted } from '../ui/useIsPainted.ts';
 import { useLayout } from '../ui/useLayout.ts';
 import { NameField } from '../ui/NameField.tsx';
 import type { PanelParts } from '../ui/Panel.tsx';
+import { PlayBar } from '../play/PlayBar.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/words.ts';
 import { CaptureBar } from './CaptureBar.tsx';
@@ -59,7 +60,7 @@ function Content() {
   const unit = useDocument(({ present }) => present.unit);
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const { playback } = useStores();
-  const layout = useLayout();
+  const isPhone = useLayout() === 'phone';
   const isPainted = useIsPainted();
   const otherUnit = useDevice((state) => state.family.unit !== unit) && !isEmpty;
   const play = useCallback(
@@ -67,18 +68,20 @@ function Content() {
     [playback],
   );
   const timeline = <Timeline key="timeline" onPlay={play} />;
+  const capture = <CaptureBar key="capture" />;
+  const tools = <FrameTools key="tools" />;
   const frames = (
     <Fragment key="frames">
       {isEmpty ? <Empty /> : <FrameStrip />}
-      <FrameTools />
-      <CaptureBar />
+      {isPhone ? [capture, tools] : [tools, capture]}
+      <PlayBar />
     </Fragment>
   );
-  const inOrder = layout === 'phone' ? [frames, timeline] : [timeline, frames];
+  const inOrder = isPhone ? [frames, timeline] : [timeline, frames];
   return (
     <>
       {otherUnit && <p className={styles.warning}>{words.actions.otherUnit(unit)}</p>}
-      {layout === 'phone' && (
+      {isPhone && (
         <div className={styles.body}>
           <BodyPicture />
         </div>

@@ -1,8 +1,7 @@
-// The foot of the action group: capture the pose as a frame, the group's length, and playing it.
+// How frames come into the group: the pose captured, a recording, an example. And how long the group is.
 
 import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { ExamplesControl } from '../examples/ExamplesControl.tsx';
-import { PlayBar } from '../play/PlayBar.tsx';
 import { RecordControl } from '../record/RecordControl.tsx';
 import { useDocument, useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
@@ -13,19 +12,16 @@ import styles from './CaptureBar.module.css';
 export function CaptureBar() {
   const stores = useStores();
   return (
-    <>
-      <div className={styles.bar}>
-        <CaptureButton
-          label={words.actions.capture}
-          hint={words.actions.captureHint}
-          onPress={() => captureFrame(stores, 'after')}
-        />
-        <RecordControl />
-        <ExamplesControl />
-        <Total />
-      </div>
-      <PlayBar />
-    </>
+    <div className={styles.bar}>
+      <CaptureButton
+        label={words.actions.capture}
+        hint={words.actions.captureHint}
+        onPress={() => captureFrame(stores, 'after')}
+      />
+      <RecordControl />
+      <ExamplesControl />
+      <Total />
+    </div>
   );
 }
 
