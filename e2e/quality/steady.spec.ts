@@ -94,6 +94,16 @@ for (const viewport of SIZES) {
           await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
         });
       }
+
+      await tab('Actions');
+      await page.getByRole('radio', { name: 'Action group' }).check();
+      const capture = dashboard.button('Capture frame');
+      const placeOf = async (): Promise<number> => Math.round((await capture.boundingBox())?.y ?? 0);
+      await capture.scrollIntoViewIfNeeded();
+      const before = await placeOf();
+      await capture.click();
+      await expect(dashboard.frames).toHaveCount(1);
+      expect(await placeOf(), 'the first frame is captured').toBe(before);
     });
   });
 }
