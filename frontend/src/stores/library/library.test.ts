@@ -124,6 +124,7 @@ describe('keeping', () => {
     await page.library.refresh();
     expect(page.names()).toHaveLength(2);
     expect(page.library.store.getState().isKept).toBe(true);
+    expect(page.told()).toEqual([]);
   });
 
   test('until the place of the library is known everything waits here, and both sides of a conflict are kept', async () => {

@@ -16,6 +16,7 @@ import {
   type Keeper,
   type Listed,
   type Stored,
+  type LibraryErrorCode,
 } from '#shared/actions/library/keeper.ts';
 import { words } from '../../words/words.ts';
 import type { Document } from '../group/document.ts';
@@ -58,6 +59,9 @@ export interface Library extends LibraryFiles, LibraryVersions {
   restore(id: string): Promise<void>;
 }
 
+/** Over as soon as nothing waits here any more. */
+const WAITING: readonly LibraryErrorCode[] = ['full', 'busy', 'unreachable'];
+
 export interface LibraryOptions {
   readonly keeper: Promise<Keeper>;
   readonly document: Document;
@@ -93,6 +97,8 @@ export function createLibrary(options: LibraryOptions): Library {
     onKept(id, revision) {
       opened.setRevision(id, revision);
       tellKept();
+      if (outbox.entries().length === 0)
+        for (const code of WAITING) notices.takeBack(words.library.problem(code, ''));
     },
     onConflict: keepBoth,
     onFailure: tell,
