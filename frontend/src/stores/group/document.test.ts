@@ -158,4 +158,24 @@ describe('the document', () => {
     expect(group().frames).toHaveLength(2);
     expect(told()).toEqual([words.actions.notSaved]);
   });
+
+  test('a browser that stores again has it said no longer', () => {
+    let isFull = true;
+    const setItem = (): void => {
+      if (isFull) throw new Error('full');
+    };
+    const { document, told } = createDesk({}, { getItem: () => null, setItem });
+    const capture = (): void => {
+      document.edit(
+        () => 'capture',
+        (before) => insertFrame(before, 0, FRAME),
+      );
+      document.flush();
+    };
+    capture();
+    expect(told()).toEqual([words.actions.notSaved]);
+    isFull = false;
+    capture();
+    expect(told()).toEqual([]);
+  });
 });

@@ -41,6 +41,7 @@ export function createDocument(storage: TextStorage, notices: Notices, clock: Cl
   function write(text: string): void {
     try {
       storage.setItem(KEY, text);
+      if (savingFailed) notices.takeBack(words.actions.notSaved);
       savingFailed = false;
     } catch {
       if (!savingFailed) notices.tell('warning', words.actions.notSaved);
