@@ -182,6 +182,21 @@ test.describe('two browsers at one gateway', () => {
   });
 });
 
+test('a long name can be read to its end, also on a phone', async ({ dashboard, page }) => {
+  const library = libraryOf(page);
+  const name = 'Waves with both arms and bows, slowly, other version, copy';
+  await captureGroup(dashboard, [1500]);
+  await library.call(name);
+  await library.show();
+  for (const width of [1440, 390]) {
+    await page.setViewportSize({ width, height: 844 });
+    const shown = library.card(name).getByText(name, { exact: true });
+    await expect(shown).toBeVisible();
+    const hiddenPx = await shown.evaluate((element) => element.scrollWidth - element.clientWidth);
+    expect(hiddenPx).toBeLessThanOrEqual(0);
+  }
+});
+
 test('the whole library moves from the gateway into a browser as one file', async ({
   dashboard,
   page,
