@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { rename } from '#shared/actions/group/groupEdits.ts';
 import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
-import { emptyGroup } from '#shared/actions/group/group.ts';
+import { emptyGroup, GROUP_NAME_LENGTH } from '#shared/actions/group/group.ts';
 import { LibraryError, type Keeper } from '#shared/actions/library/keeper.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/simulator/virtualClock.ts';
 import { createMemoryKeeper } from '../../keepers/memoryKeeper.ts';
@@ -255,6 +255,16 @@ describe('several documents', () => {
     expect(page.group().frames).toHaveLength(0);
     page.document.redo();
     expect(page.document.store.getState().past.map(({ label }) => label())).toEqual(['capture']);
+  });
+
+  test('the copy of a group with the longest name there is has another name', async () => {
+    const page = createPlace(createMemoryKeeper()).visit();
+    const name = 'x'.repeat(GROUP_NAME_LENGTH);
+    page.document.edit(() => 'name', called(name));
+    await page.later();
+    await page.library.duplicate(page.openId());
+    expect(page.names()).toHaveLength(2);
+    expect(new Set(page.names()).size).toBe(2);
   });
 
   test('a document is duplicated, renamed from the list, deleted and brought back', async () => {

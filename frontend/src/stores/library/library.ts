@@ -59,6 +59,10 @@ export interface Library extends LibraryFiles, LibraryVersions {
   restore(id: string): Promise<void>;
 }
 
+/** With room for what is added, where the name is as long as one may be. */
+const toldApart = (name: string, added: (name: string) => string): string =>
+  added(name.slice(0, GROUP_NAME_LENGTH - added('').length));
+
 /** Over as soon as nothing waits here any more. */
 const WAITING: readonly LibraryErrorCode[] = ['full', 'busy', 'unreachable'];
 
@@ -158,8 +162,7 @@ export function createLibrary(options: LibraryOptions): Library {
   /** The newer text stays under its name; ours goes on as a document of its own. */
   function keepBoth(id: string, { text }: Stored): void {
     const ours = groupOf(text);
-    const room = GROUP_NAME_LENGTH - words.library.otherVersion('').length;
-    const copy = words.library.otherVersion(ours.name.slice(0, room));
+    const copy = toldApart(ours.name, words.library.otherVersion);
     const copyId = newId();
     if (id === opened.id()) {
       opened.become(copyId);
@@ -302,7 +305,7 @@ export function createLibrary(options: LibraryOptions): Library {
     duplicate: (id) =>
       attempt(
         read(id).then((group) => {
-          put(newId(), groupToText(rename(group, words.library.copyOf(group.name))));
+          put(newId(), groupToText(rename(group, toldApart(group.name, words.library.copyOf))));
           return flushAndRefresh();
         }),
       ),
