@@ -1,7 +1,7 @@
 // The servos where they sit on the body: pressing one selects it. While arranging, they are dragged to other places instead.
 
 import { useRef, useState, type CSSProperties, type KeyboardEvent } from 'react';
-import type { BodyKind } from '#shared/actions/robot/robot.ts';
+import type { BodyKind, RobotServo } from '#shared/actions/robot/robot.ts';
 import { undoActionOf } from '../actions/useUndoKeys.ts';
 import { useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { Toggle } from '../ui/Toggle.tsx';
@@ -11,6 +11,7 @@ import { ArrangedPlace } from './ArrangedPlace.tsx';
 import { LiveArm } from './LiveArm.tsx';
 import { LiveBones } from './LiveBones.tsx';
 import { Place } from './Place.tsx';
+import { nearest } from './placing.ts';
 import { reachOf, type Reach } from './reach.ts';
 import { UnknownNote } from './UnknownNote.tsx';
 import styles from './BodyMap.module.css';
@@ -36,7 +37,7 @@ export function BodyMap({ isArrangingFirst = false }: { readonly isArrangingFirs
 
   return (
     <div className={styles.map} onKeyDown={undoKey}>
-      <div className={styles.room} data-body={body} style={ratioFor(reachOf(robot))}>
+      <div className={styles.room} data-body={body} style={sizesFor(reachOf(robot), shown)}>
         <div className={styles.stage}>
           <Picture body={body} />
           <div ref={stage} className={styles.places} style={placesIn(reachOf(robot))}>
@@ -68,10 +69,12 @@ function Picture({ body }: { readonly body: BodyKind }) {
   return <div className={styles.picture}>{body === 'arm' ? <LiveArm /> : <LiveBones />}</div>;
 }
 
-/** A body by bones has room for each of its poses. */
-function ratioFor(reach: Reach | null): CSSProperties {
+/** A body by bones has room for each of its poses, and its dials have none for each other: neighbours touch at most. */
+function sizesFor(reach: Reach | null, servos: readonly RobotServo[]): CSSProperties {
   if (reach === null) return {};
-  return { '--ratio': (reach.right - reach.left) / (reach.bottom - reach.top) } as CSSProperties;
+  const width = reach.right - reach.left;
+  const apart = nearest(servos.map(({ place }) => place)) / width;
+  return { '--ratio': width / (reach.bottom - reach.top), '--apart': apart } as CSSProperties;
 }
 
 /** The square that places are percent of, in that room. */

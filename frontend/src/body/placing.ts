@@ -41,4 +41,12 @@ export function placeBy(
   return { x: percent((x + direction[0] * step) / 100), y: percent((y + direction[1] * step) / 100) };
 }
 
+/** How far apart the two nearest places are, in percent. */
+export function nearest(places: readonly PlaceAt[]): number {
+  const gaps = places.flatMap((one, index) =>
+    places.slice(index + 1).map((other) => Math.hypot(one.x - other.x, one.y - other.y)),
+  );
+  return Math.min(100, ...gaps);
+}
+
 const percent = (share: number): number => Math.round(Math.min(1, Math.max(0, share)) * 100);
