@@ -162,7 +162,7 @@ describe('frames on the clipboard', () => {
     expect(ids()).toEqual([1, 2, 3, 4, 5]);
     expect(told()).toEqual([
       words.actions.nothingToPaste,
-      expect.stringContaining('Not pasted: servo 1 at 9000 is out of range'),
+      expect.stringContaining('Not pasted: Gripper at 9000 is out of range'),
     ]);
   });
 });

@@ -9,6 +9,7 @@ import { deskOf, rangeOf, rowOf, type DeskStores } from '../timeline/desk.ts';
 import { showFrame, showFrames } from '../timeline/inStep.ts';
 import { wholeFrames } from '../timeline/wholeFrames.ts';
 import { words } from '../words/words.ts';
+import { namesIn } from '../stores/servoName.ts';
 
 export type FrameIds = readonly number[];
 /** As the person counts the frames, from 1. */
@@ -111,7 +112,8 @@ export function paste(stores: DeskStores, clip: Clip | null): void {
   const index = numbersOf(stores, chosenFrames(stores)).at(-1) ?? desk.group.frames.length;
   const pasted = pasteFrames(desk.group, clip, index, { rangeOf: (servo) => rangeOf(desk, servo) });
   const [problem] = pasted.problems;
-  if (problem !== undefined) return stores.notices.tell('warning', words.timeline.notPasted(problem));
+  if (problem !== undefined)
+    return stores.notices.tell('warning', words.timeline.notPasted(problem, namesIn(desk.robot)));
   add(
     stores,
     () => words.actions.steps.paste(clip.moments.length),

@@ -1,6 +1,7 @@
 // Stores the group of this page, as it was compiled, in the chosen slot.
 
 import { obstacles } from '../stores/group/compiled.ts';
+import { problemText } from '../stores/group/problemText.ts';
 import { startHindrance } from '../stores/device/readiness.ts';
 import { useCompiled, useDevice, useDocument, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
@@ -20,7 +21,7 @@ export function DownloadControl() {
     const [problem] = obstacles(group.report, 'board');
     const { openId: documentId } = library.store.getState();
     if (problem === undefined) slots.download([{ slot, name, documentId, frames: group.frames }]);
-    else notices.tell('warning', words.compile.problem(problem, group.source.group));
+    else notices.tell('warning', problemText(problem, group.source));
   };
   return (
     <Button

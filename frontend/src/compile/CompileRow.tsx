@@ -6,6 +6,7 @@ import { setMeta } from '#shared/actions/group/groupEdits.ts';
 import { maxErrorOf } from '#shared/actions/group/maxError.ts';
 import { obstacles } from '../stores/group/compiled.ts';
 import { useCompiled, useDevice, useDocument, useStores } from '../stores/stores.ts';
+import { servoName } from '../stores/servoName.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { useInFrame } from '../ui/useInFrame.ts';
@@ -86,7 +87,7 @@ function ErrorField() {
 function Worst() {
   const stores = useStores();
   const { worst, shiftedMs } = useCompiled((state) => state.latest.report);
-  const group = useCompiled((state) => state.latest.source.group);
+  const { group, robot } = useCompiled((state) => state.latest.source);
   if (worst === null) return <p className={styles.dim}>{words.compile.exact}</p>;
   const { servo, atMs, units, degrees } = worst;
   return (
@@ -96,7 +97,7 @@ function Worst() {
         className={styles.place}
         onClick={() => goToPlace(stores, { servo, atMs }, group)}
       >
-        {words.compile.worst(units, group.unit, degrees, servo, atMs)}
+        {words.compile.worst(units, group.unit, degrees, servoName(robot, servo), atMs)}
       </button>
       {shiftedMs > 0 && <span>{words.compile.shifted(Math.ceil(shiftedMs))}</span>}
     </p>

@@ -3,6 +3,7 @@
 import { useState } from 'react';
 import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
 import { obstacles } from '../stores/group/compiled.ts';
+import { problemText } from '../stores/group/problemText.ts';
 import { useCompiled, useStores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import { goToPlace } from './places.ts';
@@ -28,7 +29,7 @@ export function Problems() {
             className={styles.place}
             onClick={() => goToPlace(stores, problem, source.group)}
           >
-            {words.compile.problem(problem, source.group)}
+            {problemText(problem, source)}
           </button>
         </li>
       ))}

@@ -3,6 +3,7 @@
 import type { SlotBook } from '#shared/actions/slots/slotBook.ts';
 import type { Range } from '#shared/protocol/families.ts';
 import { obstacles, type CompiledGroup } from '../stores/group/compiled.ts';
+import { problemText } from '../stores/group/problemText.ts';
 import type { SlotDownload } from '../stores/slots/slots.ts';
 import { words } from '../words/words.ts';
 
@@ -29,7 +30,7 @@ export function slotFor(
 export function hindranceOf(one: Wanted, all: readonly Wanted[]): string | null {
   const { group } = one.compiled.source;
   const [problem] = obstacles(one.compiled.report, 'board');
-  if (problem !== undefined) return words.compile.problem(problem, group);
+  if (problem !== undefined) return problemText(problem, one.compiled.source);
   if (group.frames.length === 0) return words.slots.several.noFrame;
   const isTaken = all.some((other) => other !== one && other.slot === one.slot);
   return isTaken ? words.slots.several.sameSlot(one.slot) : null;

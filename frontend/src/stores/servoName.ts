@@ -3,6 +3,12 @@
 import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
 import { words } from '../words/words.ts';
 
+/** For sentences about several of them. */
+export const namesIn =
+  (robot: Robot) =>
+  (servo: number): string =>
+    servoName(robot, servo);
+
 /** By its number where the robot has no such servo. */
 export function servoName(robot: Robot, servo: number): string {
   const own = servoOf(robot, servo);

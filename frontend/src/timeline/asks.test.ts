@@ -75,7 +75,7 @@ test('a swing grows about its mean, not beyond the limits', async () => {
   answer(desk(), 'scaleAmplitude', '200');
   expect(keys(1).map(([, position]) => position)).toEqual([800, 1200, 1600]);
   answer(desk(), 'scaleAmplitude', '900');
-  expect(told()).toEqual(['Not scaled: servo 1 would go beyond its limits.']);
+  expect(told()).toEqual(['Not scaled: Gripper would go beyond its limits.']);
 });
 
 test('a single frame is stretched from its beginning', async () => {

@@ -9,6 +9,7 @@ import type { Ask } from '../stores/timeline/timeline.ts';
 import { numberIn } from '../ui/NumberField.tsx';
 import type { Scale } from '../servos/scale.ts';
 import { words } from '../words/words.ts';
+import { servoName } from '../stores/servoName.ts';
 import { apply, changeable, rangeOf, selectedFrames, type Desk } from './desk.ts';
 import { changeIn } from './changeIn.ts';
 import { keyOf, selectedKeys, spanOf, timesOf } from './groupTimes.ts';
@@ -161,7 +162,10 @@ function swing(desk: Desk, percent: number): void {
     return position < min || position > max;
   });
   if (outside !== undefined)
-    return desk.stores.notices.tell('warning', words.timeline.swingsTooFar(outside.servo));
+    return desk.stores.notices.tell(
+      'warning',
+      words.timeline.swingsTooFar(servoName(desk.robot, outside.servo)),
+    );
   apply(desk, { label: () => words.timeline.steps.scaleAmplitude, edit: () => next });
 }
 

@@ -13,6 +13,7 @@ import { servoOf } from '#shared/actions/robot/robot.ts';
 import { keysAt, positionAt, type KeyRef } from '#shared/actions/group/tracks.ts';
 import { keySet, NO_KEYS } from '../stores/timeline/keySet.ts';
 import { isHeld } from '../stores/servoView.ts';
+import { namesIn, servoName } from '../stores/servoName.ts';
 import { words } from '../words/words.ts';
 import {
   apply,
@@ -176,7 +177,8 @@ function put(
   selects: (times: GroupTimes) => readonly KeyRef[],
 ): void {
   const [problem] = problems;
-  if (problem !== undefined) desk.stores.notices.tell('warning', words.timeline.notPasted(problem));
+  if (problem !== undefined)
+    desk.stores.notices.tell('warning', words.timeline.notPasted(problem, namesIn(desk.robot)));
   else apply(desk, { label, edit: () => group, selects });
 }
 
@@ -197,7 +199,10 @@ export function mirrorFrames(desk: Desk): void {
   const { group, held } = mirror(desk.group, desk.robot, frameIds);
   if (group === desk.group) desk.stores.notices.tell('info', words.timeline.nothingToMirror);
   if (held.length > 0)
-    desk.stores.notices.tell('warning', words.timeline.heldAtLimit(held.map(({ servo }) => servo)));
+    desk.stores.notices.tell(
+      'warning',
+      words.timeline.heldAtLimit(held.map(({ servo }) => servoName(desk.robot, servo))),
+    );
   apply(desk, { label: () => words.timeline.steps.mirror, edit: () => group });
 }
 

@@ -336,6 +336,6 @@ describe('keys', () => {
     const before = group();
     VERBS.paste.run(desk());
     expect(group()).toBe(before);
-    expect(told()).toEqual(['Not pasted: servo 1 at 2600 is out of range; it takes 500 to 2500.']);
+    expect(told()).toEqual(['Not pasted: Gripper at 2600 is out of range; it takes 500 to 2500.']);
   });
 });

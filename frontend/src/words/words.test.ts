@@ -102,10 +102,11 @@ describe('the words', () => {
 
   test('how far off the board would be is a whole number with its unit, and what helps is said', () => {
     const problem = { kind: 'deviation', servo: 1, atMs: 2000, units: 44.556, limit: 5 } as const;
-    expect(english.compile.problem(problem, emptyGroup('Wave', 'us'))).toMatch(
-      /off by 45\sµs; 5\sµs is allowed\. Give it more time, or allow a larger error\.$/,
+    const elbow = (): string => 'Elbow';
+    expect(english.compile.problem(problem, emptyGroup('Wave', 'us'), elbow)).toMatch(
+      /^Elbow at .* off by 45\sµs; 5\sµs is allowed\. Give it more time, or allow a larger error\.$/,
     );
-    expect(chinese.compile.problem(problem, emptyGroup('Wave', 'us'))).toMatch(/偏差45微秒/);
+    expect(chinese.compile.problem(problem, emptyGroup('Wave', 'us'), elbow)).toMatch(/^Elbow.*偏差45微秒/);
   });
 });
 

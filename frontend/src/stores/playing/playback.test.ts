@@ -248,7 +248,7 @@ describe('playing from the page', () => {
     playback.play();
     await draw(500);
     expect(heard).toEqual([]);
-    expect(told()[0]).toContain('Servo 1 in frame 2: 2600 is out of range');
+    expect(told()[0]).toContain('Gripper in frame 2: 2600 is out of range');
   });
 
   test('a step goes to the next frame and back, and the robot only where it follows', async () => {

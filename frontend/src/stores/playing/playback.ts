@@ -8,6 +8,7 @@ import type { Activity } from '#shared/session/state.ts';
 import { words } from '../../words/words.ts';
 import { createBoardRun, type Replacing } from './boardRun.ts';
 import { obstacles, type CompiledGroup, type CompiledStore } from '../group/compiled.ts';
+import { problemText } from '../group/problemText.ts';
 import type { Device } from '../device/device.ts';
 import type { Document } from '../group/document.ts';
 import { createFollower } from '../driving/follower.ts';
@@ -116,7 +117,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
           ? words.board.nothingToDownload
           : problem === undefined
             ? null
-            : words.compile.problem(problem, group.source.group);
+            : problemText(problem, group.source);
     if (reason === null) return group;
     notices.tell('warning', reason);
     return null;

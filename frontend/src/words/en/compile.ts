@@ -15,13 +15,11 @@ import {
 } from './numbers.ts';
 import type { PositionUnit } from '../numbers.ts';
 
-const servoNumber = (servo: number): string => `Servo ${formatWhole(servo)}`;
+type NameOf = (servo: number) => string;
+type Said<Problem> = (problem: Problem, group: ActionGroup, nameOf: NameOf) => string;
 
 type ProblemWords = {
-  readonly [K in CompileProblem['kind']]: (
-    problem: Extract<CompileProblem, { kind: K }>,
-    group: ActionGroup,
-  ) => string;
+  readonly [K in CompileProblem['kind']]: Said<Extract<CompileProblem, { kind: K }>>;
 };
 
 const frameNumber = ({ frames }: ActionGroup, id: number): string =>
@@ -30,20 +28,20 @@ const frameNumber = ({ frames }: ActionGroup, id: number): string =>
 const problems: ProblemWords = {
   unit: ({ group, board }) =>
     `The group is in ${unitSymbol(group)}, the board counts in ${unitSymbol(board)}.`,
-  servo: ({ servo, min, max }) =>
-    `${servoNumber(servo)}: the board takes servos ${formatWhole(min)} to ${formatWhole(max)}.`,
-  position: ({ servo, frameId, position, min, max }, group) =>
-    `${servoNumber(servo)} in frame ${frameNumber(group, frameId)}: ${formatWhole(position)} is out of range; it takes ${formatWhole(min)} to ${formatWhole(max)}.`,
+  servo: ({ servo, min, max }, _group, nameOf) =>
+    `${nameOf(servo)}: the board takes servos ${formatWhole(min)} to ${formatWhole(max)}.`,
+  position: ({ servo, frameId, position, min, max }, group, nameOf) =>
+    `${nameOf(servo)} in frame ${frameNumber(group, frameId)}: ${formatWhole(position)} is out of range; it takes ${formatWhole(min)} to ${formatWhole(max)}.`,
   tooManyServos: ({ frame, count, limit }) =>
     `Frame ${formatWhole(frame + 1)} on the board would move ${formatCount(count)} servos; it takes ${formatCount(limit)}.`,
   tooManyFrames: ({ count, limit }) =>
     `${formatCount(count)} frames are needed; the board takes ${formatCount(limit)}. Allow a larger error, or shorten the group.`,
-  tooShort: ({ servo, frameId, leastMs }, group) =>
-    `${servoNumber(servo)} in frame ${frameNumber(group, frameId)}: no time to get there; the board needs ${formatMs(leastMs)}.`,
-  tooFast: ({ servo, atMs, degreesPerS, limit }) =>
-    `${servoNumber(servo)} before ${formatSeconds(atMs)}: ${formatWhole(degreesPerS)}° a second; servos follow up to ${formatWhole(limit)}°. Give it more time.`,
-  deviation: ({ servo, atMs, units, limit }, { unit }) =>
-    `${servoNumber(servo)} at ${formatSeconds(atMs)} would be off by ${formatPosition(Math.round(units), unit)}; ${formatPosition(limit, unit)} is allowed. Give it more time, or allow a larger error.`,
+  tooShort: ({ servo, frameId, leastMs }, group, nameOf) =>
+    `${nameOf(servo)} in frame ${frameNumber(group, frameId)}: no time to get there; the board needs ${formatMs(leastMs)}.`,
+  tooFast: ({ servo, atMs, degreesPerS, limit }, _group, nameOf) =>
+    `${nameOf(servo)} before ${formatSeconds(atMs)}: ${formatWhole(degreesPerS)}° a second; servos follow up to ${formatWhole(limit)}°. Give it more time.`,
+  deviation: ({ servo, atMs, units, limit }, { unit }, nameOf) =>
+    `${nameOf(servo)} at ${formatSeconds(atMs)} would be off by ${formatPosition(Math.round(units), unit)}; ${formatPosition(limit, unit)} is allowed. Give it more time, or allow a larger error.`,
 };
 
 export const compileWords = {
@@ -55,8 +53,8 @@ export const compileWords = {
   bytes: (bytes: number): string => counted(bytes, 'byte'),
   download: (ms: number): string => `about ${formatRoughly(ms)} to download`,
   exact: 'Exactly as written',
-  worst: (units: number, unit: PositionUnit, degrees: number, servo: number, atMs: number): string =>
-    `At most ${formatPosition(Math.round(units), unit)} (${formatDegrees(degrees, 1)}) off: servo ${formatWhole(servo)} at ${formatSeconds(atMs)}`,
+  worst: (units: number, unit: PositionUnit, degrees: number, name: string, atMs: number): string =>
+    `At most ${formatPosition(Math.round(units), unit)} (${formatDegrees(degrees, 1)}) off: ${name} at ${formatSeconds(atMs)}`,
   shifted: (ms: number): string => `Keys moved by up to ${formatMs(ms)}: the board counts ticks`,
   fits: 'Fits',
   fitsNot: 'Does not fit',
@@ -64,6 +62,6 @@ export const compileWords = {
   empty: 'Nothing to store yet.',
   problems: 'What does not fit',
   more: (count: number): string => `and ${formatCount(count)} more`,
-  problem: (problem: CompileProblem, group: ActionGroup): string =>
-    (problems[problem.kind] as (problem: CompileProblem, group: ActionGroup) => string)(problem, group),
+  problem: (problem: CompileProblem, group: ActionGroup, nameOf: NameOf): string =>
+    (problems[problem.kind] as Said<CompileProblem>)(problem, group, nameOf),
 };

@@ -7,7 +7,7 @@ import { markText, secondsText } from '../instants.ts';
 import {
   counted,
   formatCount,
-  formatList,
+  formatNames,
   formatMs,
   formatPercent,
   formatWhole,
@@ -43,14 +43,14 @@ const markerVerbs: Readonly<Partial<Record<string, string>>> = {
   remove: 'Delete marker',
 };
 
-const pasteProblem = (problem: PasteProblem): string => {
+const pasteProblem = (problem: PasteProblem, nameOf: (servo: number) => string): string => {
   switch (problem.kind) {
     case 'unit':
       return `its positions are in ${unitSymbol(problem.clip)}, this group counts in ${unitSymbol(problem.group)}`;
     case 'tooManyFrames':
       return `${formatCount(problem.count)} frames are more than the ${formatCount(problem.limit)} a group holds`;
     case 'position':
-      return `servo ${formatWhole(problem.servo)} at ${formatWhole(problem.position)} is out of range; it takes ${formatWhole(problem.min)} to ${formatWhole(problem.max)}`;
+      return `${nameOf(problem.servo)} at ${formatWhole(problem.position)} is out of range; it takes ${formatWhole(problem.min)} to ${formatWhole(problem.max)}`;
   }
 };
 
@@ -211,13 +211,13 @@ export const timelineWords = {
   nothingToPaste: 'Copy some keys first.',
   noMarker: 'There is no marker yet.',
   nothingToMirror: 'These frames are the same when left and right change places.',
-  notPasted: (problem: PasteProblem): string => `Not pasted: ${pasteProblem(problem)}.`,
-  swingsTooFar: (servo: number): string =>
-    `Not scaled: servo ${formatWhole(servo)} would go beyond its limits.`,
-  heldAtLimit: (servos: readonly number[]): string =>
-    servos.length === 1
-      ? `Servo ${formatList(servos)} would go beyond its limit and stands at it.`
-      : `Servos ${formatList(servos)} would go beyond their limits and stand at them.`,
+  notPasted: (problem: PasteProblem, nameOf: (servo: number) => string): string =>
+    `Not pasted: ${pasteProblem(problem, nameOf)}.`,
+  swingsTooFar: (name: string): string => `Not scaled: ${name} would go beyond its limits.`,
+  heldAtLimit: (names: readonly string[]): string =>
+    names.length === 1
+      ? `${formatNames(names)} would go beyond its limit and stands at it.`
+      : `${formatNames(names)} would go beyond their limits and stand at them.`,
 
   /** What keys and pointer do right now. */
   status: {

@@ -3,7 +3,7 @@
 import type { PasteProblem } from '#shared/actions/group/clip.ts';
 import type { timelineWords as english } from '../en/timeline.ts';
 import { markText, secondsText } from '../instants.ts';
-import { formatCount, formatList, formatMs, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
+import { formatCount, formatNames, formatMs, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
 
 const keysText = (count: number): string => `${formatCount(count)}个关键帧`;
 const formatInstant = (atMs: number): string => `${secondsText(atMs)}秒`;
@@ -18,14 +18,14 @@ const easings: typeof english.easings = {
   hold: '保持',
 };
 
-const pasteProblem = (problem: PasteProblem): string => {
+const pasteProblem = (problem: PasteProblem, nameOf: (servo: number) => string): string => {
   switch (problem.kind) {
     case 'unit':
       return `它的位置以${unitSymbol(problem.clip)}计，这个动作组以${unitSymbol(problem.group)}计`;
     case 'tooManyFrames':
       return `${formatCount(problem.count)}帧超过了动作组的上限${formatCount(problem.limit)}帧`;
     case 'position':
-      return `${formatWhole(problem.servo)}号舵机的${formatWhole(problem.position)}超出范围，可用${formatWhole(problem.min)}到${formatWhole(problem.max)}`;
+      return `${nameOf(problem.servo)}的${formatWhole(problem.position)}超出范围，可用${formatWhole(problem.min)}到${formatWhole(problem.max)}`;
   }
 };
 
@@ -182,9 +182,9 @@ export const timelineWords: typeof english = {
   nothingToPaste: '请先复制关键帧。',
   noMarker: '还没有标记。',
   nothingToMirror: '左右对调后，这些帧没有变化。',
-  notPasted: (problem) => `没有粘贴：${pasteProblem(problem)}。`,
-  swingsTooFar: (servo) => `没有缩放：${formatWhole(servo)}号舵机会超出限位。`,
-  heldAtLimit: (servos) => `${formatList(servos)}号舵机会超出限位，停在限位处。`,
+  notPasted: (problem, nameOf) => `没有粘贴：${pasteProblem(problem, nameOf)}。`,
+  swingsTooFar: (name) => `没有缩放：${name}会超出限位。`,
+  heldAtLimit: (names) => `${formatNames(names)}会超出限位，停在限位处。`,
 
   status: {
     nothing: '方向键在关键帧之间移动。回车设关键帧。在空白处拖动来选择。',
