@@ -15,7 +15,9 @@ test('an example is written out for the board, plays at twice its speed, pauses 
   await page.getByRole('dialog').getByRole('button', { name: /^Bow/ }).click();
   await expect(dashboard.frames).toHaveCount(4);
   await expect(dashboard.board).toContainText(/Fits\s*\d+ of 255 frames/);
-  await expect(dashboard.board).toContainText(/At most \d µs \(0\.\d°\) off: (Gripper|Wrist|Wrist roll|Elbow|Shoulder|Base) at/);
+  await expect(dashboard.board).toContainText(
+    /At most \d µs \(0\.\d°\) off: (Gripper|Wrist|Wrist roll|Elbow|Shoulder|Base) at/,
+  );
 
   const tools = page.getByRole('group', { name: 'Play the group' });
   await dashboard.button('Preview').click();
