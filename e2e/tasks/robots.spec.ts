@@ -178,6 +178,10 @@ test('a robot goes to a file and comes back; a file that is none changes nothing
   await expect(robots.dialog).toContainText('holiday.json was not imported: this is no robot file');
   await choose('low.json', text.replace('"min": 500', '"min": 100'));
   await expect(robots.dialog).toContainText('low.json was not imported: Gripper (servo 1): ');
+  await choose('fast.json', text.replace('"degreesPerUnit": 0.09', '"degreesPerUnit": 3'));
+  await expect(robots.dialog).toContainText(
+    'fast.json was not imported: Gripper (number 1 of the servos): “degreesPerUnit” takes a number above 0, 2 at most.',
+  );
   await choose('desk.json', text);
   await expect(robots.dialog).toContainText('Desk arm is imported.');
   await expect(robots.dialog.getByText('Desk arm', { exact: true })).toBeInViewport();

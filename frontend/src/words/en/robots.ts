@@ -7,6 +7,7 @@ import type { Range } from '#shared/protocol/families.ts';
 import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
 import { libraryWords } from './library.ts';
 import { counted, formatNames, formatWhole } from './numbers.ts';
+import { FIELD_TAKES, inList } from './robotFields.ts';
 
 const READY: Readonly<Record<ReadyRobotId, string>> = {
   arm: 'Arm, 6 servos',
@@ -63,8 +64,12 @@ function flawText(flaw: RobotFileFlaw): string {
   switch (flaw.code) {
     case 'notOurs':
       return 'this is no robot file of Servodeck';
+    case 'otherVersion':
+      return 'another version of Servodeck has written it';
     case 'field':
-      return `the value of ${flaw.field} is none that can be`;
+      return `${inList(flaw.of)}“${flaw.field}” takes ${FIELD_TAKES[flaw.field]}`;
+    case 'strangeField':
+      return `${inList(flaw.of)}there is no “${flaw.field}”`;
     case 'servoTwice':
       return `servo ${formatWhole(flaw.servo)} is there twice`;
     case 'alarmNotBelow':

@@ -7,6 +7,7 @@ import type { Range } from '#shared/protocol/families.ts';
 import type { robotWords as english } from '../en/robots.ts';
 import { libraryWords } from './library.ts';
 import { formatNames, formatWhole } from './numbers.ts';
+import { FIELD_TAKES, inList } from './robotFields.ts';
 
 const READY: Readonly<Record<ReadyRobotId, string>> = {
   arm: '机械臂，6个舵机',
@@ -71,8 +72,12 @@ function flawText(flaw: RobotFileFlaw): string {
   switch (flaw.code) {
     case 'notOurs':
       return '这不是 Servodeck 的机器人文件';
+    case 'otherVersion':
+      return '它是由另一个版本的 Servodeck 写的';
     case 'field':
-      return `${flaw.field} 的值不合理`;
+      return `${inList(flaw.of)}“${flaw.field}”应是${FIELD_TAKES[flaw.field]}`;
+    case 'strangeField':
+      return `${inList(flaw.of)}没有“${flaw.field}”这一项`;
     case 'servoTwice':
       return `${formatWhole(flaw.servo)}号舵机出现了两次`;
     case 'alarmNotBelow':

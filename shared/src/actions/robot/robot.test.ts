@@ -47,7 +47,7 @@ describe.each(READY)('the ready %s on %s', (id, board) => {
 });
 
 const NOT_OURS = { code: 'notOurs' } as const;
-const atField = (field: string) => ({ code: 'field', field }) as const;
+const elbow = { place: 4, name: 'Elbow' };
 const ofElbow = (flaw: ServoFlaw, servo = 4) => ({ code: 'servo', servo: { servo, name: 'Elbow' }, flaw });
 
 describe('what is wrong with a robot', () => {
@@ -78,9 +78,17 @@ describe('what is wrong with a robot', () => {
     ['[]', NOT_OURS],
     ['{}', NOT_OURS],
     ['{"format":"servodeck-group","version":1}', NOT_OURS],
-    [robotToText(withServo({ min: 1.5 })), atField('robot.servos.3.min')],
-    [robotToText({ ...ARM, name: ' ' }), atField('robot.name')],
-    [robotToText(ARM).replace('"version": 1', '"version": 2'), atField('version')],
+    [robotToText(withServo({ min: 1.5 })), { code: 'field', field: 'min', of: elbow }],
+    [robotToText(withServo({ degreesPerUnit: 3 })), { code: 'field', field: 'degreesPerUnit', of: elbow }],
+    [robotToText(withServo({ place: { x: 50, y: 101 } })), { code: 'field', field: 'place', of: elbow }],
+    [robotToText(withServo({ name: ' ' })), { code: 'field', field: 'name', of: { place: 4, name: ' ' } }],
+    [robotToText({ ...ARM, name: ' ' }), { code: 'field', field: 'name', of: null }],
+    ['{"format":"servodeck-robot","version":1,"robot":7}', { code: 'field', field: 'robot', of: null }],
+    [
+      robotToText(ARM).replace('"isReversed"', '"colour": 1, "isReversed"'),
+      { code: 'strangeField', field: 'colour', of: { place: 1, name: 'gripper 1' } },
+    ],
+    [robotToText(ARM).replace('"version": 1', '"version": 2'), { code: 'otherVersion' }],
   ])('a file that is none says where', (text, problem) => {
     expect(robotFromText(text)).toEqual({ problem });
   });

@@ -6,6 +6,7 @@
 import * as z from 'zod/mini';
 import type { ServoTarget } from '../../protocol/commands.ts';
 import { FAMILIES, positionRange, type FamilyId, type Range } from '../../protocol/families.ts';
+import { shapeFlaw, type ShapeFlaw } from './robotShape.ts';
 
 export const BODIES = ['arm', 'hand', 'humanoid', 'hexapod', 'plain'] as const;
 export type BodyKind = (typeof BODIES)[number];
@@ -83,9 +84,6 @@ export type RobotFlaw =
   | { readonly code: 'servo'; readonly servo: Pick<RobotServo, 'servo' | 'name'>; readonly flaw: ServoFlaw }
   | ShapeFlaw;
 
-/** The value at `field`, a path like `servos.3.min`, is none. */
-export type ShapeFlaw = { readonly code: 'field'; readonly field: string };
-
 export type ServoFlaw =
   | { readonly code: 'number' | 'beyondBoard'; readonly range: Range }
   | { readonly code: 'minNotBelowMax'; readonly min: number; readonly max: number }
@@ -105,12 +103,7 @@ export function flawOf(robot: Robot): RobotFlaw | null {
     if (flaw !== null) return { code: 'servo', servo: { servo: servo.servo, name: servo.name }, flaw };
   }
   const { error } = robotSchema.safeParse(robot);
-  return error === undefined ? null : shapeFlaw(error);
-}
-
-/** Where the shape is not that of a robot. */
-export function shapeFlaw({ issues: [first] }: z.core.$ZodError): ShapeFlaw {
-  return { code: 'field', field: first?.path.join('.') ?? '' };
+  return error === undefined ? null : shapeFlaw(error, robot);
 }
 
 function flawOfServo({ servo, min, max, home, trim, mirror }: RobotServo, robot: Robot): ServoFlaw | null {

@@ -2,7 +2,8 @@
 // trusts nothing and says what is wrong. Knows no place to store anything.
 
 import * as z from 'zod/mini';
-import { flawOf, robotSchema, roughRobotSchema, shapeFlaw, type Robot, type RobotFlaw } from './robot.ts';
+import { flawOf, robotSchema, roughRobotSchema, type Robot, type RobotFlaw } from './robot.ts';
+import { shapeFlaw } from './robotShape.ts';
 
 const FORMAT = 'servodeck-robot';
 const VERSION = 1;
@@ -19,15 +20,15 @@ export function robotToText(robot: Robot): string {
   return `${JSON.stringify({ format: FORMAT, version: VERSION, robot }, null, 2)}\n`;
 }
 
-/** `notOurs`: it is no robot file of ours. */
-export type RobotFileFlaw = RobotFlaw | { readonly code: 'notOurs' };
+/** `notOurs`: it is no robot file of ours. `otherVersion`: of another version of ours. */
+export type RobotFileFlaw = RobotFlaw | { readonly code: 'notOurs' | 'otherVersion' };
 
 export type ReadRobot = { readonly robot: Robot } | { readonly problem: RobotFileFlaw };
 
 export function robotFromText(text: string): ReadRobot {
   const found = jsonIn(text);
   const parsed = fileSchema.safeParse(found);
-  if (!parsed.success) return { problem: reachFlaw(found) ?? problemOf(parsed.error) };
+  if (!parsed.success) return { problem: reachFlaw(found) ?? problemOf(parsed.error, found) };
   const { robot } = parsed.data;
   const flaw = flawOf(robot);
   return flaw === null ? { robot } : { problem: flaw };
@@ -52,7 +53,11 @@ function reachFlaw(found: unknown): RobotFlaw | null {
   return data === undefined ? null : flawOf(data.robot);
 }
 
-function problemOf(error: z.core.$ZodError): RobotFileFlaw {
-  const [field = 'format'] = error.issues[0]?.path ?? [];
-  return field === 'format' ? { code: 'notOurs' } : shapeFlaw(error);
+const anyRobot = z.object({ robot: z.unknown() });
+
+function problemOf(error: z.core.$ZodError, found: unknown): RobotFileFlaw {
+  const { data: file } = anyRobot.safeParse(found);
+  const [part = 'format'] = error.issues[0]?.path ?? [];
+  if (part === 'format' || file === undefined) return { code: 'notOurs' };
+  return part === 'version' ? { code: 'otherVersion' } : shapeFlaw(error, file.robot);
 }
