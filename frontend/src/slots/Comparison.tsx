@@ -2,6 +2,7 @@
 
 import { compareFrames } from '#shared/actions/slots/compareFrames.ts';
 import type { SlotRecord } from '#shared/actions/slots/slotBook.ts';
+import { servoName } from '../stores/servoName.ts';
 import { useCompiled } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
 import styles from './Slots.module.css';
@@ -9,7 +10,7 @@ import styles from './Slots.module.css';
 const SHOWN = 8;
 
 export function Comparison({ record }: { readonly record: SlotRecord }) {
-  const frames = useCompiled((state) => state.latest.frames);
+  const { frames, source } = useCompiled((state) => state.latest);
   const { isSame, frameCounts, durationsMs, firstDifferent, servos } = compareFrames(record.frames, frames);
   return (
     <div className={styles.comparison} role="status">
@@ -21,7 +22,7 @@ export function Comparison({ record }: { readonly record: SlotRecord }) {
           {firstDifferent !== null && <p>{words.slots.firstDifferent(firstDifferent + 1)}</p>}
           <ul>
             {servos.slice(0, SHOWN).map(({ servo, positions: [onBoard, here] }) => (
-              <li key={servo}>{words.slots.differs(servo, onBoard, here)}</li>
+              <li key={servo}>{words.slots.differs(servoName(source.robot, servo), onBoard, here)}</li>
             ))}
           </ul>
         </>

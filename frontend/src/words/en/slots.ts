@@ -93,8 +93,8 @@ export const slotWords = {
   lengths: (counts: readonly [number, number], durationsMs: readonly [number, number]): string =>
     `On the board ${frameCount(counts[0])}, ${formatSeconds(durationsMs[0])}; here ${frameCount(counts[1])}, ${formatSeconds(durationsMs[1])}.`,
   firstDifferent: (frame: number): string => `Frame ${formatWhole(frame)} is the first one that differs.`,
-  differs: (servo: number, onBoard: number | null, here: number | null): string =>
-    `Servo ${formatWhole(servo)}: ${onBoard === null ? 'not moved' : formatWhole(onBoard)} on the board, ${here === null ? 'not moved' : formatWhole(here)} here`,
+  differs: (name: string, onBoard: number | null, here: number | null): string =>
+    `${name}: ${onBoard === null ? 'not moved' : formatWhole(onBoard)} on the board, ${here === null ? 'not moved' : formatWhole(here)} here`,
   willGo: (groups: readonly { readonly slot: number; readonly name: string }[]): string =>
     `Can be restored afterwards: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}.`,
   ofOthersWillGo: (groups: readonly { readonly slot: number; readonly name: string }[]): string =>

@@ -80,8 +80,7 @@ export const slotWords: typeof english = {
   lengths: (counts, durationsMs) =>
     `控制板上${frameCount(counts[0])}，${formatSeconds(durationsMs[0])}；这里${frameCount(counts[1])}，${formatSeconds(durationsMs[1])}。`,
   firstDifferent: (frame) => `从第${formatWhole(frame)}帧开始不同。`,
-  differs: (servo, onBoard, here) =>
-    `${formatWhole(servo)}号舵机：控制板上${place(onBoard)}，这里${place(here)}`,
+  differs: (name, onBoard, here) => `${name}：控制板上${place(onBoard)}，这里${place(here)}`,
   willGo: (groups) =>
     `之后可以恢复：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}。`,
   ofOthersWillGo: (groups) =>
