@@ -1,5 +1,6 @@
 // A servo's dial and name as one button that selects it: alone, with Ctrl or by touch beside the others, with Shift up to it.
 
+import type { Ref } from 'react';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { Dial } from '../body/Dial.tsx';
 import { isHeld, selectByClick } from '../stores/servoView.ts';
@@ -10,11 +11,12 @@ import { words } from '../words/words.ts';
 import styles from './ServoName.module.css';
 
 export interface ServoNameProps {
+  readonly ref: Ref<HTMLButtonElement>;
   readonly servo: RobotServo;
   readonly order: readonly number[];
 }
 
-export function ServoName({ servo: own, order }: ServoNameProps) {
+export function ServoName({ ref, servo: own, order }: ServoNameProps) {
   const { servo, name: joint, isReversed } = own;
   const stores = useStores();
   const family = useDevice((state) => state.family);
@@ -28,6 +30,7 @@ export function ServoName({ servo: own, order }: ServoNameProps) {
   ];
   return (
     <button
+      ref={ref}
       type="button"
       className={styles.name}
       aria-pressed={isSelected}

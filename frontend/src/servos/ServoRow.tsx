@@ -30,19 +30,30 @@ export const ServoRow = memo(function ServoRow({ servo: own, order }: ServoRowPr
   const { servo } = own;
   useWords();
   const row = useRef<HTMLLIElement>(null);
+  const name = useRef<HTMLButtonElement>(null);
   const isInSight = useSight(row);
   const isSelected = useServoView(({ selected }) => selected.includes(servo));
   return (
     <li ref={row} className={cx(styles.row, isSelected && styles.selected)}>
       <Sight value={isInSight}>
-        <ServoName servo={own} order={order} />
-        <ServoControls servo={own} />
+        <ServoName ref={name} servo={own} order={order} />
+        <ServoControls
+          servo={own}
+          // What a finger holds may be behind the picture that stays in sight.
+          onHeld={() => name.current?.scrollIntoView({ block: 'nearest' })}
+        />
       </Sight>
     </li>
   );
 });
 
-export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
+interface ServoControlsProps {
+  readonly servo: RobotServo;
+  /** A finger has taken hold of the slider. */
+  onHeld(): void;
+}
+
+function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
   const { servo } = own;
   const { device } = useStores();
   const hand = useHand();
@@ -79,10 +90,10 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
     take();
     hand.leap(servo, position);
   };
-  /** A finger took it, and what it holds may be behind the picture that stays in sight. */
+  /** By a finger. */
   const isNewlyHeld = useRef(false);
   const drag = (position: number): void => {
-    if (isNewlyHeld.current) showName(area.current);
+    if (isNewlyHeld.current) onHeld();
     isNewlyHeld.current = false;
     take();
     hand.drag(servo, position);
@@ -134,9 +145,6 @@ export function ServoControls({ servo: own }: { readonly servo: RobotServo }) {
     </div>
   );
 }
-
-const showName = (controls: HTMLElement | null): void =>
-  controls?.parentElement?.querySelector('button')?.scrollIntoView({ block: 'nearest' });
 
 interface TargetFieldProps {
   readonly servo: RobotServo;
