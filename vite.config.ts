@@ -1,6 +1,7 @@
 // How the page is built: into the Python package, so that one wheel serves it. Nothing inline and no data: addresses,
 // because the gateway serves it under a strict Content-Security-Policy.
 
+import { resolve } from 'node:path';
 import react from '@vitejs/plugin-react';
 import { defineConfig } from 'vite';
 
@@ -24,7 +25,8 @@ export default defineConfig({
     assetsInlineLimit: 0,
     reportCompressedSize: false,
     rolldownOptions: {
-      input: ['frontend/index.html', 'frontend/gallery.html'],
+      // In full: the build and the development server begin at different folders.
+      input: ['index.html', 'gallery.html'].map((page) => resolve(import.meta.dirname, 'frontend', page)),
       // The packages change less often than the page: a browser keeps them. SQLite is fetched only when it is wanted.
       output: { codeSplitting: { groups: [{ name: 'packages', test: /node_modules(?!.*sql[.]js)/ }] } },
     },
