@@ -3,13 +3,16 @@ import { emptyGroup } from '#shared/actions/group/group.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { EMPTY_SLOT_BOOK, withStored } from '#shared/actions/slots/slotBook.ts';
 import { createDesk } from '../stores/deskUnderTest.ts';
-import { downloadOf, hindranceOf, slotFor, thoseThatCan, type Wanted } from './several.ts';
+import { downloadOf, hindranceOf, ownSlot, slotFor, thoseThatCan, type Wanted } from './several.ts';
 
 const RANGE = { min: 0, max: 3 };
 
 test('a group goes to its own slot, else to the first one in which nothing is known to be', () => {
   const record = { slot: 1, name: 'Wave', documentId: null, storedAtMs: 0, fingerprint: '', frames: [] };
   const book = withStored(EMPTY_SLOT_BOOK, record);
+  expect(ownSlot('wave', { slot: null }, book)).toBe(null);
+  const held = withStored(book, { ...record, slot: 3, documentId: 'wave' });
+  expect([ownSlot('wave', { slot: null }, held), ownSlot('wave', { slot: 2 }, held)]).toEqual([3, 2]);
   expect(slotFor(1, book, [1], RANGE)).toBe(1);
   expect(slotFor(null, book, [0], RANGE)).toBe(2);
   expect(slotFor(9, book, [], RANGE)).toBe(0);
@@ -46,7 +49,7 @@ test('of all groups those are taken that can go, each in its slot or a free one,
       (sum, position) => insertFrame(sum, 9, { durationMs: 400, targets: [{ servo: 1, position }] }),
       emptyGroup(documentId, 'us'),
     );
-    return { documentId, compiled: compiled.of({ ...group, slot }, on) };
+    return { documentId, compiled: compiled.of(group, on), own: slot };
   };
   const slotsOf = (all: readonly Wanted[]) => all.map(({ documentId, slot }) => `${documentId} ${slot}`);
   const { can, cannot } = thoseThatCan(

@@ -1,5 +1,6 @@
 // Several groups that are to go to the board at once: which slot each takes, and what keeps one of them from it. Pure.
 
+import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { SlotBook } from '#shared/actions/slots/slotBook.ts';
 import type { Range } from '#shared/protocol/families.ts';
 import { obstacles, type CompiledGroup } from '../stores/group/compiled.ts';
@@ -11,6 +12,18 @@ export interface Wanted {
   readonly documentId: string;
   readonly slot: number;
   readonly compiled: CompiledGroup;
+}
+
+/** `own`: the slot that is the group's. */
+export type Asked = Omit<Wanted, 'slot'> & { readonly own: number | null };
+
+/** The one the group names, else the one that holds it already. */
+export function ownSlot(
+  documentId: string,
+  { slot }: Pick<ActionGroup, 'slot'>,
+  { stored }: Pick<SlotBook, 'stored'>,
+): number | null {
+  return slot ?? stored.find((record) => record.documentId === documentId)?.slot ?? null;
 }
 
 /** The group's own, else the first one in which nothing is known to be and nothing else shall go. */
@@ -41,16 +54,15 @@ export function hindranceOf(one: Wanted, all: readonly Wanted[]): string | null 
  * names it, before one that takes any. `placeOf`: as `slotFor`, beside the slots that are taken.
  */
 export function thoseThatCan(
-  asked: readonly Omit<Wanted, 'slot'>[],
+  asked: readonly Asked[],
   wanted: readonly Wanted[],
   placeOf: (own: number | null, taken: readonly number[]) => number,
 ): { readonly can: readonly Wanted[]; readonly cannot: readonly Wanted[] } {
-  const ownSlot = ({ compiled }: Omit<Wanted, 'slot'>): number | null => compiled.source.group.slot;
   const [can, cannot]: [Wanted[], Wanted[]] = [[], []];
-  for (const one of asked.toSorted((a, b) => Number(ownSlot(a) === null) - Number(ownSlot(b) === null))) {
+  for (const { own, ...one } of asked.toSorted((a, b) => Number(a.own === null) - Number(b.own === null))) {
     const before = [...wanted, ...can];
     const taken = before.map(({ slot }) => slot);
-    const placed = { ...one, slot: placeOf(ownSlot(one), taken) };
+    const placed = { ...one, slot: placeOf(own, taken) };
     (hindranceOf(placed, before) === null ? can : cannot).push(placed);
   }
   return { can, cannot };

@@ -4,7 +4,7 @@
 import { useMemo, useState } from 'react';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
-import { hindranceOf, slotFor, thoseThatCan, type Wanted } from './several.ts';
+import { hindranceOf, ownSlot, slotFor, thoseThatCan, type Wanted } from './several.ts';
 
 interface Pick {
   readonly documentId: string;
@@ -42,7 +42,7 @@ export function useWanted() {
     setChosen((before) => {
       const others = without(before, documentId);
       const slot = placeOf(
-        group.slot,
+        ownSlot(documentId, group, slots.store.getState().book),
         others.map((pick) => pick.slot),
       );
       return [...others, { documentId, slot, group }];
@@ -55,10 +55,17 @@ export function useWanted() {
     const groups = await Promise.all(
       documentIds.map(async (documentId) => ({ documentId, group: await library.group(documentId) })),
     );
+    const { book } = slots.store.getState();
     const candidates = groups.flatMap(({ documentId, group }) =>
       group === null || isIn(chosen, documentId)
         ? []
-        : [{ documentId, compiled: compiled.of(group, { family, robot }) }],
+        : [
+            {
+              documentId,
+              compiled: compiled.of(group, { family, robot }),
+              own: ownSlot(documentId, group, book),
+            },
+          ],
     );
     const sorted = thoseThatCan(candidates, wanted, placeOf);
     setChosen((before) => [
