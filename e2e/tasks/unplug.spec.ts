@@ -54,8 +54,10 @@ test.describe('on a board with slow flash', () => {
     await robot.unplug();
     await expect(dashboard.link).toHaveText(/^Lost/);
     await expect(dashboard.board).toContainText('Its download did not finish.');
+    await expect(dashboard.notices).toContainText('Servodeck keeps trying');
     await robot.plugIn();
     await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
+    await expect(dashboard.notices).not.toContainText('Servodeck keeps trying');
     await dashboard.resume.click();
     await expect(dashboard.button('Run')).toBeDisabled();
     await expect(dashboard.button('Download')).toBeEnabled();

@@ -79,6 +79,9 @@ export interface Device extends BoardVerbs {
   setAutoReconnect(enabled: boolean): void;
 }
 
+/** Failures after which the link is tried again and again. */
+const TRIED_ON = ['lost', 'portMissing', 'portBusy'] as const;
+
 const NOTHING = { way: null, snapshot: INITIAL_STATE, known: [], isMoving: false } as const;
 
 const NO_MOTION: ServoMotion = { target: null, estimated: null };
@@ -172,12 +175,14 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   function noteState(snapshot: SessionState): void {
     const wasReady = store.getState().snapshot.link.status === 'ready';
     takeUpRobot(snapshot);
-    if (!wasReady && snapshot.link.status === 'ready' && calibrated !== null) session?.calibrate(calibrated);
+    const isBack = !wasReady && snapshot.link.status === 'ready';
+    if (isBack && calibrated !== null) session?.calibrate(calibrated);
     // First into the log: whoever hears of the state may send something at once.
     traffic.note(snapshot, clock.now(), snapshot.family.id);
     store.setState({ snapshot, family: snapshot.family });
     if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
     if (snapshot.latch !== null) notices.takeBack(saidOfResume);
+    if (isBack) for (const code of TRIED_ON) notices.takeBack(words.errorSentence(code));
   }
 
   function noteResumed(by: string): void {
