@@ -56,27 +56,27 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
   const isOnItsWay = isMoving || Math.abs((estimated ?? servo.home) - servo.home) > 1;
   const isTurning = phase === 'away' || phase === 'back';
   const isAway = target !== servo.home && !isTurning;
-  const isHomeward = phase === null && side !== 0;
+  const shows = isAway ? 'nothing' : phase === null && side !== 0 ? 'wayHome' : 'turn';
   // It has shown what there is to see, and comes home whatever is answered.
-  const isAsked = (isHomeward || phase === 'back' || phase === 'done') && !isAway;
-  const way = (isHomeward ? side : sideOf(servo)) > 0 ? 'right' : 'left';
+  const isAsked = shows === 'wayHome' || (shows === 'turn' && (phase === 'back' || phase === 'done'));
+  const way = (shows === 'wayHome' ? side : sideOf(servo)) > 0 ? 'right' : 'left';
   const { unit } = FAMILIES[robot.board];
   const from = sightOf(robot, servo);
   const sight = words.calibration.sights[from];
+  const sentence = {
+    nothing: words.calibration.homeFirst(target ?? servo.home, servo.home, unit),
+    wayHome: sight.homeward,
+    turn: sight.about,
+  };
+  const question = { nothing: '', wayHome: sight.askedHomeward[way], turn: sight.asked[way] };
   const answer = (isReversed: boolean) => () =>
     accept((all) => changeServo(all, servo.servo, { isReversed }));
   return (
     <>
-      <Ask>
-        {isAway
-          ? words.calibration.homeFirst(target ?? servo.home, servo.home, unit)
-          : isHomeward
-            ? sight.homeward
-            : sight.about}
-      </Ask>
+      <Ask>{sentence[shows]}</Ask>
       {from !== 'gripper' && (
         <div className={styles.arrow}>
-          {(isHomeward || phase === 'away') && <TurnArrow isClockwise={way === 'right'} />}
+          {(shows === 'wayHome' || phase === 'away') && <TurnArrow isClockwise={way === 'right'} />}
         </div>
       )}
       <div className={styles.actions}>
@@ -90,7 +90,7 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
           </Answer>
         )}
       </div>
-      <p className={styles.asked}>{isAsked ? sight[isHomeward ? 'askedHomeward' : 'asked'][way] : ''}</p>
+      <p className={styles.asked}>{isAsked ? question[shows] : ''}</p>
       <div className={styles.actions}>
         <Answer tone={isAsked ? 'primary' : 'plain'} isDisabled={!isAsked} onPress={answer(false)}>
           {words.calibration.same}
