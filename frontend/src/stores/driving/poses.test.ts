@@ -1,4 +1,5 @@
 import { describe, expect, test } from 'vitest';
+import { EMPTY_BOOK } from '#shared/actions/poses/pose.ts';
 import { addPose, markRest } from '#shared/actions/poses/poseEdits.ts';
 import { undoLabel } from '#shared/actions/history.ts';
 import { poseBookToText } from '#shared/actions/poses/poseText.ts';
@@ -145,5 +146,13 @@ describe('the book', () => {
       expect.stringContaining('Gripper: 2600 is out of range'),
       words.poses.importFailed({ code: 'notOurs', at: '' }),
     ]);
+  });
+
+  test('says which servos of a file are not on the robot', async () => {
+    const desk = await deskWithPoses();
+    const targets = [31, 1, 9].map((servo) => ({ servo, position: 1500 }));
+    desk.poses.importText(poseBookToText(addPose(EMPTY_BOOK, { name: 'Odd', unit: 'us', targets })));
+    expect(desk.book().poses.at(-1)?.name).toBe('Odd');
+    expect(desk.told()).toEqual([words.poses.strangers([9, 31])]);
   });
 });

@@ -6,6 +6,7 @@ import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/actions
 import { markApplied, withPosesOf } from '#shared/actions/poses/poseEdits.ts';
 import { homeTargets } from '#shared/actions/poses/poseShapes.ts';
 import { poseBookFromText, poseBookToText } from '#shared/actions/poses/poseText.ts';
+import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { words } from '../../words/words.ts';
 import type { Device } from '../device/device.ts';
@@ -76,6 +77,15 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
     );
   }
 
+  function take(imported: PoseBook): void {
+    book.edit(
+      () => words.poses.steps.import,
+      (before) => withPosesOf(before, imported),
+    );
+    const strangers = strangersIn(imported, robots.current().robot);
+    if (strangers.length > 0) notices.tell('warning', words.poses.strangers(strangers));
+  }
+
   return {
     book,
     targetsOf,
@@ -97,13 +107,15 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
       const read = poseBookFromText(text);
       const problem = 'problem' in read ? words.poses.importFailed(read.problem) : flawOfImport(read.value);
       if (problem !== null) notices.tell('warning', problem);
-      else if ('value' in read)
-        book.edit(
-          () => words.poses.steps.import,
-          (before) => withPosesOf(before, read.value),
-        );
+      else if ('value' in read) take(read.value);
     },
   };
+}
+
+/** Servos that the robot does not have, in ascending order. */
+function strangersIn({ poses }: PoseBook, robot: Robot): readonly number[] {
+  const servos = new Set(poses.flatMap(({ targets }) => targets.map(({ servo }) => servo)));
+  return [...servos].filter((servo) => servoOf(robot, servo) === undefined).sort((one, other) => one - other);
 }
 
 /** Where the robot went last is told by the robot, not by the book. */

@@ -2,7 +2,7 @@
 
 import type { TextFlaw } from '#shared/actions/versionedText.ts';
 import { PROBLEMS } from './files.ts';
-import { formatMs, formatPercent, formatWhole } from './numbers.ts';
+import { formatList, formatMs, formatPercent, formatWhole } from './numbers.ts';
 
 export const poseWords = {
   title: 'Poses',
@@ -74,6 +74,8 @@ export const poseWords = {
   import: 'Import poses',
   export: 'Export poses',
   importFailed: ({ code, at }: TextFlaw): string => `No pose was taken from the file. ${PROBLEMS[code](at)}`,
+  strangers: (servos: readonly number[]): string =>
+    `These poses also move servos that this robot does not have, within the limits of the board alone: ${formatList(servos)}.`,
   unreadableFile: 'The file could not be read.',
 
   steps: {

@@ -2,7 +2,7 @@
 
 import type { poseWords as english } from '../en/poses.ts';
 import { PROBLEMS } from './files.ts';
-import { formatMs, formatPercent, formatWhole } from './numbers.ts';
+import { formatList, formatMs, formatPercent, formatWhole } from './numbers.ts';
 
 export const poseWords: typeof english = {
   title: '姿态',
@@ -72,6 +72,7 @@ export const poseWords: typeof english = {
   export: '导出姿态',
   // Where a file is damaged is told in English, for whoever writes such files.
   importFailed: ({ code, at }) => `没有导入任何姿态。${PROBLEMS[code](at)}`,
+  strangers: (servos) => `这些姿态还会移动这台机器人没有的舵机，只受控制板的限制：${formatList(servos)}号。`,
   unreadableFile: '无法读取这个文件。',
 
   steps: {
