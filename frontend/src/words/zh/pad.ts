@@ -108,5 +108,5 @@ export const padWords: typeof english = {
   conflicts: '冲突',
   sameInput: (input, one, other) =>
     one === other ? `${input}两次绑定到${one}。` : `${input}同时绑定到${one}和${other}。`,
-  sharedServo: (name) => `一个输入给${name}定位，另一个转动它；以最后一个为准。`,
+  sharedServo: (name) => `${name}既由一个输入定位，又由另一个输入转动；以最后的输入为准。`,
 };
