@@ -210,6 +210,16 @@ describe('a device with a session', () => {
     expect(targets()).toEqual({});
   });
 
+  test('of a hand that goes on beyond a limit the latest word stands, until the servo goes elsewhere', async () => {
+    const { device, told } = await createDesk();
+    for (const position of [2600, 2610, 2620]) device.move([{ servo: 1, position }], 'hand');
+    expect(told()).toEqual([expect.stringContaining('Gripper: 2620 is out of range')]);
+    device.move([{ servo: 2, position: 1500 }], 300);
+    expect(told()).toHaveLength(1);
+    device.move([{ servo: 1, position: 1500 }], 300);
+    expect(told()).toEqual([]);
+  });
+
   describe('with a robot of its own limits and trim', () => {
     const elbow = (robot: Robot): Robot => ({
       ...robot,

@@ -108,7 +108,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
 
   const robot = (): Robot => robots.current().robot;
   const meant = (servo: number, onBoardAt: number): number => fromBoard(robot(), servo, onBoardAt);
-  const gate = createLimitGate(robot, (refusal) => notices.tell('warning', refusal));
+  const gate = createLimitGate(robot, notices.refuse);
 
   /** On a link of one's own it is the last one described for such a board. */
   function takeUpRobot({ family: connected, robotOnBoard }: SessionState): void {

@@ -1,11 +1,11 @@
 // Between what is asked for and what a board is told: the limits and trims of the robot at hand. Whatever leaves is in the
 // board's own figures and within the limits; whatever is not does not leave, and the person is told. Sends nothing.
 
-import { fromBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
+import { fromBoard, onBoard, refusedTarget, type Robot } from '#shared/actions/robot/robot.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
 import { commandIn } from '#shared/protocol/parse.ts';
 import type { SlotGroup } from '#shared/session/transport.ts';
-import { limitRefusal } from './limits.ts';
+import { refusalText } from './limits.ts';
 
 /** Each gives what the board is told, or null where a limit forbids it. */
 export interface LimitGate {
@@ -16,13 +16,25 @@ export interface LimitGate {
   lets(packet: Uint8Array): boolean;
 }
 
-/** `refuse` gets the sentence for the person. */
-export function createLimitGate(robot: () => Robot, refuse: (refusal: string) => void): LimitGate {
+/** `refuse` gets the sentence for the person and gives back what takes it back. */
+export function createLimitGate(robot: () => Robot, refuse: (refusal: string) => () => void): LimitGate {
+  /** Of a hand that goes on beyond a limit, the latest word alone. */
+  let told: { readonly servo: number; takeBack(): void } | null = null;
+
+  function takeBack(): void {
+    told?.takeBack();
+    told = null;
+  }
+
   function targets(asked: readonly ServoTarget[]): readonly ServoTarget[] | null {
-    const refusal = limitRefusal(robot(), asked);
-    if (refusal === null) return onBoard(robot(), asked);
-    refuse(refusal);
-    return null;
+    const refused = refusedTarget(robot(), asked);
+    if (refused !== null) {
+      takeBack();
+      told = { servo: refused.servo.servo, takeBack: refuse(refusalText(refused)) };
+      return null;
+    }
+    if (asked.some(({ servo }) => servo === told?.servo)) takeBack();
+    return onBoard(robot(), asked);
   }
 
   function frames(asked: readonly Frame[]): readonly Frame[] | null {

@@ -1,13 +1,14 @@
 // The sentence for targets that the robot must not reach: which servo, and what it may do.
 
-import { refusedTarget, type Robot } from '#shared/actions/robot/robot.ts';
+import { refusedTarget, type LimitRefusal, type Robot } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { words } from '../../words/words.ts';
 
 /** null where every target is within its servo's limits. */
 export function limitRefusal(robot: Robot, targets: readonly ServoTarget[]): string | null {
   const refused = refusedTarget(robot, targets);
-  if (refused === null) return null;
-  const { servo, position } = refused;
-  return words.refused(words.robots.called(servo), position, servo.min, servo.max);
+  return refused === null ? null : refusalText(refused);
 }
+
+export const refusalText = ({ servo, position }: LimitRefusal): string =>
+  words.refused(words.robots.called(servo), position, servo.min, servo.max);
