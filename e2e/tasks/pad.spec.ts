@@ -2,7 +2,7 @@
 
 import type { Page } from '@playwright/test';
 import { lastTarget, ofKind, type Bus } from '../fixtures/bus.ts';
-import type { Dashboard } from '../fixtures/dashboard.ts';
+import { READY, type Dashboard } from '../fixtures/dashboard.ts';
 import { plugInPad, type SyntheticPad } from '../fixtures/padInPage.ts';
 import { expect, poll, test as base } from '../fixtures/test.ts';
 
@@ -99,6 +99,23 @@ test('a held key turns its servo; leaving the window ends it though the key is n
   await page.evaluate(() => window.dispatchEvent(new Event('focus')));
   await expectRest(robot.bus);
   expect(await lastTarget(robot.bus, 1)).toBe(reached);
+});
+
+test('the curve shows where a stick is and what comes of it, without driving', async ({
+  dashboard,
+  page,
+  pad,
+}) => {
+  await expect(dashboard.link).toHaveText(READY);
+  await page.getByRole('radio', { name: 'Keys and pad' }).check();
+  const dot = page
+    .getByRole('img', { name: 'How far a stick is pushed, and what comes of it' })
+    .locator('circle');
+  const at = () => dot.evaluate((circle) => circle.style.translate);
+  await pad.push(0.1);
+  await expect.poll(at).toBe('4px');
+  await pad.push(1);
+  await expect.poll(at).toBe('40px -40px');
 });
 
 test('T keeps what the pad has just done, also while it drives', async ({ dashboard, robot, page, pad }) => {

@@ -1,10 +1,11 @@
 // How the inputs feel: speed, dead zone, curve and smoothing, and what becomes of a stick's way as a small plot. A drag is one step
 // of the history.
 
-import { useState } from 'react';
+import { useRef, useState } from 'react';
 import type { Feel } from '#shared/actions/mapping/mapping.ts';
 import { shaped } from '#shared/actions/mapping/mappingInputs.ts';
-import { useMapping, useStores } from '../stores/stores.ts';
+import { useMapping, usePad, useStores } from '../stores/stores.ts';
+import { useEachFrame } from '../ui/useEachFrame.ts';
 import { words } from '../words/words.ts';
 import styles from './FeelControls.module.css';
 
@@ -85,7 +86,16 @@ function FeelSlider({ control: { field, min, max, step, unit }, value, onChange,
 /** Half the plot's side. */
 const HALF = 40;
 
+/** With a dot where the stick is that is pushed farthest. */
 function CurvePlot({ feel }: { readonly feel: Feel }) {
+  const { pad } = useStores();
+  const isPadSeen = usePad((state) => state.pad !== null);
+  const dot = useRef<SVGCircleElement>(null);
+  useEachFrame(() => {
+    const way = farthest(pad.inputs().axes);
+    const [x, y] = [way, -shaped(way, feel)].map((share) => (share * HALF).toFixed(1));
+    if (dot.current !== null) dot.current.style.translate = `${x}px ${y}px`;
+  });
   const points = Array.from({ length: 81 }, (_, at) => {
     const way = (at - HALF) / HALF;
     return `${(at + 1).toFixed(0)},${(HALF + 1 - shaped(way, feel) * HALF).toFixed(1)}`;
@@ -102,6 +112,10 @@ function CurvePlot({ feel }: { readonly feel: Feel }) {
       />
       <path d="M1 41h80M41 1v80" className={styles.frame} />
       <polyline points={points.join(' ')} className={styles.curve} />
+      {isPadSeen && <circle ref={dot} cx={HALF + 1} cy={HALF + 1} r={4} className={styles.dot} />}
     </svg>
   );
 }
+
+const farthest = (axes: readonly number[]): number =>
+  axes.reduce((one, other) => (Math.abs(other) > Math.abs(one) ? other : one), 0);
