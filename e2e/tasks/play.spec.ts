@@ -184,6 +184,10 @@ test('several groups of the library go to their slots with one progress', async 
     [6, 1400],
     [7, 1300],
   ]);
+  await expect(several.getByRole('button', { name: 'Download these' })).toBeEnabled();
+  await dashboard.stop.click();
+  await expect(several.getByRole('button', { name: 'Download these' })).toBeDisabled();
+  await expect(several.getByRole('status')).toContainText('Stopped. Resume to move.');
 });
 
 test('what a hand did becomes keys: recorded on purpose, or taken after the fact', async ({

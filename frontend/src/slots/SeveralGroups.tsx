@@ -17,7 +17,7 @@ export function SeveralGroups({ onBack }: { onBack(): void }) {
   const { library, slots } = useStores();
   const documents = useLibrary((state) => state.documents).filter(({ isRemoved }) => !isRemoved);
   const { wanted, cannot, toggle, setSlot, takeAll, none } = useWanted();
-  const mayStart = useSnapshot((snapshot) => startHindrance(snapshot) === null);
+  const waitsFor = useSnapshot(startHindrance);
   const isReady = wanted.length > 0 && wanted.every((one) => hindranceOf(one, wanted) === null);
   const hindranceIn = (id: string): string | null => {
     const one = [...wanted, ...cannot].find(({ documentId }) => documentId === id);
@@ -47,12 +47,16 @@ export function SeveralGroups({ onBack }: { onBack(): void }) {
       <div role="status">
         {cannot.length > 0 && <p className={styles.warning}>{words.slots.several.cannot(cannot.length)}</p>}
         <p className={styles.dim}>{wanted.length === 0 ? words.slots.several.none : totalOf(wanted)}</p>
+        {/* What is busy says so itself. */}
+        {waitsFor !== null && waitsFor !== 'busy' && (
+          <p className={styles.warning}>{words.servos.blocked[waitsFor]}</p>
+        )}
       </div>
       <div className={styles.verbs}>
         <Button
           tone="primary"
           icon="download"
-          isDisabled={!mayStart || !isReady}
+          isDisabled={waitsFor !== null || !isReady}
           onPress={() => slots.download(wanted.map(downloadOf))}
         >
           {words.slots.several.download}
