@@ -128,6 +128,32 @@ test('servos that are called alike are chosen by their limb', async ({ dashboard
   await expect(limb('Right leg').getByRole('checkbox', { name: 'Foot' })).not.toBeChecked();
 });
 
+test('a servo of a file that the robot does not have can be left out', async ({ dashboard, page }) => {
+  const targets = [2, 31].map((servo) => ({ servo, position: 1500 }));
+  const content = {
+    poses: [{ id: 1, name: 'Odd', unit: 'us', targets }],
+    restId: null,
+    applied: null,
+    nextId: 2,
+  };
+  const choosing = page.waitForEvent('filechooser');
+  await dashboard.button('Import poses').click();
+  await (
+    await choosing
+  ).setFiles({
+    name: 'odd.json',
+    mimeType: 'application/json',
+    buffer: Buffer.from(JSON.stringify({ format: 'servodeck-poses', version: 1, content })),
+  });
+  await expect(dashboard.notices).toContainText('These poses also move servos that this robot does not have');
+  await posesOf(page).card('Odd').click();
+  await page.getByRole('switch', { name: 'Servos', exact: true }).check();
+  const stranger = page.getByRole('checkbox', { name: 'Servo 31, not on this robot' });
+  await stranger.click();
+  await expect(stranger).toBeHidden();
+  await expect(posesOf(page).card('Odd')).toHaveAccessibleName(/^Odd, 1 of 6 servos/);
+});
+
 test('poses become frames of the action group, one behind the other', async ({ dashboard, page, robot }) => {
   const poses = posesOf(page);
   await poses.capture(dashboard, 1800, 'Wave');

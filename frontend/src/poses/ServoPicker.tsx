@@ -15,6 +15,8 @@ export function ServoPicker({ pose }: { readonly pose: Pose }) {
   const known = useDevice((state) => state.known);
   const sameUnit = useDevice((state) => state.family.unit === pose.unit);
   const included = new Set(pose.targets.map(({ servo }) => servo));
+  /** Of a file: they can be left out. */
+  const strangers = [...included].filter((servo) => servos.every((own) => own.servo !== servo));
 
   function choose(servo: number, isIn: boolean): void {
     const { target: position } = device.motion(servo);
@@ -26,7 +28,7 @@ export function ServoPicker({ pose }: { readonly pose: Pose }) {
     );
   }
 
-  const choice = ({ servo, name }: RobotServo) => {
+  const choice = ({ servo, name }: Pick<RobotServo, 'servo' | 'name'>) => {
     const isIn = included.has(servo);
     const isLast = isIn && included.size === 1;
     return (
@@ -43,7 +45,10 @@ export function ServoPicker({ pose }: { readonly pose: Pose }) {
   };
 
   return (
-    <fieldset className={styles.drawer} aria-label={words.poses.servosOf(included.size, servos.length)}>
+    <fieldset
+      className={styles.drawer}
+      aria-label={words.poses.servosOf(included.size, servos.length + strangers.length)}
+    >
       <p className={styles.hint}>{words.poses.servosHint}</p>
       <div className={styles.limbs}>
         {limbsOf(servos).map(({ group, servos: members }) => (
@@ -52,6 +57,7 @@ export function ServoPicker({ pose }: { readonly pose: Pose }) {
             <div className={styles.servos}>{members.map(choice)}</div>
           </fieldset>
         ))}
+        {strangers.map((servo) => choice({ servo, name: words.pad.absent(servo) }))}
       </div>
     </fieldset>
   );
