@@ -135,6 +135,22 @@ describe('driving by pad', () => {
   });
 });
 
+test('a servo that is pushed on at its limit is told once while driving goes on, with its range', async () => {
+  const { hold, frames, told, target, movesIn } = await createDesk();
+  const push = async (): Promise<void> => {
+    hold(RIGHT_TRIGGER);
+    await frames(4000);
+  };
+  await push();
+  expect(target()).toBe(2500);
+  expect(told()).toEqual([words.pad.atLimit('Gripper', 500, 2500)]);
+  expect(await movesIn(500)).toBe(0);
+  hold();
+  await frames(8000);
+  await push();
+  expect(told()).toEqual([]);
+});
+
 test('a locked servo stays, is told once a push, and turns once it is free', async () => {
   const { hold, frames, view, robots, told, target, movesIn } = await createDesk();
   const lock = (...locked: readonly number[]): void =>

@@ -6,6 +6,7 @@ import type { Clock } from '#shared/clock.ts';
 import type { Input, Mapping } from '#shared/actions/mapping/mapping.ts';
 import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/actions/mapping/mappingInputs.ts';
 import { AT_REST, step, type Begun, type DriveState } from '#shared/actions/mapping/mappingStep.ts';
+import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { words } from '../../words/words.ts';
 import { isLocked } from '../locks.ts';
 import type { View } from '../view.ts';
@@ -14,7 +15,6 @@ import type { Notices } from '../notices.ts';
 import { motionHindrance } from '../device/readiness.ts';
 import type { Poses } from './poses.ts';
 import type { RobotStore } from '../robots/robots.ts';
-import { servoName } from '../servoName.ts';
 import type { Undoable } from '../undoable.ts';
 
 /** What is needed of a pad of the browser. */
@@ -77,6 +77,8 @@ export function createPad(options: PadOptions): Pad {
   let isAway = false;
   /** Servos that were meant and stayed, of which the person was told. */
   let staying: readonly number[] = [];
+  /** Servos whose range was told since driving began: a gripper is at its limits all the time. */
+  let limited: readonly number[] = [];
   let stopWasPressed = false;
   let seenPad: string | null = null;
   let listener: { readonly before: Inputs; heard(input: Input): void } | null = null;
@@ -94,7 +96,9 @@ export function createPad(options: PadOptions): Pad {
     rest();
     const wasDriving = store.getState().isDriving;
     const isAllowed = isDriving && hindrance() === null;
-    if (isAllowed !== wasDriving) store.setState({ isDriving: isAllowed });
+    if (isAllowed === wasDriving) return;
+    limited = [];
+    store.setState({ isDriving: isAllowed });
   }
 
   function findPad(): Gamepadlike | null {
@@ -164,11 +168,17 @@ export function createPad(options: PadOptions): Pad {
     driven = moment.state;
     if (moment.moves.length > 0) device.move(moment.moves, 'hand');
     moment.begun.forEach(begin);
-    const newly = (servos: readonly number[]): readonly string[] =>
-      servos.filter((servo) => !staying.includes(servo)).map((servo) => servoName(robot, servo));
-    for (const name of newly(moment.unknown)) notices.tell('warning', words.pad.unknown(name));
-    for (const name of newly(moment.locked)) notices.tell('info', words.servoPanel.staying([name]));
+    const among = (servos: readonly number[], told: readonly number[]): readonly RobotServo[] =>
+      robot.servos.filter(({ servo }) => servos.includes(servo) && !told.includes(servo));
+    for (const servo of among(moment.unknown, staying))
+      notices.tell('warning', words.pad.unknown(words.robots.called(servo)));
+    for (const servo of among(moment.locked, staying))
+      notices.tell('info', words.servoPanel.staying([words.robots.called(servo)]));
     staying = [...moment.unknown, ...moment.locked];
+    const newlyLimited = among(moment.atLimit, limited);
+    for (const { min, max, ...servo } of newlyLimited)
+      notices.tell('info', words.pad.atLimit(words.robots.called(servo), min, max));
+    if (newlyLimited.length > 0) limited = [...limited, ...newlyLimited.map(({ servo }) => servo)];
   }
 
   device.store.subscribe(() => {

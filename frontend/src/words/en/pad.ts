@@ -60,6 +60,8 @@ export const padWords = {
   picture: 'Picture of the pad: what lights up is held',
   unknown: (servo: string): string =>
     `${servo} stays: nobody knows where it is. Make its slow first move under Keys and pad, or by its slider.`,
+  atLimit: (servo: string, min: number, max: number): string =>
+    `${servo} goes no further: it takes ${formatWhole(min)} to ${formatWhole(max)}.`,
   allUnknown: (names: readonly string[]): string =>
     `Nobody knows yet where these are: ${formatNames(names)}.`,
   firstMove: 'First move, slowly',

@@ -57,6 +57,7 @@ export const padWords: typeof english = {
   otherPad: '这个手柄的按键编号不同，图可能对不上。',
   picture: '手柄示意图：亮起的部分正被按住',
   unknown: (servo) => `${servo}不动：不知道它在哪里。请在“键盘和手柄”里让它先慢慢移动一次，或者用它的滑块。`,
+  atLimit: (servo, min, max) => `${servo}不能再转：它应在${formatWhole(min)}到${formatWhole(max)}之间。`,
   allUnknown: (names) => `还不知道这些舵机在哪里：${formatNames(names)}。`,
   firstMove: '先慢慢移动一次',
   firstMoveHint: '把还没动过的舵机慢慢移到各自的初始位',

@@ -190,6 +190,27 @@ describe('what moves nothing', () => {
     expect(frame({ ...pushed(1), buttons: [1] })).toMatchObject({ moves: [], locked: [LOCKED] });
   });
 
+  test('a servo that is pushed on at its limit stays there and is told; it comes back at once', () => {
+    const { rest, frames, frame, targets } = drive([[STICK, rate(3000)]]);
+    rest();
+    const moments = frames(pushed(1), 200);
+    const [most = 0] = moments.flatMap(({ moves }) => moves.map(({ position }) => position)).slice(-1);
+    expect(moments.filter(({ moves }) => moves.length > 0).every(({ atLimit }) => atLimit.length === 0)).toBe(
+      true,
+    );
+    expect(moments.at(-1)).toMatchObject({ moves: [], atLimit: [1] });
+    expect(targets[1]).toBe(most);
+    rest();
+    expect(frame(pushed(-1))).toMatchObject({ moves: [{ servo: 1 }], atLimit: [] });
+  });
+
+  test('a servo that stands beyond its limits is not brought back by a push outwards', () => {
+    const { rest, frame, targets } = drive([[STICK, rate(500)]]);
+    targets[1] = 2600;
+    rest();
+    expect(frame(pushed(1))).toMatchObject({ moves: [], atLimit: [1] });
+  });
+
   test('a servo on its slow first move is left alone, and not asked for again', () => {
     const { rest, frame } = drive([[STICK, rate(500)]], {}, null);
     rest();

@@ -52,6 +52,8 @@ export interface Moment {
   readonly unknown: readonly number[];
   /** Servos that were meant and are locked. */
   readonly locked: readonly number[];
+  /** Servos that are pushed on where they may be turned no further. */
+  readonly atLimit: readonly number[];
 }
 
 /** How far a position input must be moved before it takes its servo along. */
@@ -59,7 +61,7 @@ const PICK_UP = 0.1;
 /** A target runs ahead of its servo by no more than this share of the range, so that letting go is stopping. */
 const LEAD = 0.125;
 
-type Staying = 'unknown' | 'locked';
+type Staying = 'unknown' | 'locked' | 'atLimit';
 
 interface Wish<To> {
   readonly servo: number;
@@ -85,6 +87,7 @@ export function step(driven: Driven, inputs: Inputs, dtMs: number, before: Drive
     ),
     unknown: staying('unknown'),
     locked: staying('locked'),
+    atLimit: staying('atLimit'),
   };
 }
 
@@ -135,6 +138,7 @@ function wishFor(
   if (placed !== null) return placed;
   const aim = before.aims[servo.servo];
   const from = aim !== undefined && Math.round(aim) === target ? aim : known;
+  if (turned > 0 ? from >= servo.max : from <= servo.min) return 'atLimit';
   return led(from, from + (turned * dtMs) / 1000, estimated, servo);
 }
 
