@@ -13,6 +13,11 @@ const buttons: Readonly<Record<PadButton, string>> = {
   ...{ l1: 'L1', r1: 'R1', l2: 'L2', r2: 'R2' },
 };
 
+/** As they stand on the pad itself, where there is little room. */
+const SIGNS: Readonly<Partial<Record<PadButton, string>>> = {
+  ...{ triangle: '△', cross: '✕', square: '□', circle: '○' },
+};
+
 const about: Readonly<Record<SlotFate, string>> = {
   arriving: 'Being downloaded',
   broken: 'Broken: its download did not finish',
@@ -65,7 +70,7 @@ export const slotWords = {
           : `Played by itself when slot ${formatWhole(trigger.after)} has ended`,
   triggerShort: (trigger: SlotTrigger): string =>
     trigger.kind === 'pad'
-      ? buttons[trigger.button]
+      ? (SIGNS[trigger.button] ?? buttons[trigger.button])
       : { select: 'SELECT', key: 'key', chain: 'chain' }[trigger.kind],
   stored: (name: string, when: string, count: number, durationMs: number, version: string): string =>
     `${name === '' ? 'Without a name' : name}, ${frameCount(count)}, ${formatSeconds(durationMs)}, downloaded ${when}, version ${version}`,
