@@ -102,7 +102,9 @@ export const robotWords = {
   unreadable: 'The saved robots could not be read. They were set aside unharmed.',
   flaw: (flaw: RobotFlaw): string => `This cannot be: ${flawText(flaw)}.`,
   notKept: (code: LibraryErrorCode, detail: string): string =>
-    `Robots are not kept in the library yet: ${libraryWords.problem(code, detail)} It is tried again.`,
+    code === 'tooLarge'
+      ? 'A robot with its poses and buttons is too large for the library. It stays in this browser alone; delete some poses.'
+      : `Robots are not kept in the library yet: ${libraryWords.problem(code, detail)} It is tried again.`,
   otherVersion: (name: string): string => `${name}, other version`,
   conflict: (name: string, copy: string): string =>
     `Somebody else has changed ${name} meanwhile. Yours is kept beside it as ${copy}.`,

@@ -110,7 +110,10 @@ export const robotWords: typeof english = {
   notSaved: '浏览器不能保存机器人；关闭页面前它们一直在。',
   unreadable: '已保存的机器人无法读取。原文件已完好地另存。',
   flaw: (flaw) => `这样不行：${flawText(flaw)}。`,
-  notKept: (code, detail) => `机器人尚未存入库：${libraryWords.problem(code, detail)}稍后会再试。`,
+  notKept: (code, detail) =>
+    code === 'tooLarge'
+      ? '机器人连同姿态和按钮太大，库里放不下。它只留在本浏览器里；请删掉一些姿态。'
+      : `机器人尚未存入库：${libraryWords.problem(code, detail)}稍后会再试。`,
   otherVersion: (name) => `${name}（另一版本）`,
   conflict: (name, copy) => `“${name}”同时被别人改过。您的版本另存为“${copy}”。`,
   handedIn: (names) =>
