@@ -13,7 +13,7 @@ export function Messages() {
       label={words.regions.notices}
       dismissLabel={words.dismiss}
       moreLabel={words.moreNotices}
-      toasts={list.map(({ tone, ...notice }) => ({ ...notice, truth: tone === 'info' ? 'confirmed' : tone }))}
+      toasts={list.map(({ tone, ...notice }) => ({ ...notice, truth: tone === 'info' ? 'neutral' : tone }))}
       onDismiss={notices.dismiss}
     />
   );
