@@ -51,9 +51,8 @@ export function DocumentCard({ document, nowMs, isUnfolded, onUnfold, onDone }: 
           )}
           <span className={styles.about}>
             {isOpen ? words.library.isOpen : words.library.age(nowMs - facts.updatedAtMs)}
-            {' · '}
-            {words.library.about(frames, durationMs)}
           </span>
+          <span className={styles.about}>{words.library.about(frames, durationMs)}</span>
           <span className={styles.about}>{[robot, ...tags].filter((word) => word !== '').join(' · ')}</span>
         </div>
       </div>
