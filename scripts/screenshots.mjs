@@ -25,13 +25,43 @@ const press = (page, name) => page.getByRole('button', { name, exact: typeof nam
 /** @param {Page} page @param {string} name */
 const choose = (page, name) => page.getByRole('radio', { name, exact: true }).check();
 
+/** @param {Page} page @param {number} [number] */
+async function example(page, number = 0) {
+  await press(page, 'Begin with an example');
+  await page.getByRole('list', { name: 'Examples' }).getByRole('button').nth(number).click();
+}
+
 /** @param {Page} page */
 async function wave(page) {
-  await press(page, 'Begin with an example');
-  await page.getByRole('list', { name: 'Examples' }).getByRole('button').first().click();
+  await example(page);
   await page.getByRole('region', { name: 'Action group', exact: true }).hover({ position: { x: 20, y: 20 } });
   await page.mouse.wheel(0, -2000);
   await page.mouse.move(0, 0);
+}
+
+/** Each example as a group of its own. @param {Page} page @param {(number: number) => Promise<unknown>} [then] */
+async function groups(page, then) {
+  const LAST = 3;
+  for (let number = 0; number <= LAST; number += 1) {
+    await example(page, number);
+    await then?.(number);
+    await page.waitForTimeout(1500);
+    await press(page, 'Library');
+    await press(page, number < LAST ? 'New group' : 'Close');
+  }
+}
+
+/** @param {Page} page */
+async function slots(page) {
+  await groups(page, async (number) => {
+    const slot = page.getByRole('textbox', { name: 'Slot', exact: true });
+    await slot.fill(String(5 + number));
+    await slot.press('Enter');
+    await press(page, 'Download');
+    await page.getByText(/ is downloaded\./).waitFor({ timeout: 30_000 });
+    await press(page, 'Dismiss');
+  });
+  await press(page, 'Slots');
 }
 
 /** @param {Page} page */
@@ -91,12 +121,11 @@ const SHOTS = {
     },
   },
   calibration: { ...DESK, act: calibrate },
-  slots: { ...DESK, act: (page) => press(page, 'Slots') },
+  slots: { ...DESK, act: slots },
   library: {
     ...DESK,
     async act(page) {
-      await wave(page);
-      await page.waitForTimeout(1500);
+      await groups(page);
       await press(page, 'Library');
     },
   },
