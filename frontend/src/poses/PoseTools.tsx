@@ -7,6 +7,7 @@ import { flippedTargets, mirroredTargets } from '#shared/actions/poses/poseShape
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { putFrame } from '../actions/capture.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
+import { longerName } from '../stores/longerName.ts';
 import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
@@ -176,7 +177,7 @@ function Arrange() {
     view.setState({ selectedPose: nextId });
     poses.book.edit(
       () => words.poses.steps.duplicate(pose.name),
-      (book) => duplicatePose(book, pose.id, words.poses.copyOf(pose.name)),
+      (book) => duplicatePose(book, pose.id, longerName(pose.name, words.poses.copyOf)),
     );
   };
   const remove = (): void => {

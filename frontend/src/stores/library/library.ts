@@ -4,7 +4,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
-import { emptyGroup, GROUP_NAME_LENGTH, type ActionGroup } from '#shared/actions/group/group.ts';
+import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { rename } from '#shared/actions/group/groupEdits.ts';
 import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
 import type { Label } from '#shared/actions/history.ts';
@@ -24,6 +24,7 @@ import type { TextStorage } from '../textStorage.ts';
 import type { Notices } from '../notices.ts';
 import type { RobotStore } from '../robots/robots.ts';
 import type { View } from '../view.ts';
+import { longerName } from '../longerName.ts';
 import { groupOf } from './groupOf.ts';
 import { createLibraryFiles, type LibraryFiles } from './libraryFiles.ts';
 import { createLibraryVersions, type LibraryVersions } from './libraryVersions.ts';
@@ -58,10 +59,6 @@ export interface Library extends LibraryFiles, LibraryVersions {
   remove(id: string): Promise<void>;
   restore(id: string): Promise<void>;
 }
-
-/** With room for what is added, where the name is as long as one may be. */
-const toldApart = (name: string, added: (name: string) => string): string =>
-  added(name.slice(0, GROUP_NAME_LENGTH - added('').length));
 
 /** Over as soon as nothing waits here any more. */
 const WAITING: readonly LibraryErrorCode[] = ['full', 'busy', 'unreachable'];
@@ -162,7 +159,7 @@ export function createLibrary(options: LibraryOptions): Library {
   /** The newer text stays under its name; ours goes on as a document of its own. */
   function keepBoth(id: string, { text }: Stored): void {
     const ours = groupOf(text);
-    const copy = toldApart(ours.name, words.library.otherVersion);
+    const copy = longerName(ours.name, words.library.otherVersion);
     const copyId = newId();
     if (id === opened.id()) {
       opened.become(copyId);
@@ -305,7 +302,7 @@ export function createLibrary(options: LibraryOptions): Library {
     duplicate: (id) =>
       attempt(
         read(id).then((group) => {
-          put(newId(), groupToText(rename(group, toldApart(group.name, words.library.copyOf))));
+          put(newId(), groupToText(rename(group, longerName(group.name, words.library.copyOf))));
           return flushAndRefresh();
         }),
       ),

@@ -17,10 +17,10 @@ import type { MacroPage } from '#shared/actions/macros/macro.ts';
 import type { Mapping } from '#shared/actions/mapping/mapping.ts';
 import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import { kitFromText, kitToText, mergedKits, sameKit, type Kit } from '#shared/actions/robot/kit.ts';
-import { NAME_LENGTH } from '#shared/actions/robot/robot.ts';
 import { robotFromText, robotToText } from '#shared/actions/robot/robotText.ts';
 import { words } from '../../words/words.ts';
 import type { TextStorage } from '../textStorage.ts';
+import { longerName } from '../longerName.ts';
 import { loadKnown, saveKnown, type Known } from './knownRobots.ts';
 import type { Notices } from '../notices.ts';
 import type { RobotDocument } from './robotDocument.ts';
@@ -160,8 +160,7 @@ export function createRobotKeeping(options: RobotKeepingOptions): RobotKeeping {
 
   /** The newer one stays under its name; ours goes on as a robot of its own. */
   function keepBoth({ robot }: OwnRobot, ours: Kit): void {
-    const room = NAME_LENGTH - words.robots.otherVersion('').length;
-    const name = words.robots.otherVersion(robot.name.slice(0, room));
+    const name = longerName(robot.name, words.robots.otherVersion);
     take(null, { ...ours, robot: robotToText({ ...robot, name }) });
     notices.tell('warning', words.robots.conflict(robot.name, name));
   }

@@ -17,6 +17,7 @@ import { flawOf, NAME_LENGTH, type Robot } from '#shared/actions/robot/robot.ts'
 import { robotFromText, robotToText } from '#shared/actions/robot/robotText.ts';
 import type { FamilyId } from '#shared/protocol/families.ts';
 import { words } from '../../words/words.ts';
+import { longerName } from '../longerName.ts';
 import type { TextStorage } from '../textStorage.ts';
 import type { Notices } from '../notices.ts';
 
@@ -180,10 +181,8 @@ const unusedId = (history: History<Robots>): number =>
 function unusedName({ own }: Robots, name: string): string {
   const names = new Set(own.map(({ robot }) => robot.name));
   let found = name.slice(0, NAME_LENGTH).trim();
-  for (let number = 2; names.has(found); number += 1) {
-    const room = NAME_LENGTH - words.robots.numbered('', number).length;
-    found = words.robots.numbered(name.slice(0, room).trim(), number);
-  }
+  for (let number = 2; names.has(found); number += 1)
+    found = longerName(name, (some) => words.robots.numbered(some, number));
   return found;
 }
 

@@ -1,0 +1,7 @@
+// A name with something added to it, such as “Wave, other version”: as long as a name may be, and what is added is whole.
+
+import { NAME_LENGTH } from '#shared/actions/robot/robot.ts';
+
+export function longerName(name: string, added: (name: string) => string): string {
+  return added(name.slice(0, NAME_LENGTH - added('').length).trim());
+}
