@@ -146,6 +146,7 @@ test('a servo of a file that the robot does not have can be left out', async ({ 
     buffer: Buffer.from(JSON.stringify({ format: 'servodeck-poses', version: 1, content })),
   });
   await expect(dashboard.notices).toContainText('These poses also move servos that this robot does not have');
+  await expect(posesOf(page).card('Odd')).toHaveAccessibleName(/^Odd, 2 of 7 servos/);
   await posesOf(page).card('Odd').click();
   await page.getByRole('switch', { name: 'Servos', exact: true }).check();
   const stranger = page.getByRole('checkbox', { name: 'Servo 31, not on this robot' });

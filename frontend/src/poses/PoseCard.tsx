@@ -25,9 +25,11 @@ export interface PoseCardProps {
 export function PoseCard({ pose, marks, isSelected, isTabStop }: PoseCardProps) {
   const { poses, view } = useStores();
   const family = useDevice((state) => state.family);
-  const all = useRobot().servos.length;
+  const { servos } = useRobot();
   const { isDragged, startDrag } = usePoseDrag(pose);
   const { id, name, targets } = pose;
+  // A pose of another robot may move servos that this one does not have.
+  const all = new Set([...servos, ...targets].map(({ servo }) => servo)).size;
   const about = words.poses.about(name, targets.length, all);
   return (
     <li data-pose={id} className={cx(card.card, isSelected && card.selected, isDragged && card.dragged)}>
