@@ -10,19 +10,21 @@ import { goToPlace } from './places.ts';
 import styles from './CompileRow.module.css';
 
 const SHOWN = 4;
+/** With each press; a group may have thousands. */
+const MORE = 100;
 
 export function Problems() {
   const stores = useStores();
   const { report, source } = useCompiled((state) => state.latest);
-  const [isWhole, setIsWhole] = useState(false);
+  const [shown, setShown] = useState(SHOWN);
   const must = new Set(obstacles(report, 'board'));
   const rankOf = (problem: CompileProblem): number => (must.has(problem) ? Number('servo' in problem) : 2);
   const problems = report.problems.toSorted((one, other) => rankOf(one) - rankOf(other));
-  const more = isWhole ? 0 : problems.length - SHOWN;
+  const more = problems.length - shown;
   if (problems.length === 0) return null;
   return (
     <ul className={styles.problems} aria-label={words.compile.problems}>
-      {problems.slice(0, more > 0 ? SHOWN : undefined).map((problem, index) => (
+      {problems.slice(0, shown).map((problem, index) => (
         <li key={index}>
           <button
             type="button"
@@ -35,7 +37,7 @@ export function Problems() {
       ))}
       {more > 0 && (
         <li>
-          <button type="button" className={styles.place} onClick={() => setIsWhole(true)}>
+          <button type="button" className={styles.place} onClick={() => setShown(shown + MORE)}>
             {words.compile.more(more)}
           </button>
         </li>
