@@ -88,6 +88,26 @@ describe('a compiled group', () => {
     );
   });
 
+  test('has a servo that holds within the bound too, but for the last tick, in which it jumps', () => {
+    const any = someGroup({ easings: EASINGS, durationMs: onTicks });
+    fc.assert(
+      fc.property(any, fc.integer({ min: 1, max: 60 }), (group, maxErrorUnits) => {
+        const { frames, report } = compile(group, { ...FREE, maxErrorUnits });
+        let worst = 0;
+        for (const track of tracksOf(group).values()) {
+          const jumps = track.keys.filter(({ easing }) => easing === 'hold').map(({ atMs }) => atMs);
+          for (let atMs = 0; atMs <= totalDurationMs(group.frames); atMs += 7) {
+            const wanted = positionAt(track, atMs);
+            if (wanted === null || jumps.some((endMs) => atMs > endMs - TICK_MS && atMs < endMs)) continue;
+            worst = Math.max(worst, Math.abs(positionIn(frames, track.servo, atMs, ANYWHERE) - wanted));
+          }
+        }
+        if (!kindsOf(report.problems).includes('deviation'))
+          expect(worst).toBeLessThanOrEqual(maxErrorUnits + 1e-5);
+      }),
+    );
+  });
+
   test.each(['doc', 'openarm-old', 'xarm', 'learm-esp32'] as const)(
     'has only frames that a %s takes',
     (id) => {
