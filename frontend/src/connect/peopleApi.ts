@@ -2,7 +2,7 @@
 // PeopleError.
 
 import * as z from 'zod/mini';
-import { GatewayProblem, request, type Asking } from '../gateway/request.ts';
+import { GatewayProblem, request, type Method } from '../gateway/request.ts';
 import { PeopleError, type PeopleApi, type PeopleErrorCode } from '../stores/people/people.ts';
 import type {
   Invitation,
@@ -92,7 +92,7 @@ export const peopleApi: PeopleApi = {
 
 async function ask<T>(
   path: string,
-  method: NonNullable<Asking['method']>,
+  method: Method,
   schema: z.ZodMiniType<T>,
   body?: object,
   withinMs = ANSWER_WITHIN_MS,

@@ -4,8 +4,10 @@
 /** How a request says that our own page makes it: a browser adds no Origin to a GET, and no other page may add this header. */
 const OWN_PAGE = { 'x-servodeck-page': '1' };
 
+export type Method = 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE';
+
 export interface Asking {
-  readonly method?: 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE';
+  readonly method?: Method;
   readonly body?: object | undefined;
   readonly withinMs: number;
 }

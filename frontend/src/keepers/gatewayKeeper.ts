@@ -7,7 +7,7 @@ import {
   type Keeper,
   type LibraryErrorCode,
 } from '#shared/actions/library/keeper.ts';
-import { GatewayProblem, request, type Asking } from '../gateway/request.ts';
+import { GatewayProblem, request, type Method } from '../gateway/request.ts';
 import type {
   DocumentIds,
   DocumentWrite,
@@ -75,12 +75,7 @@ async function mark(verb: 'remove' | 'restore', ids: readonly string[]): Promise
   await ask(`/${verb}`, 'POST', nothing, wanted);
 }
 
-async function ask<T>(
-  path: string,
-  method: NonNullable<Asking['method']>,
-  schema: z.ZodMiniType<T>,
-  body?: object,
-): Promise<T> {
+async function ask<T>(path: string, method: Method, schema: z.ZodMiniType<T>, body?: object): Promise<T> {
   const asking = { method, body, withinMs: ANSWER_WITHIN_MS };
   const answer = await request(`api/library${path}`, asking).catch((error: unknown) => {
     throw problem(error);

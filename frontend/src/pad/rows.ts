@@ -24,7 +24,7 @@ export function rowTitle(binding: Binding, robot: Robot, book: PoseBook): string
 
 export function servoTitle(robot: Robot, servo: number): string {
   const own = servoOf(robot, servo);
-  return own === undefined ? words.pad.absent(servo) : words.robots.called(own);
+  return own === undefined ? words.robots.absent(servo) : words.robots.called(own);
 }
 
 /** Servos are there without a binding too. */

@@ -1,6 +1,7 @@
 // One pose as a card: its picture, its name, the way to it. The face selects; the grip drags.
 
 import type { Pose } from '#shared/actions/poses/pose.ts';
+import { strangersTo } from '#shared/actions/poses/poseShapes.ts';
 import { movePose, renamePose } from '#shared/actions/poses/poseEdits.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { motionHindrance } from '../stores/device/readiness.ts';
@@ -25,11 +26,10 @@ export interface PoseCardProps {
 export function PoseCard({ pose, marks, isSelected, isTabStop }: PoseCardProps) {
   const { poses, view } = useStores();
   const family = useDevice((state) => state.family);
-  const { servos } = useRobot();
+  const robot = useRobot();
   const { isDragged, startDrag } = usePoseDrag(pose);
   const { id, name, targets } = pose;
-  // A pose of another robot may move servos that this one does not have.
-  const all = new Set([...servos, ...targets].map(({ servo }) => servo)).size;
+  const all = robot.servos.length + strangersTo(robot, targets).length;
   const about = words.poses.about(name, targets.length, all);
   return (
     <li data-pose={id} className={cx(card.card, isSelected && card.selected, isDragged && card.dragged)}>

@@ -3,6 +3,7 @@
 
 import type { Pose } from '#shared/actions/poses/pose.ts';
 import { setPose } from '#shared/actions/poses/poseEdits.ts';
+import { strangersTo } from '#shared/actions/poses/poseShapes.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
@@ -11,12 +12,13 @@ import styles from './PosesPanel.module.css';
 
 export function ServoPicker({ pose }: { readonly pose: Pose }) {
   const { device, poses } = useStores();
-  const { servos } = useRobot();
+  const robot = useRobot();
+  const { servos } = robot;
   const known = useDevice((state) => state.known);
   const sameUnit = useDevice((state) => state.family.unit === pose.unit);
   const included = new Set(pose.targets.map(({ servo }) => servo));
   /** Of a file: they can be left out. */
-  const strangers = [...included].filter((servo) => servos.every((own) => own.servo !== servo));
+  const strangers = strangersTo(robot, pose.targets);
 
   function choose(servo: number, isIn: boolean): void {
     const { target: position } = device.motion(servo);
@@ -57,7 +59,7 @@ export function ServoPicker({ pose }: { readonly pose: Pose }) {
             <div className={styles.servos}>{members.map(choice)}</div>
           </fieldset>
         ))}
-        {strangers.map((servo) => choice({ servo, name: words.pad.absent(servo) }))}
+        {strangers.map((servo) => choice({ servo, name: words.robots.absent(servo) }))}
       </div>
     </fieldset>
   );

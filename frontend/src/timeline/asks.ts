@@ -8,8 +8,8 @@ import { insertTime, stretch, stretchBack, type TimeRange } from '#shared/action
 import type { Ask } from '../stores/timeline/timeline.ts';
 import { numberIn } from '../ui/NumberField.tsx';
 import type { Scale } from '../servos/scale.ts';
-import { words } from '../words/words.ts';
 import { servoName } from '../stores/servoName.ts';
+import { words } from '../words/words.ts';
 import { apply, changeable, rangeOf, selectedFrames, type Desk } from './desk.ts';
 import { changeIn } from './changeIn.ts';
 import { keyOf, selectedKeys, spanOf, timesOf } from './groupTimes.ts';

@@ -175,14 +175,14 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   function noteState(snapshot: SessionState): void {
     const wasReady = store.getState().snapshot.link.status === 'ready';
     takeUpRobot(snapshot);
-    const isBack = !wasReady && snapshot.link.status === 'ready';
-    if (isBack && calibrated !== null) session?.calibrate(calibrated);
+    const becomesReady = !wasReady && snapshot.link.status === 'ready';
+    if (becomesReady && calibrated !== null) session?.calibrate(calibrated);
     // First into the log: whoever hears of the state may send something at once.
     traffic.note(snapshot, clock.now(), snapshot.family.id);
     store.setState({ snapshot, family: snapshot.family });
     if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
     if (snapshot.latch !== null) notices.takeBack(saidOfResume);
-    if (isBack) for (const code of TRIED_ON) notices.takeBack(words.errorSentence(code));
+    if (becomesReady) for (const code of TRIED_ON) notices.takeBack(words.errorSentence(code));
   }
 
   function noteResumed(by: string): void {

@@ -175,10 +175,10 @@ export function createPad(options: PadOptions): Pad {
     for (const servo of among(moment.locked, staying))
       notices.tell('info', words.servoPanel.staying([words.robots.called(servo)]));
     staying = [...moment.unknown, ...moment.locked];
-    const newlyLimited = among(moment.atLimit, limited);
-    for (const { min, max, ...servo } of newlyLimited)
-      notices.tell('info', words.pad.atLimit(words.robots.called(servo), min, max));
-    if (newlyLimited.length > 0) limited = [...limited, ...newlyLimited.map(({ servo }) => servo)];
+    for (const servo of among(moment.atLimit, limited)) {
+      notices.tell('info', words.pad.atLimit(words.robots.called(servo), servo.min, servo.max));
+      limited = [...limited, servo.servo];
+    }
   }
 
   device.store.subscribe(() => {

@@ -4,9 +4,8 @@
 import type { Label } from '#shared/actions/history.ts';
 import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/actions/poses/pose.ts';
 import { markApplied, withPosesOf } from '#shared/actions/poses/poseEdits.ts';
-import { homeTargets } from '#shared/actions/poses/poseShapes.ts';
+import { homeTargets, strangersTo } from '#shared/actions/poses/poseShapes.ts';
 import { poseBookFromText, poseBookToText } from '#shared/actions/poses/poseText.ts';
-import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { words } from '../../words/words.ts';
 import type { Device } from '../device/device.ts';
@@ -82,7 +81,8 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
       () => words.poses.steps.import,
       (before) => withPosesOf(before, imported),
     );
-    const strangers = strangersIn(imported, robots.current().robot);
+    const targets = imported.poses.flatMap((pose) => pose.targets);
+    const strangers = strangersTo(robots.current().robot, targets);
     if (strangers.length > 0) notices.tell('warning', words.poses.strangers(strangers));
   }
 
@@ -110,12 +110,6 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
       else if ('value' in read) take(read.value);
     },
   };
-}
-
-/** Servos that the robot does not have, in ascending order. */
-function strangersIn({ poses }: PoseBook, robot: Robot): readonly number[] {
-  const servos = new Set(poses.flatMap(({ targets }) => targets.map(({ servo }) => servo)));
-  return [...servos].filter((servo) => servoOf(robot, servo) === undefined).sort((one, other) => one - other);
 }
 
 /** Where the robot went last is told by the robot, not by the book. */

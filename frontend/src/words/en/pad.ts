@@ -68,7 +68,6 @@ export const padWords = {
   firstMoveHint: 'Takes the servos that nobody has moved yet to their home, slowly',
 
   table: 'Which key or stick does what',
-  absent: (servo: number): string => `Servo ${formatWhole(servo)}, not on this robot`,
   stopRow: 'Stop',
   poseRow: (pose: string): string => `Go to ${pose}`,
   slotRow: (slot: number): string => `Run slot ${formatWhole(slot)}`,

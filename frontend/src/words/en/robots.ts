@@ -125,6 +125,7 @@ export const robotWords = {
   /** Both knees of a body are called Knee. */
   called: ({ name, group }: { readonly name: string; readonly group: string }): string =>
     group === '' ? name : `${name} (${group})`,
+  absent: (servo: number): string => `Servo ${formatWhole(servo)}, not on this robot`,
   title: 'Robots',
   button: (name: string): string => `Robot: ${name}`,
   own: 'Described',

@@ -63,7 +63,6 @@ export const padWords: typeof english = {
   firstMoveHint: '把还没动过的舵机慢慢移到各自的初始位',
 
   table: '哪个按键或摇杆做什么',
-  absent: (servo) => `${formatWhole(servo)}号舵机，这台机器人没有`,
   stopRow: '停止',
   poseRow: (pose) => `移到${pose}`,
   slotRow: (slot) => `运行槽位${formatWhole(slot)}`,

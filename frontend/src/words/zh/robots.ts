@@ -130,6 +130,7 @@ export const robotWords: typeof english = {
     elsewhere: '另一屏幕上的更改',
   },
   called: ({ name, group }) => (group === '' ? name : `${name}（${group}）`),
+  absent: (servo) => `${formatWhole(servo)}号舵机，这台机器人没有`,
   title: '机器人',
   button: (name) => `机器人：${name}`,
   own: '已描述的机器人',

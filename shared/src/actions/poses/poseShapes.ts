@@ -14,6 +14,12 @@ export interface Reshaped {
   readonly held: readonly RobotServo[];
 }
 
+/** Servos of a pose that the robot does not have, in ascending order: the pose was made for another one. */
+export function strangersTo(robot: Robot, targets: readonly ServoTarget[]): readonly number[] {
+  const servos = new Set(targets.map(({ servo }) => servo));
+  return [...servos].filter((servo) => servoOf(robot, servo) === undefined).sort((one, other) => one - other);
+}
+
 export function homeTargets(robot: Robot): readonly ServoTarget[] {
   return sortedTargets(robot.servos.map(({ servo, home }) => ({ servo, position: home })));
 }
