@@ -49,7 +49,11 @@ export default defineConfig<object, { way: Way }>({
     screenshot: 'only-on-failure',
     launchOptions: {
       ...(executablePath === null ? {} : { executablePath }),
-      args: [`--disable-features=${unwantedFeatures.join(',')}`],
+      args: [
+        `--disable-features=${unwantedFeatures.join(',')}`,
+        // Off on Linux, where the browser then complains of a policy that names it.
+        '--enable-features=WebBluetooth',
+      ],
     },
   },
 });

@@ -18,6 +18,9 @@ const REPEATS = 15;
 const REST_MS = 300;
 const MOUNT_LIMIT_MS = 50;
 const EDIT_LIMIT_MS = 2;
+const BULK_LIMIT_MS = 16;
+/** The middle of the row of all servos, below ruler and heads. */
+const ALL_ROW_PX = 57;
 const SIZE = `${FRAMES} frames of ${SERVOS} servos`;
 
 interface Measured {
@@ -47,10 +50,11 @@ export function measureLanes(): Promise<Figure[]> {
       const frameEdits = await thread.work(() => editTime(page));
       await selectKey(page);
       const editMs = await editTime(page);
+      const bulk = await bulkEdits(page);
       await scrub(page);
       const edits = { editMs, frameEditMs: frameEdits.result, wholeEditMs: frameEdits.allMs / REPEATS };
       const ours = { mountMs, ...edits };
-      return figuresOf({ ...ours, scrub: await drawing(page, thread) }, plain);
+      return [...figuresOf({ ...ours, scrub: await drawing(page, thread) }, plain), ...bulk];
     }),
   );
 }
@@ -196,21 +200,78 @@ async function selectKey(page: Page): Promise<void> {
   await page.keyboard.press('k');
 }
 
-async function editTime(page: Page): Promise<number> {
+async function editTime(page: Page, key = 'ArrowUp', repeats = REPEATS): Promise<number> {
   // All in one go: to find the grid by its role costs the page as much as an edit.
-  const times = await page.getByRole('grid').evaluate(async (element, repeats) => {
-    const all: number[] = [];
-    for (let repeat = 0; repeat < repeats; repeat += 1) {
-      const startMs = performance.now();
-      element.dispatchEvent(
-        new KeyboardEvent('keydown', { key: 'ArrowUp', bubbles: true, cancelable: true }),
-      );
-      await Promise.resolve();
-      all.push(performance.now() - startMs);
-      await new Promise(requestAnimationFrame);
-    }
-    return all;
-  }, REPEATS);
+  const times = await page.getByRole('grid').evaluate(
+    async (element, pressed) => {
+      const all: number[] = [];
+      for (let repeat = 0; repeat < pressed.repeats; repeat += 1) {
+        const startMs = performance.now();
+        element.dispatchEvent(
+          new KeyboardEvent('keydown', { key: pressed.key, bubbles: true, cancelable: true }),
+        );
+        await Promise.resolve();
+        all.push(performance.now() - startMs);
+        await new Promise(requestAnimationFrame);
+      }
+      return all;
+    },
+    { key, repeats },
+  );
+  return median(times);
+}
+
+/** Of all keys at once: by an arrow key up and to the right, by a drag, and turned round in time. */
+async function bulkEdits(page: Page): Promise<readonly Figure[]> {
+  await page.keyboard.press('Control+a');
+  const reverses = await editTime(page, 'r', 1);
+  await page.keyboard.press('Control+a');
+  const times = {
+    reverse: reverses,
+    nudge: await editTime(page),
+    timeNudge: await editTime(page, 'ArrowRight'),
+    dragMove: await dragTime(page),
+  };
+  const notes = {
+    reverse: 'script of the first time that all keys are turned round',
+    nudge: 'script of a nudge of all keys up',
+    timeNudge: 'script of a nudge of all keys to the right',
+    dragMove: 'script of a movement of the pointer that drags all keys',
+  };
+  return Object.entries(times).map(([name, value]) => ({
+    ...{ key: `lanes.all.${name}Ms`, value, unit: 'ms', limit: { atMost: BULK_LIMIT_MS } },
+    note: `${notes[name as keyof typeof times]}, ${FRAMES * SERVOS} of them`,
+  }));
+}
+
+/** In the row of all servos, in time and value. */
+async function dragTime(page: Page): Promise<number> {
+  const canvas = page.getByRole('grid').locator('canvas').first();
+  const times = await canvas.evaluate(
+    async (element, { repeats, y }) => {
+      const { left, top, width } = element.getBoundingClientRect();
+      Element.prototype.setPointerCapture = () => undefined;
+      const send = (type: string, x: number): void =>
+        void element.dispatchEvent(
+          new PointerEvent(type, {
+            ...{ bubbles: true, pointerId: 1, pointerType: 'mouse', button: 0, buttons: 1 },
+            ...{ clientX: left + x, clientY: top + y },
+          }),
+        );
+      const all: number[] = [];
+      send('pointerdown', width / 2);
+      for (let repeat = 1; repeat <= repeats; repeat += 1) {
+        const startMs = performance.now();
+        send('pointermove', width / 2 + 4 + 2 * repeat);
+        await Promise.resolve();
+        all.push(performance.now() - startMs);
+        await new Promise(requestAnimationFrame);
+      }
+      send('pointerup', width / 2 + 4);
+      return all;
+    },
+    { repeats: REPEATS, y: ALL_ROW_PX },
+  );
   return median(times);
 }
 

@@ -11,8 +11,10 @@ import { measureCrowd } from './crowd.ts';
 import { measureDownload } from './download.ts';
 import { measureDrag } from './drag.ts';
 import { toRecord, type Figure } from './figure.ts';
+import { measureFiles } from './files.ts';
 import { measureFrames } from './frames.ts';
 import { measureLanes } from './lanes.ts';
+import { measureLibrary } from './library.ts';
 import { missed } from './limits.ts';
 import { measureNetwork } from './network.ts';
 import { measurePageSize } from './pageSize.ts';
@@ -40,6 +42,8 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   crowd: measureCrowd,
   frames: measureFrames,
   lanes: measureLanes,
+  files: measureFiles,
+  library: measureLibrary,
   start: measureStart,
   page: measurePageSize,
 };

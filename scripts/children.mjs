@@ -44,9 +44,9 @@ export function endChild(child) {
       clearTimeout(insist);
       resolve();
     });
-    child.stdin?.end();
     // Windows has no polite signal; there the end of stdin has to do.
-    if (!onWindows) child.kill('SIGTERM');
+    if (onWindows) child.stdin?.end();
+    else child.kill('SIGTERM');
   });
 }
 

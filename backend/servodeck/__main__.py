@@ -17,13 +17,15 @@ def main() -> None:
 def is_stopped() -> bool:
     """Where anything goes wrong the command line tries again, which does no harm, and explains it."""
     from servodeck.cli.remote import HERE, Remote
+    from servodeck.cli.stop_words import stopped_words
 
     try:
         token = os.environ.get("SERVODECK_TOKEN") or token_in(os.environ.get("SERVODECK_TOKEN_FILE"))
-        Remote(os.environ.get("SERVODECK_URL") or HERE, token).ask("POST", "/api/stop")
+        stopped = Remote(os.environ.get("SERVODECK_URL") or HERE, token).ask("POST", "/api/stop")
+        words = stopped_words(stopped)
     except Exception:  # noqa: BLE001 (nothing may keep the second try from being made)
         return False
-    sys.stdout.write("Stopped. servodeck resume allows motion again.\n")
+    sys.stdout.write(f"{words}\n")
     return True
 
 

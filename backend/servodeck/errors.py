@@ -206,6 +206,13 @@ class PairingLockedError(PairingError):
     status: ClassVar[int] = 429
 
 
+class TooLargeError(GatewayError):
+    """More than anybody may send there."""
+
+    code: ClassVar[ErrorCode] = "tooLarge"
+    status: ClassVar[int] = 413
+
+
 class WrongTypeError(GatewayError):
     """A body that does not call itself JSON: a page of another site could send it without asking."""
 

@@ -23,6 +23,7 @@ from servodeck.told import (
     StopFor,
     StoredGroup,
     UnattendedRun,
+    UnheldServos,
 )
 
 # A packet is 255 bytes at most; one more is let in so that the gate can say what is wrong with it.
@@ -201,9 +202,10 @@ class NoiseMessage(Message):
 
 
 class HaltedMessage(Message):
-    """The stop sequence has left the wire."""
+    """The stop sequence has left the wire. `unheld`: what may go on in spite of it, if anything."""
 
     type: Literal["halted"] = "halted"
+    unheld: UnheldServos | None
 
 
 class ResumedMessage(Message):

@@ -136,6 +136,15 @@ class RobotTold(Message):
     revision: int
 
 
+class UnheldServos(Message):
+    """What may go on in spite of a STOP: these servos, `null` where nobody knows which, for so long at most
+    from its press.
+    """
+
+    servos: list[int] | None
+    for_ms: int
+
+
 StopFor = Literal["person", "battery"]
 """Somebody pressed STOP; the policy for a low battery, on the page of whoever drives."""
 

@@ -44,8 +44,8 @@ def all_routes() -> Iterator[tuple[str, str, str]]:
     yield from (("http", "GET", path) for path in ("/", "/unknown", "/api/unknown"))
 
 
-async def knock(app: ASGIApp, scope: Scope) -> int:
-    """The status of one request or upgrade; 101 where it was accepted."""
+async def knock(app: ASGIApp, scope: Scope, *, may_read: bool = True) -> int:
+    """The status of one request or upgrade; 101 where it was accepted. Not `may_read`: of its head alone."""
     first = "http.request" if scope["type"] == "http" else "websocket.connect"
     messages: list[Message] = [{"type": first}]
     statuses: list[int] = []
@@ -53,6 +53,7 @@ async def knock(app: ASGIApp, scope: Scope) -> int:
 
     async def receive() -> Message:
         """Who has heard the status hangs up: a stream would go on for ever."""
+        assert may_read
         if not messages:
             await answered.wait()
         return messages.pop() if messages else {"type": f"{scope['type']}.disconnect", "code": 1000}

@@ -1,7 +1,7 @@
 """A script with a token at a gateway on a LAN: what it asks over HTTP, and what reached its board."""
 
 import asyncio
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -10,14 +10,19 @@ from httpx2 import AsyncClient, Response
 from starlette.types import ASGIApp
 
 from servodeck.access import access
+from servodeck.access.devices import Devices, NoShelf
+from servodeck.access.entrance import Entrance
 from servodeck.callers import Caller, Role
 from servodeck.driving.control import Control
+from servodeck.library.library import wall_clock_ms
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Move, ServoTarget
 from servodeck.run.app import create_app
+from servodeck.told import JobState
 from tests.fake_port import FakePort, FakePorts
-from tests.running import DEVICE, NO_LIBRARY, PORT, client_of, entrance_to
+from tests.running import DEVICE, NO_LIBRARY, PORT, client_of
+from tests.test_download import ended
 from tests.virtual_time import now
 
 RUN_TAKEN = bytes.fromhex("55550206")
@@ -41,6 +46,7 @@ class Scripted:
     app: ASGIApp
     owner: dict[str, str]
     token_id: str
+    entrance: Entrance
 
     async def post(self, path: str, *, owner: bool = False, **body: Any) -> Response:
         return await self.client.post(f"/api/{path}", json=body, headers=self.owner if owner else {})
@@ -51,23 +57,45 @@ class Scripted:
         named = {name[1:]: position for name, position in positions.items()}
         return await self.post("move", owner=owner, timeMs=time_ms, positions=named, take=take)
 
+    async def download(self, *slots: int, duration_ms: int = 500, frames: int = 1) -> JobState:
+        """How it ended; the frames take servo 1 to 1500, 1600 and so on."""
+        frame_list = [(duration_ms, 1500 + 100 * (index % 10)) for index in range(frames)]
+        return await self.download_frames(*slots, frames=frame_list)
+
+    async def download_frames(self, *slots: int, frames: Sequence[tuple[int, int]]) -> JobState:
+        """Each: its time, and where servo 1 goes."""
+        shapes = [{"durationMs": duration_ms, "positions": {"1": at}} for duration_ms, at in frames]
+        groups = [{"slot": slot, "frames": shapes} for slot in slots]
+        begun = await self.post("download", groups=groups)
+        assert begun.status_code == 202, begun.text
+        return await ended(self.control, self.control.board.jobs.find(begun.json()["id"]))
+
     def sent(self) -> list[bytes]:
         """Behind the stop at the opening."""
         return self.port.packets()[1:]
 
 
+class DevicesInMemory(Devices):
+    async def keep(self) -> None:
+        """At once: virtual time would go on while a thread works."""
+
+
 @asynccontextmanager
-async def script(role: Role = "driver") -> AsyncIterator[Scripted]:
-    port, entrance = FakePort(), entrance_to(access.lan(PORT), now)
+async def script(
+    role: Role = "driver", board: str = "doc", behind: FakePort | None = None
+) -> AsyncIterator[Scripted]:
+    """`behind` the port."""
+    port = behind or FakePort()
+    entrance = Entrance(access.lan(PORT), DevicesInMemory(NoShelf(), wall_clock_ms), now)
     _, owner = entrance.devices.admit("device", "Olga", "owner")
     device, token = entrance.devices.admit("token", "Dance", role)
-    control = Control(FakePorts(port), now, "doc")
+    control = Control(FakePorts(port), now, board)
     await control.use_port(DEVICE)
     await asyncio.sleep(0.1)
     app = create_app(control, NO_LIBRARY, entrance)
     async with client_of(app) as client:
         client.headers["authorization"] = f"Bearer {token}"
-        yield Scripted(client, control, port, app, {"authorization": f"Bearer {owner}"}, device.id)
+        yield Scripted(client, control, port, app, {"authorization": f"Bearer {owner}"}, device.id, entrance)
     await control.board.link.close()
 
 

@@ -56,7 +56,12 @@ async def test_stop_answers_when_the_stops_have_left_and_resume_moves_nothing() 
     port = FakePort()
     async with http_to(FakePorts(port), now) as (client, control):
         await asyncio.sleep(1)
-        assert (await client.post("/api/stop")).json() == {"latch": True, "halted": True}
+        assert (await client.post("/api/stop")).json() == {
+            "latch": True,
+            "halted": True,
+            # Whatever moved before the port was opened.
+            "unheld": {"servos": None, "forMs": 29_000},
+        }
         assert port.packets() == [STOP] * 4
         assert control.latch is True
         assert (await client.post("/api/resume")).json()["latch"] is False

@@ -1,11 +1,15 @@
 """The assembled gateway: who gets in on every route, headers, the page, the documentation, errors."""
 
+import gc
 import re
 import time
+import weakref
 from pathlib import Path
 from typing import Any
 
 import pytest
+from opentelemetry import trace
+from opentelemetry.trace import NoOpTracer, Tracer, TracerProvider
 
 from servodeck.driving.control import Control
 from servodeck.errors import PortMissingError
@@ -30,6 +34,15 @@ async def test_a_link_of_another_site_reaches_no_route_that_acts(method: str, pa
     assert await knock(app, scope_of("http", "GET", "/docs", headers)) == 200
 
 
+def test_a_gateway_that_nobody_uses_any_more_is_forgotten() -> None:
+    control = Control(NOWHERE, time.monotonic, "doc")
+    create_app(control, NO_LIBRARY, entrance_to())
+    gone = weakref.ref(control)
+    del control
+    gc.collect()
+    assert gone() is None
+
+
 async def test_every_answer_carries_the_security_headers() -> None:
     async with http_to(NOWHERE, time.monotonic, device=None) as (client, _):
         for path in ("/", "/docs", "/api/health", "/unknown"):
@@ -45,7 +58,7 @@ async def test_every_answer_carries_the_security_headers() -> None:
             assert headers["referrer-policy"] == "no-referrer"
             assert headers["cross-origin-opener-policy"] == "same-origin"
             assert headers["cross-origin-resource-policy"] == "same-origin"
-            assert headers["permissions-policy"] == "serial=(self), hid=(self)"
+            assert headers["permissions-policy"] == "serial=(self), hid=(self), bluetooth=(self)"
         refused = await client.get("/api/health", headers={"host": "evil.example"})
         assert refused.status_code == 403
         assert refused.json()["code"] == "forbidden"
@@ -85,6 +98,42 @@ async def test_every_error_has_one_shape(
         assert answer.json()["code"] == code
         assert set(answer.json()) == {"code", "detail"}
         await control.board.link.close()
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "allowed"),
+    [
+        ("PATCH", "/api/port", "DELETE, PUT"),
+        ("POST", "/api/library/a", "GET, PUT"),
+        ("POST", "/api/library/a/versions/b", "DELETE, GET, PUT"),
+        ("GET", "/api/stop", "POST"),
+        ("POST", "/docs", "GET"),
+        ("POST", "/index.html", "GET, HEAD"),
+    ],
+)
+async def test_a_refused_method_is_told_all_others(method: str, path: str, allowed: str) -> None:
+    async with http_to(NOWHERE, time.monotonic, device=None) as (client, _):
+        answer = await client.request(method, path)
+        assert (answer.status_code, answer.headers["allow"]) == (405, allowed)
+
+
+async def test_nothing_is_measured_for_anybody_else_whatever_the_environment_says(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The framework would send what it measures to whoever a variable names."""
+    monkeypatch.setenv("FASTAPI_OTEL_AUTO_CONFIGURE", "true")
+    monkeypatch.setenv("OTEL_EXPORTER_OTLP_ENDPOINT", "http://127.0.0.1:9")
+    measured = []
+
+    class Provider(TracerProvider):
+        def get_tracer(self, *_args: object, **_more: object) -> Tracer:
+            measured.append(1)
+            return NoOpTracer()
+
+    monkeypatch.setattr(trace, "get_tracer_provider", Provider)
+    async with http_to(NOWHERE, time.monotonic, device=None) as (client, _):
+        assert (await client.get("/api/health")).status_code == 200
+    assert measured == []
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ from urllib.request import Request, urlopen
 import pytest
 from typer.testing import CliRunner, Result
 
+from servodeck import __version__
 from servodeck.cli.cli import app
 from servodeck.files.remembered import FILE
 from tests.samples import STOP
@@ -28,6 +29,11 @@ END_S = 3.0
 
 def run(*arguments: str) -> Result:
     return CliRunner().invoke(app, list(arguments))
+
+
+def test_the_version_is_told() -> None:
+    told = run("--version")
+    assert (told.exit_code, told.stdout) == (0, f"servodeck {__version__}\n")
 
 
 class Served:

@@ -86,7 +86,7 @@ async def test_a_conversation_from_welcome_to_resume(port: FakePort, gateway: Ru
         refused = await hear(client)
         assert (refused["type"], refused["id"], refused["code"]) == ("refused", None, "malformed")
         assert (await hear(client))["latch"] is True
-        assert await hear(client) == {"type": "halted"}
+        assert (await hear_until(client, "halted"))["unheld"]["servos"] is None
         await say(client, type="send", id=4, packet=MOVE.hex(), nonce=nonce)
         refused = await hear(client)
         assert (refused["id"], refused["code"]) == (4, "latched")

@@ -62,7 +62,8 @@ def assert_control_goes_on(served: Served) -> None:
         client.send(json.dumps({"type": "send", "id": 1, "packet": MOVE.hex(), "nonce": nonce}))
         while (message := json.loads(client.recv(5)))["type"] != "sent":
             assert message["type"] != "refused", message
-    assert httpx2.post(f"{served.url}/api/stop").json() == {"latch": True, "halted": True}
+    stopped = httpx2.post(f"{served.url}/api/stop").json()
+    assert (stopped["latch"], stopped["halted"]) == (True, True)
     httpx2.post(f"{served.url}/api/resume")
 
 

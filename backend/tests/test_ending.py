@@ -129,7 +129,17 @@ def test_what_hangs_for_ever_does_not_put_it_off(hang: str, code: int) -> None:
     served.end()
 
 
-def test_a_second_signal_waits_for_nobody(served: Served) -> None:
+@pytest.mark.parametrize("again", ["SIGTERM", "SIGINT", "end of stdin"])
+def test_whoever_asks_twice_gets_the_same_end_and_nothing_goes_wrong(tmp_path: Path, again: str) -> None:
+    served = Served("--data", str(tmp_path), "--exit-with-stdin", "--log-level", "warning")
+    assert served.process.stdin
     with raw(served, UPGRADE):
-        served.process.send_signal(signal.SIGTERM)
+        if again == "end of stdin":
+            served.process.stdin.close()
+            served.process.stdin = None
+        else:
+            served.process.send_signal(signal.Signals[again])
         end_in_time(served)
+    assert served.process.stderr
+    assert served.process.stderr.read() == ""
+    served.end()

@@ -14,7 +14,7 @@ from starlette.types import Message
 
 from servodeck.access import access
 from servodeck.access.hub import OUTBOX_MESSAGES
-from servodeck.access.impatient import ABORT
+from servodeck.access.impatient import EXTENSION
 from servodeck.driving.control import Control
 from servodeck.run.app import create_app
 from servodeck.web.events_api import SILENCE_S
@@ -34,6 +34,7 @@ class Listener:
     gone: asyncio.Event = field(default_factory=asyncio.Event)
     sent: list[Message] = field(default_factory=list)
     aborted: bool = False
+    ids: list[str] = field(default_factory=list)
 
     async def receive(self) -> Message:
         await self.gone.wait()
@@ -43,12 +44,16 @@ class Listener:
         await self.reads.wait()
         self.sent.append(message)
 
+    def know(self) -> None:
+        """They may stay."""
+
     def abort(self) -> None:
         self.aborted = True
 
     def heard(self) -> list[dict[str, Any]]:
         """Every message since the last look."""
-        lines = [message["body"].decode() for message in self.sent if message.get("body")]
+        lines = "".join(message["body"].decode() for message in self.sent if message.get("body")).split("\n")
+        self.ids += [line.removeprefix("id: ") for line in lines if line.startswith("id: ")]
         self.sent.clear()
         return [json.loads(line.removeprefix("data: ")) for line in lines if line.startswith("data: ")]
 
@@ -63,7 +68,7 @@ class Stage:
 
 
 @asynccontextmanager
-async def listening() -> AsyncIterator[Stage]:
+async def listening(*more: tuple[bytes, bytes]) -> AsyncIterator[Stage]:
     """A viewer's script that listens to a gateway on a LAN."""
     port, entrance = FakePort(), entrance_to(access.lan(PORT), now)
     device, token = entrance.devices.admit("token", "Dance", "viewer")
@@ -72,8 +77,9 @@ async def listening() -> AsyncIterator[Stage]:
     listener = Listener()
     listener.reads.set()
     headers = [*headers_of(f"localhost:{PORT}", None), (b"authorization", f"Bearer {token}".encode())]
+    headers += more
     scope = scope_of("http", "GET", "/api/events", headers) | {
-        "extensions": {ABORT: {"abort": listener.abort}}
+        "extensions": {EXTENSION: {"connection": listener}}
     }
     app = create_app(control, NO_LIBRARY, entrance)
     life = asyncio.ensure_future(app(scope, listener.receive, listener.send))
@@ -102,6 +108,23 @@ async def test_a_stream_begins_with_how_everything_stands_and_goes_on_with_what_
 
 
 @in_virtual_time
+async def test_each_event_has_an_id_and_whoever_comes_again_is_told_that_it_is_not_continued() -> None:
+    async with listening() as here:
+        await here.control.stop(None)
+        await asyncio.sleep(0.1)
+        said = here.listener.heard()
+        stream, _, first = here.listener.ids[0].partition("-")
+        assert here.listener.ids == [f"{stream}-{number}" for number in range(1, len(said) + 1)]
+        assert first == "1"
+        last = here.listener.ids[-1]
+    async with listening((b"last-event-id", last.encode())) as here:
+        gap, welcome = here.listener.heard()
+        assert gap == {"type": "gap", "after": last}
+        assert welcome["type"] == "welcome"
+        assert not here.listener.ids[0].startswith(stream)
+
+
+@in_virtual_time
 async def test_where_nothing_happens_a_line_shows_that_somebody_is_there() -> None:
     async with listening() as here:
         here.listener.sent.clear()
@@ -127,7 +150,7 @@ async def test_whoever_is_sent_away_and_who_is_there_at_the_end_hears_the_end() 
     for is_revoked in (True, False):
         async with listening() as here:
             if is_revoked:
-                here.control.hub.send_away(here.token_id, "Revoked.")
+                here.control.send_away(here.token_id, "Revoked.", "Olga")
             else:
                 here.control.hub.close()
             await asyncio.sleep(0.1)
@@ -144,12 +167,13 @@ async def test_over_a_real_socket_it_can_be_read_line_by_line_and_the_gateway_en
     ):
         assert answer.headers["content-type"].startswith("text/event-stream")
         lines = answer.aiter_lines()
+        assert (await anext(lines)).startswith("id: ")
         assert json.loads((await anext(lines)).removeprefix("data: "))["type"] == "welcome"
         begun_s = time.monotonic()
         running.server.leave()
         rest = [line async for line in lines]
         assert time.monotonic() - begun_s < 1
-        assert all(line.startswith("data: ") for line in rest if line)
+        assert all(line.startswith(("id: ", "data: ")) for line in rest if line)
 
 
 async def test_over_a_real_socket_a_listener_who_does_not_read_is_cut() -> None:

@@ -152,6 +152,7 @@ def test_after_all_of_it_a_stop_is_heard_and_motion_may_be_allowed(gateway: Gate
     gateway.settle()
     port = gateway.ports.opened[-1]
     before = len(port.written)
-    assert gateway.ask("POST", "/api/stop") == {"latch": True, "halted": True}
+    stopped = gateway.ask("POST", "/api/stop")
+    assert (stopped["latch"], stopped["halted"]) == (True, True)
     assert [packet for _, packet in port.written[before:]].count(STOP) >= 3
     assert gateway.ask("POST", "/api/resume")["latch"] is False

@@ -1,12 +1,13 @@
 """Connections that say too little or too much of a request end soon; the others need not hurry."""
 
 import asyncio
+import json
 import time
 
 import pytest
 from websockets.asyncio.client import connect
 
-from servodeck.access import impatient
+from servodeck.access import access, impatient, unauthenticated
 from servodeck.run import server
 from tests.client import upgrade_at
 from tests.fake_port import FakePort, FakePorts
@@ -46,6 +47,68 @@ async def test_a_head_that_drips_in_is_not_waited_for() -> None:
         writer.close()
 
 
+LARGE_HEADS = {
+    "a long header": HEAD + b"X-Long: " + b"x" * 40_000 + b"\r\n\r\n",
+    "long headers": HEAD + (b"X-Long: " + b"x" * 5_000 + b"\r\n") * 8 + b"\r\n",
+    "many headers": HEAD + b"X: 1\r\n" * 5_000 + b"\r\n",
+    "a long address": HEAD.replace(b" /", b" /?" + b"x" * 40_000) + b"\r\n",
+}
+
+
+@pytest.mark.parametrize("head", LARGE_HEADS.values(), ids=LARGE_HEADS.keys())
+async def test_a_large_head_is_refused_with_its_reason(head: bytes) -> None:
+    async with server_on(FakePorts(FakePort())) as gateway:
+        reader, writer = await asyncio.open_connection(*gateway.address)
+        writer.write(head.replace(b"%s", gateway.host.encode()))
+        answer = await asyncio.wait_for(reader.read(), impatient.ANSWERED_S + MARGIN_S)
+        assert answer.startswith(b"HTTP/1.1 431 Request Header Fields Too Large\r\n")
+        assert json.loads(answer.partition(b"\r\n\r\n")[2])["code"] == "tooLarge"
+        writer.transport.abort()
+
+
+async def test_a_head_of_sane_size_is_answered() -> None:
+    async with server_on(FakePorts(FakePort())) as gateway:
+        reader, writer = await asyncio.open_connection(*gateway.address)
+        more = b"X-Long: " + b"x" * 30_000 + b"\r\n" + b"X: 1\r\n" * 90
+        for _ in range(2):
+            writer.write(HEAD % gateway.host.encode() + more + b"\r\n")
+            await asyncio.wait_for(reader.readuntil(b"HTTP/1.1 200 OK\r\n"), MARGIN_S)
+        writer.close()
+
+
+async def test_a_body_that_nobody_waits_for_is_left_where_it_is() -> None:
+    """A stop goes through first; what is announced behind it stays in the system's own small buffers."""
+    async with server_on(FakePorts(FakePort())) as gateway:
+        reader, writer = await asyncio.open_connection(*gateway.address)
+        head = HEAD.replace(b"GET /api/health", b"POST /api/stop") % gateway.host.encode()
+        writer.write(head + b"Content-Type: application/json\r\nContent-Length: 16000\r\n\r\n{")
+        assert (await reader.readline()) == b"HTTP/1.1 200 OK\r\n"
+        assert await ends_after_s(reader) <= impatient.ANSWERED_S + MARGIN_S
+        writer.close()
+
+
+async def test_the_connections_of_nobody_known_are_few_and_the_least_used_end_first(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(unauthenticated, "MOST_OF_ONE", 3)
+    async with server_on(FakePorts(FakePort()), make_access=access.lan) as gateway:
+        _, token = gateway.entrance.devices.admit("token", "Script", "viewer")
+        authorization = b"Authorization: Bearer " + token.encode() + b"\r\n"
+        known = await asyncio.open_connection(*gateway.address)
+        known[1].write(HEAD % gateway.host.encode() + authorization + b"\r\n")
+        await known[0].readuntil(b"\r\n\r\n")
+        unknown = [await asyncio.open_connection(*gateway.address) for _ in range(3)]
+        unknown[0][1].write(HEAD % gateway.host.encode() + b"\r\n")
+        await unknown[0][0].readuntil(b"\r\n\r\n")
+        unknown += [await asyncio.open_connection(*gateway.address) for _ in range(2)]
+        await ends_after_s(unknown[1][0])
+        await ends_after_s(unknown[2][0])
+        assert [reader.at_eof() for reader, _ in unknown] == [False, True, True, False, False]
+        assert not known[0].at_eof()
+        for _, writer in (known, *unknown):
+            writer.close()
+
+
 async def test_a_head_without_end_is_not_collected() -> None:
     async with server_on(FakePorts(FakePort())) as gateway:
         reader, writer = await asyncio.open_connection(*gateway.address)
@@ -56,7 +119,7 @@ async def test_a_head_without_end_is_not_collected() -> None:
 
 @pytest.mark.parametrize(
     ("limit", "said"),
-    [("FIRST_BYTE_S", b""), ("BODY_S", HEAD + b"Content-Length: 9\r\n\r\n")],
+    [("IDLE_S", b""), ("BODY_S", HEAD + b"Content-Length: 9\r\n\r\n")],
     ids=["nothing", "no body"],
 )
 async def test_what_never_comes_is_not_waited_for(
@@ -99,7 +162,7 @@ async def test_who_has_its_answer_and_talks_on_is_not_listened_to() -> None:
 
 
 async def test_a_page_that_says_nothing_more_stays(monkeypatch: pytest.MonkeyPatch) -> None:
-    for limit in ("FIRST_BYTE_S", "HEAD_S", "BODY_S"):
+    for limit in ("IDLE_S", "HEAD_S", "BODY_S"):
         monkeypatch.setattr(impatient, limit, 0.2)
     async with server_on(FakePorts(FakePort())) as gateway, connect(gateway.ws) as client:
         await hear_until(client, "welcome")
@@ -132,3 +195,16 @@ async def test_what_was_to_be_said_when_that_end_comes_is_no_mistake(
         served.keepalive_timeout()
         await client.wait_closed()
     assert [record for record in caplog.records if record.levelname == "ERROR"] == []
+
+
+async def test_who_is_known_may_ask_again_on_the_same_connection(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server, "IDLE_S", 0.1)
+    async with server_on(FakePorts(FakePort())) as gateway:
+        reader, writer = await asyncio.open_connection(*gateway.address)
+        for _ in range(2):
+            writer.write(HEAD % gateway.host.encode() + b"\r\n")
+            assert await reader.readline() == b"HTTP/1.1 200 OK\r\n"
+            while not (await reader.read(4096)).endswith(b"}"):
+                pass
+            await asyncio.sleep(0.4)
+        writer.close()

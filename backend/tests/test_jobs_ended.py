@@ -4,9 +4,11 @@ import asyncio
 
 import pytest
 
+from servodeck.board.parts import packets_of
 from servodeck.callers import THIS_COMPUTER
 from servodeck.errors import (
     LatchedError,
+    PortLostError,
     SlotBrokenError,
 )
 from tests.client import Client, gateway_on
@@ -61,6 +63,46 @@ async def test_what_ends_it_is_said_and_leaves_the_slot_broken(end: str) -> None
         frames = [packet for packet in port.packets() if packet[3] == DOWNLOAD[3]]
         await asyncio.sleep(10)
         assert [packet for packet in port.packets() if packet[3] == DOWNLOAD[3]] == frames
+
+
+class VanishingPort(AnsweringPort):
+    """Takes so many bytes of the download and is gone."""
+
+    def __init__(self, bytes_left: int) -> None:
+        super().__init__(QUICK)
+        self._bytes_left = bytes_left
+
+    def write(self, data: bytes) -> None:
+        if data[3] != DOWNLOAD[3]:
+            super().write(data)
+            return
+        taken, self._bytes_left = data[: self._bytes_left], max(0, self._bytes_left - len(data))
+        if taken == data:
+            super().write(data)
+            return
+        self.written.append((now(), taken))
+        self.unplug()
+        raise PortLostError("The board is gone.")
+
+
+@in_virtual_time
+async def test_a_port_that_vanishes_at_any_byte_ends_it_and_what_comes_after_is_a_stop() -> None:
+    size = sum(len(packet) for packet in packets_of(WAVE, "doc"))
+    for taken_bytes in range(size):
+        port, again = VanishingPort(taken_bytes), FakePort()
+        async with gateway_on(port, again) as control:
+            place = control.board.link.place
+            job = begin(control, WAVE)
+            await asyncio.sleep(1.5)
+            found = control.board.jobs.find(job.id)
+            assert (found.status, found.code) == ("failed", "lost"), taken_bytes
+            frames = b"".join(packet for packet in port.packets() if packet[3:4] == DOWNLOAD[3:4])
+            assert control.board.jobs.broken(place) == [SLOT], taken_bytes
+            assert len(frames) <= taken_bytes
+            await asyncio.sleep(10)
+            assert again.packets()[0] == STOP, taken_bytes
+            assert not any(packet[3] == DOWNLOAD[3] for packet in again.packets()), taken_bytes
+            assert control.latch
 
 
 @in_virtual_time

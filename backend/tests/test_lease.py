@@ -87,7 +87,7 @@ def test_giving_it_up_is_allowing_whoever_asks() -> None:
     assert lease.driver == "bert"
     lease.release("bert", 1.0)
     assert lease.driver is None
-    assert lease.epoch == 2
+    assert lease.epoch == 3  # a loss counts, too: what was permitted before it does not leave behind it
 
 
 def test_whoever_asks_may_take_that_back_and_a_stranger_can_give_up_nothing() -> None:
@@ -225,3 +225,15 @@ def test_a_driver_who_leaves_is_lost_and_an_asker_who_leaves_is_forgotten() -> N
     assert (lease.asker, told.take()) == (None, [])
     lease.leave("anna", 0.0)
     assert (lease.driver, told.take()) == (None, ["lost", "changed"])
+
+
+def test_what_was_permitted_before_a_loss_is_not_permitted_by_the_next_grant_to_the_same_one() -> None:
+    lease, _ = new_lease()
+    lease.request("anna", 0.0)
+    permit = lease.permit("anna", lease.issue(0.0), 0.0)
+    lease.release("anna", 0.1)
+    with pytest.raises(NotDrivingError):
+        lease.judge(permit, 0.1)
+    lease.request("anna", 0.2)
+    with pytest.raises(NotDrivingError):
+        lease.judge(permit, 0.2)

@@ -3,10 +3,13 @@
 import sqlite3
 import tempfile
 from collections.abc import Callable
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
+from random import Random
+from shutil import copytree
 
 import pytest
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import Bundle, RuleBasedStateMachine, initialize, invariant, rule
 
@@ -20,7 +23,9 @@ from servodeck.errors import (
 )
 from servodeck.library.library import MAX_VERSIONS, TRASH_MS, Library, Listed, Version
 from servodeck.library.library_file import FILE, STEPS
+from tests.amount import TIMES
 
+PAGE_BYTES = 4096
 DAY_MS = 24 * 3600 * 1000
 
 
@@ -168,6 +173,45 @@ def test_a_damaged_file_is_set_aside_and_told(library: Library, tmp_path: Path) 
     assert again.set_aside
     assert (tmp_path / again.set_aside).read_bytes() == damaged
     assert again.write("b", "text", "f", 0) == 1
+
+
+def test_a_damaged_journal_takes_the_last_few_at_most(library: Library, tmp_path: Path) -> None:
+    """SQLite takes what stands behind a damaged page of it for never written, and tells nobody."""
+    for number in range(100):
+        library.write(f"a{number}", "x" * 1000, "f", 0)
+    (tmp_path / "later").mkdir()
+    journal = (tmp_path / f"{FILE}-wal").read_bytes()
+    (tmp_path / "later" / FILE).write_bytes((tmp_path / FILE).read_bytes())
+    (tmp_path / "later" / f"{FILE}-wal").write_bytes(b"\xa5" * len(journal))
+    found = {one.id for one in reopened(tmp_path / "later").list()}
+    assert found >= {f"a{number}" for number in range(90)}
+
+
+@given(seed=st.integers(0, 2**32), part=st.sampled_from(["", "-wal"]), ends=st.booleans())
+@settings(max_examples=20 * TIMES, deadline=None)
+def test_whatever_is_damaged_no_document_is_another_and_nothing_is_raised_but_what_can_be_told(
+    seed: int, part: str, ends: bool
+) -> None:
+    """A page of noise, or an end in the middle."""
+    chance = Random(seed)
+    with tempfile.TemporaryDirectory() as name:
+        before, after = Path(name, "before"), Path(name, "after")
+        library = Library(before)
+        texts = {f"a{number}": str(number) * 700 for number in range(30)}
+        for document, text in texts.items():
+            library.write(document, text, "f", 0)
+        copytree(before, after)  # as a sudden end leaves it
+        library.close()
+        path = after / f"{FILE}{part}"
+        content = path.read_bytes()
+        at = chance.randrange(len(content)) // PAGE_BYTES * PAGE_BYTES
+        noise = b"" if ends else chance.randbytes(PAGE_BYTES) + content[at + PAGE_BYTES :]
+        path.write_bytes(content[:at] + noise)
+        damaged = Library(after)
+        with suppress(StorageError):
+            for one in damaged.list():
+                assert damaged.read(one.id) == (texts[one.id], 1)
+        damaged.close()
 
 
 def test_a_document_stays_of_its_kind_and_is_asked_for_by_it(library: Library) -> None:

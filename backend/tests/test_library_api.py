@@ -1,6 +1,7 @@
 """The library over HTTP: shapes, codes and sizes."""
 
 import json
+import threading
 import time
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -57,6 +58,24 @@ async def test_a_lost_update_is_412_and_says_so(tmp_path: Path) -> None:
         refused = await client.put("/api/library/a", json=body('{"x":3}', 1))
         assert (refused.status_code, refused.json()["code"]) == (412, "conflict")
         assert (await client.get("/api/library/a")).json()["text"] == '{"x":2}'
+
+
+@pytest.mark.parametrize(("size", "is_aside"), [(1_000, False), (1_000_000, True)])
+async def test_a_large_text_is_parsed_where_no_stop_waits_for_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, size: int, is_aside: bool
+) -> None:
+    parse, threads = json.loads, []
+
+    def loads(text: bytes) -> object:
+        threads.append(threading.current_thread())
+        return parse(text)
+
+    async with client_of(tmp_path) as client:
+        monkeypatch.setattr(json, "loads", loads)
+        answer = await client.put("/api/library/a", json=body(json.dumps({"x": "y" * size})))
+        monkeypatch.undo()
+        assert answer.status_code == 200
+        assert (threads[0] is not threading.main_thread()) == is_aside
 
 
 async def test_trash_and_versions(tmp_path: Path) -> None:

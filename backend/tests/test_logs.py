@@ -10,9 +10,11 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
+from websockets.typing import Origin
 
-from servodeck.run.logs import LINES_WAITING, set_up_logs
+from servodeck.run.logs import LINES_WAITING, SparseFilter, facts_of, set_up_logs
 from tests.client import lease_of
 from tests.samples import MOVE
 from tests.test_cli import Served
@@ -60,6 +62,49 @@ def test_each_line_is_an_object_also_those_of_the_libraries(json_served: Served)
     assert lost["device"] == json_served.pty.device
     assert any(line["logger"] == "uvicorn.error" and line["level"] == "warning" for line in lines)
     assert all(line["level"] in LEVELS and line["time"].endswith("+00:00") for line in lines)
+
+
+def test_whoever_is_refused_costs_few_lines_and_no_error(json_served: Served) -> None:
+    ws = f"ws{json_served.url.removeprefix('http')}/ws"
+    for _ in range(30):
+        with pytest.raises(InvalidStatus, match="403"), connect(ws, origin=Origin("http://evil.example")):
+            pass
+        send_garbage(json_served)
+    lines = lines_of(json_served)
+    refused = [line for line in lines if line["event"] == "refused"]
+    garbage = [line for line in lines if "Invalid HTTP" in line["event"]]
+    assert 0 < len(refused) <= 8
+    assert 0 < len(garbage) <= 8
+    assert [line for line in lines if line["level"] == "error"] == []
+    first = {name: value for name, value in refused[0].items() if name != "time"}
+    assert first == {
+        "level": "info",
+        "logger": "servodeck.access",
+        "event": "refused",
+        "from": "127.0.0.1",
+        "type": "websocket",
+        "path": "/ws",
+        "code": "forbidden",
+        "reason": "Only the page that this gateway serves may ask; the Origin header names another.",
+    }
+
+
+@pytest.mark.usefixtures("logging_as_before")
+def test_a_line_says_how_many_were_left_out_and_other_loggers_lose_none() -> None:
+    now_s = 0.0
+    sparse = SparseFilter(lambda: now_s)
+
+    def passes(logger: str) -> bool:
+        record = logging.LogRecord(logger, logging.INFO, "", 0, "refused", (), None)
+        said.append(record)
+        return bool(sparse.filter(record))
+
+    said: list[logging.LogRecord] = []
+    assert [passes("servodeck.access") for _ in range(8)] == [True] * 5 + [False] * 3
+    assert all(passes("servodeck.server") for _ in range(8))
+    now_s = 10.0
+    assert passes("servodeck.access")
+    assert facts_of(said[-1]) == {"leftOut": 3}
 
 
 def status_of(served: Served) -> str:

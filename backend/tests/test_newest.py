@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from servodeck.driving.lease import COMMAND_S
 from servodeck.errors import ExpiredError, GatewayError, LatchedError, MalformedError
 from servodeck.messages import SendMessage
-from servodeck.port.wire import QUEUE_PER_OWNER, Left
+from servodeck.port.wire import QUEUE_PER_OWNER, Left, no_hold
 from servodeck.web.clients import take
 from tests.amount import TIMES
 from tests.client import Client, gateway_on
@@ -78,12 +78,12 @@ async def test_each_is_answered_once_and_nobody_elses_gives_way() -> None:
 async def test_a_stop_of_anybody_drops_it_and_what_comes_behind_waits_for_resume() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        anna, bert = Client(control), Client(control)
+        anna = Client(control)
         await anna.send(MOVE)
         under_way = anna.send(MOVE_ELSEWHERE)
         waiting = control.send(anna, MOVE.hex(), anna.nonce, newest=True)
         before = len(port.written)
-        control.stop(None, bert)
+        control.stop(None)
         with pytest.raises(LatchedError):
             await waiting
         with pytest.raises(LatchedError):
@@ -127,7 +127,7 @@ async def check(asked: list[tuple[int, str]]) -> None:
 
     def ask(number: int, kind: str) -> None:
         if kind == "stop":
-            wire.halt(None, STOPPED)
+            wire.halt(no_hold, STOPPED)
             return
         packet = BATTERY if kind == "battery" else move_to(number)
         owner = BERT if kind == "battery" else ANNA

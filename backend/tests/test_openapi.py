@@ -65,6 +65,15 @@ def test_every_example_fits_the_models(route: APIRoute, method: str, role: Role 
         assert example.answers is None
 
 
+def test_each_operation_has_a_subject_and_a_name_of_its_own_that_can_be_read() -> None:
+    found = [SCHEMA["paths"][route.path][method.lower()] for route, method, _ in ROUTES]
+    names = [operation["operationId"] for operation in found]
+    assert len(set(names)) == len(names)
+    assert {"gatewayStop", "libraryRead", "motionMove", "peopleMe"} <= set(names)
+    assert all(name.isalpha() for name in names)
+    assert all(operation["operationId"].startswith(operation["tags"][0]) for operation in found)
+
+
 def assert_fits(value: Any, schema: dict[str, Any]) -> None:
     errors = list(validator_for(schema | {"components": SCHEMA["components"]}).iter_errors(value))
     assert errors == []

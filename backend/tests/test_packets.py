@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from servodeck.protocol.decoder import Decoder, DecoderEvent, Packet, PacketEvent
-from servodeck.protocol.families import DOC, FAMILIES, Family, Range
+from servodeck.protocol.families import DOC, FAMILIES, Family, MotionTraits, Range
 from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import check_command, encode, parse_command, parse_report
 from servodeck.protocol.values import (
@@ -163,8 +163,8 @@ def camel(name: str) -> str:
 
 
 def plain(value: object) -> object:
-    if isinstance(value, Range):
-        return {"min": value.min, "max": value.max}
+    if isinstance(value, Range | MotionTraits):
+        return {camel(name): plain(getattr(value, name)) for name in value.__dataclass_fields__}
     if isinstance(value, Mapping):
         return {str(servo): plain(span) for servo, span in value.items()}
     return list(value) if isinstance(value, tuple) else value

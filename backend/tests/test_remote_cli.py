@@ -7,15 +7,20 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import httpx2
 import pytest
 
-from servodeck.cli.exits import FAILURE, INTERRUPTED, UNREACHABLE, USAGE
+from servodeck.cli.exits import FAILURE, INTERRUPTED, TIMED_OUT, UNREACHABLE, USAGE
+from servodeck.cli.remote_cli import usual_limit_s
+from servodeck.cli.stop_words import held_words
 from tests.samples import BATTERY, RUN, STOP
 from tests.test_cli import Served, run
 
 SILENT = ("--log-level", "error")
+RUN_9 = bytes.fromhex("55550506090100")
+ENDLESS = bytes.fromhex("55550506080000")
 MOVE_OF_TWO = bytes.fromhex("55550803 01dc05 01d007") + bytes.fromhex("55550803 01dc05 028403")
 
 
@@ -54,8 +59,33 @@ def test_a_bare_stop_does_not_wait_for_the_rest_of_the_command_line(served: Serv
     said = subprocess.check_output(
         [sys.executable, "-c", program], text=True, env=variables(SERVODECK_URL=served.url)
     )
-    assert said == "Stopped. servodeck resume allows motion again.\nFalse\n"
+    assert said.startswith("Stopped, but a frame in progress cannot be held: servos may move for up to ")
+    assert said.endswith(" servodeck resume allows motion again.\nFalse\n")
     assert served.read_until_stops(3) == STOP * 3
+
+
+@pytest.mark.parametrize(
+    ("unheld", "words"),
+    [
+        (None, "Stopped."),
+        (
+            {"servos": None, "forMs": 3759},
+            "Stopped, but a frame in progress cannot be held: servos may move for up to 3.8 s.",
+        ),
+        (
+            {"servos": [3], "forMs": 1200},
+            "Stopped, but servo 3 cannot be held: it may move for up to 1.2 s.",
+        ),
+        (
+            {"servos": [1, 3], "forMs": 900},
+            "Stopped, but servos 1, 3 cannot be held: they may move for up to 0.9 s.",
+        ),
+    ],
+)
+def test_a_stop_says_what_it_cannot_hold_and_how_long_that_may_move(
+    unheld: dict[str, Any] | None, words: str
+) -> None:
+    assert held_words(unheld) == words
 
 
 def test_a_bare_stop_that_fails_is_explained() -> None:
@@ -93,6 +123,32 @@ def test_a_run_is_watched_over_until_ctrl_c_ends_it(served: Served) -> None:
         assert watching.wait(5) == INTERRUPTED
         assert served.read_until_stops(3) == RUN + STOP * 3
         assert "waits for resume" not in run("status", "--url", served.url).stdout
+
+
+def test_a_run_whose_end_nobody_hears_of_is_ended_in_time_with_a_code_of_its_own(served: Served) -> None:
+    ended = run("run", "9", "--timeout", "1.2", "--url", served.url)
+    assert (ended.exit_code, "within 1.2 s" in ended.stderr, "empty" in ended.stderr) == (
+        TIMED_OUT,
+        True,
+        True,
+    )
+    assert served.read_until_stops(3) == RUN_9 + STOP * 3
+    assert "waits for resume" not in run("status", "--url", served.url).stdout
+
+
+def test_an_end_is_waited_for_as_long_as_the_group_takes_or_half_a_minute() -> None:
+    assert usual_limit_s(4200) == 6.2
+    assert usual_limit_s(None) == 30
+
+
+def test_an_endless_run_says_so_and_begins_only_where_its_watch_has_an_end(served: Served) -> None:
+    refused = run("run", "8", "--times", "0", "--url", served.url)
+    assert (refused.exit_code, "until somebody stops it" in refused.stderr) == (USAGE, True)
+    ended = run("run", "8", "--times", "0", "--timeout", "1", "--url", served.url)
+    assert (ended.exit_code, ended.stdout.splitlines()[1:]) == (0, ["Ended after 1 s."])
+    assert served.read_until_stops(3) == ENDLESS + STOP * 3
+    both = run("run", "8", "--continue", "60", "--timeout", "1", "--url", served.url)
+    assert both.exit_code == USAGE
 
 
 def test_a_run_that_somebody_stops_ends_its_watch(served: Served) -> None:

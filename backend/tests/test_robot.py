@@ -88,7 +88,7 @@ async def test_who_calibrates_a_servo_may_pass_its_limits_alone_and_until_the_en
         say(control, anna, type="calibrate", servo=1)
         control.leave(anna)
         with pytest.raises(OutOfRangeError):
-            anna.send(MOVE)
+            control.limits.judge(MOVE, anna)
 
 
 @in_virtual_time

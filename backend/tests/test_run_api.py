@@ -3,7 +3,7 @@
 import asyncio
 from typing import Any
 
-from tests.samples import ERASE, RUN, STOPS
+from tests.samples import ERASE, RUN, STOPS, stored
 from tests.scripted import (
     ERASED,
     RUN_ENDED,
@@ -71,7 +71,7 @@ async def test_where_only_the_board_knows_the_end_letting_go_is_enough_and_nobod
 @in_virtual_time
 async def test_of_a_group_that_the_gateway_stored_itself_it_says_how_long_it_may_take() -> None:
     async with script() as here:
-        here.control.board.motion.stored(8, [2000])
+        here.control.board.motion.stored(8, stored(8, 2000), now())
         await here.post("slots/8/run")
         ends_in_ms = (await running(here))["endsInMs"]
         assert 2000 < ends_in_ms < 3600
@@ -109,3 +109,20 @@ async def test_who_is_not_let_in_any_more_is_stopped() -> None:
         await asyncio.sleep(0.5)
         assert here.sent() == [RUN, *STOPS]
         assert (await here.move(1500, s1=2000)).status_code == 401
+
+
+@in_virtual_time
+async def test_while_nobody_has_said_which_board_it_is_the_way_out_is_told_and_nothing_leaves() -> None:
+    async with script(board="unknown") as here:
+        frame = {"durationMs": 500, "positions": {"1": 1500}}
+        refused = (
+            await here.move(500, s1=2000),
+            await here.post("slots/8/run"),
+            await here.post("erase", owner=True),
+            await here.post("download", groups=[{"slot": 1, "frames": [frame]}]),
+            await here.post("poses/Greeting/apply"),
+        )
+        for answer in refused:
+            assert refusal(answer) == (409, "notSupported")
+            assert "serve --board FAMILY" in answer.json()["detail"]
+        assert here.sent() == []

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.board.motion import Motion
+from servodeck.board.estimate import Estimate
 from servodeck.driving.script_moves import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S, MovePlan, plan_move
 from servodeck.errors import NotSupportedError, OutOfRangeError
 from servodeck.protocol.families import FAMILIES, Family
@@ -16,9 +16,9 @@ DOC = FAMILIES["doc"]
 MOVERS = [family for family in FAMILIES.values() if "move" in family.commands]
 
 
-def moved(family: Family, *servos: int, duration_ms: int = 20) -> Motion:
+def moved(family: Family, *servos: int, duration_ms: int = 20) -> Estimate:
     """A robot whose servos went somewhere, long ago where they did so at once."""
-    motion = Motion(family)
+    motion = Estimate(family)
     for servo in servos:
         target = ServoTarget(servo, family.position_of(servo).min)
         motion.left(encode(Move(duration_ms, (target,)), family), 0.0)
@@ -26,7 +26,7 @@ def moved(family: Family, *servos: int, duration_ms: int = 20) -> Motion:
 
 
 def plan(
-    positions: dict[int, int], duration_ms: int, motion: Motion, family: Family, at_s: float
+    positions: dict[int, int], duration_ms: int, motion: Estimate, family: Family, at_s: float
 ) -> MovePlan:
     return plan_move(duration_ms, positions, family, motion, at_s, lambda servo: f"servo {servo}")
 

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from servodeck.errors import BusyError, ClosedError, GatewayError, LatchedError, PortLostError
-from servodeck.port.wire import QUEUE_PER_OWNER, Wire
+from servodeck.port.wire import QUEUE_PER_OWNER, Wire, no_hold
 from tests.amount import TIMES
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, GAP_MS, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
@@ -74,7 +74,9 @@ async def test_a_stop_waits_for_the_packet_on_the_wire_and_for_nothing_else() ->
     port = FakePort()
     async with open_wire(port) as wire:
         waiting = [wire.send(packet, ANNA) for packet in (MOVE, RUN, MOVE_ELSEWHERE)]
-        at(0.015, lambda: wire.halt(MOVE_ELSEWHERE, STOPPED))  # the first move is on the wire since 10 ms
+        at(
+            0.015, lambda: wire.halt(lambda: MOVE_ELSEWHERE, STOPPED)
+        )  # the first move is on the wire since 10 ms
         await waiting[0]
         for left in waiting[1:]:
             with pytest.raises(LatchedError):
@@ -98,7 +100,7 @@ async def test_a_stop_on_an_idle_wire_leaves_at_once() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
         await asyncio.sleep(1)
-        await wire.halt(None, STOPPED)
+        await wire.halt(no_hold, STOPPED)
         assert port.times_ms() == approx_ms(1000, 1070, 1140)
         assert now() * 1000 == pytest.approx(1140 + STOP_MS, abs=0.1)
 
@@ -108,7 +110,7 @@ async def test_a_stop_keeps_its_distance_even_from_a_board_that_needs_less() -> 
     port = FakePort()
     async with open_wire(port, gap_ms=2) as wire:
         await wire.send(MOVE, ANNA)
-        await wire.halt(None, STOPPED)
+        await wire.halt(no_hold, STOPPED)
     assert port.times_ms()[1] == pytest.approx(port.times_ms()[0] + wire_ms(MOVE) + GAP_MS, abs=0.1)
 
 
@@ -116,7 +118,7 @@ async def test_a_stop_keeps_its_distance_even_from_a_board_that_needs_less() -> 
 async def test_nothing_slips_in_between_the_stops_and_the_pose() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        halted = wire.halt(MOVE_ELSEWHERE, STOPPED)
+        halted = wire.halt(lambda: MOVE_ELSEWHERE, STOPPED)
         wire.send(BATTERY, ANNA)
         wire.send(STOP, ANNA, urgent=True)
         await halted
@@ -128,9 +130,8 @@ async def test_nothing_slips_in_between_the_stops_and_the_pose() -> None:
 async def test_pressing_stop_again_joins_the_sequence_and_brings_the_newer_pose() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        first = wire.halt(MOVE, STOPPED)
-        at(0.03, lambda: wire.halt(MOVE_ELSEWHERE, STOPPED))
-        at(0.05, lambda: wire.halt(None, STOPPED))
+        first = wire.halt(lambda: MOVE, STOPPED)
+        at(0.03, lambda: wire.halt(lambda: MOVE_ELSEWHERE, STOPPED))
         await first
     assert port.packets() == [STOP, MOVE, STOP, STOP, MOVE_ELSEWHERE]
 
@@ -140,7 +141,7 @@ async def test_hammering_stop_never_puts_off_the_pose_and_each_press_is_followed
     port = FakePort()
     async with open_wire(port) as wire:
         for press in range(100):
-            at(press * 0.05, lambda: wire.halt(MOVE, STOPPED))
+            at(press * 0.05, lambda: wire.halt(lambda: MOVE, STOPPED))
         await asyncio.sleep(6)
     poses = [at_s for at_s, packet in port.written if packet == MOVE]
     stops = [at_s for at_s, packet in port.written if packet == STOP]
@@ -152,9 +153,9 @@ async def test_hammering_stop_never_puts_off_the_pose_and_each_press_is_followed
 async def test_after_the_sequence_the_wire_serves_again() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        await wire.halt(None, STOPPED)
+        await wire.halt(no_hold, STOPPED)
         await wire.send(MOVE, ANNA)
-        await wire.halt(None, STOPPED)
+        await wire.halt(no_hold, STOPPED)
     assert port.packets() == [STOP, STOP, STOP, MOVE, STOP, STOP, STOP]
 
 
@@ -179,7 +180,7 @@ async def test_a_full_queue_does_not_keep_stops_out_yet_they_are_bounded_too() -
             wire.send(STOP, ANNA, urgent=True)
         with pytest.raises(BusyError):
             wire.send(STOP, ANNA, urgent=True)
-        await wire.halt(None, STOPPED)
+        await wire.halt(no_hold, STOPPED)
 
 
 @in_virtual_time
@@ -208,7 +209,7 @@ async def test_a_lost_port_fails_all_that_waits_and_whatever_comes_later() -> No
         with pytest.raises(PortLostError):
             wire.send(MOVE, ANNA)
         with pytest.raises(PortLostError):
-            wire.halt(None, STOPPED)
+            wire.halt(no_hold, STOPPED)
 
 
 @in_virtual_time
@@ -217,7 +218,7 @@ async def test_a_port_that_takes_nothing_is_lost_too() -> None:
     port.refuses_writes = True
     async with open_wire(port) as wire:
         with pytest.raises(PortLostError):
-            await wire.halt(None, STOPPED)
+            await wire.halt(no_hold, STOPPED)
 
 
 @in_virtual_time
@@ -264,7 +265,7 @@ async def play(asked: list[tuple[int, str]], port: FakePort) -> None:
     def ask(wire: Wire, kind: str) -> None:
         try:
             if kind == "stop":
-                wire.halt(None, STOPPED)
+                wire.halt(no_hold, STOPPED)
             else:
                 wire.send(MOVE if kind == "move" else BATTERY, ANNA)
         except GatewayError:

@@ -9,12 +9,13 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
+from httpx2 import AsyncClient
 from websockets.asyncio.client import ClientConnection, connect
 
 from servodeck.port.background import BackgroundPorts
@@ -40,11 +41,12 @@ class Board:
 
     link: Path
     log: Path
+    name: str = "doc"
     process: subprocess.Popen[str] | None = None
 
     def plug(self) -> None:
         bridge = [sys.executable, str(ROOT / "scripts" / "pty_board.py"), "--link", str(self.link), "--"]
-        board = [str(NODE), str(SIMULATOR), "--stdio", "--bus-log", str(self.log)]
+        board = [str(NODE), str(SIMULATOR), "--stdio", "--board", self.name, "--bus-log", str(self.log)]
         self.process = subprocess.Popen([*bridge, *board], stderr=subprocess.PIPE, text=True)
         assert self.process.stderr
         assert self.process.stderr.readline().startswith("pty ")
@@ -60,10 +62,19 @@ class Board:
         entries = [json.loads(line) for line in self.log.read_text().splitlines()[1:]]
         return [(entry["atMs"], entry["byte"]) for entry in entries if entry["direction"] == "in"]
 
+    async def packets_taken(self) -> list[tuple[float, bytes]]:
+        """Each packet of which all has reached the board, with the time of its last byte."""
+        taken, packets, at = self.taken(), [], 0
+        # Behind its two first bytes comes the length of the rest.
+        while at + 2 < len(taken) and (end := at + 2 + taken[at + 2][1]) <= len(taken):
+            packets.append((taken[end - 1][0], bytes(byte for _, byte in taken[at:end])))
+            at = end
+        return packets
+
 
 @pytest.fixture
-def board(tmp_path: Path) -> Iterator[Board]:
-    made = Board(tmp_path / "board", tmp_path / "bus.jsonl")
+def board(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Board]:
+    made = Board(tmp_path / "board", tmp_path / "bus.jsonl", getattr(request, "param", "doc"))
     made.plug()
     yield made
     made.pull()
@@ -112,3 +123,57 @@ async def test_a_pulled_cable_is_told_and_a_plugged_one_found_again(board: Board
         nonce = await drive(client)
         await say(client, type="send", id=1, packet=MOVE.hex(), nonce=nonce)
         assert await hear_until(client, "sent") == {"type": "sent", "id": 1}
+
+
+SLOT, START, END, FRAME_MS = 5, 1000, 2000, 4000
+PATIENCE_S = 5
+Answer = TypeVar("Answer")
+RUN_SLOT = bytes.fromhex("55550506050100")
+# A tick, what the board says, and the way of the bytes through two more processes: 400 ms of it.
+LEEWAY = 100
+GROUP = {"slot": SLOT, "frames": [{"durationMs": FRAME_MS, "positions": {"1": END}}]}
+
+
+async def ask_until(ask: Callable[[], Awaitable[Answer]], is_it: Callable[[Answer], bool]) -> Answer:
+    async with asyncio.timeout(PATIENCE_S):
+        while not is_it(answer := await ask()):  # noqa: ASYNC110 (nothing announces it)
+            await asyncio.sleep(0.05)
+    return answer
+
+
+async def ask_at_rest(client: AsyncClient, path: str, **body: Any) -> dict[str, Any]:
+    """As soon as the robot does not move any more."""
+    answer = await ask_until(
+        lambda: client.post(f"/api/{path}", json=body), lambda answer: answer.status_code != 409
+    )
+    assert answer.is_success, answer.text
+    said: dict[str, Any] = answer.json()
+    return said
+
+
+@pytest.mark.parametrize("board", ["openarm-old"], indirect=True)
+async def test_a_group_that_the_gateway_stored_is_held_where_its_frame_has_the_servo(
+    board: Board, gateway: Running
+) -> None:
+    async with AsyncClient(base_url=f"http://{gateway.host}") as client:
+        await client.put("/api/port", json={"device": str(board.link), "board": board.name})
+        await ask_at_rest(client, "move", timeMs=1500, positions={"1": START})
+        job = (await ask_at_rest(client, "download", groups=[GROUP]))["id"]
+        state = await ask_until(
+            lambda: client.get(f"/api/jobs/{job}"), lambda answer: answer.json()["status"] != "running"
+        )
+        assert state.json()["status"] == "done"
+        await ask_at_rest(client, f"slots/{SLOT}/run", continueForMs=60_000)
+        await asyncio.sleep(1)
+        stopped = await ask_at_rest(client, "stop")
+    taken = await ask_until(
+        board.packets_taken, lambda packets: [packet for _, packet in packets][-6:-5] == [RUN_SLOT]
+    )
+    assert stopped["unheld"] is None
+    [(begun_ms, _), (_, first), (held_ms, hold), *repeats, (_, again)] = taken[-6:]
+    assert [first, *(packet for _, packet in repeats)] == [STOP] * 3
+    target, ran_ms = int.from_bytes(hold[8:10], "little"), held_ms - begun_ms
+    assert START < target < END
+    assert START + (END - START) * ran_ms / FRAME_MS == pytest.approx(target, abs=LEEWAY)
+    assert again[:5] == hold[:5]
+    assert again[7:] == hold[7:]

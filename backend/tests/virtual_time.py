@@ -2,15 +2,20 @@
 
 import asyncio
 import selectors
+import threading
 from collections.abc import Callable, Coroutine
 from functools import wraps
 from typing import Any, ParamSpec
 
+from servodeck.threads import NAME
+
 P = ParamSpec("P")
+# How long to look whether a thread has finished before looking again.
+LOOK_S = 0.01
 
 
 class JumpingSelector(selectors.SelectSelector):
-    """Where a real one would wait for a timer, it moves the clock there."""
+    """Where a real one would wait for a timer, it moves the clock there, but not while a thread works."""
 
     now_s = 0.0
 
@@ -18,6 +23,8 @@ class JumpingSelector(selectors.SelectSelector):
         ready = super().select(0)
         if ready:
             return ready
+        if any(thread.name == NAME for thread in threading.enumerate()):
+            return super().select(LOOK_S)
         if timeout is None:
             raise RuntimeError(
                 "Nothing will ever happen again: the test waits for an event that cannot come."

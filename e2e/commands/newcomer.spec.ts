@@ -15,6 +15,17 @@ test('a newcomer starts, drives, captures, downloads, runs, stops, pulls the cab
   await page.goto(terminal.url);
   // The board is a simulated one, and says so; that it is the gateway's shows where the cable is pulled.
   await expect(dashboard.link).toHaveText(/^Ready/);
+  await test.step('finds Connect on every screen', async () => {
+    const usual = page.viewportSize()!;
+    for (const size of [
+      { width: 390, height: 844 },
+      { width: 820, height: 1180 },
+    ]) {
+      await page.setViewportSize(size);
+      await expect(dashboard.button('Connect')).toBeInViewport({ ratio: 1 });
+    }
+    await page.setViewportSize(usual);
+  });
   await dashboard.button('Show the log').click();
 
   await test.step('drags a slider and sees the servo follow', async () => {

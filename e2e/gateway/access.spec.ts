@@ -25,7 +25,8 @@ test('an owner comes in by the terminal’s link, lets a viewer in, who stops th
   const before = await stops(ptyBoard.bus);
   await ben.stop.click();
   await poll(() => stops(ptyBoard.bus)).toBeGreaterThanOrEqual(before + 3);
-  await expect(ben.status).toContainText('Stop was pressed here');
+  // The gateway has just opened the port: what somebody else set in motion before may go on.
+  await expect(ben.status).toContainText('The robot may move on for up to');
   await expect(owner.status).toContainText('Stopped by Ben');
 
   const used = await newDevice(browser, invitation.link);
@@ -115,4 +116,44 @@ test('a stop-only link has one button, which stops the robot', async ({ newGatew
   await expect(owner.status).toContainText('Stopped');
   await passer.reload();
   await expect(passer.getByRole('heading', { name: 'Stop the robot' })).toBeVisible();
+});
+
+test('whoever revokes a script is asked what becomes of the group that it let go on', async ({
+  newGateway,
+  ptyBoard,
+  browser,
+  request,
+}) => {
+  const gateway = await newGateway({ serial: ptyBoard.device, lan: true });
+  const owner = await guest(browser, (await firstInvitation(gateway)).link, { name: 'Olga' });
+  const people = peopleOf(owner);
+  const dialog = owner.page.getByRole('alertdialog', { name: 'Revoke Dance?' });
+  const shown = people.dialog.getByText(/^[0-9a-f]{16}\./);
+  let token = '';
+  async function danceAlone(): Promise<void> {
+    await people.dialog.getByRole('textbox', { name: 'What for' }).fill('Dance');
+    await people.dialog.getByRole('button', { name: 'Make a token' }).click();
+    // The one before stands there until this one has come.
+    if (token !== '') await expect(shown).not.toHaveText(token);
+    token = await shown.innerText();
+    const run = await request.post(`${new URL(owner.page.url()).origin}/api/slots/9/run`, {
+      headers: { authorization: `Bearer ${token}` },
+      data: { times: 2, continueForMs: 600_000, take: false },
+    });
+    expect(run.ok()).toBe(true);
+    await people.person('Dance').getByRole('button', { name: 'Revoke' }).click();
+    await expect(dialog).toContainText('Slot 9, which it let go on, still runs');
+  }
+  await people.opener.click();
+  await danceAlone();
+  const before = await stops(ptyBoard.bus);
+  await dialog.getByRole('button', { name: 'Revoke, let it run' }).click();
+  await expect(people.person('Dance')).toBeHidden();
+  expect(await stops(ptyBoard.bus)).toBe(before);
+
+  await danceAlone();
+  await dialog.getByRole('button', { name: 'Revoke and stop' }).click();
+  await expect(people.person('Dance')).toBeHidden();
+  await poll(() => stops(ptyBoard.bus)).toBeGreaterThanOrEqual(before + 3);
+  await expect(owner.status).toContainText('Stopped by Olga');
 });

@@ -1,9 +1,12 @@
 // What single boards can do more: where their servos stand, letting go of them, the speed of their groups. A real gateway, real
 // serial devices; the oracle is what the board heard.
 
+import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { ofKind } from '../fixtures/bus.ts';
 import { dashboardOf, READY } from '../fixtures/dashboard.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
+
+const saidOf = ({ servo, position }: ServoTarget): string => `${servo} to ${position}`;
 
 const SIX = [1, 2, 3, 4, 5, 6];
 
@@ -21,6 +24,13 @@ test.describe('an xArm', () => {
     await expect(dashboard.link).toHaveText(READY);
     await dashboard.button('Read positions').click();
     await expect(dashboard.servoRow(6)).toContainText(/≈ 400.*400.*ago/u);
+    await expect(dashboard.target(6)).toHaveValue('400');
+    await dashboard.slider(5).press('ArrowRight');
+    await dashboard.target(6).press('ArrowUp');
+    // A move may say again what the one before it said.
+    const said = async () =>
+      ofKind(await ptyBoard.bus(), 'move').flatMap(({ targets }) => targets.map(saidOf));
+    await poll(async () => [...new Set(await said())]).toEqual(['5 to 401', '6 to 401']);
     await dashboard.type(dashboard.target(1), 500);
     await expect(dashboard.estimate(1)).toHaveText('≈ 500');
 
@@ -30,7 +40,7 @@ test.describe('an xArm', () => {
     await warning.getByRole('button', { name: 'Keep holding' }).click();
     await dashboard.button('Release').click();
     await warning.getByRole('button', { name: 'Release every servo' }).click();
-    await expect(dashboard.servoRow(6)).not.toContainText('400');
+    await expect(dashboard.servoRow(6)).not.toContainText('40');
     await poll(async () => ofKind(await ptyBoard.bus(), 'release')).toEqual([
       { kind: 'release', servos: SIX },
     ]);

@@ -5,6 +5,7 @@ import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
 import { fingersOf } from '../fixtures/fingers.ts';
 import type { Robot } from '../fixtures/robot.ts';
+import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 const act = ({ turn }: Dashboard, verb: string): Promise<void> =>
@@ -75,6 +76,21 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   await other.type(other.target(2), 1700);
   await poll(() => lastTarget(robot.bus, 2)).toBe(1700);
   await poll(() => topOfWork(dashboard)).toEqual(before);
+});
+
+test('whoever calibrates asks to drive where it is said', async ({ dashboard, robot, context }) => {
+  const other = await joins(robot, context);
+  await dashboard.type(dashboard.target(1), 1800);
+  await expect(other.turn).toContainText('Another window drives');
+  const robots = robotDialogOf(other);
+  await robots.opener.click();
+  await robots.button('Calibrate').click();
+  await expect(robots.dialog).toContainText('Choose “Ask to drive” for a turn.');
+  await robots.button('Ask to drive').click();
+  await expect(robots.button('Do not ask')).toBeVisible();
+  await act(dashboard, 'Allow');
+  await expect(robots.button('Do not ask')).toBeHidden();
+  await expect(robots.button('Go slowly to the middle').or(robots.creep('lower'))).toBeVisible();
 });
 
 test.describe('with a finger', () => {

@@ -51,7 +51,7 @@ const DIALOGS = [
   ['电池设置', '关闭'],
   ['全部擦除', '保留'],
   ['连接', '关闭'],
-  ['机器人：机械臂，6个舵机', '关闭'],
+  ['机器人：机械臂', '关闭'],
 ] as const;
 
 /** Every text that is seen or spoken, apart from what says of itself that it is English. */

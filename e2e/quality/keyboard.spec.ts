@@ -2,6 +2,7 @@
 
 import type { Locator, Page } from '@playwright/test';
 import { dashboardOf } from '../fixtures/dashboard.ts';
+import { cutRing } from '../fixtures/rings.ts';
 import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 import { timelineOf } from '../fixtures/timeline.ts';
@@ -218,7 +219,7 @@ test('robots, library, files, keys over time, slots and poses need no mouse', as
     const map = page.getByRole('listbox', { name: 'Map of the slots' });
     await tabTo(page, map);
     await keyboard.press('ArrowRight');
-    await expect(map.getByRole('option', { selected: true })).toHaveAccessibleName(/^Slot 1:/);
+    await expect(map.getByRole('option', { selected: true })).toHaveAccessibleName(/^Slot 22:/);
   });
   const timeline = timelineOf(page);
   await tabTo(page, timeline.grid, 'Shift+Tab');
@@ -246,3 +247,34 @@ test('a button presses once for a key that is held', async ({ page, servers }) =
   await page.keyboard.up('Enter');
   await expect(dashboard.frames).toHaveCount(2);
 });
+
+for (const viewport of [
+  { width: 1440, height: 900 },
+  { width: 1280, height: 720 },
+  { width: 820, height: 1180 },
+]) {
+  test.describe(`a window ${viewport.width} pixels wide`, () => {
+    test.use({ viewport });
+
+    test('shows all of the ring around what has the focus, after Escape too', async ({ page, servers }) => {
+      const dashboard = dashboardOf(page);
+      await page.goto((await servers.files()).url);
+      await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
+      await dashboard.capture.click();
+      await expect(dashboard.frames).toHaveCount(1);
+      const library = page.getByRole('button', { name: 'Library', exact: true });
+      for (const element of [timelineOf(page).grid, library, dashboard.button('Connect')]) {
+        await element.focus();
+        await page.keyboard.press('Escape');
+        expect.soft(await cutRing(page)).toBeNull();
+      }
+      const cut = new Set<string>();
+      for (let presses = 0; presses < MOST_TABS; presses += 1) {
+        await page.keyboard.press('Tab');
+        const how = await cutRing(page);
+        if (how !== null) cut.add(how);
+      }
+      expect([...cut]).toEqual([]);
+    });
+  });
+}

@@ -117,3 +117,27 @@ test('once its power was gone the last pose is a guess, and only a press takes t
   expect(after[0]?.durationMs).toBeGreaterThanOrEqual(1500);
   await expect(dashboard.button('Go to the last known pose')).toBeHidden();
 });
+
+test('what a screen reader finds in a field follows the hand', async ({ dashboard, page }) => {
+  await dashboard.type(dashboard.target(1), 1500);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
+  const seen = await dashboard.target(1).evaluateHandle((field: HTMLInputElement) => {
+    const values = new Set<string>();
+    const look = (): void => {
+      values.add(field.value);
+      requestAnimationFrame(look);
+    };
+    look();
+    return values;
+  });
+  const box = (await dashboard.slider(1).boundingBox())!;
+  const y = box.y + box.height / 2;
+  await page.mouse.move(box.x + box.width / 2, y);
+  await page.mouse.down();
+  // For two seconds, so that half of what a quarter of a second brings is enough.
+  const begun = Date.now();
+  while (Date.now() - begun < 2000)
+    await page.mouse.move(box.x + box.width / 2 + ((Date.now() - begun) / 2000) * 100, y);
+  expect(await seen.evaluate((values) => values.size)).toBeGreaterThanOrEqual(5);
+  await page.mouse.up();
+});

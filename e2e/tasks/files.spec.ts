@@ -78,7 +78,7 @@ test('several files come at once; a broken one tells where and why, and changes 
   await expect(files.file('secret.rob')).toBeVisible();
   await dashboard.button('Close').click();
   await expect(dashboard.frames).toHaveCount(2);
-  await expect(dashboard.button('Files, 2 opened')).toBeVisible();
+  await expect(dashboard.button('Files, 1 opened, 1 not opened')).toBeVisible();
 });
 
 test('several groups are taken in one go: one is shown, the others are in the library', async ({
@@ -90,10 +90,37 @@ test('several groups are taken in one go: one is shown, the others are in the li
   await files.open({ name: 'all one.xml', content }, { name: 'all two.xml', content }, vector('secret.rob'));
   await files.dialog.getByRole('button', { name: 'Open all 2' }).click();
   await expect(dashboard.field('Name of the group')).toHaveValue('all one');
-  await expect(dashboard.button('Files, 1 opened')).toBeVisible();
+  await expect(dashboard.button('Files, 1 not opened')).toBeVisible();
   const library = libraryOf(page);
   await library.show();
   await expect(library.card('all two')).toBeVisible();
+});
+
+test('files are read by a worker: how far it has come is said, and a cancel loses nothing', async ({
+  dashboard,
+  page,
+}) => {
+  await captureGroup(dashboard, [1000, 1200]);
+  const files = filesDialogOf(dashboard);
+  let letGo = (): void => undefined;
+  const held = new Promise<void>((resolve) => (letGo = resolve));
+  await page.route(/readingWorker/, async (route) => {
+    await held;
+    await route.continue().catch(() => undefined);
+  });
+  const progress = files.dialog.getByRole('progressbar', { name: 'Reading files' });
+  await files.open(vector('nod.xml'), vector('greet.d6a'), vector('reach.csv'));
+  await expect(progress).toHaveAttribute('aria-valuetext', '0 of 3 files read');
+  await files.dialog.getByRole('button', { name: 'Cancel' }).click();
+  await expect(files.dialog).toContainText('Cancelled. 3 files not read.');
+  await expect(progress).toBeHidden();
+  letGo();
+  await files.open(vector('nod.xml'), vector('greet.d6a'));
+  await expect(files.file('nod.xml')).toContainText('2 frames');
+  await expect(files.file('greet.d6a')).toContainText('3 frames');
+  await expect(files.dialog).not.toContainText('not read');
+  await dashboard.button('Close').click();
+  await expect(dashboard.frames).toHaveCount(2);
 });
 
 test('what the board cannot do becomes no program, and says which servo and frame', async ({ dashboard }) => {
@@ -122,6 +149,27 @@ test('files dropped anywhere on the panel are opened; beside it a drop does noth
   await expect(filesDialogOf(dashboard).dialog).toBeHidden();
   await page.getByRole('region', { name: 'Action group' }).dispatchEvent('drop', { dataTransfer: carried });
   await expect(filesDialogOf(dashboard).file('nod.xml')).toContainText('2 frames, 0.8 sec, 6 servos');
+});
+
+test('where no board is known the robot’s own counts: files are judged by it and programs are written for it', async ({
+  page,
+  ptyBoard,
+  newGateway,
+}) => {
+  const { url } = await newGateway({ serial: ptyBoard.device, board: 'unknown' });
+  await ptyBoard.unplug();
+  const dashboard = dashboardOf(page);
+  await page.goto(url);
+  await expect(dashboard.link).not.toContainText('Ready');
+  const files = filesDialogOf(dashboard);
+  await files.open(vector('nod.xml'));
+  const nod = files.file('nod.xml');
+  await expect(nod).toContainText('2 frames, 0.8 sec, 6 servos');
+  await expect(nod).not.toContainText('the board takes');
+  await expect(nod).not.toContainText('there are servos');
+  await nod.getByRole('button', { name: 'Open nod' }).click();
+  const { content } = await files.save('Python');
+  expect(content.toString()).toContain('FRAMES = [');
 });
 
 test.describe('on a board that counts in steps', () => {
@@ -153,10 +201,15 @@ test.describe('on a board that counts in steps', () => {
     await dashboard.button('Undo: open nod').click();
     await files.open(vector('nod.xml'));
     await nod.last().getByRole('button', { name: 'Open nod' }).click();
-    // Beside what it keeps from being played and from being sent, where there is room for both.
-    await expect(
-      dashboard.page.getByText('This group is in µs; the connected board counts otherwise.').first(),
-    ).toBeVisible();
+    const question = page.getByText('Made for another board. Convert?');
+    await expect(question).toBeVisible();
     await expect(dashboard.button('Play')).toBeDisabled();
+    await expect(key('Gripper, 0.50 s, 700 µs, linear')).toBeVisible();
+    await dashboard.button('Convert').click();
+    await expect(question).toBeHidden();
+    await expect(key('Gripper, 0.50 s, 100 steps, linear')).toBeVisible();
+    await expect(dashboard.button('Play')).toBeEnabled();
+    await dashboard.button('Undo: convert for this board').click();
+    await expect(question).toBeVisible();
   });
 });

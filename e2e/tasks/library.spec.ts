@@ -1,6 +1,8 @@
 // The library: groups are kept by themselves, found again, brought back, moved, and never lost to somebody else's change.
 
 import { readFile } from 'node:fs/promises';
+import { emptyGroup } from '#shared/actions/group/group.ts';
+import { libraryToText } from '#shared/actions/library/libraryText.ts';
 import { bundle } from '../fixtures/robotInPage.ts';
 import { captureGroup } from '../fixtures/group.ts';
 import { dashboardOf, READY } from '../fixtures/dashboard.ts';
@@ -71,6 +73,38 @@ test('each group keeps its own undo; versions, tags, copies and the trash work f
   await library.card('Salute, copy').getByRole('button', { name: 'Bring back' }).click();
   await library.dialog.getByRole('switch', { name: 'Deleted' }).uncheck();
   await library.open('Salute, copy');
+});
+
+test('of many groups those in sight are drawn, and more as the end of the list comes into sight', async ({
+  dashboard,
+  page,
+}) => {
+  await captureGroup(dashboard, [1500]);
+  const documents = Array.from({ length: 100 }, (_, index) => ({
+    ...{ id: `many-${index}`, updatedAtMs: index, versions: [] },
+    group: emptyGroup(`Step ${index + 1}`, 'us'),
+  }));
+  const library = libraryOf(page);
+  await library.show();
+  const choosing = page.waitForEvent('filechooser');
+  await library.button('Import').click();
+  await (
+    await choosing
+  ).setFiles({
+    ...{ name: 'many.json', mimeType: 'application/json' },
+    buffer: Buffer.from(libraryToText({ documents })),
+  });
+  const more = library.dialog.getByRole('button', { name: /^Show more of / });
+  await expect(more).toBeVisible();
+  expect(await library.names()).toHaveLength(48);
+  await more.scrollIntoViewIfNeeded();
+  await poll(async () => (await library.names()).length).toBeGreaterThanOrEqual(96);
+  await library.list.getByRole('listitem').last().scrollIntoViewIfNeeded();
+  await expect(more).toBeHidden();
+  expect(await library.names()).toEqual(expect.arrayContaining(documents.map(({ group }) => group.name)));
+  // What is looked for is found wherever it would stand.
+  await library.dialog.getByRole('searchbox').fill('Step 1');
+  await library.open('Step 1');
 });
 
 test.describe('at a gateway that is there late', () => {

@@ -15,8 +15,8 @@ test('the log shows packets in words and in bytes, both ways, and can be thinned
   await dashboard.button('Show the log').click();
   await dashboard.type(dashboard.target(1), 2000);
   await poll(() => lastTarget(robot.bus, 1)).toBe(2000);
-  await expect(dashboard.log).toContainText('Move 1 → 2000 in 1500 ms');
-  await expect(dashboard.log).toContainText('55 55 08 03 01 DC 05 01 D0 07');
+  await expect(dashboard.log).toContainText('Move 1 → 2000 in 2000 ms');
+  await expect(dashboard.log).toContainText('55 55 08 03 01 D0 07 01 D0 07');
   await expect(dashboard.log).toContainText('Ask for the battery');
   await expect(dashboard.log).toContainText('Battery 7.50 V');
   await expect(dashboard.log).toContainText('55 55 04 0F 4C 1D');
@@ -43,7 +43,27 @@ test('the log is saved as text that a person can read', async ({ dashboard, robo
   const text = readFileSync(await file.path(), 'utf8');
   expect(text).toMatch(/^servodeck-log: 1\nboard: doc\nport: .+\n/u);
   expect(text).toMatch(/^\d+\.\d{3} {2}= {2}opened {2}# Link ready$/mu);
-  expect(text).toMatch(/^\d+\.\d{3} {2}> {2}55 55 08 03 01 DC 05 01 D0 07 {2}# Move 1 → 2000 in 1500 ms$/mu);
+  expect(text).toMatch(/^\d+\.\d{3} {2}> {2}55 55 08 03 01 D0 07 01 D0 07 {2}# Move 1 → 2000 in 2000 ms$/mu);
+});
+
+test('the folded log says a stop before anything that follows it', async ({ dashboard, page }) => {
+  await dashboard.type(dashboard.target(1), 2000);
+  const latest = page.getByRole('button', { name: 'Show the log' });
+  await expect(latest).toContainText('Move 1 → 2000');
+  const said = await latest.evaluateHandle((strip) => {
+    const texts: string[] = [];
+    const note = (): void => void texts.push(strip.textContent);
+    new MutationObserver(note).observe(strip, { characterData: true, childList: true, subtree: true });
+    return texts;
+  });
+  await dashboard.drag(2, 0.3);
+  await dashboard.stop.click();
+  await expect(dashboard.resume).toBeVisible();
+  await expect(dashboard.estimate(2)).toBeVisible();
+  await expect(latest).toContainText('Stopped from here');
+  const texts = await said.evaluate((all) => [...all]);
+  const first = texts.findIndex((text) => text.includes('Stopped from here'));
+  expect(texts.slice(first).filter((text) => !text.includes('Stopped from here'))).toEqual([]);
 });
 
 function byHand({ button, field }: Dashboard, page: Page) {

@@ -51,7 +51,7 @@ test('the board gets a group before it runs it, not a second time, and in place 
   await expect(dashboard.estimate(1)).toHaveText('≈ 1400');
   const said = await noteTexts(dashboard.status);
   await dashboard.button('Run on board').click();
-  await poll(said).toContainEqual(expect.stringContaining('Running slot 0, once'));
+  await poll(said).toContainEqual(expect.stringContaining('Running slot 21, once'));
   await expect(dashboard.status).toHaveText('Idle');
   expect(ofKind(await robot.bus(), 'download')).toHaveLength(2);
   await dashboard.button('Run on board').click();
@@ -65,10 +65,11 @@ test('the board gets a group before it runs it, not a second time, and in place 
   await expect(dashboard.frames).toHaveCount(0);
   await library.call('Instead');
   await captureGroup(dashboard, [1400], 400);
-  const question = page.getByRole('alertdialog', { name: 'Slot 0 holds another group' });
+  await dashboard.type(dashboard.slot, 21);
+  const question = page.getByRole('alertdialog', { name: 'Slot 21 holds another group' });
   const answers = [
     { answer: 'Leave it as it is', downloads: 2, runs: 2 },
-    { answer: 'Replace and run', downloads: 3, runs: 3 },
+    { answer: 'Replace', downloads: 3, runs: 3 },
   ];
   for (const { answer, downloads, runs } of answers) {
     await dashboard.button('Run on board').click();
@@ -168,7 +169,7 @@ test('several groups of the library go to their slots with one progress', async 
   await several.getByRole('checkbox', { name: /^Wave for six/ }).click();
   await expect(slotOf('Wave for six')).toHaveValue('6');
   await several.getByRole('checkbox', { name: /^Bow for seven/ }).click();
-  await expect(slotOf('Bow for seven')).toHaveValue('0');
+  await expect(slotOf('Bow for seven')).toHaveValue('21');
   await dashboard.type(slotOf('Bow for seven'), 6);
   await expect(several).toContainText('Slot 6 is wanted twice.');
   await expect(several.getByRole('button', { name: 'Download these' })).toBeDisabled();

@@ -166,8 +166,8 @@ test('a robot goes to a file and comes back; a file that is none changes nothing
   const downloading = page.waitForEvent('download');
   await robots.button('Export').click();
   const download = await downloading;
-  expect(download.suggestedFilename()).toBe('Arm 6 servos.json');
-  const text = readFileSync(await download.path(), 'utf8').replace('"Arm, 6 servos"', '"Desk arm"');
+  expect(download.suggestedFilename()).toBe('Arm.json');
+  const text = readFileSync(await download.path(), 'utf8').replace('"Arm"', '"Desk arm"');
 
   const choose = async (name: string, content: string): Promise<void> => {
     const chooser = page.waitForEvent('filechooser');

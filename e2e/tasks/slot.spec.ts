@@ -2,6 +2,7 @@
 
 import { kindsAfter, ofKind } from '../fixtures/bus.ts';
 import { captureGroup, downloadGroup } from '../fixtures/group.ts';
+import { libraryOf } from '../fixtures/library.ts';
 import { noteAttribute, noteTexts } from '../fixtures/notes.ts';
 import { SLOW_FLASH } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
@@ -56,6 +57,43 @@ test('a group runs until it is ended after its frame in progress, one at a time'
   const kinds = async () => (await kindsAfter(robot.bus, beforeEnd)).join(' ');
   await poll(kinds).toMatch(/^stop stop stop( readBattery)*$/);
   await expect(dashboard.resume).toBeHidden();
+});
+
+test('a group without a slot of its own gets a free one, and another group is replaced only after a question', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  const library = libraryOf(page);
+  const question = page.getByRole('alertdialog', { name: 'Slot 2 holds another group' });
+  const stored = async () => ofKind(await robot.bus(), 'download').map(({ slot }) => slot);
+  await captureGroup(dashboard, [1000], 200);
+  await library.call('Bow in two');
+  await downloadGroup(dashboard, 2, 1000);
+  await library.show();
+  await library.button('New group').click();
+  await captureGroup(dashboard, [1300], 200);
+  await library.call('Wave in none');
+  await expect(dashboard.slot).toHaveValue('21');
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1300');
+
+  await dashboard.type(dashboard.slot, 2);
+  await expect(dashboard.boardBar).toContainText('Holds “Bow in two”');
+  await dashboard.button('Download').click();
+  await expect(question).toContainText('“Wave in none” takes the place of “Bow in two”');
+  await question.getByRole('button', { name: 'Leave it as it is' }).click();
+  await expect(question).toBeHidden();
+  expect(await stored()).toEqual([2]);
+  await dashboard.button('Download').click();
+  await question.getByRole('button', { name: 'Use slot 21' }).click();
+  await expect(dashboard.notices).toContainText('Slot 21 is downloaded.');
+  await expect(dashboard.slot).toHaveValue('21');
+  expect(await stored()).toEqual([2, 21]);
+
+  await library.show();
+  await library.open('Bow in two');
+  await expect(dashboard.slot, 'where it is').toHaveValue('2');
+  await expect(dashboard.boardBar).toContainText('Holds this group');
 });
 
 test.describe('on a board with slow flash', () => {

@@ -24,6 +24,7 @@ import { RobotDialog } from './robots/RobotDialog.tsx';
 import { Authoring } from './authoring/Authoring.tsx';
 import { ButtonsPage } from './macros/ButtonsPage.tsx';
 import { Kiosk } from './macros/Kiosk.tsx';
+import { ReplaceQuestion } from './slots/ReplaceQuestion.tsx';
 import { LivePanel } from './servos/LivePanel.tsx';
 import { StopButton } from './stop/StopButton.tsx';
 import { StoresContext, useStores, useView } from './stores/stores.ts';
@@ -69,6 +70,7 @@ function Dashboard({ page }: { readonly page: Page }) {
       <ConnectDialog connector={page.connector} />
       <RobotDialog />
       <LibraryDialog />
+      <ReplaceQuestion />
       {!isKiosk && <TakeThatKey />}
       <PeopleDialog />
       <Hints />

@@ -112,6 +112,11 @@ class Devices:
             raise NotFoundError("No such device is paired.")
         return found
 
+    def role_of(self, device: str) -> Role | None:
+        """None where it is not paired any more."""
+        found = self._devices.get(device)
+        return found.role if found else None
+
     def _told_apart(self, name: str, but: Device | None = None) -> str:
         """With a number behind it where somebody else is called so: a class has more than one Android. Who
         comes in is never called as whoever sits at the gateway's computer.

@@ -37,6 +37,10 @@ class Entrance:
         caller.require(role)
         return caller
 
+    def still_lets_in(self, caller: Caller) -> bool:
+        """Whoever was let in a moment ago may have been revoked since, or have another role."""
+        return not self.access.needs_pairing or self.devices.role_of(caller.id) == caller.role
+
     def count(self, caller: Caller) -> None:
         """One more request of theirs. Raises TooManyError."""
         if caller is not THIS_COMPUTER:

@@ -15,10 +15,11 @@ from servodeck.errors import (
     MalformedError,
     NotSupportedError,
     OutOfRangeError,
+    TooLargeError,
     WrongTypeError,
 )
 from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.families import FAMILIES, UNKNOWN
 from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import check_command, encode
 from servodeck.protocol.values import Download
@@ -75,6 +76,13 @@ def judge_body_type(method: str, headers: Headers) -> None:
     kind = (only(found, b"content-type") or b"").partition(b";")[0].strip().lower()
     if method in BODY_METHODS and has_body and kind != b"application/json":
         raise WrongTypeError("A body has to be application/json.")
+
+
+def judge_body_size(headers: Headers, limit: int) -> None:
+    """What is announced; what comes without being announced is counted as it comes. Raises TooLargeError."""
+    announced = only(list(headers), b"content-length")
+    if announced is not None and int(announced) > limit:  # a number: the server has read it
+        raise TooLargeError(f"The request is larger than {limit} bytes.")
 
 
 def judge_site(headers: list[tuple[bytes, bytes]]) -> None:
@@ -136,6 +144,16 @@ def judge_newest(packet: bytes, newest: bool) -> None:
     """Nothing but a move is made void by a later one. Raises MalformedError."""
     if newest and packet[COMMAND_AT] != MOVE:
         raise MalformedError("Only a move can give way to a newer one.")
+
+
+def judge_known(board: str) -> None:
+    """Raises NotSupportedError while nobody has said which board it is: none of its limits is known."""
+    if board == UNKNOWN.id:
+        raise NotSupportedError(
+            "Nobody has said yet which board is connected, so nothing goes to it that moves or stores. "
+            "Open the page once, which asks it; or name its family: servodeck serve --board FAMILY, or "
+            'PUT /api/port {"device": ..., "board": ...}. It is remembered for the port.'
+        )
 
 
 def refusal_of(error: PacketError) -> GatewayError:

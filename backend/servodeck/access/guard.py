@@ -1,18 +1,23 @@
-"""Stands before everything the gateway serves: asks `gate` about each request and upgrade, adds the security
-headers.
+"""Stands before everything the gateway serves: asks `gate` about each request and upgrade, lets who is
+unknown wait where many ask at once, adds the security headers.
 
 Pure ASGI, because ordinary middleware does not see WebSockets. Knows no route.
 """
 
+import asyncio
 import re
+import time
 
 from starlette.datastructures import MutableHeaders
 from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from servodeck.access.access import Access
-from servodeck.access.gate import judge_body_type, judge_handshake
+from servodeck.access.entrance import Entrance
+from servodeck.access.gate import judge_body_size, judge_body_type, judge_handshake
+from servodeck.access.impatient import connection_of
+from servodeck.access.intake import Rate
+from servodeck.access.refusals import log_refusal
 from servodeck.errors import GatewayError
 
 BODY_BYTES = 16 * 1024
@@ -22,6 +27,9 @@ LARGER_BODIES = (
     # Reading one takes 15 ms, in which a stop waits. The largest group there is, or 90 of the usual size.
     (re.compile(r"/api/download"), 512 * 1024),
 )
+# Requests of nobody known, all together: a refusal takes up to a millisecond, in which a stop waits, on a
+# small computer three.
+OF_UNKNOWN = (200.0, 10)
 STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
 
 CONTENT_POLICY = (
@@ -35,14 +43,17 @@ FIXED_HEADERS = {
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
-    "Permissions-Policy": "serial=(self), hid=(self)",
+    "Permissions-Policy": "serial=(self), hid=(self), bluetooth=(self)",
 }
 
 
 class Guard:
-    def __init__(self, app: ASGIApp, access: Access) -> None:
+    def __init__(self, app: ASGIApp, entrance: Entrance) -> None:
         self.app = app
-        self._access = access
+        self._entrance = entrance
+        self._access = entrance.access
+        self._turn = asyncio.Lock()
+        self._of_unknown = Rate(*OF_UNKNOWN, time.monotonic)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
@@ -52,13 +63,29 @@ class Guard:
             host = judge_handshake(scope["headers"], self._access, own_address)
             if scope["type"] == "http":
                 judge_body_type(scope["method"], scope["headers"])
+                judge_body_size(scope["headers"], body_bytes(scope["path"]))
+            is_known = self._entrance.find(scope["headers"]) is not None
         except GatewayError as error:
+            await self._turn_of_unknown(scope)
+            log_refusal(scope, error)
             # The Host is not to be trusted here, so it does not appear in the policy.
             refusal = JSONResponse({"code": error.code, "detail": error.detail}, error.status)
             return await refusal(scope, receive, with_headers(send, "'self'"))
+        if not is_known:
+            await self._turn_of_unknown(scope)
         limited = limit_body(receive, body_bytes(scope["path"])) if scope["type"] == "http" else receive
         socket = f"{'wss' if self._access.is_secure else 'ws'}://{host}"
         return await self.app(scope, limited, with_headers(send, socket))
+
+    async def _turn_of_unknown(self, scope: Scope) -> None:
+        """In the order in which they came, past those who have left."""
+        connection = connection_of(scope)
+        if connection is None:
+            return
+        async with self._turn:
+            if not connection.is_lost() and not self._of_unknown.take():
+                await asyncio.sleep(self._of_unknown.wait_s)
+                self._of_unknown.take()
 
 
 def with_headers(send: Send, socket: str) -> Send:

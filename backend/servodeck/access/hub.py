@@ -68,6 +68,10 @@ class Seat:
         return text if isinstance(text, str) else text()
 
 
+def is_of(seat: Seat | None, caller_id: str) -> bool:
+    return seat is not None and seat.caller.id == caller_id
+
+
 class Hub:
     def __init__(self) -> None:
         # In the order in which they came.
@@ -92,12 +96,6 @@ class Hub:
         for seat in self._seats:
             if seat.caller.id == caller_id:
                 seat.caller = replace(seat.caller, name=name)
-
-    def send_away(self, caller_id: str, reason: str) -> None:
-        """Ends every seat of theirs; what they still say is not heard."""
-        for seat in self._seats:
-            if seat.caller.id == caller_id:
-                seat.end(AGAINST_THE_RULES, reason)
 
     def close(self) -> None:
         """Nobody sits here any more."""

@@ -1,59 +1,117 @@
-"""Connections that cannot be held open by saying little: a request comes soon and whole, with a head of sane
-size; a WebSocket answers a ping; else the connection ends.
+"""Connections that cannot be held open by saying little, nor fill memory by saying much: a request comes soon
+and whole, with a head of sane size; its body is read only where somebody waits for it; a WebSocket answers a
+ping; else the connection ends.
 
 Knows time and bytes, no request's meaning. uvicorn itself waits for ever.
 """
 
 import asyncio
-from collections.abc import Callable
+from typing import Any, Protocol
 
 from starlette.types import Scope
 from uvicorn._types import ASGISendEvent
-from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
+from uvicorn.config import Config
+from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol
 from uvicorn.protocols.utils import ClientDisconnected
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+from uvicorn.server import ServerState
 
-# Browsers open a connection or two ahead of need.
-FIRST_BYTE_S = 10.0
+from servodeck.access.unauthenticated import Unauthenticated
+
+# Before its first request and between two. Browsers open a connection or two ahead of need, and again later.
+IDLE_S = 2
+# Of who is known, between two requests: longer than clients keep a connection for their next request, so that
+# none of them asks on one that is just being closed.
+KNOWN_IDLE_S = 20
 HEAD_S = 1.0
-# A library of 3 MiB over a poor wireless link.
+# A library of 3 MiB over a poor wireless link; for who is unknown, the answer, too.
 BODY_S = 30.0
 # Whoever has its answer and talks on may read it first.
 ANSWERED_S = 0.5
 HEAD_BYTES = 32 * 1024
+HEADERS = 100
+# What the system holds of a connection that is not read; 3 MiB take 100 such windows.
+RECEIVED_BYTES = 32 * 1024
+# Beyond it no connection waits for a next request.
+MOST_WAITING = 600
 # A browser answers by itself, also for a page that sleeps. Who does not read never gets to the ping.
 PING_S = 10.0
 PONG_S = 10.0
 # For the words of the end to arrive.
 FAREWELL_S = 2.0
 
-ABORT = "servodeck.abort"
+EXTENSION = "servodeck.connection"
+HEAD_REFUSED = b"""{"code":"tooLarge","detail":"The head of a request is at most 32 KiB and 100 headers."}"""
 
 
-def abort_of(scope: Scope) -> Callable[[], None]:
-    """Cuts that request's connection, also where its other end does not read."""
-    abort: Callable[[], None] = scope["extensions"][ABORT]["abort"]
-    return abort
+class Connection(Protocol):
+    """What a request may say of the connection that it came on."""
+
+    def know(self) -> None:
+        """Somebody has proved who they are."""
+
+    def is_lost(self) -> bool:
+        """Nobody hears an answer any more."""
+
+    def abort(self) -> None:
+        """Cuts it, also where its other end does not read."""
+
+
+def connection_of(scope: Scope) -> Connection | None:
+    """None where there is no server, as in a test."""
+    connection: Connection | None = scope.get("extensions", {}).get(EXTENSION, {}).get("connection")
+    return connection
+
+
+class State(ServerState):
+    """What all connections share."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.unauthenticated = Unauthenticated()
+
+
+class HeadTooLargeError(Exception):
+    """Ends the parsing of a request."""
 
 
 class ImpatientProtocol(HttpToolsProtocol):
     _timer: asyncio.TimerHandle | None = None
     _head_bytes = 0
+    _received_bytes = 0
     _in_head = False
     _in_body = False
+    _is_known = False
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
-        self._end_in(FIRST_BYTE_S)
+        self._end_in(IDLE_S)
+        unauthenticated_in(self.server_state).add(transport, self.client[0] if self.client else "")
 
     def connection_lost(self, exc: Exception | None) -> None:
         self._end_in(None)
+        unauthenticated_in(self.server_state).remove(self.transport)
         super().connection_lost(exc)
+
+    def know(self) -> None:
+        self._is_known = True
+        self.timeout_keep_alive = KNOWN_IDLE_S
+        unauthenticated_in(self.server_state).remove(self.transport)
+        if not self._in_body:
+            self._end_in(None)
+
+    def is_lost(self) -> bool:
+        return self.parser is None
+
+    def abort(self) -> None:
+        self.transport.abort()
 
     def data_received(self, data: bytes) -> None:
         super().data_received(data)
         if self._in_head:
-            self._count(len(data))
+            self._received_bytes += len(data)
+            if self._received_bytes > HEAD_BYTES:  # a header that does not end
+                self._refuse_head()
 
     def handle_websocket_upgrade(self) -> None:
         self._end_in(None)
@@ -61,29 +119,66 @@ class ImpatientProtocol(HttpToolsProtocol):
 
     def on_message_begin(self) -> None:
         super().on_message_begin()
-        self._in_head, self._head_bytes = True, 0
+        self._in_head, self._head_bytes, self._received_bytes = True, 0, 0
         self._end_in(HEAD_S)
+
+    def on_header(self, name: bytes, value: bytes) -> None:
+        super().on_header(name, value)
+        self._head_bytes += len(name) + len(value)
+        if self._is_head_too_large():
+            raise HeadTooLargeError
 
     def on_headers_complete(self) -> None:
         self._in_head, self._in_body = False, True
         self._end_in(BODY_S)
+        unauthenticated_in(self.server_state).use(self.transport)
         super().on_headers_complete()
-        self.scope["extensions"] = {ABORT: {"abort": self.transport.abort}}
+        if not (self.parser.should_upgrade() and self._should_upgrade()):
+            self.scope["extensions"] = {EXTENSION: {"connection": self}}
+            self.flow.pause_reading()  # until somebody asks for the body
 
     def on_message_complete(self) -> None:
         self._in_body = False
-        self._end_in(None)
+        if self._is_known:
+            self._end_in(None)
+        if not self.pipeline:
+            self.flow.resume_reading()
         super().on_message_complete()
 
     def on_response_complete(self) -> None:
-        if self._in_body:  # for good: uvicorn would keep it open without an end
-            self.loop.call_later(ANSWERED_S, self.transport.abort)
         super().on_response_complete()
+        unauthenticated_in(self.server_state).use(self.transport)
+        if not self.cycle.response_complete or self._in_head:  # the next request is here already
+            return
+        if self._in_body:
+            self.cycle.body = bytearray()
+            self._hang_up()
+        else:
+            self._end_in(None)
+            if len(self.connections) > MOST_WAITING:
+                self.transport.close()
 
-    def _count(self, size: int) -> None:
-        self._head_bytes += size
-        if self._head_bytes > HEAD_BYTES:
-            self.transport.abort()
+    def send_400_response(self, msg: str) -> None:
+        if self._in_head and self._is_head_too_large():
+            self._refuse_head()
+        else:
+            super().send_400_response(msg)
+
+    def _is_head_too_large(self) -> bool:
+        return self._head_bytes + len(self.url) > HEAD_BYTES or len(self.headers) > HEADERS
+
+    def _refuse_head(self) -> None:
+        self._in_head = False
+        head = b"content-type: application/json\r\nconnection: close\r\ncontent-length: %d\r\n\r\n"
+        self.transport.write(STATUS_LINE[431] + head % len(HEAD_REFUSED) + HEAD_REFUSED)
+        self._hang_up()
+
+    def _hang_up(self) -> None:
+        """Reads nothing more. A close with unread bytes would overtake the answer: that comes later."""
+        self.flow.pause_reading()
+        if self.transport.can_write_eof():
+            self.transport.write_eof()
+        self._end_in(ANSWERED_S)
 
     def _end_in(self, seconds: float | None) -> None:
         """The connection, unless this is called again before; None lets it be."""
@@ -92,8 +187,39 @@ class ImpatientProtocol(HttpToolsProtocol):
         self._timer = None if seconds is None else self.loop.call_later(seconds, self.transport.abort)
 
 
+def unauthenticated_in(state: ServerState) -> Unauthenticated:
+    assert isinstance(state, State)
+    return state.unauthenticated
+
+
 class ImpatientSocket(WebSocketsSansIOProtocol):
     """To close is not enough: what was written and is not read would keep the connection for good."""
+
+    _end: asyncio.TimerHandle | None = None
+
+    def __init__(self, config: Config, server_state: ServerState, *more: Any, **named: Any) -> None:
+        super().__init__(config, server_state, *more, **named)
+        self._unauthenticated = unauthenticated_in(server_state)
+        self._cut: asyncio.TimerHandle | None = None
+        self._is_lost = False
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._unauthenticated.remove(self.transport)
+        self._is_lost = True
+        if self._cut:  # it would keep all of this in memory until then
+            self._cut.cancel()
+        if self._end:
+            self._end.cancel()
+        super().connection_lost(exc)
+
+    def know(self) -> None:
+        self._unauthenticated.remove(self.transport)
+
+    def is_lost(self) -> bool:
+        return self.disconnected
+
+    def abort(self) -> None:
+        self.transport.abort()
 
     def keepalive_timeout(self) -> None:
         super().keepalive_timeout()
@@ -103,7 +229,11 @@ class ImpatientSocket(WebSocketsSansIOProtocol):
         if self.close_sent:  # nobody's mistake: it was on its way when the end came
             raise ClientDisconnected
         await super().send(message)
+        # uvicorn takes a refusal for an application that forgot to answer, and logs an error.
+        self.handshake_complete = self.handshake_complete or self.close_sent
 
     async def run_asgi(self) -> None:
+        self.scope["extensions"] = {**(self.scope["extensions"] or {}), EXTENSION: {"connection": self}}
         await super().run_asgi()
-        self.loop.call_later(FAREWELL_S, self.transport.abort)
+        if not self.disconnected:
+            self._end = self.loop.call_later(FAREWELL_S, self.transport.abort)

@@ -1,18 +1,27 @@
 """Roles at the routes: each names who may use it, or that anybody may; one that names nothing keeps the
-gateway from starting.
+gateway from starting. Role and rate are judged on the head, before a body is read.
 
 Knows the entrance and how a framework's routes are built; no route of ours.
 """
 
-from collections.abc import Iterator, Sequence
+import json
+from collections.abc import Callable, Coroutine, Iterator, Sequence
+from typing import Any
 
 from fastapi import Depends, FastAPI
 from fastapi.dependencies.models import Dependant
-from starlette.requests import HTTPConnection
+from fastapi.routing import APIRoute
+from starlette.requests import HTTPConnection, Request
+from starlette.responses import Response
 from starlette.routing import BaseRoute, Mount
 
 from servodeck.access.entrance import Entrance
+from servodeck.access.impatient import connection_of
 from servodeck.callers import Caller, Role
+from servodeck.threads import in_thread
+
+# Reading as much takes a millisecond or, of a hostile text, ten.
+LARGE_BYTES = 64 * 1024
 
 
 class Needs:
@@ -22,20 +31,56 @@ class Needs:
         self.role = role
 
     async def __call__(self, connection: HTTPConnection) -> Caller | None:
-        entrance = await entrance_of(connection)
+        if connection.scope["type"] == "websocket":
+            return self.judge(connection)
+        caller: Caller | None = connection.state.caller  # JudgingRoute has judged the head
+        return caller
+
+    def judge(self, connection: HTTPConnection) -> Caller | None:
+        entrance = entrance_in(connection)
         headers = connection.scope["headers"]
-        if self.role is None:
-            return entrance.find(headers)
-        caller = entrance.judge(headers, self.role)
-        if self.role != "stopper" and connection.scope["type"] == "http":
+        caller = entrance.find(headers) if self.role is None else entrance.judge(headers, self.role)
+        if caller and (known := connection_of(connection.scope)):
+            known.know()
+        if caller and self.role not in (None, "stopper") and connection.scope["type"] == "http":
             entrance.count(caller)  # a stop is never one too many, and messages have their own rates
         return caller
 
 
-async def entrance_of(connection: HTTPConnection) -> Entrance:
+class BodyRequest(Request):
+    """Reads a large body in a thread, because a stop would have to wait for it."""
+
+    async def json(self) -> Any:
+        body = await self.body()
+        return await in_thread(lambda: json.loads(body)) if len(body) > LARGE_BYTES else json.loads(body)
+
+
+class JudgingRoute(APIRoute):
+    """The framework itself reads the body first and asks who sent it then."""
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        handle = super().get_route_handler()
+
+        async def judge_and_handle(request: Request) -> Response:
+            self.judge(request)
+            return await handle(BodyRequest(request.scope, request.receive))
+
+        return judge_and_handle
+
+    def judge(self, request: Request) -> None:
+        """Raises a GatewayError for whoever may not ask this."""
+        for needs in needs_of(self.dependant):
+            request.state.caller = needs.judge(request)
+
+
+def entrance_in(connection: HTTPConnection) -> Entrance:
     entrance = connection.app.state.entrance
     assert isinstance(entrance, Entrance)
     return entrance
+
+
+async def entrance_of(connection: HTTPConnection) -> Entrance:
+    return entrance_in(connection)
 
 
 ANYBODY = Depends(Needs(None))
@@ -52,13 +97,13 @@ def named_roles(routes: Sequence[BaseRoute]) -> Iterator[tuple[BaseRoute, list[R
         if included:
             yield from named_roles(included.routes)
         elif not isinstance(route, Mount):
-            yield route, list(needs_of(getattr(route, "dependant", None)))
+            yield route, [each.role for each in needs_of(getattr(route, "dependant", None))]
 
 
-def needs_of(dependant: Dependant | None) -> Iterator[Role | None]:
+def needs_of(dependant: Dependant | None) -> Iterator[Needs]:
     for each in dependant.dependencies if dependant else ():
         if isinstance(each.call, Needs):
-            yield each.call.role
+            yield each.call
 
 
 def require_roles(app: FastAPI) -> None:
@@ -66,3 +111,5 @@ def require_roles(app: FastAPI) -> None:
     for route, roles in named_roles(app.routes):
         if len(roles) != 1:
             raise TypeError(f"{route} has to name one role")
+        if isinstance(route, APIRoute) and not isinstance(route, JudgingRoute):
+            raise TypeError(f"{route} has to be a JudgingRoute")

@@ -13,13 +13,15 @@ from servodeck import metrics
 from servodeck.access.gate import STOP, is_harmless, judge_packet
 from servodeck.board.answers import Answers
 from servodeck.board.battery import BatteryWatch
+from servodeck.board.estimate import Estimate
+from servodeck.board.hold import hold_packet, untraced
 from servodeck.board.jobs import Jobs
-from servodeck.board.motion import Motion
 from servodeck.board.parts import Part
 from servodeck.board.slot_memory import SlotMemory
 from servodeck.board.stop_again import StopAgain
 from servodeck.board.unattended import Unattended
 from servodeck.errors import CancelledError, ClosedError, GatewayError, PortLostError
+from servodeck.motion.halt_plan import Unheld
 from servodeck.port.inbox import Inbox
 from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
@@ -28,7 +30,7 @@ from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, Wire
 from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, Family
 from servodeck.protocol.packets import parse_command, parse_report
-from servodeck.protocol.values import RunAccepted, RunStarted
+from servodeck.protocol.values import Move, RunAccepted, RunStarted
 from servodeck.told import JobState, PortState, StoredGroup
 
 DRAIN_S = 0.5
@@ -77,7 +79,9 @@ class Board:
         self.answers = Answers()
         self.battery = BatteryWatch(self.answers, self._ask, now)
         self.jobs = Jobs(self, self.answers, now, slot_memory)
-        self._motion = Motion(self.family)
+        self._motion = Estimate(self.family)
+        self._page_hold: Move | None = None
+        self._page_hold_of: Owner = None
         self._silence = Silence()
         self._stop_again = StopAgain(now, lambda: self._motion.deaf_until_s, self._stop_unheard)
         self.unattended = Unattended(now, events.time_alone_over, events.board_changed)
@@ -89,10 +93,10 @@ class Board:
         return FAMILIES[self.taken_for]
 
     @property
-    def motion(self) -> Motion:
+    def motion(self) -> Estimate:
         """A board that is silent may come back after its servos were turned by hand."""
         if self._silence.is_silent(self._now()):
-            self._motion.forget()
+            self._motion.silent(self._now())
         return self._motion
 
     @property
@@ -127,19 +131,38 @@ class Board:
         with contextlib.suppress(GatewayError):
             self.link.wire().purge(which, reason)
 
-    def halt(self, hold: bytes | None, reason: GatewayError, owner: Owner = None) -> Left:
-        """Resolves when the stop sequence has left; raises when there is no port to stop."""
+    def disown(self, owner: Owner, reason: GatewayError) -> None:
+        """What that one asked for does not leave any more. A stop of theirs does, without their pose."""
+        self.drop(lambda job: job.owner is owner, reason)
+        if self._page_hold_of is owner:
+            self._page_hold = None
+
+    def halt(self, page_hold: bytes | None, reason: GatewayError, owner: Owner = None) -> Left:
+        """Resolves when the stop sequence has left; raises when there is no port to stop. `page_hold`: where
+        a page believes the servos, for those of which the gateway knows nothing.
+        """
         self.halts += 1
-        return self.link.wire().halt(hold or self.motion.hold(self._now()), reason, owner)
+        wire = self.link.wire()
+        if page_hold or not wire.is_halting:
+            self._page_hold = untraced(page_hold, self.motion.is_traced)
+            self._page_hold_of = owner
+        return wire.halt(self._hold, reason)
+
+    def unheld_since(self, pressed_s: float) -> Unheld | None:
+        """What may go on in spite of a stop pressed then, whose last packet left just now."""
+        return self.motion.unheld_since(pressed_s, self._now())
 
     def halt_again(self) -> None:
         with contextlib.suppress(GatewayError):
             self.halt(None, CancelledError("The board was stopped once more: it may not have heard it."))
 
-    async def end_motion(self) -> None:
-        """Without the latch: what moves ends, because its driver begins something else."""
-        if self.may_move():
-            await self.halt(None, CancelledError("Its driver has begun something else."))
+    def end_motion(self) -> Left | None:
+        """Without the latch: what moves ends, because its driver begins something else. As `halt`; None where
+        nothing moves.
+        """
+        if not self.may_move():
+            return None
+        return self.halt(None, CancelledError("Its driver has begun something else."))
 
     async def quiet(self) -> None:
         """Before the port is given up: ends what only this gateway could still stop."""
@@ -184,11 +207,8 @@ class Board:
     def slots_changed(self) -> None:
         self._events.board_changed()
 
-    def group_begun(self, part: Part) -> None:
-        self.motion.unstored(part.slot)
-
     def group_stored(self, part: Part) -> None:
-        self.motion.stored(part.slot, part.durations_ms)
+        self.motion.stored(part.slot, part.packets, self._now())
 
     # Inside
 
@@ -201,8 +221,14 @@ class Board:
         if self.may_move():
             self.halt_again()
 
+    def _hold(self) -> bytes | None:
+        """As the robot stands when it leaves."""
+        return hold_packet(self.motion.hold(self._now()), self._page_hold, self.family)
+
     def _forget_motion(self) -> None:
-        self._motion = Motion(self.family)
+        """Whoever had the port before may have set something in motion."""
+        self._motion = Estimate(self.family)
+        self._motion.opened(self._now())
         self._silence = Silence()
         self._stop_again.void()
         self.unattended.follow(None)

@@ -40,9 +40,6 @@ class JobEvents(Protocol):
 
     def slots_changed(self) -> None: ...
 
-    def group_begun(self, part: Part) -> None:
-        """What its slot held before is gone."""
-
     def group_stored(self, part: Part) -> None:
         """All of it is on the board."""
 
@@ -176,7 +173,6 @@ class Jobs:
         await download.settle(self._owed_until_s - self._now())
         job.broke = slot not in self._memory.broken(job.board)
         self._memory.breaks(job.board, slot)
-        self._events.group_begun(part)
         self._events.slots_changed()
         await self._memory.kept()  # before the first byte leaves: a crash must not forget it
         job.has_begun = True

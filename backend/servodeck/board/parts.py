@@ -37,7 +37,6 @@ class Part:
     name: str
     packets: Sequence[bytes]
     board: str
-    durations_ms: Sequence[int]
     extremes: Sequence[ServoTarget]
     version: str
     replaces: str | None
@@ -75,7 +74,6 @@ def made_of(group: Group, packets: Sequence[bytes], board: str) -> Part:
         group.name,
         packets,
         board,
-        [frame.duration_ms for frame in group.frames],
         extremes_of(group.frames),
         group.version or secrets.token_hex(8),
         group.replaces,

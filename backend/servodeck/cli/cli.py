@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from servodeck import __version__
 from servodeck.cli.config import PREFIX, commands_of, settings_of, toml_line
 from servodeck.cli.download_cli import download
 from servodeck.cli.exits import USAGE, fail
@@ -26,6 +27,22 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
+
+
+def show_version(is_wanted: bool) -> None:
+    if is_wanted:
+        print(f"servodeck {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def main_options(
+    _version: Annotated[
+        bool, typer.Option("--version", callback=show_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """Drives LewanSoul, Lobot and Hiwonder servo controllers."""
+
 
 app.command(context_settings={"auto_envvar_prefix": PREFIX})(serve)
 for command in (*COMMANDS, pose, poses, download, library):

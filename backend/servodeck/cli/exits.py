@@ -5,7 +5,7 @@ from typing import NoReturn
 
 import typer
 
-FAILURE, USAGE, UNREACHABLE, INTERRUPTED = 1, 2, 3, 130
+FAILURE, USAGE, UNREACHABLE, TIMED_OUT, INTERRUPTED = 1, 2, 3, 4, 130
 
 
 def fail(message: str, code: int = FAILURE) -> NoReturn:

@@ -9,11 +9,17 @@ from typing import Annotated, Any
 
 import typer
 
-from servodeck.cli.exits import INTERRUPTED, USAGE, fail
+from servodeck.cli.exits import INTERRUPTED, TIMED_OUT, USAGE, fail
 from servodeck.cli.options_cli import AsJson, Take, asked, asking, explain, explain_silence, show
 from servodeck.cli.remote import RefusedError, Remote, UnreachableError
+from servodeck.cli.stop_words import stopped_words
 
+UNKNOWN, NAME_IT = "unknown", " (open the page once, which asks it, or: servodeck serve --board FAMILY)"
 BEAT_S = 1.0
+# How long the end of a group is waited for where nobody said: until its computed end and a little more, or
+# where only the board could tell.
+BEHIND_ITS_END_S = 2.0
+UNKNOWN_END_S = 30.0
 # Servos of unknown place start a quarter of a second apart.
 MOVE_WAIT_S = 90.0
 
@@ -28,7 +34,7 @@ def status_words(state: dict[str, Any]) -> str:
     port, run, alone = state["port"], state["running"], state["unattended"]
     lines = [
         f"port     {port['status']} {port['device'] or ''} {port['detail'] or ''}".rstrip(),
-        f"board    {state['board']}",
+        f"board    {state['board']}{NAME_IT if state['board'] == UNKNOWN else ''}",
         f"motion   {'stopped, waits for resume' if state['latch'] else 'allowed'}",
         f"driver   {state['driver'] or 'nobody'}",
     ]
@@ -41,9 +47,11 @@ def status_words(state: dict[str, Any]) -> str:
 
 @asking
 def stop(remote: Remote, as_json: AsJson = False) -> None:
-    """STOP: ends what moves, and refuses motion until `servodeck resume`."""
+    """STOP: ends what moves, and refuses motion until `servodeck resume`. Says what it cannot hold, and how
+    long that may still move.
+    """
     answer = asked(remote, "POST", "/api/stop")
-    show(answer, as_json, lambda _: "Stopped. servodeck resume allows motion again.")
+    show(answer, as_json, stopped_words)
 
 
 @asking
@@ -92,26 +100,77 @@ def run(
         int | None,
         typer.Option("--continue", metavar="SECONDS", help="Return at once; it goes on for so long at most."),
     ] = None,
+    timeout_s: Annotated[
+        float | None,
+        typer.Option(
+            "--timeout",
+            metavar="SECONDS",
+            min=0,
+            help="End it where it has not ended by then. Left out: what the group takes, or "
+            f"{UNKNOWN_END_S:.0f} where nobody knows that.",
+        ),
+    ] = None,
     take: Take = False,
     as_json: AsJson = False,
 ) -> None:
     """Run a group of the board and watch over it: Ctrl-C ends it."""
+    judge_watch(slot, times, go_on, timeout_s)
     body = {"times": times, "take": take, "continueForMs": None if go_on is None else go_on * 1000}
     answer = asked(remote, "POST", f"/api/slots/{slot}/run", body)
     show(answer, as_json, lambda begun: f"Slot {slot}: {begun['outcome']}.")
-    if go_on is None:
-        watch(remote)
+    if go_on is not None:
+        return
+    limit_s = watch(remote, timeout_s)
+    if limit_s is not None and times == 0:
+        print(f"Ended after {limit_s:g} s.")
+    elif limit_s is not None:
+        fail(unheard_end(slot, limit_s), TIMED_OUT)
 
 
-def watch(remote: Remote) -> None:
-    """Beats until the board has said that it is over; else until a person ends it."""
+def judge_watch(slot: int, times: int, go_on: int | None, timeout_s: float | None) -> None:
+    """Ends the program before anything moves where the watch would have no end, or none is wanted."""
+    if go_on is not None and timeout_s is not None:
+        fail("--continue returns at once: there is nothing that --timeout could end.", USAGE)
+    if times == 0 and go_on is None and timeout_s is None:
+        fail(
+            f"--times 0 repeats slot {slot} until somebody stops it, and it is stopped where nobody watches: "
+            "say with --timeout for how many seconds this command does.",
+            USAGE,
+        )
+
+
+def watch(remote: Remote, limit_s: float | None) -> float | None:
+    """Beats until the group is over. The seconds after which it was ended; None where it ended before."""
+    begun_s = time.monotonic()
     try:
-        while asked(remote, "GET", "/api/status")["running"]:
+        while running := asked(remote, "GET", "/api/status")["running"]:
+            limit_s = usual_limit_s(running["endsInMs"]) if limit_s is None else limit_s
+            left_s = limit_s - (time.monotonic() - begun_s)
+            if left_s <= 0:
+                let_go(remote)
+                return limit_s
             asked(remote, "POST", "/api/lease", {"action": "beat"})
-            time.sleep(BEAT_S)
+            time.sleep(min(BEAT_S, left_s))
     except KeyboardInterrupt:
-        asked(remote, "POST", "/api/lease", {"action": "release"})
+        let_go(remote)
         fail("Ended.", INTERRUPTED)
+    return None
+
+
+def usual_limit_s(ends_in_ms: int | None) -> float:
+    return UNKNOWN_END_S if ends_in_ms is None else ends_in_ms / 1000 + BEHIND_ITS_END_S
+
+
+def let_go(remote: Remote) -> None:
+    """Which ends what runs, and nobody has to resume."""
+    asked(remote, "POST", "/api/lease", {"action": "release"})
+
+
+def unheard_end(slot: int, limit_s: float) -> str:
+    return (
+        f"Nobody has heard within {limit_s:g} s that slot {slot} has ended, so it was ended. "
+        "Did nothing move? Then the slot is empty. Does it take longer? --timeout SECONDS waits for it."
+    )
 
 
 @asking

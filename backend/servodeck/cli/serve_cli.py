@@ -84,10 +84,12 @@ def serve(
     from servodeck.port.background import BackgroundPorts
     from servodeck.run.announcement import Announcement
     from servodeck.run.app import create_app
+    from servodeck.run.descriptors import allow_descriptors
     from servodeck.run.logs import set_up_logs
     from servodeck.run.server import Server, leave_with_stdin
     from servodeck.web.library_api import robots_in
 
+    allow_descriptors()
     recalls_board = not board
     board = board or ("doc" if simulated else UNKNOWN.id)
     if board not in FAMILIES:

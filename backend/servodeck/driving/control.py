@@ -3,6 +3,7 @@
 Knows what is asked and what may be done now. Must not know HTTP, WebSockets or how a byte reaches the port.
 """
 
+import math
 from collections.abc import Callable, Sequence
 
 from servodeck.access.gate import (
@@ -14,7 +15,7 @@ from servodeck.access.gate import (
     judge_newest,
     judge_packet,
 )
-from servodeck.access.hub import Hub, Seat
+from servodeck.access.hub import AGAINST_THE_RULES, Hub, Seat
 from servodeck.board.board import Board
 from servodeck.board.parts import Part, judge_parts
 from servodeck.board.recalled_board import RecalledBoard
@@ -44,12 +45,13 @@ from servodeck.messages import (
     ResumedMessage,
     RobotMessage,
 )
+from servodeck.motion.halt_plan import Unheld
 from servodeck.port.link import Ports
 from servodeck.port.wire import Job, Left, Owner, always
 from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import parse_command
-from servodeck.told import JobState
+from servodeck.told import JobState, UnheldServos
 
 SOMEBODY = Cause("person")
 
@@ -90,11 +92,22 @@ class Control:
         self._relay = Relay(self.hub, now)
         self._telling = Telling(self.hub, self.board, self._latch, self.robot, self.driving, now)
         self._halting: Left | None = None
+        self._pressed_s = 0.0
+        self._unheld: Unheld | None = None
 
     @property
     def latch(self) -> bool:
         """Motion is refused until somebody resumes."""
         return self._latch.cause is not None
+
+    @property
+    def unheld(self) -> UnheldServos | None:
+        """What may go on in spite of the latest STOP."""
+        unheld = self._unheld
+        if unheld is None:
+            return None
+        servos = None if unheld.servos is None else list(unheld.servos)
+        return UnheldServos(servos=servos, for_ms=math.ceil(unheld.for_ms))
 
     # What clients ask
 
@@ -106,6 +119,8 @@ class Control:
         self.driving.seated(seat)
 
     def leave(self, seat: Seat) -> None:
+        """What waits of it does not leave, and what it still says is not heard. Twice is harmless."""
+        seat.ended.set()
         self.board.drop(lambda job: job.owner is seat, CancelledError("The client has left."))
         self.limits.forget(seat)
         self.hub.leave(seat)
@@ -113,6 +128,19 @@ class Control:
         self.driving.seated(seat)
         self._relay.forget(seat)
         self._telling.state()
+
+    def send_away(
+        self, caller_id: str, reason: str, by: str, *, group_goes_on: bool = False, also: Sequence[Seat] = ()
+    ) -> None:
+        """What they move stops, what they still say is not heard, and nothing that they asked for leaves any
+        more but stops. `also`: seats of theirs that are no client's.
+        """
+        self._watch.sent_away(caller_id, by, group_goes_on=group_goes_on)
+        for seat in (*self.hub.seats, *also):
+            if seat.caller.id == caller_id:
+                seat.end(AGAINST_THE_RULES, reason)
+                self.board.disown(seat, CancelledError(reason))
+                self.leave(seat)
 
     def send(self, owner: Owner, packet_hex: str, nonce: str | None = None, *, newest: bool = False) -> Left:
         """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving. What
@@ -134,15 +162,15 @@ class Control:
             wire.purge(is_run, CancelledError("A stop has overtaken this run."))
         return wire.send(packet, owner, urgent=command == STOP, newest=newest, judge=judge)
 
-    def stop(self, hold: bytes | None, owner: Owner = None, cause: Cause = SOMEBODY) -> Left:
+    def stop(self, hold: bytes | None, cause: Cause = SOMEBODY, owner: Owner = None) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
-        stop.
+        stop. What may go on in spite of it `unheld` says.
         """
         self._latch.close(cause)
         self.board.jobs.end(LatchedError("Stopped before all of it was stored."))
         left = self.board.halt(hold, LatchedError("Stopped before it left."), owner)
         if left is not self._halting:
-            self._halting = left
+            self._halting, self._pressed_s = left, self.now()
             left.add_done_callback(self._halted)
         return left
 
@@ -287,7 +315,8 @@ class Control:
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
-            self._telling.everybody(HaltedMessage())
+            self._unheld = self.board.unheld_since(self._pressed_s)
+            self._telling.everybody(HaltedMessage(unheld=self.unheld))
 
 
 def is_run(job: Job) -> bool:

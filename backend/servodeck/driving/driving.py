@@ -10,7 +10,7 @@ from servodeck.access.hub import Hub, Seat
 from servodeck.access.intake import SHORTEST_WAIT_S
 from servodeck.callers import Caller
 from servodeck.driving.lease import BEAT_S, GONE_S, Lease, LeaseEvents, Permit
-from servodeck.errors import NotDrivingError, NotFoundError
+from servodeck.errors import CancelledError, NotDrivingError, NotFoundError
 from servodeck.messages import LeaseAction, LeaseToldMessage, TickMessage, encode
 from servodeck.told import Candidate, LeaseState
 
@@ -36,11 +36,12 @@ class Driving:
 
     @property
     def epoch(self) -> int:
-        """Another one with each driver."""
+        """Another one with each driver, and while nobody drives."""
         return self._lease.epoch
 
     def act(self, seat: Seat, action: LeaseAction) -> None:
-        """Raises ForbiddenError, BusyError or NotDrivingError."""
+        """Raises ForbiddenError, BusyError, NotDrivingError, or CancelledError for a seat that has ended."""
+        require_present(seat)
         now = self._now()
         match action:
             case "request":
@@ -59,6 +60,7 @@ class Driving:
         """Hands it to somebody who is here and may drive. Raises ForbiddenError, NotDrivingError for whoever
         does not drive and is no owner, or NotFoundError.
         """
+        require_present(giver)
         giver.caller.require("driver")
         driver = self._lease.driver
         if not giver.caller.may("owner") and (driver is None or driver.caller.id != giver.caller.id):
@@ -103,8 +105,9 @@ class Driving:
 
     def speak_for(self, seat: Seat, *, take: bool) -> str:
         """For a program, which asks for one thing at a time: a nonce of now, with the lease where it is free
-        or taken. Raises ForbiddenError, or NotDrivingError that names who drives.
+        or taken. Raises ForbiddenError, CancelledError, or NotDrivingError that names who drives.
         """
+        require_present(seat)
         seat.caller.require("driver")
         driver = self._lease.driver
         if take:
@@ -116,9 +119,10 @@ class Driving:
         return self._lease.issue(self._now())
 
     def vouch(self, seat: Seat, for_s: float) -> None:
-        """What that program asked lasts for so long from now."""
-        self._lease.vouch(seat, self._now() + for_s)
-        self._plan()
+        """What that program asked lasts for so long from now. One that was sent away cannot."""
+        if not seat.ended.is_set():
+            self._lease.vouch(seat, self._now() + for_s)
+            self._plan()
 
     def permit(self, seat: object, nonce: str | None) -> Permit:
         """Raises NotDrivingError or ExpiredError."""
@@ -206,6 +210,12 @@ class Driving:
         if self._lease.driver and self._now() >= self._tick_s:
             self._tick(self._lease.driver)
         self._plan()
+
+
+def require_present(seat: Seat) -> None:
+    """Whoever was sent away gets nothing by what they still ask."""
+    if seat.ended.is_set():
+        raise CancelledError("Whoever asked for it is not here any more.")
 
 
 def could_drive(seat: Seat) -> bool:

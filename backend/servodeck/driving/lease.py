@@ -50,7 +50,7 @@ class Permit:
 
 class Lease(Generic[H]):
     def __init__(self, epoch: int, events: LeaseEvents) -> None:
-        """`epoch` is the last one ever granted."""
+        """Every grant and every loss counts on from `epoch`: a permit holds for one driver's one time."""
         self.epoch = epoch
         self.driver: H | None = None
         self.asker: H | None = None
@@ -150,7 +150,7 @@ class Lease(Generic[H]):
 
     def judge(self, permit: Permit, now: float) -> None:
         """Asked when the command is about to leave. Raises NotDrivingError or ExpiredError."""
-        if permit.epoch != self.epoch or self.driver is None:
+        if permit.epoch != self.epoch:
             raise NotDrivingError("Somebody else drives now.")
         if now > permit.until_s:
             raise ExpiredError("This has waited too long to be done now.")
@@ -189,6 +189,7 @@ class Lease(Generic[H]):
         if self.asker is not None:
             self._grant(self.asker, now)
             return
+        self.epoch += 1
         self.driver = self.giver = None
         self._issued.clear()
         self._events.driver_changed()

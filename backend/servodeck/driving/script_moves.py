@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from servodeck.access.gate import refusal_of
-from servodeck.board.motion import Motion
+from servodeck.board.estimate import Estimate
 from servodeck.errors import OutOfRangeError
 from servodeck.protocol.families import Family
 from servodeck.protocol.limits import PacketError
@@ -40,14 +40,14 @@ def plan_move(
     duration_ms: int,
     positions: Mapping[int, int],
     family: Family,
-    motion: Motion,
+    motion: Estimate,
     now: float,
     name_of: Callable[[int], str],
 ) -> MovePlan:
     """Raises what the board cannot take, and where a first move would be too fast: nothing is made slower
     unsaid.
     """
-    new = tuple(servo for servo in sorted(positions) if motion.is_unknown(servo))
+    new = tuple(servo for servo in sorted(positions) if motion.is_unknown(servo, now))
     known = tuple(servo for servo in sorted(positions) if servo not in new)
     judge_time(duration_ms, new, motion.first_moves_ms(known, now), family, name_of)
     portions = [*portions_of(known, family.servos_per_move), *((servo,) for servo in new)]
@@ -61,7 +61,7 @@ def plan_move(
 
 
 def judge_time(
-    duration_ms: int, new: Sequence[int], first_moves_ms: int, family: Family, name_of: Callable[[int], str]
+    duration_ms: int, new: Sequence[int], first_moves_ms: float, family: Family, name_of: Callable[[int], str]
 ) -> None:
     needs_ms = FIRST_MOVE_MS if new else min(FIRST_MOVE_MS, first_moves_ms)
     if duration_ms >= needs_ms:

@@ -11,13 +11,20 @@ from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from servodeck.access.gate import judge_latch
+from servodeck.access.gate import judge_known, judge_latch
 from servodeck.access.hub import Seat
 from servodeck.board.parts import Part
 from servodeck.callers import Caller, as_script
 from servodeck.driving.control import Control
 from servodeck.driving.script_moves import packet_of, plan_move
-from servodeck.errors import CancelledError, MovingError, NoAnswerError, OutOfRangeError
+from servodeck.driving.script_seat import ScriptSeat
+from servodeck.errors import (
+    CancelledError,
+    MovingError,
+    NoAnswerError,
+    NotPairedError,
+    OutOfRangeError,
+)
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
 from servodeck.protocol.values import Erase, Erased, Run, RunAccepted, RunStarted
@@ -29,13 +36,6 @@ ERASE_WAIT_S = 1.0  # boards.md section 3: 403 ms at worst
 ScriptAction = Literal["request", "take", "release", "beat"]
 RunOutcome = Literal["acknowledged", "silent", "sent"]
 IsWanted = Callable[[], Awaitable[bool]]
-
-
-class ScriptSeat(Seat):
-    """Whose requests come one by one: nobody is there to be told anything."""
-
-    def put(self, text: str) -> None:
-        """Unread."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,8 +59,10 @@ class Turn:
 
     async def end_what_moves(self) -> None:
         self._judge()
-        await self._control.board.end_motion()
-        self._mark = (self._mark[0], self._present()[1])
+        ended = self._control.board.end_motion()
+        self._mark = self._present()  # now: whatever else stops the robot meanwhile ends this turn, too
+        if ended:
+            await asyncio.shield(ended)  # others may wait for it
 
     def send(self, packet: bytes, lasts_s: float = 0.0) -> Left:
         """`lasts_s`: what it sets in motion."""
@@ -82,13 +84,15 @@ class Turn:
 
 def end_of_group(ends_in_s: float | None) -> str:
     if ends_in_s is None:
-        return "A group may be running, and only its board knows its end: let go of the lease to end it."
+        return "A group may be running, and only its board knows its end: stop it, or let go of the lease."
     return f"A group runs for up to {ends_in_s:.1f} s more: wait, or let go of the lease to end it."
 
 
 class Scripts:
-    def __init__(self, control: Control) -> None:
+    def __init__(self, control: Control, still_lets_in: Callable[[Caller], bool]) -> None:
+        """`still_lets_in` is asked again when a request has been read: that may take a while."""
         self._control = control
+        self._still_lets_in = still_lets_in
         self._seats: dict[str, ScriptSeat] = {}
         self._asks_the_board = False
 
@@ -102,7 +106,19 @@ class Scripts:
         is_wanted: IsWanted,
     ) -> Moved:
         """Until its last packet has left; what is not wanted any more does not leave."""
-        control, seat = self._control, self._seat_of(caller)
+        seat = self._seat_of(caller)
+        return await seat.do(self._move(seat, duration_ms, positions, take=take, is_wanted=is_wanted))
+
+    async def _move(
+        self,
+        seat: ScriptSeat,
+        duration_ms: int,
+        positions: Mapping[int, int],
+        *,
+        take: bool,
+        is_wanted: IsWanted,
+    ) -> Moved:
+        control = self._control
         family, now = self._family(), control.now()
         if control.board.motion.group_may_run(now):
             raise MovingError(end_of_group(control.board.motion.group_ends_in_s(now)))
@@ -121,7 +137,13 @@ class Scripts:
         self, caller: Caller, slot: int, times: int, *, take: bool, continue_ms: int | None = None
     ) -> RunOutcome:
         """What moves ends first."""
-        family, seat = self._family(), self._seat_of(caller)
+        seat = self._seat_of(caller)
+        return await seat.do(self._run(seat, slot, times, take=take, continue_ms=continue_ms))
+
+    async def _run(
+        self, seat: ScriptSeat, slot: int, times: int, *, take: bool, continue_ms: int | None
+    ) -> RunOutcome:
+        family = self._family()
         packet = packet_of(Run(slot, times), family)
         if continue_ms is not None and times == 0:
             raise OutOfRangeError("times is 0: what goes on without its driver has an end.")
@@ -147,11 +169,15 @@ class Scripts:
 
     async def erase(self, caller: Caller, *, take: bool) -> None:
         """Until the board says that it is done."""
+        seat = self._seat_of(caller)
+        await seat.do(self._erase(seat, take=take))
+
+    async def _erase(self, seat: ScriptSeat, *, take: bool) -> None:
         packet = packet_of(Erase(), self._family())
         if self._control.board.may_move():
             raise MovingError("The robot moves: wait for its end, or stop it first.")
         with self._asking_the_board():
-            turn = Turn(self._control, self._seat_of(caller), packet, take=take)
+            turn = Turn(self._control, seat, packet, take=take)
             left = turn.send(packet, ERASE_WAIT_S)
             if await self._control.board.answers.to(left, ERASE_WAIT_S, Erased) is None:
                 raise NoAnswerError("The board did not say whether its groups are erased.")
@@ -170,11 +196,15 @@ class Scripts:
         self._control.driving.give(seat, to)
         return self._control.driving.state_for(seat)
 
-    def forget(self, caller_id: str) -> None:
-        """It may not come in any more, or as somebody else: what it began ends."""
-        seat = self._seats.pop(caller_id, None)
-        if seat:
-            self._control.driving.leave(seat)
+    async def send_away(self, caller_id: str, reason: str, by: str, *, group_goes_on: bool = False) -> None:
+        """They may not come in any more, or as somebody else: what they asked for on pages and over HTTP has
+        ended when this returns. The group that they let go on is stopped in the name of `by`, or goes on.
+        """
+        own = self._seats.pop(caller_id, None)
+        also = (own,) if own else ()
+        self._control.send_away(caller_id, reason, by, group_goes_on=group_goes_on, also=also)
+        if own:
+            await own.end_pending()
 
     async def _outcome_of_run(self, left: Left, family: Family) -> RunOutcome:
         if "run" not in family.answers:
@@ -184,9 +214,12 @@ class Scripts:
         return "silent" if taken is None else "acknowledged"
 
     def _family(self) -> Family:
+        judge_known(self._control.board.taken_for)
         return self._control.board.family
 
     def _seat_of(self, caller: Caller) -> ScriptSeat:
+        if not self._still_lets_in(caller):
+            raise NotPairedError("This device is not paired any more, or its role is another one now.")
         seat = self._seats.setdefault(caller.id, ScriptSeat(caller))
         seat.caller = as_script(caller)  # an owner may call it otherwise by now
         return seat

@@ -6,6 +6,7 @@ Knows what the lease tells and how to stop; not who may drive.
 import contextlib
 from typing import TYPE_CHECKING
 
+from servodeck.access.hub import is_of
 from servodeck.driving.latch import Cause
 from servodeck.errors import CancelledError, GatewayError, NotDrivingError
 
@@ -46,6 +47,21 @@ class Watch:
             self.end_quietly(NotDrivingError("Somebody else drives now."))
         driving.tell_all()
 
+    def sent_away(self, caller_id: str, by: str, *, group_goes_on: bool) -> None:
+        """`by` has revoked them: STOP for what they move, and for the group that they let go on unless it
+        may. Whoever answers for it must not be somebody who is out.
+        """
+        board, driver = self._control.board, self._control.driving.driver
+        if is_of(board.unattended.by, caller_id):
+            if group_goes_on:
+                return
+            board.unattended.end()
+        elif not is_of(driver, caller_id):
+            return
+        if board.may_move():
+            with contextlib.suppress(GatewayError):
+                self._control.stop(None, cause=Cause("person", by))
+
     def end_quietly(self, reason: GatewayError) -> None:
         """Without the latch: somebody is there, or it was said beforehand."""
         with contextlib.suppress(GatewayError):
@@ -54,4 +70,4 @@ class Watch:
     def _stop_for_nobody(self) -> None:
         """STOP because nobody watches over what moves: whoever goes on has to look first."""
         with contextlib.suppress(GatewayError):
-            self._control.stop(None, cause=Cause("silence"))
+            self._control.stop(None, Cause("silence"))

@@ -27,6 +27,11 @@ QUEUE_PER_OWNER = 8
 CLOCK_GRAIN_S = 1e-6
 
 Owner = object
+Hold = Callable[[], bytes | None]
+
+
+def no_hold() -> None:
+    """Nothing is held."""
 
 
 def always() -> None:
@@ -58,12 +63,11 @@ class Halt:
     """A stop sequence under way: what is still to be sent of it, and from when on the next stop may go.
 
     `hold` follows the first stop at once, because a stop never ends the move in progress (S50), and the last
-    one, because the first stop may have been lost (S52).
+    one, because the first stop may have been lost (S52): each time that of the moment.
     """
 
-    hold: bytes | None
+    hold: Hold
     left: Left
-    owner: Owner = None
     stops_to_go: int = STOP_COUNT
     hold_now: bool = False
     due: float = field(default=float("-inf"))
@@ -126,18 +130,18 @@ class Wire:
         self._work.set()
         return job.left
 
-    def halt(self, hold: bytes | None, reason: GatewayError, owner: Owner = None) -> Left:
-        """Drops all that waits and sends the stop sequence, then `hold`. Pressed again, it joins the one
-        under way.
+    def halt(self, hold: Hold, reason: GatewayError) -> Left:
+        """Drops all that waits and sends the stop sequence with what `hold` gives. Pressed again, it joins
+        the one under way.
         """
         if self._ended:
             raise self._ended
         self.purge(lambda _job: True, reason)
         if self._halt is None:
-            self._halt = Halt(hold, asyncio.get_running_loop().create_future(), owner)
+            self._halt = Halt(hold, asyncio.get_running_loop().create_future())
             metrics.stops.inc()
         else:
-            self._halt.hold = hold or self._halt.hold
+            self._halt.hold = hold
             if (
                 self._halt.stops_to_go == 0
             ):  # each press is followed by a stop, but presses never put off the hold
@@ -195,16 +199,17 @@ class Wire:
 
     async def _send_of(self, halt: Halt) -> None:
         """Sends the next packet of a stop sequence; nothing else may leave between them."""
-        if halt.hold_now and halt.hold:
+        if halt.hold_now:
             halt.hold_now = False
-            await self._put(halt.hold, halt.owner)
+            if hold := halt.hold():
+                await self._put(hold, None)
         elif halt.stops_to_go:
             await self._until(halt.due)
             is_edge = halt.stops_to_go in (STOP_COUNT, 1)
             halt.stops_to_go -= 1
             halt.due = self._now() + STOP_SPACING_S
-            await self._put(STOP_PACKET, halt.owner)
-            halt.hold_now = is_edge and halt.hold is not None
+            await self._put(STOP_PACKET, None)
+            halt.hold_now = is_edge and halt.hold() is not None
         if halt.stops_to_go == 0 and not halt.hold_now:
             self._halt = None
             settle(halt.left)

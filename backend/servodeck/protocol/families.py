@@ -30,6 +30,26 @@ class Range:
     max: int
 
 
+@dataclass(frozen=True, slots=True)
+class MotionTraits:
+    """How a board turns its servos and plays its groups: what the motion estimate has to know of it."""
+
+    tick_ms: int
+    # The longest that its loop is busy without being deaf to us: with what it says (S21), a pad's poll (S52),
+    # entries handed on to bus servos (S31). Its servos wait that long, and what came meanwhile is late (S29).
+    talk_ms: float
+    # `shared`: any new target re-times every servo (S26). `perServo`: one that starts leaves the others
+    # alone.
+    timing: Literal["shared", "perServo"]
+    # `deadlines`: a frame takes its time, to the millisecond (S42). `polled`: the next begins some time
+    # behind it (L7).
+    groups: Literal["deadlines", "polled"]
+    # A stop halts these where they are; the others go on to the end of their frame (S50, L9).
+    halted_by_stop: tuple[int, ...] = ()
+    # When the group in this slot ends by itself, the next one is played once (S49).
+    chained_slot: int | None = None
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Family:
     id: str
@@ -39,9 +59,11 @@ class Family:
     # Servos that may turn less far than `position` says.
     servo_position: Mapping[int, Range] = field(default_factory=dict)
     servo: Range
+    usual_servo_count: int
     servos_per_move: int
     servos_per_frame: int
     duration_ms: Range
+    shortest_move_ms: int = 20
     frames_per_group: int
     slot: Range
     run_times: Range
@@ -59,6 +81,7 @@ class Family:
     empty_seven: Literal["runFinished", "runStopped", "unknown"]
     # Pause after the last byte has left the wire.
     service_gap_ms: int
+    motion: MotionTraits
 
     def position_of(self, servo: int) -> Range:
         return self.servo_position.get(servo, self.position)
@@ -70,12 +93,16 @@ RUN_TIMES = Range(0, 0xFFFF)
 # The longest packet that fits one HID report.
 HID_LENGTH = 62
 
+SHARED_TIME = MotionTraits(tick_ms=20, talk_ms=0, timing="shared", groups="deadlines")
+OPEN_FIRMWARE = replace(SHARED_TIME, talk_ms=4.2, chained_slot=100)
+
 DOC = Family(
     id="doc",
     name="Generic board",
     unit="us",
     position=PULSE_US,
     servo=Range(1, 32),
+    usual_servo_count=6,
     servos_per_move=32,
     servos_per_frame=32,
     duration_ms=DURATION_MS,
@@ -88,6 +115,7 @@ DOC = Family(
     run_reports_name_slot=False,
     empty_seven="runFinished",
     service_gap_ms=10,
+    motion=replace(OPEN_FIRMWARE, talk_ms=20),
 )
 
 OPENARM_NEW = replace(
@@ -99,6 +127,7 @@ OPENARM_NEW = replace(
     servos_per_frame=6,
     commands=("move", "run", "stop", "erase", "download"),
     answers=("run", "erase", "download"),
+    motion=replace(OPEN_FIRMWARE, talk_ms=23),
 )
 
 OPENARM_OLD = replace(
@@ -107,6 +136,7 @@ OPENARM_OLD = replace(
     name="uHand 2.0 / OpenArm, old build",
     answers=("erase", "download"),
     empty_seven="unknown",
+    motion=replace(SHARED_TIME, talk_ms=16.5),
 )
 
 BUS_CTRL = Family(
@@ -115,6 +145,7 @@ BUS_CTRL = Family(
     unit="steps",
     position=Range(0, 1000),
     servo=Range(1, 253),
+    usual_servo_count=6,
     servos_per_move=19,
     servos_per_frame=19,
     duration_ms=DURATION_MS,
@@ -128,6 +159,7 @@ BUS_CTRL = Family(
     run_reports_name_slot=True,
     empty_seven="runStopped",
     service_gap_ms=10,
+    motion=replace(SHARED_TIME, talk_ms=7.3, timing="perServo"),
 )
 
 XARM = replace(
@@ -150,6 +182,7 @@ def lsc(outputs: int) -> Family:
         unit="us",
         position=PULSE_US,
         servo=Range(1, outputs),
+        usual_servo_count=outputs,
         servos_per_move=outputs,
         servos_per_frame=outputs,
         max_length=max(HID_LENGTH, 3 * outputs + 5),
@@ -165,6 +198,7 @@ LEARM_ESP32 = Family(
     position=PULSE_US,
     servo_position={1: Range(500, 1500)},
     servo=Range(1, 6),
+    usual_servo_count=6,
     servos_per_move=6,
     servos_per_frame=6,
     duration_ms=DURATION_MS,
@@ -187,6 +221,9 @@ LEARM_ESP32 = Family(
     run_reports_name_slot=False,
     empty_seven="unknown",
     service_gap_ms=10,
+    motion=MotionTraits(
+        tick_ms=10, talk_ms=0, timing="perServo", groups="polled", halted_by_stop=(1, 2, 3, 4, 5)
+    ),
 )
 
 LEARM_ESP32_BUS = replace(
@@ -204,12 +241,14 @@ UNKNOWN = replace(
     id="unknown",
     name="Unknown board",
     servo=Range(1, 1),
+    usual_servo_count=0,
     servos_per_move=1,
     servos_per_frame=0,
     max_length=6,
     commands=("stop", "readBattery", "readVersion", "readPositions"),
     answers=("readBattery", "readVersion", "readPositions"),
     empty_seven="unknown",
+    motion=OPEN_FIRMWARE,
 )
 
 ROWS: Final = (

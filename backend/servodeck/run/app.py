@@ -2,12 +2,14 @@
 
 import asyncio
 import contextlib
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Awaitable, Callable
+from http import HTTPStatus
 from pathlib import Path
 from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
+from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
 from starlette.requests import HTTPConnection
 from starlette.responses import HTMLResponse, JSONResponse, Response
@@ -16,7 +18,8 @@ from starlette.types import ASGIApp
 from servodeck import __version__, metrics
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import Guard
-from servodeck.access.roles import ANYBODY, require_roles
+from servodeck.access.refusals import log_refusal
+from servodeck.access.roles import ANYBODY, JudgingRoute, named_roles, require_roles
 from servodeck.driving.control import Control
 from servodeck.driving.scripts import Scripts
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
@@ -47,6 +50,7 @@ CODE_OF_STATUS: dict[int, ErrorCode] = {
 }
 
 
+METHODS_OF_PAGE = ("GET", "HEAD")
 DETAILS = {
     404: "There is nothing at this address; /docs lists what there is.",
     405: "This address takes another method; /docs lists what there is.",
@@ -62,10 +66,13 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
         docs_url=None,
         redoc_url=None,
         openapi_url=None,
+        # Whatever the environment says: nothing of what goes on here goes anywhere else.
+        telemetry={"auto_configure": False, "tracing": False, "metrics": False, "logs": False},
         lifespan=lifespan,
     )
+    app.router.route_class = JudgingRoute
     app.state.control = control
-    app.state.scripts = Scripts(control)
+    app.state.scripts = Scripts(control, entrance.still_lets_in)
     app.state.library = library
     app.state.pulse = Pulse(sign_of_life())
     app.state.disk = Disk(library.folder, control.now)
@@ -84,7 +91,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     add_errors(app)
     require_roles(app)
     app.mount("/", page(static))
-    return Guard(app, entrance.access)
+    return Guard(app, entrance)
 
 
 @contextlib.asynccontextmanager
@@ -97,31 +104,42 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
 
 
 def add_docs(app: FastAPI) -> None:
-    describing = asyncio.Lock()
+    """Of functions that hold no app: the framework keeps those of the routes in a cache of the process."""
+    app.state.describing = asyncio.Lock()
+    answers: dict[str, Callable[..., Awaitable[Response]]] = {
+        "/docs": docs,
+        "/openapi.json": schema,
+        "/docs.css": style,
+    }
+    for path, answer in answers.items():
+        app.add_api_route(path, answer, include_in_schema=False, dependencies=[ANYBODY])
 
-    async def description() -> dict[str, Any]:
-        """Making it takes so long that a stop would have to wait."""
-        async with describing:
-            if app.openapi_schema is None:
-                return await in_thread(lambda: described(app))
-            return app.openapi_schema
 
-    @app.get("/docs", include_in_schema=False, dependencies=[ANYBODY])
-    async def docs() -> HTMLResponse:
-        return HTMLResponse(docs_page(await description()))
+async def description(app: FastAPI) -> dict[str, Any]:
+    """Making it takes so long that a stop would have to wait."""
+    async with app.state.describing:
+        if app.openapi_schema is None:
+            return await in_thread(lambda: described(app))
+        return app.openapi_schema
 
-    @app.get("/openapi.json", include_in_schema=False, dependencies=[ANYBODY])
-    async def schema() -> JSONResponse:
-        return JSONResponse(await description())
 
-    @app.get("/docs.css", include_in_schema=False, dependencies=[ANYBODY])
-    async def style() -> Response:
-        return Response(STYLE, media_type="text/css")
+async def docs(request: Request) -> HTMLResponse:
+    return HTMLResponse(docs_page(await description(request.app)))
+
+
+async def schema(request: Request) -> JSONResponse:
+    return JSONResponse(await description(request.app))
+
+
+async def style() -> Response:
+    return Response(STYLE, media_type="text/css")
 
 
 def add_errors(app: FastAPI) -> None:
     @app.exception_handler(GatewayError)
-    async def gateway_error(_connection: HTTPConnection, error: GatewayError) -> JSONResponse:
+    async def gateway_error(connection: HTTPConnection, error: GatewayError) -> JSONResponse:
+        if connection.scope["type"] == "websocket":
+            log_refusal(connection.scope, error)
         answer = problem(error.status, error.code, error.detail)
         answer.headers.update(error.headers)
         return answer
@@ -133,15 +151,28 @@ def add_errors(app: FastAPI) -> None:
         return problem(MalformedError.status, MalformedError.code, f"{where}: {first['msg']}")
 
     @app.exception_handler(HTTPException)
-    async def http_error(_request: Request, error: HTTPException) -> JSONResponse:
-        code = CODE_OF_STATUS.get(error.status_code, "malformed")
-        answer = problem(error.status_code, code, DETAILS.get(error.status_code, error.detail))
+    async def http_error(request: Request, error: HTTPException) -> JSONResponse:
+        status, methods = error.status_code, methods_at(app, request.scope["path"])
+        if status == HTTPStatus.NOT_FOUND and methods and request.method not in methods:
+            status = HTTPStatus.METHOD_NOT_ALLOWED  # of the page, which was looked through for it
+        answer = problem(status, CODE_OF_STATUS.get(status, "malformed"), DETAILS.get(status, error.detail))
         answer.headers.update(error.headers or {})
+        if status == HTTPStatus.METHOD_NOT_ALLOWED:
+            answer.headers["Allow"] = ", ".join(methods or METHODS_OF_PAGE)
         return answer
 
     @app.exception_handler(Exception)
     async def defect(_request: Request, _error: Exception) -> JSONResponse:
         return problem(500, "internal", "The gateway made a mistake; its log says more.")
+
+
+def methods_at(app: FastAPI, path: str) -> list[str]:
+    """Of all routes of that address; the framework tells those of one."""
+    found: set[str] = set()
+    for route, _ in named_roles(app.routes):
+        if isinstance(route, APIRoute) and route.path_regex.match(path):
+            found |= route.methods or set()
+    return sorted(found)
 
 
 def problem(status: int, code: ErrorCode, detail: str) -> JSONResponse:

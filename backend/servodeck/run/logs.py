@@ -1,7 +1,7 @@
 """Log lines on stderr, readable or as JSON, of this program and of the libraries alike.
 
 Knows levels and lines, not what they tell. Whoever logs never waits: a reader who stopped reading costs
-lines, not time, and STOP runs on the same loop.
+lines, not time, and STOP runs on the same loop. Lines that anybody on the network can cause are few.
 """
 
 import json
@@ -9,15 +9,23 @@ import logging
 import os
 import queue
 import threading
+import time
 from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import Literal
+
+from servodeck.access.intake import Rate
+from servodeck.access.refusals import LOGGER as REFUSALS
 
 Level = Literal["debug", "info", "warning", "error"]
 Form = Literal["text", "json"]
 STDERR = 2
 LINES_WAITING = 1000
 LAST_LINES_S = 0.2
+# Of the same sentence, and at once: a megabyte a day at most.
+SPARSE_RATE = (0.1, 5)
+SPARSE_LOGGERS = frozenset({REFUSALS, "uvicorn.error"})
+MAX_SENTENCES = 100
 
 
 class PatientHandler(logging.Handler):
@@ -48,6 +56,32 @@ class PatientHandler(logging.Handler):
             return
 
 
+class SparseFilter(logging.Filter):
+    """Lets few of the same sentence pass, of the loggers whose lines anybody can cause; each that passes
+    says how many did not.
+    """
+
+    def __init__(self, now: Callable[[], float] = time.monotonic) -> None:
+        super().__init__()
+        self._now = now
+        self._rates: dict[str, Rate] = {}
+        self._left_out: dict[str, int] = {}
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        if record.name not in SPARSE_LOGGERS:
+            return True
+        sentence = str(record.msg)
+        if len(self._rates) >= MAX_SENTENCES:
+            self._rates.clear()
+            self._left_out.clear()
+        rate = self._rates.setdefault(sentence, Rate(*SPARSE_RATE, self._now))
+        if not rate.take():
+            self._left_out[sentence] = self._left_out.get(sentence, 0) + 1
+            return False
+        record.facts = {**facts_of(record), "leftOut": self._left_out.pop(sentence, None)}
+        return True
+
+
 def write_all(take: Callable[[], bytes | None], descriptor: int) -> None:
     while line := take():
         try:
@@ -61,6 +95,7 @@ def set_up_logs(level: Level, form: Form, descriptor: int = STDERR) -> logging.H
     """For the whole process. The handler, to be closed at the end."""
     handler = PatientHandler(descriptor)
     handler.setFormatter(FORMATTERS[form]())
+    handler.addFilter(SparseFilter())
     logging.basicConfig(level=level.upper(), handlers=[handler], force=True)
     return handler
 

@@ -19,7 +19,15 @@ import uvicorn
 from starlette.types import ASGIApp
 
 from servodeck import __version__
-from servodeck.access.impatient import PING_S, PONG_S, ImpatientProtocol, ImpatientSocket
+from servodeck.access.impatient import (
+    IDLE_S,
+    PING_S,
+    PONG_S,
+    RECEIVED_BYTES,
+    ImpatientProtocol,
+    ImpatientSocket,
+    State,
+)
 from servodeck.driving.control import Control
 from servodeck.errors import PortError
 from servodeck.run import supervisor
@@ -45,6 +53,7 @@ class Server(uvicorn.Server):
                 ws_ping_timeout=PONG_S,
                 ws_per_message_deflate=False,
                 ws_max_size=MESSAGE_BYTES,
+                timeout_keep_alive=IDLE_S,
                 timeout_graceful_shutdown=LEAVE_S,
                 log_config=None,  # ours
                 log_level="warning",
@@ -53,6 +62,7 @@ class Server(uvicorn.Server):
                 proxy_headers=False,
             )
         )
+        self.server_state = State()
         self._control = control
         self._device = device
         self._ready = ready
@@ -68,6 +78,8 @@ class Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         self._loop = asyncio.get_running_loop()
         self._opening = asyncio.create_task(self._open_port())
+        for listener in sockets or ():  # each connection begins with what its listener has
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVED_BYTES)
         await super().startup(sockets)
         if self.started:
             log.info("ready", extra={"facts": {"version": __version__}})
@@ -109,8 +121,8 @@ class Server(uvicorn.Server):
                 signal.signal(number, handler)
 
     def _on_signal(self, _number: int, _frame: FrameType | None) -> None:
+        """Asked twice, or by the end of stdin before, it ends as it does anyway: soon, and in order."""
         end_for_sure()
-        self.force_exit = self.should_exit  # asked twice: wait for nobody
         self.leave()
 
 

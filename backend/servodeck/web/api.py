@@ -4,16 +4,19 @@ Translates between HTTP and `control`; decides nothing.
 """
 
 import asyncio
+import math
 from dataclasses import asdict
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Request, WebSocket
+from fastapi.routing import APIRoute
 from pydantic import Field
+from pydantic.alias_generators import to_camel
 from starlette.requests import HTTPConnection
 
 from servodeck import __version__
 from servodeck.access.gate import judge_script
-from servodeck.access.roles import DRIVER, OWNER, STOPPER, VIEWER
+from servodeck.access.roles import DRIVER, OWNER, STOPPER, VIEWER, JudgingRoute
 from servodeck.callers import Caller, as_script
 from servodeck.driving.control import Control
 from servodeck.driving.driving import name_of
@@ -23,7 +26,7 @@ from servodeck.port.ports import is_same_port, lasting_of, list_devices
 from servodeck.protocol.families import FAMILIES
 from servodeck.schema import Message
 from servodeck.threads import in_thread
-from servodeck.told import PortState, UnattendedRun
+from servodeck.told import PortState, UnattendedRun, UnheldServos
 from servodeck.web.clients import serve_client
 
 
@@ -84,35 +87,49 @@ class Battery(Message):
 
 
 class Stopped(Message):
-    """`halted`: the stop sequence has left the wire."""
+    """`halted`: the stop sequence has left the wire. `unheld`: what may go on in spite of it, since nobody
+    knows where to hold it; null where all is held.
+    """
 
     latch: bool
     halted: bool
+    unheld: UnheldServos | None
+
+
+class ApiRoute(JudgingRoute):
+    """Only our own page and programs get this far."""
+
+    def judge(self, request: Request) -> None:
+        judge_script(request.scope["headers"])
+        super().judge(request)
 
 
 # Dependencies are coroutines even where they wait for nothing: a plain function would go through a thread,
 # and STOP with it.
-async def called_by_own_page(request: Request) -> None:
-    judge_script(request.scope["headers"])
-
-
 async def control_of(connection: HTTPConnection) -> Control:
     control = connection.app.state.control
     assert isinstance(control, Control)
     return control
 
 
-def routes(prefix: str) -> APIRouter:
+def operation_id(route: APIRoute) -> str:
+    """What generators of clients call it: what it is about, then what it does."""
+    return to_camel(f"{route.tags[0]}_{route.name}")
+
+
+def routes(prefix: str, about: str) -> APIRouter:
     """For our own page and for scripts; whatever they refuse for is a Problem."""
     return APIRouter(
         prefix=prefix,
-        dependencies=[Depends(called_by_own_page)],
+        tags=[about],
+        generate_unique_id_function=operation_id,
+        route_class=ApiRoute,
         responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
     )
 
 
 Controlled = Annotated[Control, Depends(control_of)]
-api = routes("/api")
+api = routes("/api", "gateway")
 socket = APIRouter()
 
 
@@ -142,7 +159,7 @@ def running_in(control: Control) -> Running | None:
     if motion.run is None or not motion.group_may_run(now):
         return None
     ends_in_s = motion.group_ends_in_s(now)
-    ends_in_ms = None if ends_in_s is None else round(ends_in_s * 1000)
+    ends_in_ms = None if ends_in_s is None else math.ceil(ends_in_s * 1000)
     return Running(slot=motion.run.slot, times=motion.run.times, ends_in_ms=ends_in_ms)
 
 
@@ -194,12 +211,11 @@ def named(request: Request, caller: Caller) -> Caller:
 
 @api.post("/stop")
 async def stop(request: Request, control: Controlled, caller: Annotated[Caller, STOPPER]) -> Stopped:
-    """STOP: drops all that waits, sends stop three times, refuses motion until resume. Latches even without a
-    port.
+    """STOP: drops all that waits, sends stop three times, holds each servo whose place is known, and refuses
+    motion until resume. Latches even without a port.
     """
-    cause = Cause("person", named(request, caller).name)
-    await asyncio.shield(control.stop(None, cause=cause))
-    return Stopped(latch=control.latch, halted=True)
+    await asyncio.shield(control.stop(None, Cause("person", named(request, caller).name)))
+    return Stopped(latch=control.latch, halted=True, unheld=control.unheld)
 
 
 @api.post("/resume")

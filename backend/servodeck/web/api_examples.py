@@ -69,7 +69,7 @@ TEXT = '{"format": "servodeck-group", "version": 1}'
 FACTS = {
     "kind": "group",
     "name": "Wave",
-    "robot": "Arm, 6 servos",
+    "robot": "Arm",
     "tags": ["greeting"],
     "updatedAtMs": 1795284000000,
     "frames": 21,
@@ -80,7 +80,7 @@ FACTS = {
 DOCUMENT = "6f1c2a9e-77aa-4b0e-9c5e-2f6a1d3b8c40"
 LISTED = {"id": DOCUMENT, "revision": 4, "isRemoved": False, "facts": FACTS}
 POSES = {
-    "robot": "Arm, 6 servos",
+    "robot": "Arm",
     "poses": [{"id": 1, "name": "Greeting", "unit": "us", "targets": [{"servo": 1, "position": 1800}]}],
 }
 YOU = {"id": "5d41402abc4b2a76", "name": "Anna's tablet", "role": "owner"}
@@ -93,6 +93,7 @@ PERSON = {
     "lastSeenMs": 1795287600000,
     "here": True,
     "drives": False,
+    "unattendedSlot": None,
 }
 QR = "data:image/svg+xml;base64,PHN2Zy8+"
 ON_THE_WIRE: tuple[ErrorCode, ...] = ("closed", "lost", "latched", "notDriving", "outOfRange", "busy")
@@ -104,7 +105,9 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         'data: {"type": "state", "board": "doc", "latch": true}\n\n', errors=("busy",)
     ),
     ("GET", "/api/battery"): Example({"batteryMv": 7500}, errors=("closed", "lost", "noAnswer")),
-    ("POST", "/api/stop"): Example({"latch": True, "halted": True}, errors=("closed", "lost")),
+    ("POST", "/api/stop"): Example(
+        {"latch": True, "halted": True, "unheld": None}, errors=("closed", "lost")
+    ),
     ("POST", "/api/resume"): Example(STATUS, errors=("lost",)),
     ("POST", "/api/move"): Example(
         {"packets": 1, "overInMs": 1500, "firstMoves": [1]},

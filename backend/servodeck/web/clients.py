@@ -14,7 +14,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from servodeck import metrics
 from servodeck.access.gate import judge_hold, judge_packet, role_for
-from servodeck.access.hub import AGAINST_THE_RULES, TRY_AGAIN_LATER, Seat
+from servodeck.access.hub import AGAINST_THE_RULES, Seat
 from servodeck.access.intake import Intake, Rate
 from servodeck.callers import Caller, Role
 from servodeck.driving.control import Control
@@ -62,12 +62,14 @@ ROLES: dict[type[AnyClientMessage], Role] = {
 
 async def serve_client(socket: WebSocket, caller: Caller, control: Control) -> None:
     if not control.hub.has_room_for(caller):
-        await socket.close(TRY_AGAIN_LATER)
-        return
-    await socket.accept()
+        raise BusyError("All seats are taken: close another window or stream.")
     seat = Seat(caller)
-    control.join(seat)
-    await serve_seat(socket, seat, control)
+    control.join(seat)  # before anything is waited for: whoever is revoked now is found
+    try:
+        await socket.accept()
+        await serve_seat(socket, seat, control)
+    finally:
+        control.leave(seat)
     if seat.farewell:
         with contextlib.suppress(TimeoutError, WebSocketDisconnect, RuntimeError):
             await asyncio.wait_for(socket.close(seat.farewell.code, seat.farewell.reason), CLOSE_WAIT_S)
@@ -85,7 +87,6 @@ async def serve_seat(socket: WebSocket, seat: Seat, control: Control) -> None:
         for task in done:
             task.result()
     finally:
-        control.leave(seat)
         for task in tasks:
             task.cancel()
 
@@ -143,7 +144,9 @@ async def write_all(socket: WebSocket, seat: Seat) -> None:
 
 
 def take(message: AnyClientMessage, seat: Seat, control: Control) -> None:
-    """Acts on one message of somebody who may send it."""
+    """Acts on one message of somebody who is here and may send it. A stop is never too late, its pose is."""
+    if seat.ended.is_set() and not isinstance(message, StopMessage):
+        return
     role = ROLES.get(type(message), "owner")
     with refusing(seat, None):
         seat.caller.require(role)
@@ -197,8 +200,10 @@ def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:
     hold = None
     with refusing(seat, None):  # a bad pose is told, and the stop goes out all the same
         hold = judge_hold(message.hold, control.board.taken_for)
+    if seat.ended.is_set() or control.driving.driver is not seat:
+        hold = None  # anybody may stop; only the driver may say where a servo goes
     with refusing(seat, None):
-        control.stop(hold, seat, Cause(message.why, seat.caller.name))
+        control.stop(hold, Cause(message.why, seat.caller.name), seat)
 
 
 def answer(seat: Seat, message_id: int, left: Left) -> None:

@@ -5,7 +5,7 @@ Looks at what is known anyway; nothing here sends the board a byte or waits for 
 
 from typing import Annotated, Literal, get_args
 
-from fastapi import APIRouter, Depends, Response
+from fastapi import Depends, Response
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from starlette.requests import HTTPConnection
 
@@ -16,7 +16,7 @@ from servodeck.files.disk import Disk
 from servodeck.run.pulse import Pulse
 from servodeck.schema import Message
 from servodeck.told import PortState, PortStatus
-from servodeck.web.api import Controlled, called_by_own_page
+from servodeck.web.api import Controlled, routes
 
 # Far above what a busy small computer shows, far below what a person at a slider would not notice.
 LATE_S = 0.25
@@ -50,7 +50,7 @@ async def disk_of(connection: HTTPConnection) -> Disk:
 
 Beating = Annotated[Pulse, Depends(pulse_of)]
 Stored = Annotated[Disk, Depends(disk_of)]
-health_api = APIRouter(dependencies=[Depends(called_by_own_page)])
+health_api = routes("", "health")
 
 
 @health_api.get("/api/health", dependencies=[ANYBODY])

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from servodeck.access.gate import judge_known
 from servodeck.access.roles import DRIVER, VIEWER
 from servodeck.board.parts import Group, parts_of
 from servodeck.callers import Caller
@@ -66,7 +67,7 @@ class DownloadWish(Message):
     take: Take = False
 
 
-jobs_api = routes("/api")
+jobs_api = routes("/api", "jobs")
 
 
 @jobs_api.post("/download", status_code=202)
@@ -80,6 +81,7 @@ async def download(
     requests. Goes on when whoever asked has left; STOP ends it, and then the slot of the group in progress is
     broken: nobody may run it before another download to it has ended well.
     """
+    judge_known(control.board.taken_for)
     groups = [await body.group() for body in wish.groups]
     parts = await parts_of(groups, control.board.taken_for)
     nonce = wish.nonce

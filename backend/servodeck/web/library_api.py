@@ -51,7 +51,7 @@ def robots_in(library: Library) -> ReadFacts:
 
 Kept = Annotated[Library, Depends(library_of)]
 Id = Annotated[str, Path(pattern=r"^[A-Za-z0-9-]{1,64}$")]
-library_api = routes("/api/library")
+library_api = routes("/api/library", "library")
 
 
 @library_api.get("", dependencies=[VIEWER])

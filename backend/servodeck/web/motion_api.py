@@ -88,7 +88,7 @@ async def scripts_of(connection: HTTPConnection) -> Scripts:
 
 Scripted = Annotated[Scripts, Depends(scripts_of)]
 Driving = Annotated[Caller, DRIVER]
-motion_api = routes("/api")
+motion_api = routes("/api", "motion")
 
 
 @motion_api.post("/move")

@@ -112,6 +112,4 @@ def classes_below(root: type[GatewayError]) -> Iterator[type[GatewayError]]:
         yield from classes_below(each)
 
 
-STATUS_OF: dict[ErrorCode, int] = {each.code: each.status for each in classes_below(GatewayError)} | {
-    "tooLarge": 413
-}
+STATUS_OF: dict[ErrorCode, int] = {each.code: each.status for each in classes_below(GatewayError)}

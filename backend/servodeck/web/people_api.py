@@ -6,16 +6,16 @@ Decides no role and makes no secret. What was changed holds at once; it is writt
 import contextlib
 from typing import Annotated
 
-from fastapi import Depends, Request, Response
+from fastapi import Depends, Query, Request, Response
 from starlette.requests import HTTPConnection
 
 from servodeck.access.devices import Device
 from servodeck.access.entrance import Entrance
+from servodeck.access.hub import is_of
 from servodeck.access.links import link_base, pair_link, picture_of, stop_link
 from servodeck.access.roles import ANYBODY, OWNER, VIEWER, entrance_of
 from servodeck.callers import Caller
 from servodeck.driving.control import Control
-from servodeck.driving.scripts import Scripts
 from servodeck.errors import ForbiddenError, MalformedError, StorageError
 from servodeck.web.api import Controlled, routes
 from servodeck.web.motion_api import Scripted
@@ -38,8 +38,11 @@ from servodeck.web.people_messages import (
 # As long as browsers keep one: a device stays until it is revoked.
 COOKIE_S = 400 * 24 * 3600
 
+GroupGoesOn = Annotated[
+    bool, Query(alias="groupGoesOn", description="The group that it let go on is not stopped with it.")
+]
 Entered = Annotated[Entrance, Depends(entrance_of)]
-people_api = routes("/api")
+people_api = routes("/api", "people")
 
 
 async def base_of(connection: HTTPConnection) -> str:
@@ -89,9 +92,13 @@ async def pair(
     response: Response,
     entrance: Entered,
     present: Annotated[Caller | None, ANYBODY],
+    scripts: Scripted,
 ) -> You:
     """Comes in by a link, a code or a stop-only link, for a cookie; whoever may do as much keeps theirs."""
     caller, credential = come_in(wish, entrance, present)
+    if present and not entrance.still_lets_in(present):
+        reason = "This device was paired again."
+        await scripts.send_away(present.id, reason, caller.name, group_goes_on=True)
     if credential:
         access = entrance.access
         response.set_cookie(
@@ -130,7 +137,8 @@ async def people(entrance: Entered, control: Controlled) -> People:
 
 
 def person_of(device: Device, control: Control) -> Person:
-    driver = control.driving.driver
+    driver, unattended = control.driving.driver, control.board.unattended
+    own = unattended.told() if is_of(unattended.by, device.id) else None
     return Person(
         id=device.id,
         kind=device.kind,
@@ -139,36 +147,49 @@ def person_of(device: Device, control: Control) -> Person:
         paired_at_ms=device.paired_at_ms,
         last_seen_ms=device.last_seen_ms,
         here=control.hub.holds(device.id),
-        drives=driver is not None and driver.caller.id == device.id,
+        drives=is_of(driver, device.id),
+        unattended_slot=own.slot if own else None,
     )
 
 
-@people_api.patch("/people/{person}", dependencies=[OWNER])
+@people_api.patch("/people/{person}")
 async def change(
-    person: str, wanted: PersonChange, entrance: Entered, control: Controlled, scripts: Scripted
+    person: str,
+    wanted: PersonChange,
+    entrance: Entered,
+    control: Controlled,
+    scripts: Scripted,
+    by: Annotated[Caller, OWNER],
 ) -> Person:
-    """Another name or role. What was open under the old role is closed and may come back."""
+    """Another name or role. What was open under the old role is closed and may come back; a group that it let
+    go on is stopped where it may not drive any more.
+    """
     before = entrance.devices.get(person).role
     changed = entrance.devices.change(person, wanted.name, wanted.role)
     if changed.role == before:
         spread_name(changed, control)
     else:
-        send_away(person, "Your role is another one now.", control, scripts)
+        reason, goes_on = "Your role is another one now.", changed.caller.may("driver")
+        await scripts.send_away(person, reason, by.name, group_goes_on=goes_on)
     await entrance.devices.keep()
     return person_of(changed, control)
 
 
-@people_api.delete("/people/{person}", status_code=204, dependencies=[OWNER])
-async def revoke(person: str, entrance: Entered, control: Controlled, scripts: Scripted) -> None:
-    """May not come in any more; what it has open is closed at once."""
+@people_api.delete("/people/{person}", status_code=204)
+async def revoke(
+    person: str,
+    entrance: Entered,
+    scripts: Scripted,
+    by: Annotated[Caller, OWNER],
+    group_goes_on: GroupGoesOn = False,
+) -> None:
+    """May not come in any more; what it has open is closed at once, what it moves is stopped, and nothing
+    that it asked for leaves the gateway behind the answer.
+    """
     entrance.devices.revoke(person)
-    send_away(person, "This device is not paired any more.", control, scripts)
+    reason = "This device is not paired any more."
+    await scripts.send_away(person, reason, by.name, group_goes_on=group_goes_on)
     await entrance.devices.keep()
-
-
-def send_away(person: str, reason: str, control: Control, scripts: Scripts) -> None:
-    control.hub.send_away(person, reason)
-    scripts.forget(person)
 
 
 @people_api.post("/invites", dependencies=[OWNER])

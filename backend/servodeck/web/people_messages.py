@@ -49,7 +49,7 @@ class OwnName(Message):
 
 class Person(Message):
     """A paired device, a script's token or a stop-only link. `here`: it has the page open now,
-    and `drives` where it moves the robot.
+    and `drives` where it moves the robot. `unattendedSlot`: of the group that runs on without it.
     """
 
     id: str
@@ -60,6 +60,7 @@ class Person(Message):
     last_seen_ms: int | None
     here: bool
     drives: bool
+    unattended_slot: int | None
 
 
 class People(Message):

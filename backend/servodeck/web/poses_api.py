@@ -9,6 +9,7 @@ from typing import Annotated
 from fastapi import Path, Request
 from pydantic import Field
 
+from servodeck.access.gate import judge_known
 from servodeck.access.roles import VIEWER
 from servodeck.errors import NotFoundError, OutOfRangeError
 from servodeck.library.library_messages import Name, NamedPose
@@ -32,7 +33,7 @@ class ApplyWish(Message):
 
 
 GENTLY = ApplyWish()
-poses_api = routes("/api/poses")
+poses_api = routes("/api/poses", "poses")
 
 
 @poses_api.get("", dependencies=[VIEWER])
@@ -52,6 +53,7 @@ async def apply(
     wish: ApplyWish = GENTLY,
 ) -> MoveBegun:
     """Goes to the pose of that number or name; as `move` otherwise."""
+    judge_known(control.board.taken_for)
     found = find((await list_poses(control)).poses, pose)
     judge_unit(found, control.board.family)
     positions = {target.servo: target.position for target in found.targets}

@@ -17,7 +17,7 @@ class RobotChoice(Message):
     instead_of: Id | None = None
 
 
-robots_api = routes("/api")
+robots_api = routes("/api", "robots")
 
 
 @robots_api.put("/robot", status_code=204)

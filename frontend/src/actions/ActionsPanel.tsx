@@ -4,10 +4,12 @@
 
 import { Fragment, useCallback } from 'react';
 import { rename } from '#shared/actions/group/groupEdits.ts';
+import { convertGroup } from '#shared/actions/robot/counterpart.ts';
 import { BodyPicture } from '../body/Body.tsx';
 import { FilesButton } from '../files/FilesArea.tsx';
 import { LibraryButton } from '../library/LibraryButton.tsx';
-import { useDevice, useDocument, useStores } from '../stores/stores.ts';
+import { useDocument, useGroupBoard, useKnownFamily, useStores } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
 import { EmptyState } from '../ui/EmptyState.tsx';
 import { useIsPainted } from '../ui/useIsPainted.ts';
 import { useLayout } from '../ui/useLayout.ts';
@@ -57,12 +59,10 @@ function Tools() {
 }
 
 function Content() {
-  const unit = useDocument(({ present }) => present.unit);
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const { playback } = useStores();
   const isPhone = useLayout() === 'phone';
   const isPainted = useIsPainted();
-  const otherUnit = useDevice((state) => state.family.unit !== unit) && !isEmpty;
   const play = useCallback(
     (isPreview: boolean) => (isPreview ? playback.togglePreview() : playback.toggle()),
     [playback],
@@ -80,7 +80,7 @@ function Content() {
   const inOrder = isPhone ? [frames, timeline] : [timeline, frames];
   return (
     <>
-      {otherUnit && <p className={styles.warning}>{words.actions.otherUnit(unit)}</p>}
+      <OtherBoard />
       {isPhone && (
         <div className={styles.body}>
           <BodyPicture />
@@ -91,8 +91,40 @@ function Content() {
   );
 }
 
+/** What was made for another board is drawn as it is; it can be played here once it is converted. */
+function OtherBoard() {
+  const { document, notices } = useStores();
+  const { isOther } = useGroupBoard();
+  const { unit } = useKnownFamily();
+  if (!isOther) return null;
+  const convert = (): void => {
+    const converted = convertGroup(document.store.getState().present, unit);
+    if (converted === null) notices.tell('warning', words.actions.notConverted);
+    else
+      document.edit(
+        () => words.actions.steps.convert,
+        () => converted,
+      );
+  };
+  return (
+    <div className={styles.otherBoard} role="status">
+      <p>{words.actions.otherBoard}</p>
+      <Button hint={words.actions.convertHint(unit)} onPress={convert}>
+        {words.actions.convert}
+      </Button>
+    </div>
+  );
+}
+
 function Empty() {
-  return <EmptyState title={words.actions.empty} hint={words.actions.emptyHint} sketch={<Sketch />} />;
+  return (
+    <EmptyState
+      title={words.actions.empty}
+      hint={words.actions.emptyHint}
+      sketch={<Sketch />}
+      className={styles.empty}
+    />
+  );
 }
 
 function Sketch() {

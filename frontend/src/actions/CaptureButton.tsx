@@ -1,6 +1,7 @@
-// Keeps the pose that the robot was asked for; says why it cannot while nobody knows one.
+// Keeps the pose that the robot was asked for or that its board has said; says why it cannot while nobody knows one.
 
 import type { PressEvent } from 'react-aria-components/Button';
+import { tellsPositions } from '../stores/device/readiness.ts';
 import { useDevice } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
@@ -14,14 +15,21 @@ export interface CaptureButtonProps {
 
 export function CaptureButton({ label, hint, onPress }: CaptureButtonProps) {
   const isKnown = useKnowsPose();
+  const unknown = useUnknownText();
   return (
     <>
       <Button tone="primary" icon="plus" hint={hint} isDisabled={!isKnown} onPress={onPress}>
         {label}
       </Button>
-      {!isKnown && <p className={styles.hint}>{words.actions.nothingKnown}</p>}
+      {!isKnown && <p className={styles.hint}>{unknown}</p>}
     </>
   );
 }
+
+/** What makes a pose known. */
+export const useUnknownText = (): string =>
+  useDevice(({ family }) => tellsPositions(family))
+    ? words.actions.nothingKnownOrRead
+    : words.actions.nothingKnown;
 
 export const useKnowsPose = (): boolean => useDevice(({ known }) => known.length > 0);

@@ -7,17 +7,18 @@ import type { Undoable } from '../stores/undoable.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import { captureFrame } from './capture.ts';
-import { useKnowsPose } from './CaptureButton.tsx';
+import { useKnowsPose, useUnknownText } from './CaptureButton.tsx';
 import styles from './CaptureStrip.module.css';
 
 export function CaptureStrip() {
   const stores = useStores();
   const isKnown = useKnowsPose();
+  const unknown = useUnknownText();
   const isUnknownBoard = useDevice(({ family }) => family.id === 'unknown');
   if (isUnknownBoard) return null;
   return (
     <section className={styles.strip} aria-label={words.actions.captureHere}>
-      {isKnown ? <Captures stores={stores} /> : <p className={styles.hint}>{words.actions.nothingKnown}</p>}
+      {isKnown ? <Captures stores={stores} /> : <p className={styles.hint}>{unknown}</p>}
     </section>
   );
 }

@@ -3,8 +3,8 @@
 import { memo } from 'react';
 import type { GroupFrame } from '#shared/actions/group/group.ts';
 import { setDuration } from '#shared/actions/group/timeEdits.ts';
-import { PoseThumb } from '../body/PoseThumb.tsx';
-import { useDevice, useStores } from '../stores/stores.ts';
+import { GroupThumb } from '../body/PoseThumb.tsx';
+import { useDevice, useGroupBoard, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
@@ -32,7 +32,7 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
   const { frame, index, pose, changed, isSelected, isAmongSelected, isTabStop, isPlaying } = props;
   useWords();
   const stores = useStores();
-  const family = useDevice((state) => state.family);
+  const { family, robot } = useGroupBoard();
   const { isDragged, startDrag } = useFrameDrag(frame.id);
   const number = index + 1;
   return (
@@ -42,6 +42,7 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
       style={frame.colour === null ? undefined : { borderBlockStartColor: `var(--${frame.colour})` }}
       className={cx(
         card.card,
+        styles.frame,
         isSelected && card.selected,
         isAmongSelected && styles.among,
         frame.colour !== null && styles.coloured,
@@ -74,7 +75,7 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
             {frame.note}
           </span>
         )}
-        <PoseThumb pose={pose} changed={changed} family={family} />
+        <GroupThumb pose={pose} changed={changed} family={family} robot={robot} />
       </button>
       <div className={styles.foot}>
         <FrameTime id={frame.id} durationMs={frame.durationMs} number={number} isTabStop={isTabStop} />

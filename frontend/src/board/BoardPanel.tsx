@@ -3,7 +3,7 @@
 // known only as far as this page filled it.
 
 import { useId, useRef, type RefObject } from 'react';
-import { useDevice, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useStores, useSlot } from '../stores/stores.ts';
 import { SlotsControl } from '../slots/SlotsControl.tsx';
 import { FATE_TRUTH, useFates } from '../slots/useFates.ts';
 import { useHeldName } from '../slots/useHeldName.ts';
@@ -98,7 +98,7 @@ function TakenFor() {
 }
 
 function HeldRow() {
-  const slot = useView((state) => state.slot);
+  const slot = useSlot();
   const fate = useFates()(slot);
   const held = useHeldName()(slot) ?? '';
   return (

@@ -2,11 +2,13 @@
 // two, what is known of the slot, or how far a download or a run has come.
 
 import { obstacles } from '../stores/group/compiled.ts';
-import { useCompiled, useDevice, useDocument, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useCompiled, useDevice, useDocument, useSnapshot, useStores, useSlot } from '../stores/stores.ts';
 import { FATE_TRUTH, useFates } from '../slots/useFates.ts';
+import { useHeldName } from '../slots/useHeldName.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { words } from '../words/words.ts';
+import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
 import type { Activity } from '#shared/session/state.ts';
 import { DownloadControl } from './DownloadControl.tsx';
 import { DownloadProgress } from './DownloadProgress.tsx';
@@ -31,7 +33,7 @@ export function BoardStrip() {
 
 function SlotField() {
   const { view, notices } = useStores();
-  const slot = useView((state) => state.slot);
+  const slot = useSlot();
   const { min, max } = useDevice((state) => state.family.slot);
   return (
     <div className={styles.slot}>
@@ -60,18 +62,21 @@ function Now() {
 
 /** What the details below say in full. */
 function AtAGlance() {
-  const slot = useView((state) => state.slot);
+  const slot = useSlot();
   const unit = useDocument(({ present }) => present.unit);
-  const isSameUnit = useDevice((state) => state.family.unit === unit);
+  const { id, unit: boardUnit } = useDevice((state) => state.family);
   const fate = useFates()(slot);
+  const held = useHeldName()(slot) ?? '';
+  const trigger = slotTrigger(id, slot);
   const { frames, report } = useCompiled((state) => state.latest);
   const fits = obstacles(report, 'board').length === 0;
   if (frames.length === 0) return <p className={styles.hint}>{words.board.nothingToDownload}</p>;
-  if (!isSameUnit) return <p className={styles.hint}>{words.actions.otherUnit(unit)}</p>;
+  if (boardUnit !== unit) return <p className={styles.hint}>{words.actions.otherUnit(unit)}</p>;
   return (
     <span className={styles.glance} aria-hidden="true">
-      <Chip truth={FATE_TRUTH[fate]}>{words.slots.badge[fate]}</Chip>
+      <Chip truth={FATE_TRUTH[fate]}>{words.slots.inBar(fate, held)}</Chip>
       <Chip truth={fits ? 'confirmed' : 'danger'}>{fits ? words.compile.fits : words.compile.fitsNot}</Chip>
+      {trigger !== null && <Chip truth="warning">{words.slots.triggerInBar(trigger)}</Chip>}
     </span>
   );
 }

@@ -1,17 +1,17 @@
-// Stores the group of this page, as it was compiled, in the chosen slot.
+// Stores the group of this page, as it was compiled, in its slot, or in a free one where the person prefers that.
 
 import { obstacles } from '../stores/group/compiled.ts';
 import { problemText } from '../stores/group/problemText.ts';
 import { startHindrance } from '../stores/device/readiness.ts';
-import { useCompiled, useDevice, useDocument, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useCompiled, useDevice, useDocument, useSnapshot, useStores, useSlot } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 
 export function DownloadControl() {
-  const { compiled, library, notices, slots } = useStores();
+  const { compiled, library, notices, replacing, view } = useStores();
   const unit = useDocument(({ present }) => present.unit);
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
-  const slot = useView((state) => state.slot);
+  const slot = useSlot();
   const frameCount = useCompiled((state) => state.latest.frames.length);
   const sameUnit = useDevice((state) => state.family.unit === unit);
   const mayStart = useSnapshot((snapshot) => startHindrance(snapshot) === null);
@@ -20,8 +20,11 @@ export function DownloadControl() {
     const { name } = group.source.group;
     const [problem] = obstacles(group.report, 'board');
     const { openId: documentId } = library.store.getState();
-    if (problem === undefined) slots.download([{ slot, name, documentId, frames: group.frames }]);
-    else notices.tell('warning', problemText(problem, group.source));
+    if (problem !== undefined) return notices.tell('warning', problemText(problem, group.source));
+    replacing.download([{ slot, name, documentId, frames: group.frames }], {
+      // The slot stays in sight, also when the download breaks it.
+      began: ([stored]) => view.setState({ slot: stored?.slot ?? slot }),
+    });
   };
   return (
     <Button

@@ -3,6 +3,7 @@
 import { isWatching } from '#shared/session/lease.ts';
 import { useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
+import { ProgressBar } from '../ui/ProgressBar.tsx';
 import { words } from '../words/words.ts';
 import styles from './DownloadProgress.module.css';
 
@@ -16,17 +17,12 @@ export function DownloadProgress() {
   return (
     <div className={styles.progress}>
       <div>
-        <div
-          className={styles.bar}
-          role="progressbar"
-          aria-label={words.board.progress}
-          aria-valuemin={0}
-          aria-valuemax={frameCount}
-          aria-valuenow={framesStored}
-          aria-valuetext={words.board.progressText(framesStored, frameCount)}
-        >
-          <div className={styles.filled} style={{ transform: `scaleX(${framesStored / frameCount})` }} />
-        </div>
+        <ProgressBar
+          label={words.board.progress}
+          done={framesStored}
+          total={frameCount}
+          text={words.board.progressText(framesStored, frameCount)}
+        />
         <p className={styles.figures}>
           {wanted.length > 1 && <span>{words.slots.job(groupsStored, wanted.length)}</span>}
           <span>{words.board.progressText(framesStored, frameCount)}</span>

@@ -1,5 +1,6 @@
 // Erases every slot, after a dialog that names what is lost, and what of it can come back.
 
+import { notRestored } from '#shared/actions/slots/slotBook.ts';
 import { startHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSlots, useSnapshot, useStores } from '../stores/stores.ts';
 import { Confirm } from '../ui/Confirm.tsx';
@@ -7,11 +8,11 @@ import { words } from '../words/words.ts';
 
 export function EraseControl() {
   const { slots } = useStores();
-  const held = useSlots((state) => state.book.stored);
+  const book = useSlots((state) => state.book);
   const versions = useSnapshot((snapshot) => snapshot.slotVersions) ?? {};
-  const ofOthers = Object.entries(versions)
-    .map(([slot, stored]) => ({ slot: Number(slot), name: stored?.name ?? '' }))
-    .filter(({ slot }) => held.every((record) => record.slot !== slot));
+  const broken = useSnapshot((snapshot) => snapshot.brokenSlots);
+  const held = book.stored;
+  const lost = notRestored(book, { versions, broken });
   const { min, max } = useDevice((state) => state.family.slot);
   const mayErase = useSnapshot((snapshot) => startHindrance(snapshot) === null);
   return (
@@ -24,7 +25,7 @@ export function EraseControl() {
       text={[
         words.board.eraseText(max - min + 1),
         ...(held.length > 0 ? [words.slots.willGo(held)] : []),
-        ...(ofOthers.length > 0 ? [words.slots.ofOthersWillGo(ofOthers)] : []),
+        ...(lost.length > 0 ? [words.slots.notRestored(lost)] : []),
       ].join(' ')}
       keepLabel={words.board.eraseKeep}
       confirmLabel={words.board.eraseConfirm}

@@ -1,8 +1,8 @@
 // Where the group at hand belongs and how often it is run, as it says itself; what is chosen above can be kept in it.
 
 import { setMeta } from '#shared/actions/group/groupEdits.ts';
-import { chosenPlace } from '../stores/slots/groupPlace.ts';
-import { useDocument, useStores, useView } from '../stores/stores.ts';
+import { chosenTimes } from '../stores/slots/groupPlace.ts';
+import { useDocument, useSlot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import styles from './BoardPanel.module.css';
@@ -12,14 +12,12 @@ export function PlaceControl() {
   const slot = useDocument(({ present }) => present.slot);
   const times = useDocument(({ present }) => present.times);
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
-  const isKept = useView((state) => {
-    const chosen = chosenPlace(state);
-    return chosen.slot === slot && chosen.times === times;
-  });
+  const chosenSlot = useSlot();
+  const isKept = useView((state) => chosenTimes(state) === times) && chosenSlot === slot;
   const keep = (): void =>
     document.edit(
       () => words.board.steps.place,
-      (group) => setMeta(group, chosenPlace(view.getState())),
+      (group) => setMeta(group, { slot: chosenSlot, times: chosenTimes(view.getState()) }),
     );
   return (
     <div className={styles.place}>

@@ -3,7 +3,7 @@
 
 import { useState } from 'react';
 import { motionHindrance } from '../stores/device/readiness.ts';
-import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useSnapshot, useStores, useSlot } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
@@ -15,7 +15,7 @@ const AS_STORED = 100;
 
 export function SpeedControl() {
   const { device, notices } = useStores();
-  const slot = useView((state) => state.slot);
+  const slot = useSlot();
   const { min, max } = useDevice((state) => state.family.speedPercent);
   const isAllowed = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
   const [percent, setPercent] = useState(AS_STORED);

@@ -1,6 +1,6 @@
 // What Run would run, and how often, as it was chosen on this screen.
 
-import { useDevice, useView } from '../stores/stores.ts';
+import { useDevice, useSlot, useView } from '../stores/stores.ts';
 
 export interface RunSettings {
   readonly slot: number;
@@ -12,7 +12,7 @@ export interface RunSettings {
 }
 
 export function useRunSettings(): RunSettings {
-  const slot = useView((state) => state.slot);
+  const slot = useSlot();
   const canRepeat = useDevice((state) => state.family.zeroTimes === 'endless');
   const untilStopped = useView((state) => state.untilStopped) && canRepeat;
   const times = useView((state) => state.times);

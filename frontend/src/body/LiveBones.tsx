@@ -3,7 +3,7 @@
 
 import { useRef } from 'react';
 import type { Robot } from '#shared/actions/robot/robot.ts';
-import type { Motions, ServoMotion } from '#shared/session/state.ts';
+import type { Motions } from '#shared/session/state.ts';
 import { usePlayback, useRobot, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
@@ -23,7 +23,7 @@ export function LiveBones({ className }: { readonly className?: string | undefin
   const { device } = useStores();
   const robot = useRobot();
   const picture = useRef<SVGSVGElement>(null);
-  const now = (which: keyof ServoMotion): BonePicture | null => {
+  const now = (which: (typeof SHOWN)[number]): BonePicture | null => {
     const motion = motionsInFrame(device);
     return bonesOf(robot, (servo) => motion(servo)[which]);
   };

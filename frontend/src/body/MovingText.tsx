@@ -1,17 +1,22 @@
 // A number that changes by itself, drawn while it does: text that changes has the page laid out and painted anew. Beneath it the
-// text follows every other second, for whoever does not see; at rest it is text like any other.
+// text follows for whoever does not see, four times a second where few change, every other second where many do; at rest it is
+// text like any other.
 
-import { useLayoutEffect, useRef, useState } from 'react';
+import { useEffect, useLayoutEffect, useRef, useState } from 'react';
 import type { LookName } from '../timeline/look.ts';
 import type { FollowedTextProps } from '../ui/NumberField.tsx';
 import { dueOn } from '../ui/useEachFrame.ts';
-import { CHANGING_EACH_MS, READABLE_MS, useFollow } from '../ui/useFollow.ts';
+import { CHANGING_EACH_MS, HEARD_EACH_MS, READABLE_MS, useFollow } from '../ui/useFollow.ts';
 import type { Pen, Size } from './Canvas.tsx';
 import { Drawing } from './Drawing.tsx';
 import overlay from './overlay.module.css';
 
 /** On an element whose text is drawn instead. */
 const DRAWN = 'data-drawn';
+/** Target and estimate of as many servos as two sticks move. Nobody listens to more at once. */
+const FEW = 8;
+/** Those that are drawn now. */
+const changing = new Set<object>();
 
 export interface MovingTextProps extends Omit<FollowedTextProps, 'colour'> {
   readonly colour: LookName;
@@ -22,13 +27,17 @@ export function MovingText({ element, colour, text, write }: MovingTextProps) {
   /** What is drawn; null while it is text. */
   const drawn = useRef<string | null>(null);
   const written = useRef('');
-  const [isDue] = useState(() => dueOn({ eachMs: CHANGING_EACH_MS }));
+  const [isDue] = useState(() => ({
+    amongFew: dueOn({ eachMs: HEARD_EACH_MS }),
+    amongMany: dueOn({ eachMs: CHANGING_EACH_MS }),
+  }));
   const type = useRef<Type | null>(null);
 
   function rest(now: string): void {
     write(now);
     written.current = now;
     drawn.current = null;
+    changing.delete(drawn);
     element.current?.removeAttribute(DRAWN);
   }
 
@@ -36,7 +45,9 @@ export function MovingText({ element, colour, text, write }: MovingTextProps) {
     if (drawn.current === null && now === written.current) return;
     if (drawn.current === null) element.current?.setAttribute(DRAWN, '');
     drawn.current = now;
-    if (isDue(nowMs)) write(now);
+    changing.add(drawn);
+    const [few, many] = [isDue.amongFew(nowMs), isDue.amongMany(nowMs)];
+    if (changing.size <= FEW ? few : many) write(now);
   }
 
   function typeIn(pen: Pen): Type {
@@ -47,6 +58,7 @@ export function MovingText({ element, colour, text, write }: MovingTextProps) {
   }
 
   useLayoutEffect(() => rest(text()));
+  useEffect(() => () => void changing.delete(drawn), []);
   useFollow({ read: text, draw: follow, rest, eachMs: READABLE_MS });
   return (
     <Drawing

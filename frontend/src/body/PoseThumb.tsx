@@ -22,6 +22,9 @@ export const PoseThumb = memo(function PoseThumb(props: PoseThumbProps) {
   return <RobotThumb robot={useRobot()} {...props} />;
 }, isSame);
 
+/** The same of a robot that counts as the group does. */
+export const GroupThumb = memo(RobotThumb, (one, other) => one.robot === other.robot && isSame(one, other));
+
 function isSame(one: PoseThumbProps, other: PoseThumbProps): boolean {
   return one.family === other.family && sameLook(one, other);
 }

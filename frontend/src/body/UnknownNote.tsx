@@ -3,7 +3,7 @@
 
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import type { Device, DeviceState } from '../stores/device/device.ts';
+import type { DeviceState } from '../stores/device/device.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { freeOf } from '../stores/locks.ts';
@@ -21,13 +21,12 @@ import { words } from '../words/words.ts';
 import styles from './UnknownNote.module.css';
 
 export function UnknownNote() {
-  const { device } = useStores();
   const robot = useRobot();
-  // Moved by nobody, and nothing told by the board: the motion changes with the store.
+  // Moved by nobody, and nothing told by the board.
   const text = useDevice(({ known, snapshot }) =>
     snapshot.waitingToStart.length > 0
       ? words.firstMoves.waiting(snapshot.waitingToStart)
-      : textOf(unknownOf(robot, known, device), robot.servos.length),
+      : textOf(unknownOf(robot, known), robot.servos.length),
   );
   const isOffered = useIsGuessing();
   return (
@@ -60,10 +59,8 @@ function guessed(stores: Stores): readonly ServoTarget[] {
   );
 }
 
-function unknownOf({ servos }: Robot, known: DeviceState['known'], device: Device): readonly number[] {
-  return servos
-    .map(({ servo }) => servo)
-    .filter((servo) => !known.includes(servo) && device.motion(servo).estimated === null);
+function unknownOf({ servos }: Robot, known: DeviceState['known']): readonly number[] {
+  return servos.map(({ servo }) => servo).filter((servo) => !known.includes(servo));
 }
 
 function textOf(unknown: readonly number[], count: number): string {

@@ -2,7 +2,9 @@
 // preview. Drawn past React, because the playhead may be scrubbed. Moves nothing.
 
 import { useRef } from 'react';
+import { rescaled } from '#shared/actions/robot/counterpart.ts';
 import { poseAtMs } from '#shared/actions/group/tracks.ts';
+import { knownFamily } from '../stores/group/groupBoard.ts';
 import { isSilent } from '../stores/servoView.ts';
 import { servoViewOf, useStores, type Stores } from '../stores/stores.ts';
 import { timesOf } from '../timeline/groupTimes.ts';
@@ -40,11 +42,17 @@ function previewOf(stores: Stores): Pose | null {
   const { targets } = stores.blend.store.getState();
   if (targets !== null) return (servo) => targets.find((one) => one.servo === servo)?.position ?? null;
   const group = stores.document.store.getState().present;
-  if (!isShown(stores) || group.unit !== stores.device.store.getState().family.unit) return null;
+  if (!isShown(stores)) return null;
   const { tracks, ends } = timesOf(group);
   // The first frame leads to the first pose from wherever the robot is.
   const atMs = Math.max(stores.timeline.getState().playheadMs, ends[0] ?? 0);
   const pose = poseAtMs(tracks, atMs);
   const view = servoViewOf(stores);
-  return pose.size === 0 ? null : (servo) => (isSilent(view, servo) ? null : (pose.get(servo) ?? null));
+  const { unit } = knownFamily(stores.device.store.getState().family, stores.robots.current().robot);
+  return pose.size === 0
+    ? null
+    : (servo) => {
+        const position = isSilent(view, servo) ? undefined : pose.get(servo);
+        return position === undefined ? null : rescaled(position, group.unit, unit);
+      };
 }

@@ -1,14 +1,15 @@
-// Stands before every step that moves a servo: says why it may not move now, and brings a servo that nobody knows the place of
+// Stands before every step that moves a servo: says why it may not move now and offers what helps, and brings a servo that nobody knows the place of
 // to its middle, or all such servos home, slowly and only when told to.
 
 import type { ReactNode } from 'react';
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { reachOf } from '#shared/actions/robot/robotEdits.ts';
-import { mayResume } from '#shared/session/lease.ts';
+import { isWatching, mayResume, type Lease } from '#shared/session/lease.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
+import { turnOf } from '../topBar/turn.ts';
 import { words } from '../words/words.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
@@ -42,7 +43,14 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
       </>
     );
   }
-  if (hindrance !== null) return <Ask>{words.servos.blocked[hindrance]}</Ask>;
+  if (hindrance !== null) {
+    return (
+      <>
+        <Ask>{words.servos.blocked[hindrance]}</Ask>
+        {lease !== null && isWatching(lease) && <TurnAnswers lease={lease} />}
+      </>
+    );
+  }
   if (isKnown) return children;
   return (
     <>
@@ -57,6 +65,16 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
       )}
     </>
   );
+}
+
+/** What may be done about whose turn it is, as the bar offers it behind this dialog. */
+function TurnAnswers({ lease }: { readonly lease: Lease }) {
+  const { device } = useStores();
+  return turnOf(lease).acts.map(({ label, wish, ...how }) => (
+    <Answer key={label} {...how} onPress={() => device.lease(wish)}>
+      {label}
+    </Answer>
+  ));
 }
 
 function middleOf(robot: Robot, servo: RobotServo): number {

@@ -5,7 +5,7 @@ import { MOST_ERROR_UNITS } from '#shared/actions/group/group.ts';
 import { setMeta } from '#shared/actions/group/groupEdits.ts';
 import { maxErrorOf } from '#shared/actions/group/maxError.ts';
 import { obstacles } from '../stores/group/compiled.ts';
-import { useCompiled, useDevice, useDocument, useStores } from '../stores/stores.ts';
+import { useCompiled, useDocument, useKnownFamily, useStores } from '../stores/stores.ts';
 import { servoName } from '../stores/servoName.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
@@ -54,7 +54,7 @@ export function CompileRow() {
 /** The largest error that may be: how many frames it takes depends on it. The group keeps it. */
 function ErrorField() {
   const { document, notices } = useStores();
-  const family = useDevice((state) => state.family);
+  const family = useKnownFamily();
   const value = useDocument(({ present }) => maxErrorOf(present, family));
   const isOfGroup = useDocument(({ present }) => present.frames.length === 0 || present.unit === family.unit);
   return (

@@ -24,7 +24,7 @@ import { createMacros } from '../stores/robots/macros.ts';
 import { createMappings } from '../stores/robots/mappings.ts';
 import { tellHandedOver } from '../stores/people/handedOver.ts';
 import { lookAfresh } from '../stores/timeline/freshLook.ts';
-import { followPlace } from '../stores/slots/groupPlace.ts';
+import { createGroupPlace } from '../stores/slots/groupPlace.ts';
 import { createMotionTape } from '../stores/playing/motionTape.ts';
 import { createNotices } from '../stores/notices.ts';
 import { createPad } from '../stores/driving/pad.ts';
@@ -33,10 +33,12 @@ import type { Me } from '../stores/people/people.generated.ts';
 import { createPlayback } from '../stores/playing/playback.ts';
 import { createPlayhead } from '../stores/playing/playhead.ts';
 import { createPoses } from '../stores/driving/poses.ts';
+import { createTeaching } from '../stores/driving/teaching.ts';
 import { createRobotKeeping } from '../stores/robots/robotKeeping.ts';
 import { followRobot } from '../stores/robots/robotOfLink.ts';
 import { createRobots } from '../stores/robots/robots.ts';
 import { findOthersGroups } from '../stores/slots/othersGroups.ts';
+import { createReplacing } from '../stores/slots/replacing.ts';
 import { createSlots } from '../stores/slots/slots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createTimeline } from '../stores/timeline/timeline.ts';
@@ -96,16 +98,19 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     aside: createAside(),
   });
   const slots = createSlots({ device, robots, notices, storage, today: Date.now });
+  const place = createGroupPlace({ document: written, opened: library.store, view, slots, device });
+  const replacing = createReplacing({ device, robots, slots, place });
   const timeline = createTimeline();
   const playhead = createPlayhead(timeline);
   const playback = createPlayback({
-    ...{ device, document: written, compiled, slots, notices, view, playhead, robots },
+    ...{ device, document: written, compiled, slots, place, replacing, notices, view, playhead, robots },
     documentId: () => library.store.getState().openId,
   });
   const stores = {
     ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
-    ...{ compiled, slots, playhead, playback, keeping },
+    ...{ compiled, slots, place, replacing, playhead, playback, keeping },
     blend: createBlend({ device, robots, view }),
+    teaching: createTeaching({ device, robots, notices }),
     people: createPeople({ api: peopleApi, me, notices, now: pageClock.now }),
     tape: createMotionTape({ device, robots, clock: pageClock }),
     macros,
@@ -141,7 +146,6 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   tellHandedOver(device.store, notices);
   lookAfresh({ library, view, timeline });
   bringSelectionBack({ document: written, timeline, view });
-  followPlace({ document: written, library, view });
   findOthersGroups({ device, robots, slots, compiled, library, keeper });
   stores.view.subscribe(({ tab, kiosk }) => {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(false);

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
-import { readMe } from './peopleApi.ts';
+import { peopleApi, readMe } from './peopleApi.ts';
 
 const ME = { mode: 'local', overheard: false, you: null };
 
@@ -34,4 +34,17 @@ test.each([
   const read = readMe();
   await vi.advanceTimersByTimeAsync(takesMs);
   expect(await read).toEqual(me);
+});
+
+test.each([
+  [false, 'DELETE api/people/dance'],
+  [true, 'DELETE api/people/dance?groupGoesOn=true'],
+])('who is revoked takes the group along, or it goes on: %j', async (groupGoesOn, expected) => {
+  const asked: string[] = [];
+  vi.stubGlobal('fetch', (url: string, { method }: { method: string }) => {
+    asked.push(`${method} ${url}`);
+    return Promise.resolve(new Response(null, { status: 204 }));
+  });
+  await peopleApi.revoke('dance', groupGoesOn);
+  expect(asked).toEqual([expected]);
 });

@@ -42,6 +42,7 @@ const peopleSchema: z.ZodMiniType<People> = z.object({
       lastSeenMs: z.nullable(z.number()),
       here: z.boolean(),
       drives: z.boolean(),
+      unattendedSlot: z.nullable(z.number()),
     }),
   ),
   openInvites: z.array(z.string()),
@@ -83,8 +84,8 @@ export const peopleApi: PeopleApi = {
   change: async (id, wanted) => {
     await ask(`people/${id}`, 'PATCH', nothing, wanted);
   },
-  revoke: async (id) => {
-    await ask(`people/${id}`, 'DELETE', nothing);
+  revoke: async (id, groupGoesOn) => {
+    await ask(`people/${id}${groupGoesOn ? '?groupGoesOn=true' : ''}`, 'DELETE', nothing);
   },
   makeToken: (wish) => ask('tokens', 'POST', tokenSchema, wish),
   makeStopLink: (name) => ask('stop-links', 'POST', stopLinkSchema, { name }),

@@ -1,6 +1,6 @@
-// The log at the foot of the page: folded it is one line with the latest packet, unfolded the whole log.
+// The log at the foot of the page: folded it is one line with the latest packet or the stop that holds, unfolded the whole log.
 
-import type { LogEntry } from '../stores/device/traffic.ts';
+import { useMemo } from 'react';
 import { useStores, useView } from '../stores/stores.ts';
 import { Button as AriaButton } from 'react-aria-components/Button';
 import { Icon } from '../ui/Icon.tsx';
@@ -8,6 +8,7 @@ import { LiveText } from '../ui/LiveText.tsx';
 import { words } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import { LogPanel } from './LogPanel.tsx';
+import { createStrip } from './strip.ts';
 import { READABLE_MS } from '../ui/useFollow.ts';
 import { PART } from '../ui/useParts.ts';
 import styles from './LogDrawer.module.css';
@@ -37,27 +38,26 @@ export function LogDrawer() {
   );
 }
 
-const HOW = { isFixed: true, isCalm: true, eachMs: READABLE_MS } as const;
-
 function Latest() {
   const { traffic } = useStores().device;
-  const newest = (): number => traffic.store.getState().nextId;
-  const latest = (): LogEntry | null => {
-    const { oldestId, nextId } = traffic.store.getState();
-    return nextId > oldestId ? traffic.at(nextId - 1) : null;
-  };
+  const strip = useMemo(() => createStrip(traffic), [traffic]);
   const said = (): string => {
-    const now = latest();
+    const now = strip.latest();
     return now === null ? words.log.empty : `${arrowOf(now.entry)} ${meaning(now)}`;
   };
   const bytes = (): string => {
-    const now = latest();
+    const now = strip.latest();
     return now === null ? '' : bytesText(now);
+  };
+  const how = {
+    ...{ isFixed: true, eachMs: READABLE_MS },
+    isCalm: () => !strip.isStopped(),
+    about: () => strip.latest()?.id,
   };
   return (
     <>
-      <LiveText className={styles.latest} text={said} {...HOW} about={newest} />
-      <LiveText className={styles.bytes} text={bytes} {...HOW} about={newest} />
+      <LiveText className={styles.latest} text={said} {...how} />
+      <LiveText className={styles.bytes} text={bytes} {...how} />
     </>
   );
 }

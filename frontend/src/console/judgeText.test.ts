@@ -6,7 +6,7 @@ import { judgeText, obstacleFor } from './judgeText.ts';
 
 const judge = (text: string, board: FamilyId = 'doc') => judgeText(text, FAMILIES[board]);
 const READY = { ...INITIAL_STATE, link: { status: 'ready' } } as const;
-const LATCHED = { ...READY, latch: { reason: 'pressed', by: null, stop: 'sent', unheld: [] } } as const;
+const LATCHED = { ...READY, latch: { reason: 'pressed', by: null, stop: 'sent', unheld: null } } as const;
 
 describe('a packet that is being typed', () => {
   test.each([

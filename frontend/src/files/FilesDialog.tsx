@@ -1,12 +1,15 @@
 // The dialog about files: what was opened, each with what it holds or what is wrong with it, and saving the group at hand.
 
+import { useCallback } from 'react';
 import { FileTrigger } from 'react-aria-components/FileTrigger';
+import { useStore } from 'zustand';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { useDevice } from '../stores/stores.ts';
+import { useKnownFamily } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { words } from '../words/words.ts';
-import { readyGroups } from './answers.ts';
+import { readyGroups, type ReadyGroup } from './answers.ts';
+import { FileProgress } from './FileProgress.tsx';
 import { OpenedFileItem } from './OpenedFileItem.tsx';
 import { SaveAs } from './SaveAs.tsx';
 import type { OpenedFiles } from './openedFiles.ts';
@@ -16,18 +19,29 @@ export interface FilesDialogProps {
   readonly files: OpenedFiles;
   readonly isOpen: boolean;
   onClose(): void;
-  onTake(groups: readonly ActionGroup[]): void;
+  onTake(group: ActionGroup): void;
+  onTakeAll(ready: readonly ReadyGroup[]): void;
 }
 
-export function FilesDialog({ files, isOpen, onClose, onTake }: FilesDialogProps) {
+type FilesContentProps = Pick<FilesDialogProps, 'files' | 'onTake' | 'onTakeAll'>;
+
+export function FilesDialog({ isOpen, onClose, ...content }: FilesDialogProps) {
   return (
     <Dialog title={words.files.title} closeLabel={words.close} wide isOpen={isOpen} onClose={onClose}>
-      <FilesContent files={files} onTake={onTake} />
+      <FilesContent {...content} />
     </Dialog>
   );
 }
 
-export function FilesContent({ files, onTake }: Pick<FilesDialogProps, 'files' | 'onTake'>) {
+export function FilesContent({ files, onTake, onTakeAll }: FilesContentProps) {
+  const list = useStore(files.store, (state) => state.list);
+  const take = useCallback(
+    (id: number, group: ActionGroup) => {
+      files.drop(id);
+      onTake(group);
+    },
+    [files, onTake],
+  );
   return (
     <>
       <section className={styles.part}>
@@ -38,19 +52,11 @@ export function FilesContent({ files, onTake }: Pick<FilesDialogProps, 'files' |
           </FileTrigger>
           <span className={styles.dim}>{words.files.hint}</span>
         </div>
-        <TakeAll files={files} onTake={onTake} />
+        <Reading files={files} />
+        <TakeAll files={files} onTakeAll={onTakeAll} />
         <ul className={styles.list} aria-label={words.files.list} aria-live="polite">
-          {files.list.map((file) => (
-            <OpenedFileItem
-              key={file.id}
-              file={file}
-              onDrop={() => files.drop(file.id)}
-              onAnswer={(index, change) => files.answer(file.id, index, change)}
-              onTake={(group) => {
-                files.drop(file.id);
-                onTake([group]);
-              }}
-            />
+          {list.map((file) => (
+            <OpenedFileItem key={file.id} file={file} files={files} onTake={take} />
           ))}
         </ul>
       </section>
@@ -62,19 +68,44 @@ export function FilesContent({ files, onTake }: Pick<FilesDialogProps, 'files' |
   );
 }
 
+function Reading({ files }: Pick<FilesContentProps, 'files'>) {
+  const reading = useStore(files.store, (state) => state.reading);
+  const unread = useStore(files.store, (state) => state.unread);
+  return (
+    <>
+      {reading !== null && (
+        <FileProgress
+          label={words.files.reading}
+          progress={reading}
+          text={words.files.readSoFar(reading.done, reading.total)}
+          onCancel={files.cancelReading}
+        />
+      )}
+      <div aria-live="polite">{unread > 0 && <p className={styles.dim}>{words.files.unread(unread)}</p>}</div>
+    </>
+  );
+}
+
 /** Whoever has a folder of groups takes them in one go. Files that still ask something stay in the list. */
-function TakeAll({ files, onTake }: Pick<FilesDialogProps, 'files' | 'onTake'>) {
-  const unit = useDevice((state) => state.family.unit);
-  const ready = readyGroups(files.list, unit);
+function TakeAll({ files, onTakeAll }: Pick<FilesContentProps, 'files' | 'onTakeAll'>) {
+  const unit = useKnownFamily().unit;
+  const list = useStore(files.store, (state) => state.list);
+  const taking = useStore(files.store, (state) => state.taking);
+  if (taking !== null)
+    return (
+      <FileProgress
+        label={words.files.taking}
+        progress={taking}
+        text={words.files.takenSoFar(taking.done, taking.total)}
+        onCancel={files.cancelTaking}
+      />
+    );
+  const ready = readyGroups(list, unit);
   const [first] = ready;
   if (first === undefined || ready.length < 2) return null;
-  const take = (): void => {
-    files.drop(...ready.map(({ file }) => file));
-    onTake(ready.map(({ group }) => group));
-  };
   return (
     <div className={styles.all}>
-      <Button icon="library" onPress={take}>
+      <Button icon="library" onPress={() => onTakeAll(ready)}>
         {words.files.takeAll(ready.length)}
       </Button>
       <span className={styles.dim}>{words.files.takeAllHint(first.group.name)}</span>

@@ -4,8 +4,9 @@
 import { useMemo } from 'react';
 import { misfitsOf } from '#shared/actions/files/fit.ts';
 import { poseAt, totalDurationMs, type ActionGroup } from '#shared/actions/group/group.ts';
-import { PoseThumb } from '../body/PoseThumb.tsx';
-import { useDevice, useRobot } from '../stores/stores.ts';
+import { GroupThumb } from '../body/PoseThumb.tsx';
+import { boardOfGroup } from '../stores/group/groupBoard.ts';
+import { useKnownFamily, useRobot } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
@@ -23,18 +24,21 @@ export interface FoundGroupProps {
 }
 
 export function FoundGroup({ found, asksUnit, answer, onAnswer, onTake }: FoundGroupProps) {
-  const family = useDevice((state) => state.family);
+  const family = useKnownFamily();
+  const robot = useRobot();
   const { unit, converts } = answer;
   const group = takenAs(found, answer, family.unit);
   const { frames } = group;
   return (
     <div className={styles.group}>
       <div className={styles.row}>
-        {group.unit === family.unit && (
-          <span className={styles.thumb}>
-            <PoseThumb pose={poseAt(frames, Math.floor(frames.length / 2))} changed={[]} family={family} />
-          </span>
-        )}
+        <span className={styles.thumb}>
+          <GroupThumb
+            {...boardOfGroup(group, family, robot)}
+            pose={poseAt(frames, Math.floor(frames.length / 2))}
+            changed={[]}
+          />
+        </span>
         <GroupPlot group={group} />
         <div className={styles.words}>
           <p className={styles.name}>{group.name}</p>
@@ -50,9 +54,9 @@ export function FoundGroup({ found, asksUnit, answer, onAnswer, onTake }: FoundG
         </Button>
       </div>
       {asksUnit && <UnitQuestion group={found} unit={unit} onUnit={(one) => onAnswer({ unit: one })} />}
-      {unit === 'us' && convertedOf(found, answer, family.unit) !== null && (
+      {unit !== null && convertedOf(found, answer, family.unit) !== null && (
         <Toggle
-          label={words.files.convert}
+          label={words.files.convert(family.unit)}
           isOn={converts}
           onChange={(isOn) => onAnswer({ converts: isOn })}
         />
@@ -69,7 +73,7 @@ function aboutOf({ frames, slot }: ActionGroup): string {
 }
 
 function Misfits({ group }: { readonly group: ActionGroup }) {
-  const family = useDevice((state) => state.family);
+  const family = useKnownFamily();
   const robot = useRobot();
   const misfits = useMemo(() => misfitsOf(group, family, robot), [group, family, robot]);
   if (misfits.length === 0) return null;

@@ -37,7 +37,9 @@ function linesOf(group: ActionGroup): readonly string[] {
     for (const { servo, position } of targets) {
       const share = Math.min(1, Math.max(0, (position - min) / (max - min)));
       const point = `${((atMs / lengthMs) * WIDTH).toFixed(1)},${((1 - share) * HEIGHT).toFixed(1)}`;
-      lines.set(servo, [...(lines.get(servo) ?? []), point]);
+      const line = lines.get(servo);
+      if (line === undefined) lines.set(servo, [point]);
+      else line.push(point);
     }
   });
   return [...new Set([...lines.values()].slice(0, SHOWN_SERVOS).map((points) => points.join(' ')))];

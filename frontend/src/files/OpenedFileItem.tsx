@@ -1,38 +1,39 @@
 // One opened file: each group in it with its picture, what has to be asked and told, and the way to take it over. A file that
 // cannot be read says where and why.
 
+import { memo } from 'react';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Remark } from '#shared/actions/files/reading.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import type { Answer } from './answers.ts';
 import { FoundGroup } from './FoundGroup.tsx';
-import type { OpenedFile } from './openedFiles.ts';
+import type { OpenedFile, OpenedFiles } from './openedFiles.ts';
 import styles from './OpenedFileItem.module.css';
 
 export interface OpenedFileItemProps {
   readonly file: OpenedFile;
-  onAnswer(index: number, change: Partial<Answer>): void;
-  onTake(group: ActionGroup): void;
-  onDrop(): void;
+  readonly files: Pick<OpenedFiles, 'answer' | 'drop'>;
+  onTake(id: number, group: ActionGroup): void;
 }
 
-export function OpenedFileItem({ file, onAnswer, onTake, onDrop }: OpenedFileItemProps) {
-  const { name, reading, answers } = file;
+/** Drawn again only where its file has changed: there may be hundreds, and each draws its groups. */
+export const OpenedFileItem = memo(function OpenedFileItem({ file, files, onTake }: OpenedFileItemProps) {
+  const { id, name, reading, answers } = file;
   return (
-    <li className={styles.file} aria-label={name} aria-busy={reading === null}>
+    <li className={styles.file} aria-label={name}>
       <div className={styles.head}>
-        {reading === null && <p className={styles.dim}>{`${words.files.reading} ${name}`}</p>}
-        {reading !== null && 'problem' in reading && (
+        {'problem' in reading ? (
           <div>
             <p className={styles.refused}>{words.files.refused(name)}</p>
             <p>{words.files.problem(reading.problem)}</p>
           </div>
+        ) : (
+          <p className={styles.dim}>{words.files.from(name)}</p>
         )}
-        {reading !== null && 'groups' in reading && <p className={styles.dim}>{words.files.from(name)}</p>}
-        <IconButton icon="close" label={words.files.drop(name)} onPress={onDrop} />
+        <IconButton icon="close" label={words.files.drop(name)} onPress={() => files.drop(id)} />
       </div>
-      {reading !== null && 'groups' in reading && (
+      {'groups' in reading && (
         <>
           {reading.groups.map((group, index) => (
             <FoundGroup
@@ -40,8 +41,8 @@ export function OpenedFileItem({ file, onAnswer, onTake, onDrop }: OpenedFileIte
               found={group}
               asksUnit={reading.asksUnit}
               answer={answers[index] ?? NOT_ANSWERED}
-              onAnswer={(change) => onAnswer(index, change)}
-              onTake={onTake}
+              onAnswer={(change) => files.answer(id, index, change)}
+              onTake={(taken) => onTake(id, taken)}
             />
           ))}
           <Remarks remarks={reading.remarks} />
@@ -49,7 +50,7 @@ export function OpenedFileItem({ file, onAnswer, onTake, onDrop }: OpenedFileIte
       )}
     </li>
   );
-}
+});
 
 const NOT_ANSWERED: Answer = { unit: null, converts: false };
 

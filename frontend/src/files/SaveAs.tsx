@@ -10,7 +10,7 @@ import {
   writeGroupFile,
   type SaveFormat,
 } from '#shared/actions/files/writeGroupFile.ts';
-import { useDevice, useGroup, useRobot, useStores } from '../stores/stores.ts';
+import { useGroup, useKnownFamily, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { saveBlob } from '../ui/saveFile.ts';
 import { Choice } from '../ui/Toggle.tsx';
@@ -47,10 +47,12 @@ export function SaveAs() {
   );
 }
 
+const isProgram = (format: SaveFormat): boolean => format === 'python' || format === 'arduino';
+
 function Save({ format }: { readonly format: SaveFormat }) {
   const { notices } = useStores();
   const group = useGroup();
-  const family = useDevice((state) => state.family);
+  const family = useKnownFamily();
   const robot = useRobot();
   const [misfits, setMisfits] = useState<readonly Misfit[]>([]);
 
@@ -63,6 +65,7 @@ function Save({ format }: { readonly format: SaveFormat }) {
 
   return (
     <>
+      {isProgram(format) && <p className={styles.dim}>{words.files.forBoard(words.boardName(family))}</p>}
       <div>
         <Button
           icon="save"

@@ -2,7 +2,8 @@ import { describe, expect, test } from 'vitest';
 import type { Reading } from '#shared/actions/files/reading.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { emptyGroup } from '#shared/actions/group/group.ts';
-import { firstAnswers, readyGroups, takenAs, type Answer } from './answers.ts';
+import { words } from '../words/words.ts';
+import { countsOf, firstAnswers, readyGroups, takenAs, type Answer } from './answers.ts';
 
 const group = (name: string, ...positions: readonly number[]) =>
   insertFrame(emptyGroup(name, 'us'), 0, {
@@ -39,13 +40,19 @@ describe('a group is taken', () => {
   });
 });
 
-test('all are taken at once but files that ask, are read or are broken', () => {
+test('what could not be opened is not counted as opened', () => {
+  const refused = opened(1, { problem: { code: 'encrypted', place: null, found: '' } });
+  const files = [refused, opened(2, read(true, group('Nod', 700)))];
+  expect(countsOf(files)).toEqual({ opened: 1, refused: 1 });
+  expect(words.files.button(0, 4)).toBe('Files, 4 not opened');
+});
+
+test('all are taken at once but files that ask or are broken', () => {
   const asking = opened(2, read(true, group('Asks', 700), group('Clear', 1500)));
   const files = [
     opened(1, read(false, group('Nod', 700))),
     asking,
-    { id: 3, reading: null, answers: [] },
-    opened(4, { problem: { code: 'encrypted', place: null, found: '' } }),
+    opened(3, { problem: { code: 'encrypted', place: null, found: '' } }),
   ];
   const names = (list: typeof files) => readyGroups(list, 'us').map((one) => [one.file, one.group.name]);
   expect(names(files)).toEqual([[1, 'Nod']]);

@@ -1,8 +1,9 @@
-// What a person says of a group that stands in a file: the unit of its positions, and whether they become steps; and the group
+// What a person says of a group that stands in a file: the unit of its positions, and whether they become those of the board; and the group
 // as it is taken over then. Pure.
 
 import type { Reading, Unit } from '#shared/actions/files/reading.ts';
-import { inUnit, onlyFittingUnit, toSteps } from '#shared/actions/files/units.ts';
+import { convertGroup } from '#shared/actions/robot/counterpart.ts';
+import { inUnit, meaningIn, onlyFittingUnit } from '#shared/actions/files/units.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 
 export interface Answer {
@@ -20,9 +21,11 @@ export function firstAnswers(reading: Reading): readonly Answer[] {
   }));
 }
 
-/** null where a position of it cannot become a step, or where steps are not what the board counts. */
+/** null where the board counts so already, or a position of it is none of its own unit. */
 export function convertedOf(found: ActionGroup, { unit }: Answer, boardUnit: Unit): ActionGroup | null {
-  return boardUnit === 'steps' ? toSteps(inUnit(found, unit ?? found.unit)) : null;
+  const said = inUnit(found, unit ?? found.unit);
+  const isSound = said.unit !== boardUnit && meaningIn(said.unit, said).outside === 0;
+  return isSound ? convertGroup(said, boardUnit) : null;
 }
 
 export function takenAs(found: ActionGroup, answer: Answer, boardUnit: Unit): ActionGroup {
@@ -32,14 +35,26 @@ export function takenAs(found: ActionGroup, answer: Answer, boardUnit: Unit): Ac
 
 export interface AnsweredFile {
   readonly id: number;
-  readonly reading: Reading | null;
+  readonly reading: Reading;
   readonly answers: readonly Answer[];
 }
 
+export interface ReadyGroup {
+  /** The id of its file. */
+  readonly file: number;
+  readonly group: ActionGroup;
+}
+
+/** Files with groups, and those that could not be opened. */
+export function countsOf(files: readonly Pick<AnsweredFile, 'reading'>[]) {
+  const opened = files.filter(({ reading }) => 'groups' in reading).length;
+  return { opened, refused: files.length - opened };
+}
+
 /** The groups of the files that nothing more has to be asked about. */
-export function readyGroups(files: readonly AnsweredFile[], boardUnit: Unit) {
+export function readyGroups(files: readonly AnsweredFile[], boardUnit: Unit): readonly ReadyGroup[] {
   return files.flatMap(({ id, reading, answers }) => {
-    if (reading === null || !('groups' in reading)) return [];
+    if (!('groups' in reading)) return [];
     if (answers.some(({ unit }) => unit === null)) return [];
     return reading.groups.flatMap((found, index) => {
       const answer = answers[index];

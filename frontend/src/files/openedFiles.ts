@@ -1,68 +1,134 @@
-// Files that were opened and not yet taken over, read one by one, with what was answered about them. Knows no document and no
-// dialog.
+// Files that were opened and not yet taken over, with what was answered about them: read one after the other, and taken over
+// one after the other, each with its progress, until a person cancels. Knows no document and no dialog.
 
-import { useState } from 'react';
-import { MAX_FILE_BYTES, readGroupFile } from '#shared/actions/files/readGroupFile.ts';
-import type { Problem, Reading } from '#shared/actions/files/reading.ts';
-import { firstAnswers, type Answer, type AnsweredFile } from './answers.ts';
-import { fileMeans } from './means.ts';
-import { loadSqlite } from './sqlite.ts';
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { firstAnswers, type Answer, type AnsweredFile, type ReadyGroup } from './answers.ts';
+import type { FileReader } from './fileReader.ts';
 
-/** `reading` is null while it is being read. */
 export interface OpenedFile extends AnsweredFile {
   readonly name: string;
+  /** Files that were chosen together stand together. */
+  readonly batch: number;
+}
+
+export interface Progress {
+  readonly done: number;
+  readonly total: number;
+}
+
+export interface OpenedFilesState {
+  /** The newest batch first. */
+  readonly list: readonly OpenedFile[];
+  /** null while nothing is being read. */
+  readonly reading: Progress | null;
+  /** How many files stayed unread when reading was last cancelled. */
+  readonly unread: number;
+  /** null while nothing is being taken over. */
+  readonly taking: Progress | null;
+}
+
+/** How a group after the other is taken over. */
+export interface Course {
+  readonly signal: AbortSignal;
+  onTaken(index: number): void;
 }
 
 export interface OpenedFiles {
-  readonly list: readonly OpenedFile[];
+  readonly store: StoreApi<OpenedFilesState>;
   open(files: readonly File[]): void;
+  /** What has been read stays. */
+  cancelReading(): void;
   /** About the group at `index` of the file. */
   answer(id: number, index: number, change: Partial<Answer>): void;
-  drop(...ids: readonly number[]): void;
+  drop(id: number): void;
+  /** A file leaves the list when all its groups are taken. True at the end of all of them. */
+  take(
+    ready: readonly ReadyGroup[],
+    takeOver: (groups: readonly ActionGroup[], course: Course) => Promise<void>,
+  ): Promise<boolean>;
+  /** What is not taken yet stays in the list. */
+  cancelTaking(): void;
 }
 
-const means = fileMeans(loadSqlite);
-let nextId = 1;
+export function createOpenedFiles(reader: FileReader): OpenedFiles {
+  const store = createStore<OpenedFilesState>(() => ({ list: [], reading: null, unread: 0, taking: null }));
+  const queue: { readonly file: File; readonly batch: number }[] = [];
+  let [batches, nextId] = [0, 1];
+  let readingEnds = new AbortController();
+  let takingEnds = new AbortController();
 
-export function useOpenedFiles(): OpenedFiles {
-  const [list, setList] = useState<readonly OpenedFile[]>([]);
+  const change = (changed: (list: readonly OpenedFile[]) => readonly OpenedFile[]): void =>
+    store.setState(({ list }) => ({ list: changed(list) }));
 
   function open(files: readonly File[]): void {
-    const added = files.map((file) => ({ file, id: nextId++ }));
-    setList((before) => [
-      ...added.map(({ file, id }) => ({ id, name: file.name, reading: null, answers: [] })),
-      ...before,
-    ]);
-    for (const { file, id } of added)
-      void readingOf(file).then((reading) =>
-        setList((before) =>
-          before.map((one) => (one.id === id ? { ...one, reading, answers: firstAnswers(reading) } : one)),
-        ),
-      );
+    if (files.length === 0) return;
+    const batch = (batches += 1);
+    queue.push(...files.map((file) => ({ file, batch })));
+    const { reading } = store.getState();
+    const { done, total } = reading ?? { done: 0, total: 0 };
+    store.setState({ reading: { done, total: total + files.length }, unread: 0 });
+    if (reading === null) void readQueue();
   }
 
-  function answer(id: number, index: number, change: Partial<Answer>): void {
-    const changed = (before: readonly Answer[]): readonly Answer[] =>
-      before.map((one, place) => (place === index ? { ...one, ...change } : one));
-    setList((before) =>
-      before.map((one) => (one.id === id ? { ...one, answers: changed(one.answers) } : one)),
-    );
+  async function readQueue(): Promise<void> {
+    readingEnds = new AbortController();
+    const { signal } = readingEnds;
+    for (let next = queue.shift(); next !== undefined; next = queue.shift()) {
+      const { file, batch } = next;
+      const reading = await reader.read(file);
+      if (signal.aborted) return;
+      const id = nextId++;
+      const read: OpenedFile = { id, batch, name: file.name, reading, answers: firstAnswers(reading) };
+      store.setState(({ list, reading: progress }) => ({
+        list: added(list, read),
+        reading: progress && { ...progress, done: progress.done + 1 },
+      }));
+    }
+    store.setState({ reading: null });
   }
+
+  function cancelReading(): void {
+    const { reading } = store.getState();
+    if (reading === null) return;
+    readingEnds.abort();
+    reader.stop();
+    queue.length = 0;
+    store.setState({ reading: null, unread: reading.total - reading.done });
+  }
+
+  const drop = (id: number): void => change((list) => list.filter((one) => one.id !== id));
 
   return {
-    ...{ list, open, answer },
-    drop: (...ids) => setList((before) => before.filter((one) => !ids.includes(one.id))),
+    ...{ store, open, cancelReading, drop },
+    answer: (id, index, said) =>
+      change((list) =>
+        list.map((one) => (one.id === id ? { ...one, answers: answered(one.answers, index, said) } : one)),
+      ),
+    async take(ready, takeOver) {
+      if (store.getState().taking !== null) return false;
+      takingEnds = new AbortController();
+      const { signal } = takingEnds;
+      store.setState({ taking: { done: 0, total: ready.length } });
+      const onTaken = (index: number): void => {
+        store.setState({ taking: { done: index + 1, total: ready.length } });
+        const file = ready[index]?.file;
+        if (file !== undefined && file !== ready[index + 1]?.file) drop(file);
+      };
+      await takeOver(
+        ready.map(({ group }) => group),
+        { signal, onTaken },
+      ).finally(() => store.setState({ taking: null }));
+      return !signal.aborted;
+    },
+    cancelTaking: () => takingEnds.abort(),
   };
 }
 
-async function readingOf(file: File): Promise<Reading> {
-  if (file.size > MAX_FILE_BYTES) return problem('tooLarge');
-  try {
-    const bytes = new Uint8Array(await file.arrayBuffer());
-    return await readGroupFile({ name: file.name, bytes }, means);
-  } catch {
-    return problem('unreadable');
-  }
+function added(list: readonly OpenedFile[], file: OpenedFile): readonly OpenedFile[] {
+  const at = list.findIndex(({ batch }) => batch < file.batch);
+  return list.toSpliced(at === -1 ? list.length : at, 0, file);
 }
 
-const problem = (code: Problem['code']): Reading => ({ problem: { code, place: null, found: '' } });
+const answered = (before: readonly Answer[], index: number, said: Partial<Answer>): readonly Answer[] =>
+  before.map((one, place) => (place === index ? { ...one, ...said } : one));

@@ -4,19 +4,35 @@
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Stores } from '../stores/stores.ts';
 import { words } from '../words/words.ts';
+import type { Course } from './openedFiles.ts';
 
-export function takeGroups(
-  { document, library, view, notices }: Pick<Stores, 'document' | 'library' | 'view' | 'notices'>,
-  [group, ...others]: readonly ActionGroup[],
-): void {
-  if (group === undefined) return;
+type Needed = Pick<Stores, 'document' | 'library' | 'view' | 'notices'>;
+
+export function takeGroup({ document, library, view, notices }: Needed, group: ActionGroup): void {
   if (document.store.getState().present.frames.length > 0) library.create();
   document.edit(
     () => words.files.step(group.name),
     () => group,
   );
-  others.forEach(library.add);
-  if (others.length > 0) notices.tell('info', words.files.inLibrary(others.length));
   view.setState({ authoring: 'group', selectedFrame: null });
   notices.say(words.files.taken(group.name, group.frames.length));
+}
+
+/** One after the other, so that the page goes on meanwhile: each is in the library, or waits for it, before the next. */
+export async function takeGroups(
+  stores: Needed,
+  [group, ...others]: readonly ActionGroup[],
+  { signal, onTaken }: Course,
+): Promise<void> {
+  if (group === undefined) return;
+  takeGroup(stores, group);
+  onTaken(0);
+  let added = 0;
+  for (const other of others) {
+    if (signal.aborted) break;
+    await stores.library.add(other);
+    added += 1;
+    onTaken(added);
+  }
+  if (added > 0) stores.notices.tell('info', words.files.inLibrary(added));
 }

@@ -6,12 +6,12 @@ import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { FilesContent } from '../files/FilesDialog.tsx';
 import { firstAnswers } from '../files/answers.ts';
-import type { OpenedFile } from '../files/openedFiles.ts';
+import { createOpenedFiles, type OpenedFile, type OpenedFiles } from '../files/openedFiles.ts';
 import type { Stores } from '../stores/stores.ts';
 import type { Exhibit } from './exhibit.ts';
 import { specimenStores } from './specimenStores.ts';
 
-const READINGS: readonly (readonly [name: string, reading: Reading | null])[] = [
+const READINGS: readonly (readonly [name: string, reading: Reading])[] = [
   ['No.10 wave.xml', { groups: [wave('wave', 1500, 10)], asksUnit: true, remarks: [] }],
   [
     'nod.xml',
@@ -23,24 +23,22 @@ const READINGS: readonly (readonly [name: string, reading: Reading | null])[] = 
   ],
   ['dance.rob', { problem: { code: 'encrypted', place: null, found: '' } }],
   ['walk.csv', { problem: { code: 'badPosition', place: { line: 7 }, found: '1500.5' } }],
-  ['greet.d6a', null],
 ];
 
-const OPENED = {
-  list: READINGS.map(([name, reading], id): OpenedFile => ({
-    ...{ id, name, reading },
-    answers: reading === null ? [] : firstAnswers(reading),
-  })),
-  open: () => undefined,
-  answer: () => undefined,
-  drop: () => undefined,
-};
+function opened(): OpenedFiles {
+  const files = createOpenedFiles({ read: () => new Promise(() => undefined), stop: () => undefined });
+  const list = READINGS.map(([name, reading], id): OpenedFile => ({
+    ...{ id, batch: 0, name, reading, answers: firstAnswers(reading) },
+  }));
+  files.store.setState({ list, reading: { done: 4, total: 9 } });
+  return files;
+}
 
 export const FILES: readonly Exhibit[] = [
   {
     name: 'Files',
     isInDialog: true,
-    content: <FilesContent files={OPENED} onTake={() => undefined} />,
+    content: <FilesContent files={opened()} onTake={() => undefined} onTakeAll={() => undefined} />,
     stores: prepared,
   },
 ];

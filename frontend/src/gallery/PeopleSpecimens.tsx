@@ -78,6 +78,7 @@ function person(id: string, name: string, role: PeopleState['people'][number]['r
     role,
     here,
     drives: id === 'ben',
+    unattendedSlot: null,
     pairedAtMs: AT_MS,
     lastSeenMs: AT_MS,
   } as const;

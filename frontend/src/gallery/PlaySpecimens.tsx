@@ -5,7 +5,7 @@ import { insertFrame, setMeta, type NewFrame } from '#shared/actions/group/group
 import { EMPTY_SLOT_BOOK, withStored } from '#shared/actions/slots/slotBook.ts';
 import { BoardPanel } from '../board/BoardPanel.tsx';
 import { PlayBar } from '../play/PlayBar.tsx';
-import { ReplaceContent } from '../play/ReplaceQuestion.tsx';
+import { ReplaceContent } from '../slots/ReplaceQuestion.tsx';
 import { SlotBoard } from '../slots/SlotsControl.tsx';
 import { editServoView, type Stores } from '../stores/stores.ts';
 import { standing, type Exhibit } from './exhibit.ts';
@@ -100,13 +100,12 @@ const CASES: readonly Case[] = [
     },
   },
   {
-    name: 'Run on board, another group in the slot',
-    panel: <ReplaceContent isDisabled={false} />,
+    name: 'Download, another group in the slot',
+    panel: <AnotherGroupInSlot />,
     isInDialog: true,
     prepare(stores) {
       fill(stores);
       stores.view.setState({ slot: 8 });
-      stores.playback.runOnBoard();
     },
   },
   { name: 'Slots', panel: <SlotBoard />, prepare: fill },
@@ -115,12 +114,17 @@ const CASES: readonly Case[] = [
     panel: <SlotBoard isSeveralFirst />,
     prepare(stores) {
       fill(stores);
-      stores.library.add(
+      void stores.library.add(
         setMeta(stores.document.store.getState().present, { name: 'Greet the visitor', slot: 12 }),
       );
     },
   },
 ];
+
+function AnotherGroupInSlot() {
+  const conflict = { slot: 8, record: null, version: undefined, held: 'Bow', heldId: 'bow', name: 'Wave' };
+  return <ReplaceContent question={{ conflicts: [conflict], free: [21] }} />;
+}
 
 export const PLAYING: readonly Exhibit[] = CASES.map(({ name, panel, isInDialog = false, prepare }) => ({
   ...{ name, content: panel, isInDialog },

@@ -11,11 +11,14 @@ import { RobotList } from '../robots/RobotList.tsx';
 import { freshRobot } from '../stores/robots/robots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { standing, type Exhibit } from './exhibit.ts';
-import { READY, SIMULATED } from './states.ts';
+import { READY, SIMULATED, WATCHED } from './states.ts';
 import { words } from '../words/words.ts';
 
 const BOARD = 'lsc-16';
-const STOPPED: SessionState = { ...READY, latch: { reason: 'pressed', by: null, stop: 'sent', unheld: [] } };
+const STOPPED: SessionState = {
+  ...READY,
+  latch: { reason: 'pressed', by: null, stop: 'sent', unheld: null },
+};
 
 interface Case {
   readonly name: string;
@@ -38,6 +41,7 @@ const CASES: readonly Case[] = [
   { name: 'Calibration, lowest', content: 'calibrate' },
   { name: 'Calibration, unknown position', content: 'calibrate', isUnknown: true },
   { name: 'Calibration, stopped', content: 'calibrate', state: STOPPED },
+  { name: 'Calibration, another drives', content: 'calibrate', state: { ...READY, lease: WATCHED } },
   {
     ...{ name: 'Calibration, home moved', content: 'calibrate' },
     at: { servo: 3, step: 'max', found: { servo: 3, end: 'min', at: 1500, home: 1400 } },

@@ -23,8 +23,11 @@ import { createPeople, PeopleError, type PeopleApi } from '../stores/people/peop
 import { createPlayback } from '../stores/playing/playback.ts';
 import { createPlayhead } from '../stores/playing/playhead.ts';
 import { createPoses } from '../stores/driving/poses.ts';
+import { createTeaching } from '../stores/driving/teaching.ts';
 import { createRobotKeeping } from '../stores/robots/robotKeeping.ts';
 import { createRobots } from '../stores/robots/robots.ts';
+import { createGroupPlace } from '../stores/slots/groupPlace.ts';
+import { createReplacing } from '../stores/slots/replacing.ts';
 import { createSlots } from '../stores/slots/slots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { createTimeline } from '../stores/timeline/timeline.ts';
@@ -41,7 +44,7 @@ const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined 
 export function specimenStores(
   family: Family,
   held: Gamepadlike | null = null,
-  place: Keeper['place'] = 'browser',
+  libraryPlace: Keeper['place'] = 'browser',
 ): Stores {
   const notices = createNotices(pageClock);
   const robots = createRobots(NO_STORAGE, notices);
@@ -58,11 +61,13 @@ export function specimenStores(
   let ids = 0;
   const kept = {
     ...{ storage: NO_STORAGE, notices, robots, clock: pageClock },
-    keeper: Promise.resolve(createMemoryKeeper(place)),
+    keeper: Promise.resolve(createMemoryKeeper(libraryPlace)),
     epochMs: Date.now,
     newId: () => `specimen-${++ids}`,
   };
   const library = createLibrary({ ...kept, document, view });
+  const place = createGroupPlace({ document, opened: library.store, view, slots, device });
+  const replacing = createReplacing({ device, robots, slots, place });
   const macros = createMacros(NO_STORAGE, notices, robots);
   const keeping = createRobotKeeping({
     ...{ ...kept, poses: poses.book, buttons: macros, pad: mappings, mayWrite: true },
@@ -72,12 +77,13 @@ export function specimenStores(
     pad: createPad({ device, robots, view, poses, mappings, notices, clock: pageClock, readPads }),
     battery: createBattery(device, robots),
     blend: createBlend({ device, robots, view }),
+    teaching: createTeaching({ device, robots, notices }),
     timeline,
     people: createPeople({ api: NOBODY, me: null, notices, now: pageClock.now }),
-    ...{ compiled, slots, playhead },
+    ...{ compiled, slots, place, replacing, playhead },
     tape: createMotionTape({ device, robots, clock: pageClock }),
     playback: createPlayback({
-      ...{ device, document, compiled, slots, notices, view, playhead, robots },
+      ...{ device, document, compiled, slots, place, replacing, notices, view, playhead, robots },
       documentId: () => library.store.getState().openId,
     }),
     boards: createBoards(NO_STORAGE),

@@ -4,7 +4,8 @@
 import type { FamilyId } from '#shared/protocol/families.ts';
 import { identityFrom } from '#shared/session/identity.ts';
 import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
-import type { Latch, SessionState, Unheld } from '#shared/session/state.ts';
+import type { Unheld } from '#shared/motion/haltPlan.ts';
+import type { Latch, SessionState } from '#shared/session/state.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { Way } from '../stores/device/device.ts';
 import { SERVO_SPECIMENS, type ServoSpecimen } from './servoSpecimens.ts';
@@ -64,7 +65,11 @@ const TOLD: Shows = { shows: ['bar', 'live', 'board'] };
 const LATCHED = { pose: 'moving', frames: 3, ...DRIVEN } as const;
 
 /** Why nothing moves, and what is known of the stop. */
-const latched = (reason: Latch['reason'], stop: Latch['stop'], unheld: Unheld = []): SessionState => ({
+const latched = (
+  reason: Latch['reason'],
+  stop: Latch['stop'],
+  unheld: Unheld | null = null,
+): SessionState => ({
   ...READY,
   latch: { reason, by: reason === 'elsewhere' ? 'Cleo' : null, stop, unheld },
 });
@@ -91,6 +96,13 @@ export const SPECIMENS: readonly Specimen[] = [
     ...DRIVEN,
   },
   { name: 'Ready, posed', frames: 3, selectedFrame: 2 },
+  { name: 'Ready, simulated at a gateway', way: { ...REMOTE, isSimulated: true }, ...BAR },
+  {
+    name: 'Stopped, simulated at a gateway, another drives',
+    way: { ...REMOTE, isSimulated: true },
+    state: { ...latched('elsewhere', 'sent'), lease: WATCHED },
+    ...BAR,
+  },
   { name: 'Moving', way: REMOTE, pose: 'moving', ...DRIVEN },
   {
     name: 'Playing from the page',
@@ -114,10 +126,14 @@ export const SPECIMENS: readonly Specimen[] = [
   { name: 'Stopped, sent', state: latched('pressed', 'sent'), pose: 'moving', frames: 3 },
   { name: 'Stopped, confirmed', state: latched('pressed', 'confirmed'), ...LATCHED },
   { name: 'Stopped, failed', state: latched('pressed', 'failed'), ...LATCHED },
-  { name: 'Stopped in a first move', state: latched('pressed', 'sent', [3, 5]), ...LATCHED },
+  {
+    name: 'Stopped in a first move',
+    state: latched('pressed', 'sent', { servos: [3, 5], forMs: 1_200 }),
+    ...LATCHED,
+  },
   {
     name: 'Stopped in a group that the board alone knows',
-    state: latched('pressed', 'sent', 'unknownGroup'),
+    state: latched('pressed', 'sent', { servos: null, forMs: 30_000 }),
     ...LATCHED,
   },
   { name: 'Stopped elsewhere', way: REMOTE, state: latched('elsewhere', 'sent'), ...DRIVEN },

@@ -1,5 +1,6 @@
 // One group of the library: its picture opens it, and more about it unfolds in place.
 
+import { memo } from 'react';
 import type { Listed } from '#shared/actions/library/keeper.ts';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
@@ -13,11 +14,18 @@ export interface DocumentCardProps {
   readonly document: Listed;
   readonly nowMs: number;
   readonly isUnfolded: boolean;
-  onUnfold(isUnfolded: boolean): void;
+  onUnfold(id: string, isUnfolded: boolean): void;
   onDone(): void;
 }
 
-export function DocumentCard({ document, nowMs, isUnfolded, onUnfold, onDone }: DocumentCardProps) {
+/** Drawn again only where it is another: the list is looked at every few seconds. */
+export const DocumentCard = memo(function DocumentCard({
+  document,
+  nowMs,
+  isUnfolded,
+  onUnfold,
+  onDone,
+}: DocumentCardProps) {
   const { library } = useStores();
   const { id, facts, isRemoved } = document;
   const isOpen = useLibrary((state) => state.openId === id);
@@ -46,7 +54,7 @@ export function DocumentCard({ document, nowMs, isUnfolded, onUnfold, onDone }: 
               icon="more"
               label={words.library.more(name)}
               aria-expanded={isUnfolded}
-              onPress={() => onUnfold(!isUnfolded)}
+              onPress={() => onUnfold(id, !isUnfolded)}
             />
           )}
           <span className={styles.about}>
@@ -59,4 +67,4 @@ export function DocumentCard({ document, nowMs, isUnfolded, onUnfold, onDone }: 
       {isUnfolded && !isRemoved && <DocumentDetails document={document} onDone={onDone} />}
     </li>
   );
-}
+});

@@ -1,7 +1,7 @@
 // The groups of the library: found by name, robot or tag, opened by their picture. While it is open it shows what others
 // change, too.
 
-import { useEffect, useState } from 'react';
+import { useEffect, useMemo, useState } from 'react';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { useNow } from '../ui/useNow.ts';
 import { EmptyState } from '../ui/EmptyState.tsx';
@@ -22,11 +22,12 @@ export function LibraryView({ onDone }: { onDone(): void }) {
   const [wish, setWish] = useState<Wish>({ search: '', sort: 'updated', tag: '', isRemoved: false });
   useLooking();
   const isEmpty = documents.every(({ isRemoved }) => isRemoved);
-  const shown = arranged(documents, wish);
+  const shown = useMemo(() => arranged(documents, wish), [documents, wish]);
+  const tags = useMemo(() => tagsIn(documents), [documents]);
   return (
     <div className={styles.library}>
       <Place />
-      {documents.length > 0 && <LibraryFinder wish={wish} tags={tagsIn(documents)} onWish={setWish} />}
+      {documents.length > 0 && <LibraryFinder wish={wish} tags={tags} onWish={setWish} />}
       {isEmpty && !wish.isRemoved ? (
         <EmptyState title={words.library.empty} hint={words.library.emptyHint} />
       ) : (

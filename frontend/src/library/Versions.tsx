@@ -14,7 +14,7 @@ const MAX_NAME_LENGTH = 64;
 
 export function Versions({ id, onDone }: { readonly id: string; onDone(): void }) {
   const { library } = useStores();
-  const documents = useLibrary((state) => state.documents);
+  const listings = useLibrary((state) => state.listings);
   const [versions, setVersions] = useState<readonly Version[]>([]);
   const [name, setName] = useState('');
 
@@ -26,8 +26,8 @@ export function Versions({ id, onDone }: { readonly id: string; onDone(): void }
     return () => {
       isGone = true;
     };
-    // Whoever changed one has had the list of documents read again.
-  }, [library, id, documents]);
+    // Whoever changed one has had the library listed again.
+  }, [library, id, listings]);
 
   async function keep(event: SubmitEvent): Promise<void> {
     event.preventDefault();

@@ -16,8 +16,10 @@ export interface Wish {
 
 type Order = (one: Listed, other: Listed) => number;
 
-const byName: Order = (one, other) =>
-  one.facts.name.localeCompare(other.facts.name, undefined, { numeric: true });
+/** Made once: for each comparison it would cost more than the sorting. */
+const { compare } = new Intl.Collator(undefined, { numeric: true });
+
+const byName: Order = (one, other) => compare(one.facts.name, other.facts.name);
 
 const ORDERS: Readonly<Record<Sort, Order>> = {
   updated: (one, other) => other.facts.updatedAtMs - one.facts.updatedAtMs,

@@ -82,12 +82,9 @@ function FirstMoves() {
   const known = useDevice((state) => state.known);
   const isDriving = usePad((state) => state.isDriving);
   const view = useServoView((one) => one);
-  const reported = useSnapshot((snapshot) => snapshot.reported);
-  // A servo that was let go of is unknown again, whatever was read before.
-  const isTold = (servo: number): boolean => servo in reported && device.motion(servo).estimated !== null;
   const bound = new Set(bindings.map(servoBoundBy));
   const unknown = servos.filter(
-    ({ servo }) => bound.has(servo) && !known.includes(servo) && !isTold(servo) && !isHeld(view, servo),
+    ({ servo }) => bound.has(servo) && !known.includes(servo) && !isHeld(view, servo),
   );
   if (!isDriving || unknown.length === 0) return null;
   const goHome = (): void => {

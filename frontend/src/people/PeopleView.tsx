@@ -52,9 +52,12 @@ export function PeopleView({ state, wishes, candidates, onHandOver, now }: Peopl
   );
 }
 
-interface PersonRowProps {
+interface PersonProps {
   readonly wishes: PeopleWishes;
   readonly person: Person;
+}
+
+interface PersonRowProps extends PersonProps {
   readonly isYou: boolean;
   /** null: the robot cannot be handed to them now. */
   readonly onHandOver: ((person: string) => void) | null;
@@ -95,18 +98,29 @@ function PersonRow({ person, isYou, wishes, onHandOver }: PersonRowProps) {
           </Button>
         )}
       </div>
-      <Confirm
-        tone="quiet"
-        icon="trash"
-        label={words.people.revoke}
-        title={words.people.revokeOf(name)}
-        text={words.people.revokeText}
-        keepLabel={words.people.keep}
-        confirmLabel={words.people.revoke}
-        closeLabel={words.close}
-        onConfirm={() => wishes.revoke(id)}
-      />
+      <RevokeControl person={person} wishes={wishes} />
     </li>
+  );
+}
+
+/** A group that they let go on is stopped with them, unless the owner says otherwise here. */
+function RevokeControl({ person: { id, name, unattendedSlot }, wishes }: PersonProps) {
+  const runs = unattendedSlot !== null;
+  return (
+    <Confirm
+      tone="quiet"
+      icon="trash"
+      label={words.people.revoke}
+      title={words.people.revokeOf(name)}
+      text={runs ? words.people.revokeTextOfRun(unattendedSlot) : words.people.revokeText}
+      keepLabel={words.people.keep}
+      otherwise={
+        runs ? { label: words.people.revokeGroupGoesOn, onConfirm: () => wishes.revoke(id, true) } : undefined
+      }
+      confirmLabel={runs ? words.people.revokeAndStop : words.people.revoke}
+      closeLabel={words.close}
+      onConfirm={() => wishes.revoke(id, false)}
+    />
   );
 }
 

@@ -3,7 +3,7 @@
 
 import { useShallow } from 'zustand/react/shallow';
 import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
-import { chosenPlace } from '../stores/slots/groupPlace.ts';
+import { chosenTimes } from '../stores/slots/groupPlace.ts';
 import { SPEED_PERCENT, type PlaybackPhase } from '../stores/playing/playback.ts';
 import { useFates } from '../slots/useFates.ts';
 import { motionHindrance, startHindrance } from '../stores/device/readiness.ts';
@@ -14,6 +14,7 @@ import {
   usePlayback,
   useRobot,
   useServoView,
+  useSlot,
   useSnapshot,
   useStores,
   useView,
@@ -25,7 +26,6 @@ import { LiveText } from '../ui/LiveText.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
-import { ReplaceQuestion } from './ReplaceQuestion.tsx';
 import styles from './PlayBar.module.css';
 
 export function PlayBar() {
@@ -84,7 +84,13 @@ function PlayButton({ phase }: { readonly phase: PlaybackPhase | null }) {
   );
 }
 
-const END_ICONS = { leading: 'pause', playing: 'pause', storing: 'end', running: 'end' } as const;
+const END_ICONS = {
+  leading: 'pause',
+  returning: 'pause',
+  playing: 'pause',
+  storing: 'end',
+  running: 'end',
+} as const;
 
 function endWord(phase: keyof typeof END_ICONS): string {
   if (phase === 'storing') return words.play.cancel;
@@ -103,7 +109,7 @@ function PreviewButton({ phase }: { readonly phase: PlaybackPhase | null }) {
       isDisabled={isEmpty || (phase !== null && !isOn)}
       onPress={() => playback.togglePreview()}
     >
-      <span className={styles.words} data-longest={words.play.preview}>
+      <span className={cx(styles.words, styles.preview)} data-longest={words.play.preview}>
         <span className={styles.now}>{isOn ? words.play.pause : words.play.preview}</span>
       </span>
     </Button>
@@ -117,7 +123,7 @@ const SAID_EACH_MS = 500;
 function PlayWords({ ends }: { readonly ends: keyof typeof END_ICONS | null }) {
   const { playback } = useStores();
   const loops = usePlayback((state) => state.loops);
-  const times = useView((view) => chosenPlace(view).times);
+  const times = useView(chosenTimes);
   const fromEnd = words.play.playFrom(useDocument(({ present }) => timesOf(present).lengthMs));
   const whole = words.play.play(loops ? 1 : times);
   return (
@@ -174,21 +180,18 @@ function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
 function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
   const { playback } = useStores();
   const commands = useDevice((state) => state.family.commands);
-  const slot = useView((state) => state.slot);
+  const slot = useSlot();
   const fate = useFates()(slot);
   if (!commands.includes('run') || !commands.includes('download')) return null;
   return (
-    <>
-      <Button
-        icon="board"
-        isDisabled={isDisabled}
-        hint={boardHint(slot, fate)}
-        onPress={() => playback.runOnBoard()}
-      >
-        {words.play.onBoard}
-      </Button>
-      <ReplaceQuestion isDisabled={isDisabled} />
-    </>
+    <Button
+      icon="board"
+      isDisabled={isDisabled}
+      hint={boardHint(slot, fate)}
+      onPress={() => playback.runOnBoard()}
+    >
+      {words.play.onBoard}
+    </Button>
   );
 }
 

@@ -21,8 +21,10 @@ export interface PositionSliderProps {
   readonly servo: RobotServo;
   readonly family: Family;
   readonly scale: Scale;
-  /** It has been asked for something. */
+  /** It has been asked for something, or the board has said where it stands. */
   readonly isKnown: boolean;
+  /** Its place is the board's own word. */
+  readonly isRead: boolean;
   /** Where it may stand while nobody knows. */
   readonly guess: number | null;
   readonly blocked: boolean;
@@ -39,6 +41,7 @@ export function PositionSlider({
   family,
   scale,
   isKnown,
+  isRead,
   guess,
   blocked,
   onMove,
@@ -62,7 +65,7 @@ export function PositionSlider({
   });
   useSaidTarget(servo.servo, (target) => {
     write(target ?? guess ?? home);
-    if (input.current !== null) input.current.ariaValueText = valueText(scale, target, guess);
+    if (input.current !== null) input.current.ariaValueText = valueText(scale, target, isRead, guess);
   });
 
   /** Blocked, it keeps the focus and its place, and takes nothing. Without a pointer on it, it was Home or End. */
@@ -107,8 +110,8 @@ export function PositionSlider({
   );
 }
 
-function valueText(scale: Scale, target: number | null, guess: number | null): string {
-  if (target !== null) return words.servoPanel.commanded(scale.text(target));
+function valueText(scale: Scale, target: number | null, isRead: boolean, guess: number | null): string {
+  if (target !== null) return words.servoPanel[isRead ? 'reported' : 'commanded'](scale.text(target));
   return guess === null ? words.servos.unknownValue : words.firstMoves.guessedValue(scale.text(guess));
 }
 

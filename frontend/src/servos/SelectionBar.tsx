@@ -67,9 +67,10 @@ function Selected({ selected }: SelectedProps) {
   const isLocked = useServoView((view) => selected.every((servo) => isHeld(view, servo)));
   const edit = (change: (view: ServoView) => ServoView): void => editServoView(stores, change);
   const isGang = selected.length > 1;
-  const isPhone = useLayout() === 'phone';
+  const layout = useLayout();
+  const isPhone = layout === 'phone';
   // All in one line, so that no row below moves.
-  const Ways = isPhone ? Select : Choice;
+  const Ways = layout === 'desktop' ? Choice : Select;
   const clear = (): void => edit((view) => select(view, []));
   return (
     <div className={styles.line}>

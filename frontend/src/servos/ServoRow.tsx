@@ -59,6 +59,7 @@ function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
   const hand = useHand();
   const family = useDevice((state) => state.family);
   const isKnown = useDevice((state) => state.known.includes(servo));
+  const isRead = useDevice((state) => state.readServos.includes(servo));
   const guess = useGuess(own);
   const scale = scaleOf(
     own,
@@ -100,7 +101,7 @@ function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
   };
   useWheelSteps(area, {
     mayStep: () =>
-      !isLocked && !isRefused.current && mayBrush(device.store.getState().snapshot, targetOf(device, servo)),
+      !isLocked && !isRefused.current && mayBrush(device.store.getState().snapshot, device.motion(servo)),
     step(change, isFar) {
       const from = targetOf(device, servo);
       if (from !== null) move(stepped(scale, from, change * scale.step * (isFar ? 10 : 1)));
@@ -120,14 +121,14 @@ function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
       onPointerUp={() => hindrance === 'watching' && device.lease('request')}
     >
       <PositionSlider
-        {...{ servo: own, family, scale, isKnown, guess, blocked }}
+        {...{ servo: own, family, scale, isKnown, isRead, guess, blocked }}
         onMove={move}
         onLeap={leap}
         onDrag={drag}
         onHome={() => hand.home([servo])}
       />
       <TargetField
-        {...{ servo: own, scale, isKnown, guess, blocked }}
+        {...{ servo: own, scale, isKnown, isRead, guess, blocked }}
         onStep={move}
         onTyped={(position) => {
           touch();
@@ -150,6 +151,7 @@ interface TargetFieldProps {
   readonly servo: RobotServo;
   readonly scale: Scale;
   readonly isKnown: boolean;
+  readonly isRead: boolean;
   readonly guess: number | null;
   readonly blocked: boolean;
   onStep(position: number): void;
@@ -159,8 +161,9 @@ interface TargetFieldProps {
 }
 
 function TargetField(props: TargetFieldProps) {
-  const { servo: own, scale, isKnown, guess, blocked, onStep, onTyped, onRefused } = props;
+  const { servo: own, scale, isKnown, isRead, guess, blocked, onStep, onTyped, onRefused } = props;
   const { device, notices, robots, view } = useStores();
+  const source = isRead ? 'confirmed' : 'commanded';
   const shown = (): number | null => {
     const target = targetOf(device, own.servo);
     return target === null ? null : scale.shown(target);
@@ -189,7 +192,7 @@ function TargetField(props: TargetFieldProps) {
     <NumberField
       label={words.servos.target(own.servo)}
       size="large"
-      truth={isKnown ? { mark: 'commanded', title: words.truth.commanded } : undefined}
+      truth={isKnown ? { mark: source, title: words.truth[source] } : undefined}
       value={{ now: shown, Show: MovingText }}
       {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals, step: scale.step }}
       placeholder={

@@ -5,8 +5,9 @@ import { BodyMap } from '../body/BodyMap.tsx';
 import { Body } from '../body/Body.tsx';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
-import { useRobot, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useIsTeaching, useRobot, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
+import { cx } from '../ui/cx.ts';
 import { Panel } from '../ui/Panel.tsx';
 import { Choice } from '../ui/Toggle.tsx';
 import { useLayout } from '../ui/useLayout.ts';
@@ -24,12 +25,13 @@ export function ServosPanel() {
   const hindrance = useSnapshot(motionHindrance);
   const layout = useView((state) => state.servoLayout);
   const isPhone = useLayout() === 'phone';
+  const isTeaching = useIsTeaching();
   const why = hindrance === null ? '' : words.servos.blocked[hindrance];
   return (
     <Panel
       title={words.servos.title}
       note={isPhone ? '' : why}
-      className={styles.panel}
+      className={cx(styles.panel, layout === 'list' && styles.listed)}
       tools={
         <>
           <LayoutChoice />
@@ -39,7 +41,9 @@ export function ServosPanel() {
     >
       {layout === 'list' ? <Body /> : <BodyMap />}
       <Legend />
-      <SelectionBar hint={isPhone && why !== '' ? why : words.servoPanel.selectHint} />
+      <SelectionBar
+        hint={isTeaching ? words.teach.on : isPhone && why !== '' ? why : words.servoPanel.selectHint}
+      />
       {layout === 'list' ? <ServoList /> : <ServoAtHand />}
       <MoveTimeControl />
       <ServoTalk />

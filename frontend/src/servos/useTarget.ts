@@ -4,10 +4,7 @@ import { useLayoutEffect, useState } from 'react';
 import { motionInFrame } from '../body/motionInFrame.ts';
 import type { Device } from '../stores/device/device.ts';
 import { useStores } from '../stores/stores.ts';
-import { useFollow } from '../ui/useFollow.ts';
-
-/** Soon enough for whoever hears it or takes it up with the keys. */
-const SAID_EACH_MS = 250;
+import { HEARD_EACH_MS, useFollow } from '../ui/useFollow.ts';
 
 /** As of now; `motionInFrame` has it as of the frame that is drawn. */
 export const targetOf = (device: Device, servo: number): number | null => device.motion(servo).target;
@@ -16,7 +13,7 @@ export const targetOf = (device: Device, servo: number): number | null => device
 export function useSaidTarget(servo: number, say: (target: number | null) => void): void {
   const { device } = useStores();
   useLayoutEffect(() => say(targetOf(device, servo)));
-  useFollow({ read: () => motionInFrame(device, servo).target, draw: say, eachMs: SAID_EACH_MS });
+  useFollow({ read: () => motionInFrame(device, servo).target, draw: say, eachMs: HEARD_EACH_MS });
 }
 
 /** At most once a frame. */

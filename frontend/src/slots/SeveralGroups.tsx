@@ -14,7 +14,7 @@ import { useWanted } from './useWanted.ts';
 import styles from './Slots.module.css';
 
 export function SeveralGroups({ onBack }: { onBack(): void }) {
-  const { library, slots } = useStores();
+  const { library, replacing } = useStores();
   const documents = useLibrary((state) => state.documents).filter(({ isRemoved }) => !isRemoved);
   const { wanted, cannot, toggle, setSlot, takeAll, none } = useWanted();
   const waitsFor = useSnapshot(startHindrance);
@@ -57,7 +57,7 @@ export function SeveralGroups({ onBack }: { onBack(): void }) {
           tone="primary"
           icon="download"
           isDisabled={waitsFor !== null || !isReady}
-          onPress={() => slots.download(wanted.map(downloadOf))}
+          onPress={() => replacing.download(wanted.map(downloadOf))}
         >
           {words.slots.several.download}
         </Button>

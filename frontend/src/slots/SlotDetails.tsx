@@ -6,7 +6,7 @@ import { recordOf } from '#shared/actions/slots/slotBook.ts';
 import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
 import { DownloadControl } from '../board/DownloadControl.tsx';
 import { motionHindrance, startHindrance } from '../stores/device/readiness.ts';
-import { useDevice, useSlots, useSnapshot, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useSlots, useSnapshot, useStores, useSlot } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { words } from '../words/words.ts';
@@ -18,7 +18,7 @@ const VERSION_LENGTH = 6;
 
 /** `onSeveral`: several groups shall be downloaded; null where the board takes none. */
 export function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | null }) {
-  const slot = useView((state) => state.slot);
+  const slot = useSlot();
   const { id, commands } = useDevice((state) => state.family);
   const fate = useFates()(slot);
   const trigger = slotTrigger(id, slot);
@@ -45,6 +45,9 @@ export function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | 
 function Held({ slot }: { readonly slot: number }) {
   const record = useSlots((state) => recordOf(state.book, slot));
   const others = useSnapshot((snapshot) => snapshot.slotVersions?.[slot]);
+  const isBroken = useSnapshot(({ brokenSlots }) => brokenSlots.includes(slot));
+  // What was there is gone.
+  if (isBroken) return null;
   if (record !== undefined && record.by === undefined) {
     const { name, storedAtMs, frames, fingerprint } = record;
     const when = words.numbers.formatMoment(storedAtMs);
@@ -70,7 +73,7 @@ function Held({ slot }: { readonly slot: number }) {
 
 function Verbs() {
   const { device } = useStores();
-  const slot = useView((state) => state.slot);
+  const slot = useSlot();
   const record = useSlots((state) => recordOf(state.book, slot));
   const [compared, setCompared] = useState<number | null>(null);
   const canRun = useDevice((state) => state.family.commands.includes('run'));

@@ -3,7 +3,7 @@
 
 import { useEffect, useRef, type KeyboardEvent } from 'react';
 import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
-import { useDevice, useStores, useView } from '../stores/stores.ts';
+import { useDevice, useStores, useSlot } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
 import { words } from '../words/words.ts';
@@ -15,7 +15,7 @@ import styles from './Slots.module.css';
 export function SlotMap() {
   const { view } = useStores();
   const { slot: range, id } = useDevice((state) => state.family);
-  const chosen = useView((state) => state.slot);
+  const chosen = useSlot();
   const heldIn = useHeldName();
   const fateOf = useFates();
   const grid = useRef<HTMLDivElement>(null);

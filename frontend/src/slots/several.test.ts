@@ -1,23 +1,10 @@
 import { expect, test } from 'vitest';
 import { emptyGroup } from '#shared/actions/group/group.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import { EMPTY_SLOT_BOOK, withStored } from '#shared/actions/slots/slotBook.ts';
+import { slotFor } from '#shared/actions/slots/placing.ts';
+import { EMPTY_SLOT_BOOK } from '#shared/actions/slots/slotBook.ts';
 import { createDesk } from '../stores/deskUnderTest.ts';
-import { downloadOf, hindranceOf, ownSlot, slotFor, thoseThatCan, type Wanted } from './several.ts';
-
-const RANGE = { min: 0, max: 3 };
-
-test('a group goes to its own slot, else to the first one in which nothing is known to be', () => {
-  const record = { slot: 1, name: 'Wave', documentId: null, storedAtMs: 0, fingerprint: '', frames: [] };
-  const book = withStored(EMPTY_SLOT_BOOK, record);
-  expect(ownSlot('wave', { slot: null }, book)).toBe(null);
-  const held = withStored(book, { ...record, slot: 3, documentId: 'wave' });
-  expect([ownSlot('wave', { slot: null }, held), ownSlot('wave', { slot: 2 }, held)]).toEqual([3, 2]);
-  expect(slotFor(1, book, [1], RANGE)).toBe(1);
-  expect(slotFor(null, book, [0], RANGE)).toBe(2);
-  expect(slotFor(9, book, [], RANGE)).toBe(0);
-  expect(slotFor(null, book, [0, 2, 3], RANGE)).toBe(0);
-});
+import { downloadOf, hindranceOf, thoseThatCan, type Wanted } from './several.ts';
 
 test('what does not fit, is empty or wants the slot of another is told; the rest can be downloaded', async () => {
   const { compiled, device, robots } = await createDesk();
@@ -51,13 +38,14 @@ test('of all groups those are taken that can go, each in its slot or a free one,
     );
     return { documentId, compiled: compiled.of(group, on), own: slot };
   };
+  const known = { book: EMPTY_SLOT_BOOK, versions: {}, broken: [], range: { min: 0, max: 23 } };
   const slotsOf = (all: readonly Wanted[]) => all.map(({ documentId, slot }) => `${documentId} ${slot}`);
   const { can, cannot } = thoseThatCan(
     [asked('free', null, 1000), asked('far', null, 2600), asked('bow', 2, 1000), asked('second', 2, 1200)],
     [{ ...asked('wave', 0, 1000), slot: 0 }],
-    (own, taken) => slotFor(own, EMPTY_SLOT_BOOK, taken, RANGE),
+    (own, taken) => slotFor(own, known, taken),
   );
-  expect(slotsOf(can)).toEqual(['bow 2', 'free 1']);
-  expect(slotsOf(cannot)).toEqual(['second 2', 'far 3']);
+  expect(slotsOf(can)).toEqual(['bow 2', 'free 21']);
+  expect(slotsOf(cannot)).toEqual(['second 2', 'far 22']);
   expect(cannot.map((one) => hindranceOf(one, can) === null)).toEqual([false, false]);
 });

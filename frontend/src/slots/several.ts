@@ -1,8 +1,5 @@
 // Several groups that are to go to the board at once: which slot each takes, and what keeps one of them from it. Pure.
 
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import type { SlotBook } from '#shared/actions/slots/slotBook.ts';
-import type { Range } from '#shared/protocol/families.ts';
 import { obstacles, type CompiledGroup } from '../stores/group/compiled.ts';
 import { problemText } from '../stores/group/problemText.ts';
 import type { SlotDownload } from '../stores/slots/slots.ts';
@@ -16,28 +13,6 @@ export interface Wanted {
 
 /** `own`: the slot that is the group's. */
 export type Asked = Omit<Wanted, 'slot'> & { readonly own: number | null };
-
-/** The one the group names, else the one that holds it already. */
-export function ownSlot(
-  documentId: string,
-  { slot }: Pick<ActionGroup, 'slot'>,
-  { stored }: Pick<SlotBook, 'stored'>,
-): number | null {
-  return slot ?? stored.find((record) => record.documentId === documentId)?.slot ?? null;
-}
-
-/** The group's own, else the first one in which nothing is known to be and nothing else shall go. */
-export function slotFor(
-  own: number | null,
-  { stored }: Pick<SlotBook, 'stored'>,
-  taken: readonly number[],
-  { min, max }: Range,
-): number {
-  if (own !== null && own >= min && own <= max) return own;
-  const full = new Set([...taken, ...stored.map(({ slot }) => slot)]);
-  for (let slot = min; slot <= max; slot++) if (!full.has(slot)) return slot;
-  return min;
-}
 
 /** In words; null where it can go. */
 export function hindranceOf(one: Wanted, all: readonly Wanted[]): string | null {

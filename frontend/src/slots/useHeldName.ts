@@ -3,9 +3,11 @@
 import { recordOf } from '#shared/actions/slots/slotBook.ts';
 import { useSlots, useSnapshot } from '../stores/stores.ts';
 
-/** undefined: nobody knows of any. */
+/** undefined: nobody knows of any, or half of another one is there. */
 export function useHeldName(): (slot: number) => string | undefined {
   const book = useSlots((state) => state.book);
   const versions = useSnapshot((snapshot) => snapshot.slotVersions);
-  return (slot) => recordOf(book, slot)?.name ?? versions?.[slot]?.name;
+  const broken = useSnapshot((snapshot) => snapshot.brokenSlots);
+  return (slot) =>
+    broken.includes(slot) ? undefined : (recordOf(book, slot)?.name ?? versions?.[slot]?.name);
 }

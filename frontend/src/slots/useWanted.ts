@@ -3,8 +3,9 @@
 
 import { useMemo, useState } from 'react';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { ownSlot, slotFor } from '#shared/actions/slots/placing.ts';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
-import { hindranceOf, ownSlot, slotFor, thoseThatCan, type Wanted } from './several.ts';
+import { hindranceOf, thoseThatCan, type Wanted } from './several.ts';
 
 interface Pick {
   readonly documentId: string;
@@ -13,7 +14,7 @@ interface Pick {
 }
 
 export function useWanted() {
-  const { library, compiled, slots, device } = useStores();
+  const { library, compiled, place } = useStores();
   const family = useDevice((state) => state.family);
   const robot = useRobot();
   const [chosen, setChosen] = useState<readonly Pick[]>([]);
@@ -31,20 +32,14 @@ export function useWanted() {
   const isIn = (picks: readonly Pick[], id: string): boolean =>
     picks.some(({ documentId }) => documentId === id);
 
-  function placeOf(own: number | null, taken: readonly number[]): number {
-    const ofOthers = Object.keys(device.store.getState().snapshot.slotVersions ?? {}).map(Number);
-    return slotFor(own, slots.store.getState().book, [...taken, ...ofOthers], family.slot);
-  }
-
   async function take(documentId: string): Promise<void> {
     const group = await library.group(documentId);
     if (group === null) return;
     setChosen((before) => {
       const others = without(before, documentId);
-      const slot = placeOf(
-        ownSlot(documentId, group, slots.store.getState().book),
-        others.map((pick) => pick.slot),
-      );
+      const known = place.known();
+      const taken = others.map((pick) => pick.slot);
+      const slot = slotFor(ownSlot(documentId, group, known), known, taken);
       return [...others, { documentId, slot, group }];
     });
     setLeft((before) => without(before, documentId));
@@ -55,7 +50,7 @@ export function useWanted() {
     const groups = await Promise.all(
       documentIds.map(async (documentId) => ({ documentId, group: await library.group(documentId) })),
     );
-    const { book } = slots.store.getState();
+    const known = place.known();
     const candidates = groups.flatMap(({ documentId, group }) =>
       group === null || isIn(chosen, documentId)
         ? []
@@ -63,11 +58,11 @@ export function useWanted() {
             {
               documentId,
               compiled: compiled.of(group, { family, robot }),
-              own: ownSlot(documentId, group, book),
+              own: ownSlot(documentId, group, known),
             },
           ],
     );
-    const sorted = thoseThatCan(candidates, wanted, placeOf);
+    const sorted = thoseThatCan(candidates, wanted, (own, taken) => slotFor(own, known, taken));
     setChosen((before) => [
       ...before,
       ...sorted.can.map(pickOf).filter(({ documentId }) => !isIn(before, documentId)),

@@ -1,5 +1,6 @@
 // The page's stores around a simulated board in virtual time, as connect/page.ts puts them together, for tests.
 
+import { createStore } from 'zustand/vanilla';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
 import { createBlend } from './driving/blend.ts';
@@ -14,6 +15,8 @@ import { createPlayback } from './playing/playback.ts';
 import { createPlayhead } from './playing/playhead.ts';
 import { createPoses } from './driving/poses.ts';
 import { createRobots } from './robots/robots.ts';
+import { createGroupPlace } from './slots/groupPlace.ts';
+import { createReplacing } from './slots/replacing.ts';
 import { createSlots } from './slots/slots.ts';
 import { createTimeline } from './timeline/timeline.ts';
 import { createView } from './view.ts';
@@ -41,10 +44,12 @@ export async function createDesk(
   const timeline = createTimeline();
   const playhead = createPlayhead(timeline);
   /** Of the group at hand, in the library. */
-  const shelf = { openId: 'at hand' };
+  const opened = createStore(() => ({ openId: 'at hand' }));
+  const place = createGroupPlace({ document, opened, view, slots, device });
+  const replacing = createReplacing({ device, robots, slots, place });
   const playback = createPlayback({
-    ...{ device, document, compiled, slots, notices, view, playhead, robots },
-    documentId: () => shelf.openId,
+    ...{ device, document, compiled, slots, place, replacing, notices, view, playhead, robots },
+    documentId: () => opened.getState().openId,
   });
   device.attach(rig.session, way);
   const tape = createMotionTape({ device, robots, clock });
@@ -60,7 +65,20 @@ export async function createDesk(
     }
   }
   return {
-    ...{ document, shelf, view, timeline, compiled, slots, playhead, playback, tape, draw },
+    ...{
+      document,
+      opened,
+      place,
+      replacing,
+      view,
+      timeline,
+      compiled,
+      slots,
+      playhead,
+      playback,
+      tape,
+      draw,
+    },
     ...{ ...rig, texts, notices, robots, device, poses, macros, macroRun },
     blend: createBlend({ device, robots, view }),
     book: () => poses.book.store.getState().present,

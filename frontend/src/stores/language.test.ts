@@ -48,7 +48,7 @@ test('robots are named in the language they are made in, and steps told in the o
   await visit(['zh']);
   const { robots } = await createDesk();
   const { robot } = robots.current();
-  expect([robot.name, robot.servos[0]?.name]).toEqual(['机械臂，6个舵机', '夹爪']);
+  expect([robot.name, robot.servos[0]?.name]).toEqual(['机械臂', '夹爪']);
   robots.duplicate();
   expect(undoLabel(robots.store.getState())).toBe('复制机器人');
   await speak('en');

@@ -3,7 +3,9 @@
 
 import { createContext, use } from 'react';
 import { useStore } from 'zustand';
+import { familyOfUnit, robotInUnit } from '#shared/actions/robot/counterpart.ts';
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
+import type { Family } from '#shared/protocol/families.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { History } from '#shared/actions/history.ts';
 import type { MacroPage } from '#shared/actions/macros/macro.ts';
@@ -11,6 +13,7 @@ import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import type { BatteryState, BatteryStore } from './battery/battery.ts';
 import type { Blend, BlendState } from './driving/blend.ts';
 import type { Boards } from './device/boards.ts';
+import { boardOfGroup, knownFamily, type GroupBoard } from './group/groupBoard.ts';
 import type { CompiledState, CompiledStore } from './group/compiled.ts';
 import type { MotionTape } from './playing/motionTape.ts';
 import type { Mapping } from '#shared/actions/mapping/mapping.ts';
@@ -27,6 +30,9 @@ import type { Playback, PlaybackState } from './playing/playback.ts';
 import type { Playhead } from './playing/playhead.ts';
 import type { PeopleStore } from './people/people.ts';
 import type { Poses } from './driving/poses.ts';
+import type { Teaching } from './driving/teaching.ts';
+import type { GroupPlace } from './slots/groupPlace.ts';
+import type { Replacing } from './slots/replacing.ts';
 import type { Slots, SlotsState } from './slots/slots.ts';
 import type { Undoable } from './undoable.ts';
 import type { Library, LibraryState } from './library/library.ts';
@@ -49,11 +55,14 @@ export interface Stores {
   readonly pad: Pad;
   readonly poses: Poses;
   readonly blend: Blend;
+  readonly teaching: Teaching;
   readonly people: PeopleStore;
   readonly macros: Undoable<MacroPage>;
   readonly macroRun: MacroRun;
   readonly compiled: CompiledStore;
   readonly slots: Slots;
+  readonly place: GroupPlace;
+  readonly replacing: Replacing;
   readonly playhead: Playhead;
   readonly playback: Playback;
   readonly tape: MotionTape;
@@ -95,8 +104,47 @@ export function useBlend<T>(select: (state: BlendState) => T): T {
   return useStore(useStores().blend.store, select);
 }
 
+/** The servos are posed by hand. */
+export function useIsTeaching(): boolean {
+  return useStore(useStores().teaching.store, ({ isOn }) => isOn);
+}
+
 export function useMacros<T>(select: (state: History<MacroPage>) => T): T {
   return useStore(useStores().macros.store, select);
+}
+
+/** The one that is connected; while none is known, the one that the robot at hand is described for. */
+export function useKnownFamily(): Family {
+  const robot = useRobot();
+  return useDevice(({ family }) => knownFamily(family, robot));
+}
+
+/** What the group at hand is drawn by. */
+export function useGroupBoard(): GroupBoard {
+  const [robot, family] = [useRobot(), useKnownFamily()];
+  const unit = useDocument(({ present }) => present.unit);
+  const isOther = useDocument(({ present }) => boardOfGroup(present, family, robot).isOther);
+  return isOther
+    ? { family: familyOfUnit(unit), robot: robotInUnit(robot, unit), isOther }
+    : { family, robot, isOther };
+}
+
+export function groupBoardOf({
+  document,
+  device,
+  robots,
+}: Pick<Stores, 'document' | 'device' | 'robots'>): GroupBoard {
+  const { robot } = robots.current();
+  return boardOfGroup(
+    document.store.getState().present,
+    knownFamily(device.store.getState().family, robot),
+    robot,
+  );
+}
+
+/** The slot that Download and Run are about. */
+export function useSlot(): number {
+  return useStore(useStores().place.store, ({ slot }) => slot);
 }
 
 /** The robot at hand. */

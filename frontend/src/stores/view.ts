@@ -51,7 +51,8 @@ export interface ViewState {
   readonly selectedButton: number | null;
   readonly editsButtons: boolean;
   readonly moveTime: MoveTime;
-  readonly slot: number;
+  /** Chosen for the group at hand; null: where that goes by itself. */
+  readonly slot: number | null;
   readonly times: number;
   readonly untilStopped: boolean;
   /** The next run may go on without this page; chosen anew for each. */
@@ -113,7 +114,7 @@ export const INITIAL_VIEW: ViewState = {
   selectedButton: null,
   editsButtons: false,
   moveTime: 'hand',
-  slot: 0,
+  slot: null,
   times: 1,
   untilStopped: false,
   goesOn: false,

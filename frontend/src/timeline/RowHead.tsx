@@ -6,9 +6,9 @@ import { MovingLabel } from '../body/MovingLabel.tsx';
 import { isHeld, isSilent, toggled } from '../stores/servoView.ts';
 import {
   editServoView,
-  useDevice,
+  groupBoardOf,
   useDocument,
-  useRobot,
+  useGroupBoard,
   useServoView,
   useStores,
   useTimeline,
@@ -87,13 +87,13 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
 });
 
 /** Where the group has the servo at the playhead. */
-function valueText({ timeline, document, device, robots, view }: Stores, servo: number): string {
+function valueText(stores: Stores, servo: number): string {
+  const { timeline, document, view } = stores;
   const { present: group } = document.store.getState();
   const track = timesOf(group).tracks.get(servo);
   const position = track === undefined ? null : positionAt(track, timeline.getState().playheadMs);
   if (position === null) return '';
-  const { robot } = robots.current();
-  const { family } = device.store.getState();
+  const { family, robot } = groupBoardOf(stores);
   const { positionsIn } = view.getState();
   return scaleAt({ group, robot, family, positionsIn }, servo).digits(position);
 }
@@ -101,8 +101,7 @@ function valueText({ timeline, document, device, robots, view }: Stores, servo: 
 /** What the upper and the lower edge of a tall row stand for. */
 function Axis({ servo }: { readonly servo: number }) {
   const isTall = useTimeline((state) => state.isTall);
-  const robot = useRobot();
-  const family = useDevice((state) => state.family);
+  const { family, robot } = useGroupBoard();
   const positionsIn = useView((state) => state.positionsIn);
   const unit = useDocument(({ present }) => present.unit);
   if (!isTall) return null;

@@ -3,7 +3,7 @@
 
 import { memo } from 'react';
 import { SharedSheet } from '../body/SharedSheet.tsx';
-import { useDevice, useDocument, useRobot, useStores, useTimeline, useView } from '../stores/stores.ts';
+import { useDocument, useGroupBoard, useStores, useTimeline, useView } from '../stores/stores.ts';
 import { keyName, type KeySet } from '../stores/timeline/keySet.ts';
 import { cx } from '../ui/cx.ts';
 import { useWords } from '../words/words.ts';
@@ -110,8 +110,7 @@ function Cells({ row, top, height, id, isDense }: CellsProps) {
   const widthPx = useTimeline((state) => state.widthPx);
   const selected = useTimeline((state) => state.selected);
   const cursor = useTimeline((state) => (isDense ? state.cursor.frameId : null));
-  const family = useDevice((state) => state.family);
-  const robot = useRobot();
+  const { family, robot } = useGroupBoard();
   const positionsIn = useView((state) => state.positionsIn);
   const group = document.store.getState().present;
   const times = timesOf(group);

@@ -99,7 +99,7 @@ function EasingChoice() {
 }
 
 function commonEasing(times: GroupTimes, selected: KeySet): Easing | '' {
-  const easings = new Set(selectedKeys(times, selected).map(({ easing }) => easing));
-  const [only = ''] = easings;
-  return easings.size === 1 ? only : '';
+  const keys = selectedKeys(times, selected);
+  const easing = keys[0]?.easing ?? '';
+  return keys.every((key) => key.easing === easing) ? easing : '';
 }

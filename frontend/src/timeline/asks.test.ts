@@ -86,6 +86,14 @@ test('a single frame is stretched from its beginning', async () => {
   expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 2000, 2500]);
 });
 
+test('a new length is that of the selected keys alone', async () => {
+  const { desk, select, keys } = await createTimelineDesk();
+  select([1, 1], [2, 1], [3, 1]);
+  answer(desk(), 'scaleTime', '50');
+  expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 750, 1000]);
+  expect(keys(2).map(([atMs]) => atMs)).toEqual([500, 1000, 1500]);
+});
+
 test('from its end a stretch is scaled so far as there is room before it', async () => {
   const { desk, select, keys } = await createTimelineDesk();
   select([2, 1], [3, 1]);

@@ -1,18 +1,20 @@
 // What a person is asked for in place, one field at a time: what stands in it at first, and what is done with the answer.
 
 import { renameMarker, addMarker } from '#shared/actions/group/markerEdits.ts';
-import { GROUP_NAME_LENGTH, NOTE_LENGTH, type ActionGroup } from '#shared/actions/group/group.ts';
+import { GROUP_NAME_LENGTH, NOTE_LENGTH } from '#shared/actions/group/group.ts';
 import { scaleAmplitude, setPositions } from '#shared/actions/group/keyEdits.ts';
 import { setNote } from '#shared/actions/group/frameEdits.ts';
-import { insertTime, stretch, stretchBack, type TimeRange } from '#shared/actions/group/timeEdits.ts';
+import type { KeyStretch } from '#shared/actions/group/stretchKeys.ts';
+import { insertTime } from '#shared/actions/group/timeEdits.ts';
 import type { Ask } from '../stores/timeline/timeline.ts';
 import { numberIn } from '../ui/NumberField.tsx';
 import type { Scale } from '../servos/scale.ts';
 import { servoName } from '../stores/servoName.ts';
 import { words } from '../words/words.ts';
-import { apply, changeable, rangeOf, selectedFrames, type Desk } from './desk.ts';
+import { apply, changeable, hasChangeable, rangeOf, selectedFrames, type Desk } from './desk.ts';
 import { changeIn } from './changeIn.ts';
 import { keyOf, selectedKeys, spanOf, timesOf } from './groupTimes.ts';
+import { stretchingOf } from './moving.ts';
 import { scaleAt } from './positions.ts';
 
 interface Range {
@@ -46,8 +48,8 @@ export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
     decimals: (desk) => scaleAtCursor(desk).decimals,
     take: (desk, shown) => void setValues(desk, () => shown),
   },
-  scaleTime: scalingTime((group, span, factor, ripple) => stretch(group, span, factor, { ripple })),
-  scaleTimeBack: scalingTime(stretchBack),
+  scaleTime: scalingTime('first'),
+  scaleTimeBack: scalingTime('last'),
   scaleAmplitude: {
     kind: 'number',
     unit: () => words.timeline.percent,
@@ -98,9 +100,7 @@ export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
   },
 };
 
-function scalingTime(
-  edit: (group: ActionGroup, span: TimeRange, factor: number, ripple: boolean) => ActionGroup,
-): NumberAsk {
+function scalingTime(fixed: KeyStretch['fixed']): NumberAsk {
   return {
     kind: 'number',
     unit: () => words.timeline.percent,
@@ -108,10 +108,10 @@ function scalingTime(
     initial: () => '100',
     take(desk, value) {
       const span = stretchedSpan(desk);
-      if (span === null) return;
+      if (span === null || !hasChangeable(desk)) return;
       apply(desk, {
         label: () => words.timeline.steps.scaleTime,
-        edit: (group) => edit(group, span, value / 100, desk.state.ripples),
+        ...stretchingOf(desk, span, { factor: value / 100, fixed }),
       });
     },
   };

@@ -7,10 +7,11 @@ import type { Easing } from '#shared/actions/group/group.ts';
 import { deleteKeys, setKey } from '#shared/actions/group/keyEdits.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { deleteMarker } from '#shared/actions/group/markerEdits.ts';
-import { deleteTime, reverse } from '#shared/actions/group/timeEdits.ts';
+import { reverseKeys } from '#shared/actions/group/reverseKeys.ts';
+import { deleteTime } from '#shared/actions/group/timeEdits.ts';
 import type { Label } from '#shared/actions/history.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
-import { keysAt, positionAt, type KeyRef } from '#shared/actions/group/tracks.ts';
+import { keysAt, positionAt, type Key, type KeyRef } from '#shared/actions/group/tracks.ts';
 import { keySet, NO_KEYS } from '../stores/timeline/keySet.ts';
 import { isHeld } from '../stores/servoView.ts';
 import { namesIn, servoName } from '../stores/servoName.ts';
@@ -77,8 +78,7 @@ function positionNow(desk: Desk, servo: number, atMs: number): number | null {
 const homeOf = (desk: Desk, servo: number): number | null =>
   countsAlike(desk) ? (servoOf(desk.robot, servo)?.home ?? null) : null;
 
-const countsAlike = ({ group, family }: Desk): boolean =>
-  group.unit === family.unit || group.frames.length === 0;
+const countsAlike = ({ isOther }: Desk): boolean => !isOther;
 
 export function remove(desk: Desk): void {
   const { marker } = desk.state;
@@ -182,16 +182,27 @@ function put(
   else apply(desk, { label, edit: () => group, selects });
 }
 
+/** Each in its row; those of locked rows stay. */
 export function turnRound(desk: Desk): void {
-  const keys = selectedKeys(desk.times, desk.state.selected);
-  const span = spanOf(keys);
-  if (span === null) return;
-  const places = keys.map(({ servo, atMs }) => ({ servo, atMs: span.fromMs + span.toMs - atMs }));
+  if (!hasChangeable(desk)) return;
+  const refs = changeable(desk);
   apply(desk, {
     label: () => words.timeline.steps.reverse,
-    edit: (group) => reverse(group, span),
-    selects: ({ tracks }) => keysAt(tracks, places),
+    edit: (group) => reverseKeys(group, refs),
+    selects: (after) => reversedRefs(desk, refs, after),
   });
+}
+
+/** What is selected where all its names are still there: a key that stays keeps its name, and none is lost. */
+function reversedRefs({ state }: Desk, keys: readonly Key[], after: GroupTimes): readonly KeyRef[] {
+  const named = selectedKeys(after, state.selected);
+  const span = spanOf(keys);
+  const areSame = [keys.length, named.length].every((count) => count === state.selected.size);
+  if (span === null || areSame) return named;
+  return keysAt(
+    after.tracks,
+    keys.map(({ servo, atMs }) => ({ servo, atMs: span.fromMs + span.toMs - atMs })),
+  );
 }
 
 export function mirrorFrames(desk: Desk): void {

@@ -3,14 +3,14 @@
 
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Label } from '#shared/actions/history.ts';
-import type { KeyRef } from '#shared/actions/group/tracks.ts';
+import type { Key, KeyRef } from '#shared/actions/group/tracks.ts';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { positionRange, type Family, type Range } from '#shared/protocol/families.ts';
-import { keySet, type KeySet } from '../stores/timeline/keySet.ts';
+import { framesByServo, keySet, type KeySet } from '../stores/timeline/keySet.ts';
 import { isHeld, type ServoView } from '../stores/servoView.ts';
 import { setChanged } from '../stores/setChanged.ts';
-import { servoViewOf, type Stores } from '../stores/stores.ts';
+import { groupBoardOf, servoViewOf, type Stores } from '../stores/stores.ts';
 import { ALL_ROW, type Cursor, type TimelineState } from '../stores/timeline/timeline.ts';
 import type { PositionsIn } from '../stores/view.ts';
 import { words } from '../words/words.ts';
@@ -25,22 +25,23 @@ export interface Desk {
   readonly times: GroupTimes;
   readonly state: TimelineState;
   readonly rows: readonly Row[];
+  /** They count as the group does; `isOther`: not as the board at hand does. */
   readonly robot: Robot;
   readonly family: Family;
+  readonly isOther: boolean;
   readonly servoView: ServoView;
   readonly positionsIn: PositionsIn;
 }
 
 export function deskOf(stores: DeskStores): Desk {
-  const { robot } = stores.robots.current();
   const group = stores.document.store.getState().present;
+  const { family, robot, isOther } = groupBoardOf(stores);
   const times = timesOf(group);
   const servoView = servoViewOf(stores);
   return {
-    ...{ stores, group, times, robot, servoView },
+    ...{ stores, group, times, robot, family, isOther, servoView },
     state: stores.timeline.getState(),
     rows: rowsNow(robot, times.servos, servoView),
-    family: stores.device.store.getState().family,
     positionsIn: stores.view.getState().positionsIn,
   };
 }
@@ -51,8 +52,10 @@ export const rowOf = ({ rows }: Pick<Desk, 'rows'>, id: string): Row | undefined
 type Chosen = Pick<Desk, 'times' | 'servoView'> & { readonly state: Pick<TimelineState, 'selected'> };
 
 /** Selected, and not locked. */
-export function changeable({ times, state, servoView }: Chosen): readonly KeyRef[] {
-  return selectedKeys(times, state.selected).filter(({ servo }) => !isHeld(servoView, servo));
+export function changeable({ times, state, servoView }: Chosen): readonly Key[] {
+  const keys = selectedKeys(times, state.selected);
+  const held = new Set([...framesByServo(state.selected).keys()].filter((servo) => isHeld(servoView, servo)));
+  return held.size === 0 ? keys : keys.filter(({ servo }) => !held.has(servo));
 }
 
 /** Of servos that nothing changes, those of the selected keys if not others: a row that alone plays and changes holds the rest. */

@@ -317,6 +317,54 @@ describe('dragging other things', () => {
     expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1500, 2000]);
   });
 
+  test('a handle moves the selected keys alone, of one row or of some frames', async () => {
+    const { drag, press, select, selected, keys } = await createTimelineDesk();
+    select([1, 1], [2, 1], [3, 1]);
+    const others = () => [keys(2), keys(3)];
+    const before = others();
+    drag({ x: 162, y: 57 }, 50, 0);
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1250, 2000]);
+    expect(others()).toEqual(before);
+    expect(selected()).toHaveLength(3);
+    drag({ x: 38, y: 57 }, 50, 0);
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([1000, 1500, 2000]);
+    expect(others()).toEqual(before);
+    expect(selected()).toHaveLength(3);
+    const gesture = press({ x: 212, y: 57 });
+    gesture.by(50, 0);
+    expect(keys(1)).toHaveLength(3);
+    gesture.cancel();
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([1000, 1500, 2000]);
+    expect(selected()).toHaveLength(3);
+  });
+
+  test('with ripple what is behind goes along, of all rows, and never past a key that stays', async () => {
+    const { drag, select, keys, stores } = await createTimelineDesk();
+    stores.timeline.setState({ ripples: true });
+    select([1, 1], [2, 1]);
+    drag({ x: 112, y: 57 }, 50, 0);
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1500, 2000]);
+    expect(keys(2).map(([atMs]) => atMs)).toEqual([500, 1000, 2000]);
+    drag({ x: 162, y: 57 }, -100, 0);
+    expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 500, 1000]);
+    expect(keys(2).map(([atMs]) => atMs)).toEqual([500, 1000, 1000]);
+  });
+
+  test('locked rows stay where a stretch is pulled, and that is told where nothing else is selected', async () => {
+    const { drag, press, select, keys, stores } = await createTimelineDesk();
+    editServoView(stores, (view) => ({ ...view, locked: [2] }));
+    select([2, 1], [3, 1], [2, 2], [3, 2]);
+    drag({ x: 162, y: 57 }, 50, 0);
+    expect([keys(1), keys(2)].map((row) => row.map(([atMs]) => atMs))).toEqual([
+      [500, 1000, 2000],
+      [500, 1000, 1500],
+    ]);
+    select([2, 2], [3, 2]);
+    expect(press({ x: 162, y: 57 }).status).toBe('locked');
+    drag({ x: 162, y: 57 }, 50, 0);
+    expect(keys(2).map(([atMs]) => atMs)).toEqual([500, 1000, 1500]);
+  });
+
   test('the handle before it moves its beginning, and its end stays', async () => {
     const { drag, select, keys } = await createTimelineDesk();
     select([2, 1], [3, 1]);

@@ -2,10 +2,11 @@
 // lasts, kept at its end or called off.
 
 import { moveMarker } from '#shared/actions/group/markerEdits.ts';
-import { setDuration, stretch, stretchBack } from '#shared/actions/group/timeEdits.ts';
-import { withKeys } from '../stores/timeline/keySet.ts';
+import { setDuration } from '#shared/actions/group/timeEdits.ts';
+import { keySet, withKeys } from '../stores/timeline/keySet.ts';
+import type { KeyRef } from '#shared/actions/group/tracks.ts';
 import { words } from '../words/words.ts';
-import { deskOf, select, type Desk } from './desk.ts';
+import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
 import {
   draggedTo,
   edits,
@@ -19,6 +20,8 @@ import {
 import { hitAt, keysInBox, type Hit, type Spot } from './hit.ts';
 import { pressFrame } from './inStep.ts';
 import { keyGesture } from './keyGesture.ts';
+import { cursorAfter, stretchingOf } from './moving.ts';
+import { timesOf } from './groupTimes.ts';
 import { lookAt, selectFrame, setTime } from './looking.ts';
 import { sceneOf, wholeSceneOf } from './scene.ts';
 import { topOfRows } from './sizes.ts';
@@ -117,18 +120,30 @@ function stretchGesture(press: Press, desk: Desk, { end, span }: Hit & { kind: '
   const isFirst = end === 'first';
   const [pulledMs, fixedMs] = isFirst ? [span.fromMs, span.toMs] : [span.toMs, span.fromMs];
   const to = draggedTo(press, desk, pulledMs, new Set([pulledMs]));
+  const refs = changeable(desk);
+  if (refs.length === 0) return { status: whyHeld(desk), move: nothing, end: nothing, cancel: nothing };
   let factor = 1;
+  let stretched: readonly KeyRef[] = refs;
   return edits(
     press,
     isFirst ? 'stretchBack' : 'stretch',
     () => words.timeline.steps.stretch,
     (spot, held) => {
-      factor = Math.max(0, (to(spot, held) - fixedMs) / (pulledMs - fixedMs));
-      const { ripples: ripple } = press.stores.timeline.getState();
-      const share = factor;
-      return (group) => (isFirst ? stretchBack(group, span, share) : stretch(group, span, share, { ripple }));
+      const wanted = Math.max(0, (to(spot, held) - fixedMs) / (pulledMs - fixedMs));
+      const stretching = stretchingOf(desk, span, { factor: wanted, fixed: isFirst ? 'last' : 'first' });
+      factor = stretching.factor;
+      return (group) => {
+        const next = stretching.edit(group);
+        stretched = stretching.selects(timesOf(next));
+        return next;
+      };
     },
-    { tells: () => words.timeline.draggedStretch(factor, (span.toMs - span.fromMs) * factor) },
+    {
+      tells: () => words.timeline.draggedStretch(factor, (span.toMs - span.fromMs) * factor),
+      shown: () => press.stores.timeline.setState({ selected: keySet(stretched) }),
+      ended: () => select(press.stores, keySet(stretched), cursorAfter(desk, refs, stretched)),
+      cancelled: () => select(press.stores, desk.state.selected, desk.state.cursor),
+    },
   );
 }
 

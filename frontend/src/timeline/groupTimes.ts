@@ -12,7 +12,7 @@ import {
   type KeyRef,
   type Tracks,
 } from '#shared/actions/group/tracks.ts';
-import { refsOf, type KeySet } from '../stores/timeline/keySet.ts';
+import { framesByServo, isMadeOf, type KeySet } from '../stores/timeline/keySet.ts';
 
 export interface GroupTimes extends Places {
   readonly frames: readonly GroupFrame[];
@@ -97,37 +97,29 @@ const selections = new WeakMap<GroupTimes, WeakMap<KeySet, readonly Key[]>>();
 export function selectedKeys(times: GroupTimes, selected: KeySet): readonly Key[] {
   const ofTimes = selections.get(times) ?? new WeakMap<KeySet, readonly Key[]>();
   selections.set(times, ofTimes);
-  const keys = ofTimes.get(selected) ?? keysNamed(times, refsOf(selected));
+  const keys = ofTimes.get(selected) ?? keysNamed(times, selected);
   ofTimes.set(selected, keys);
   return keys;
 }
 
-/** Names mostly come in the order of time: the next key of a servo stands right behind the one found last. */
-function keysNamed(times: GroupTimes, refs: readonly KeyRef[]): readonly Key[] {
-  const found = new Map<number, Key[]>();
-  const ahead = new Map<number, number>();
-  for (const ref of refs) {
-    const keys = times.tracks.get(ref.servo)?.keys ?? [];
-    const place = ahead.get(ref.servo) ?? 0;
-    const isNext = keys[place]?.frameId === ref.frameId;
-    const key = isNext ? keys[place] : keyOf(times, ref);
-    if (key === undefined) continue;
-    const own = found.get(ref.servo) ?? [];
-    if (own.length === 0) found.set(ref.servo, own);
-    if (isNext || own.length === 0) ahead.set(ref.servo, (isNext ? place : keys.indexOf(key)) + 1);
-    own.push(key);
-  }
-  return [...found]
-    .sort(([one], [other]) => one - other)
-    .flatMap(([, keys]) => keys.sort((one, other) => one.atMs - other.atMs));
+/** Each servo's keys are read once, in the order of time, however the names come. */
+function keysNamed({ tracks }: GroupTimes, selected: KeySet): readonly Key[] {
+  const frames = framesByServo(selected);
+  const servos = [...frames.keys()].sort((one, other) => one - other);
+  const keys = servos.flatMap((servo) => {
+    const wanted = frames.get(servo);
+    return tracks.get(servo)?.keys.filter(({ frameId }) => wanted?.has(frameId)) ?? [];
+  });
+  if (keys.length === selected.size) isMadeOf(selected, keys);
+  return keys;
 }
 
 /** The times of these keys, first and last; null where there are none. */
 export function spanOf(keys: readonly Key[]): { readonly fromMs: number; readonly toMs: number } | null {
-  const [first] = keys;
-  if (first === undefined) return null;
-  return keys.reduce(
-    ({ fromMs, toMs }, { atMs }) => ({ fromMs: Math.min(fromMs, atMs), toMs: Math.max(toMs, atMs) }),
-    { fromMs: first.atMs, toMs: first.atMs },
-  );
+  let [fromMs, toMs] = [Infinity, -Infinity];
+  for (const { atMs } of keys) {
+    if (atMs < fromMs) fromMs = atMs;
+    if (atMs > toMs) toMs = atMs;
+  }
+  return keys.length === 0 ? null : { fromMs, toMs };
 }

@@ -27,11 +27,7 @@ export function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' 
   if (refs.length === 0) return { status: whyHeld(desk), move: nothing, end: nothing, cancel: nothing };
   let moved: readonly KeyRef[] = refs;
   let copies = false;
-  const own = new Set(
-    desk.times.ends.filter((_, index) =>
-      refs.some(({ frameId }) => frameId === desk.times.frames[index]?.id),
-    ),
-  );
+  const own = new Set(refs.map(({ atMs }) => atMs));
   const to = draggedTo(press, desk, hit.atMs, own);
   return edits(
     press,
@@ -42,7 +38,7 @@ export function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' 
       const deltaPosition = isKept(press, spot, now, 'value') ? turnedBy(press, scene, hit, spot) : 0;
       // In their own place there is nothing to copy.
       copies = now.ctrl && deltaMs !== 0;
-      const move = (copies ? copyOf : moveOf)(desk, desk.group, refs, { deltaMs, deltaPosition });
+      const move = (copies ? copyOf : moveOf)(desk, refs, { deltaMs, deltaPosition });
       return (group) => {
         const next = move.edit(group);
         moved = move.selects(timesOf(next));

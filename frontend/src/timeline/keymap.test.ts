@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { emptyGroup } from '#shared/actions/group/group.ts';
+import { setDuration } from '#shared/actions/group/timeEdits.ts';
 import { startHistory } from '#shared/actions/history.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { editServoView } from '../stores/stores.ts';
@@ -307,6 +308,58 @@ describe('keys', () => {
     expect(keys(1).map(([, position]) => position)).toEqual([1400, 1200, 1000]);
     stores.document.undo();
     expect(keys(1).map(([, position]) => position)).toEqual([1000, 1200, 1400]);
+  });
+
+  test('reverse turns the selected keys alone, and they stay selected', async () => {
+    const { key, keys, select, selected } = await createTimelineDesk();
+    const others = [keys(2), keys(3)];
+    select([1, 1], [2, 1]);
+    key('r');
+    expect(keys(1)).toEqual([
+      [500, 1200],
+      [1000, 1000],
+      [1500, 1400],
+    ]);
+    expect([keys(2), keys(3)]).toEqual(others);
+    expect(selected()).toEqual([
+      [1, 1],
+      [2, 1],
+    ]);
+  });
+
+  test('reversed keys stay selected where they come between frames, and come back by the same key', async () => {
+    const { key, keys, select, selected, stores, group } = await createTimelineDesk();
+    stores.document.edit(
+      () => 'later',
+      (before) => setDuration(before, 2, 700, { ripple: true }),
+    );
+    const before = group().frames;
+    select([1, 1], [2, 1], [3, 1]);
+    key('r');
+    expect(keys(1)).toEqual([
+      [500, 1400],
+      [1000, 1200],
+      [1700, 1000],
+    ]);
+    expect(keys(2).map(([atMs]) => atMs)).toEqual([500, 1200, 1700]);
+    expect(selected()).toHaveLength(3);
+    key('r');
+    expect(group().frames).toEqual(before);
+    expect(selected()).toHaveLength(3);
+  });
+
+  test('reverse leaves locked rows, and says so where nothing else is selected', async () => {
+    const { key, keys, select, stores, steps, told } = await createTimelineDesk();
+    editServoView(stores, (view) => ({ ...view, locked: [1] }));
+    key('a', { ctrlKey: true });
+    key('r');
+    expect(keys(1).map(([, position]) => position)).toEqual([1000, 1200, 1400]);
+    expect(keys(2).map(([, position]) => position)).toEqual([1600, 1500, 1500]);
+    const before = steps();
+    select([1, 1], [3, 1]);
+    key('r');
+    expect(steps()).toBe(before);
+    expect(told()).toEqual(['The selected keys are on locked rows.']);
   });
 
   test('delete takes what is selected, but nothing of a locked row, and says so', async () => {

@@ -2,13 +2,21 @@
 
 import { duplicateKeys } from '#shared/actions/group/clip.ts';
 import { moveKeys, boundedMove, type KeyMove } from '#shared/actions/group/keyEdits.ts';
+import {
+  boundedFactor,
+  stretchedMs,
+  stretchKeys,
+  type KeyStretch,
+} from '#shared/actions/group/stretchKeys.ts';
+import type { TimeRange } from '#shared/actions/group/timeEdits.ts';
 import { keysAt, type Key, type KeyRef } from '#shared/actions/group/tracks.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { Range } from '#shared/protocol/families.ts';
 import { words } from '../words/words.ts';
 import type { Cursor } from '../stores/timeline/timeline.ts';
 import { cellName } from './cellName.ts';
 import { apply, changeable, hasChangeable, rangeOf, rowOf, type Desk } from './desk.ts';
-import { keyOf, timesOf, type GroupTimes } from './groupTimes.ts';
+import { timesOf, type GroupTimes } from './groupTimes.ts';
 import { nudgeUnits } from './positions.ts';
 
 export interface Move {
@@ -17,30 +25,41 @@ export interface Move {
   selects(times: GroupTimes): readonly KeyRef[];
 }
 
-/** `group` is what the move begins from. */
-export function moveOf(desk: Desk, group: ActionGroup, refs: readonly KeyRef[], wanted: KeyMove): Move {
-  const times = timesOf(group);
-  const keys = refs.flatMap((ref) => keyOf(times, ref) ?? []);
+export interface Stretching extends Move {
+  /** As much as there is room for. */
+  readonly factor: number;
+}
+
+export function moveOf(desk: Desk, keys: readonly Key[], wanted: KeyMove): Move {
   const within = { ...wanted, deltaPosition: withinLimits(desk, keys, wanted.deltaPosition) };
   const { deltaMs } = boundedMove(keys, within);
   const { ripples } = desk.state;
   const moved = keys.map(({ servo, atMs }) => ({ servo, atMs: atMs + deltaMs }));
   return {
-    edit: (before) => moveKeys(before, refs, within, { ripple: ripples }),
-    selects: (after) => (ripples ? refs : keysAt(after.tracks, moved)),
+    edit: (before) => moveKeys(before, keys, within, { ripple: ripples }),
+    selects: (after) => (ripples || deltaMs === 0 ? keys : sameRefs(keys, keysAt(after.tracks, moved))),
   };
 }
 
+/** The very same list where it names the same: frames that lose all their keys go along with them. */
+const sameRefs = (before: readonly KeyRef[], after: readonly KeyRef[]): readonly KeyRef[] =>
+  before.length === after.length &&
+  before.every(({ frameId, servo }, index) => {
+    const other = after[index];
+    return other?.frameId === frameId && other.servo === servo;
+  })
+    ? before
+    : after;
+
 /** The same keys once more, so far from them, in the place of what they meet; they themselves stay. */
-export function copyOf(desk: Desk, group: ActionGroup, refs: readonly KeyRef[], wanted: KeyMove): Move {
-  const keys = refs.flatMap((ref) => keyOf(timesOf(group), ref) ?? []);
+export function copyOf(desk: Desk, keys: readonly Key[], wanted: KeyMove): Move {
   const deltaPosition = withinLimits(desk, keys, wanted.deltaPosition);
   const { deltaMs } = boundedMove(keys, { ...wanted, deltaPosition });
   const places = keys.map(({ servo, atMs }) => ({ servo, atMs: atMs + deltaMs }));
   const copies = ({ tracks }: GroupTimes): readonly KeyRef[] => keysAt(tracks, places);
   return {
     edit(before) {
-      const copied = duplicateKeys(before, refs, deltaMs, STAYS).group;
+      const copied = duplicateKeys(before, keys, deltaMs, STAYS).group;
       return moveKeys(copied, copies(timesOf(copied)), { deltaMs: 0, deltaPosition }, STAYS);
     },
     selects: copies,
@@ -50,11 +69,30 @@ export function copyOf(desk: Desk, group: ActionGroup, refs: readonly KeyRef[], 
 /** What is behind stays at its time, as it does when pasted. */
 const STAYS = { ripple: false } as const;
 
+/** The selected keys that may change, so many times as long together; `fixed`: the end that stays. */
+export function stretchingOf(
+  desk: Desk,
+  span: TimeRange,
+  { factor, fixed }: Pick<KeyStretch, 'factor' | 'fixed'>,
+): Stretching {
+  const keys = changeable(desk);
+  const wanted = { ...span, factor, fixed, ripple: desk.stores.timeline.getState().ripples };
+  const by = { ...wanted, factor: boundedFactor(desk.group, keys, wanted) };
+  const stretched = keys.map(({ servo, atMs }) => ({ servo, atMs: stretchedMs(atMs, by) }));
+  return {
+    factor: by.factor,
+    edit: (before) => stretchKeys(before, keys, wanted),
+    selects: ({ tracks }) => keysAt(tracks, stretched),
+  };
+}
+
 /** All together stop where the first of them meets its limit. Keys beyond their limits may come back. */
 function withinLimits(desk: Desk, keys: readonly Key[], delta: number): number {
+  const ranges = new Map<number, Range>();
   return keys.reduce((least, { servo, position }) => {
-    const { min, max } = rangeOf(desk, servo);
-    const room = delta > 0 ? Math.max(0, max - position) : Math.min(0, min - position);
+    const range = ranges.get(servo) ?? rangeOf(desk, servo);
+    ranges.set(servo, range);
+    const room = delta > 0 ? Math.max(0, range.max - position) : Math.min(0, range.min - position);
     return Math.abs(room) < Math.abs(least) ? room : least;
   }, delta);
 }
@@ -83,7 +121,7 @@ export function nudge(desk: Desk, ticks: number, turns: number): void {
   const deltaMs = ticks * desk.family.motion.tickMs;
   const refs = changeable(desk);
   const deltaPosition = turns * nudgeUnits(desk, servoAtHand(desk, refs) ?? 0);
-  const move = moveOf(desk, desk.group, refs, { deltaMs, deltaPosition });
+  const move = moveOf(desk, refs, { deltaMs, deltaPosition });
   let { cursor } = desk.state;
   apply(desk, {
     label: () => words.timeline.steps.move,

@@ -2,7 +2,7 @@
 // out: what follows it is drawn past React. So is what the servo panel changes all the time while it drags.
 
 import { useShallow } from 'zustand/react/shallow';
-import { useDevice, useRobot, useServoView, useStores, useTimeline, useView } from '../stores/stores.ts';
+import { useGroupBoard, useServoView, useStores, useTimeline, useView } from '../stores/stores.ts';
 import { useInFrame } from '../ui/useInFrame.ts';
 import { deskOf, type Desk } from './desk.ts';
 
@@ -11,8 +11,7 @@ export type SeenDesk = Omit<Desk, 'state'> & { readonly state: Omit<Desk['state'
 export function useDesk(): SeenDesk {
   const stores = useStores();
   useInFrame(stores.document.store, ({ present }) => present);
-  useRobot();
-  useDevice((state) => state.family);
+  useGroupBoard();
   useView((state) => state.positionsIn);
   useServoView((view) => view);
   useTimeline(useShallow(({ playheadMs: _, ...shown }) => shown));

@@ -32,6 +32,15 @@ test('a frame is selected as a whole where all of its keys are that are shown', 
   ).toEqual([1, 3]);
 });
 
+test('a frame without a key to select goes with the whole frames on both sides of it', async () => {
+  const { desk } = await createTimelineDesk();
+  const whole = (servo: number, ...frames: readonly number[]) =>
+    wholeFrames(desk().times, keySet(frames.map((frameId) => ({ frameId, servo }))), new Set([servo]));
+  expect(whole(3, 1, 3)).toEqual([1, 2, 3]);
+  expect([whole(3, 1), whole(3, 3)]).toEqual([[1], [3]]);
+  expect(whole(1, 1, 3)).toEqual([1, 3]);
+});
+
 test('cards take others along: with Shift up to it, with Ctrl beside others', async () => {
   const { stores, desk } = await createTimelineDesk();
   const chosen = () => wholeFrames(desk().times, stores.timeline.getState().selected, ALL);

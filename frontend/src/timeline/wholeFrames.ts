@@ -1,37 +1,50 @@
 // Which frames are selected as a whole, with every key of theirs in a row that is shown, and the rests between them: what the strip
 // marks, and what is done to several frames is done to. The list is pure, and kept as long as it says the same.
 
+import type { GroupFrame } from '#shared/actions/group/group.ts';
 import { sameList } from '#shared/actions/group/groupEdits.ts';
 import type { Key } from '#shared/actions/group/tracks.ts';
-import type { KeySet } from '../stores/timeline/keySet.ts';
+import { framesByServo, type KeySet } from '../stores/timeline/keySet.ts';
 import { useDocument, useTimeline } from '../stores/stores.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { useRows } from './useRows.ts';
 
 /** In the order of time. A frame without a key to select goes with the frames on both sides of it. */
 export function wholeFrames(
-  times: GroupTimes,
+  { frames }: Pick<GroupTimes, 'frames'>,
   selected: KeySet,
   shownServos: ReadonlySet<number>,
 ): readonly number[] {
-  const { frames, places } = times;
-  const counts = new Map<number, number>();
-  for (const { frameId, servo } of selectedKeys(times, selected)) {
-    const place = shownServos.has(servo) ? places.get(frameId) : undefined;
-    if (place !== undefined) counts.set(place, (counts.get(place) ?? 0) + 1);
+  const chosen = framesByServo(selected);
+  const ids: number[] = [];
+  let isBehindWhole = false;
+  let rests: number[] = [];
+  for (const frame of frames) {
+    const state = stateOf(frame, chosen, shownServos);
+    if (state === 'rest') {
+      rests.push(frame.id);
+      continue;
+    }
+    if (state === 'whole') ids.push(...(isBehindWhole ? rests : []), frame.id);
+    isBehindWhole = state === 'whole';
+    rests = [];
   }
-  const keysAt = (place: number): number =>
-    frames[place]?.targets.filter(({ servo }) => shownServos.has(servo)).length ?? 0;
-  const whole = [...counts]
-    .filter(([place, count]) => count === keysAt(place))
-    .map(([place]) => place)
-    .toSorted((one, other) => one - other);
-  return whole.flatMap((place, index) => {
-    const before = whole[index - 1] ?? place;
-    const between = frames.slice(before + 1, place);
-    const isRest = between.every((_, offset) => keysAt(before + 1 + offset) === 0);
-    return [...(isRest ? between : []), frames[place]].flatMap((frame) => (frame ? [frame.id] : []));
-  });
+  return ids;
+}
+
+/** By its keys in rows that are shown. */
+function stateOf(
+  { id, targets }: GroupFrame,
+  chosen: ReturnType<typeof framesByServo>,
+  shownServos: ReadonlySet<number>,
+): 'whole' | 'partial' | 'rest' {
+  let state: 'whole' | 'rest' = 'rest';
+  for (const { servo } of targets) {
+    if (!shownServos.has(servo)) continue;
+    if (chosen.get(servo)?.has(id) !== true) return 'partial';
+    state = 'whole';
+  }
+  return state;
 }
 
 interface Whole {

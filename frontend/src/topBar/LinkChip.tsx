@@ -24,10 +24,11 @@ export function LinkChip() {
   const mustChoose = useSnapshot(({ link }) => link.status === 'refused' && link.error.code === 'closed');
   const way = useDevice((state) => state.way);
   const isSimulated = way?.isSimulated === true;
+  const connects = way === null || isSimulated || mustChoose;
   const open = (): void => view.setState({ connectOpen: true });
   const label = way === null || isSimulated ? '' : way.label;
   return (
-    <div className={styles.link}>
+    <div className={styles.link} data-connects={connects}>
       <AriaButton
         className={styles.chip ?? ''}
         aria-label={words.link.chip(isSimulated ? words.link.simulated : words.link.status[status], label)}
@@ -41,7 +42,7 @@ export function LinkChip() {
           <span className={styles.label}>{label}</span>
         )}
       </AriaButton>
-      {(way === null || isSimulated || mustChoose) && (
+      {connects && (
         <Button tone={status === 'ready' ? 'plain' : 'primary'} icon="plug" onPress={open}>
           {words.link.connect}
         </Button>

@@ -99,9 +99,10 @@ const ANSWERED_ELSEWHERE: readonly LinkErrorCode[] = ['closed', 'boardUnknown', 
 const IN_ANOTHER_TAB: readonly LinkErrorCode[] = ['heldElsewhere', 'movedAway'];
 
 function latchWords({ reason, by, unheld }: Latch): string {
-  if (unheld === 'unknownGroup') return words.stop.unheldGroup;
-  if (unheld.length > 0) return words.stop.unheld(unheld);
-  return reason === 'elsewhere' ? words.stop.stoppedBy(by) : words.stop.reason[reason];
+  const why = reason === 'elsewhere' ? words.stop.stoppedBy(by) : words.stop.reason[reason];
+  if (unheld === null) return why;
+  const goesOn = words.stop.unheld(unheld);
+  return reason === 'pressed' ? goesOn : `${goesOn}. ${why}`;
 }
 
 type DownState = Extract<LinkState, { status: 'lost' | 'refused' }>;

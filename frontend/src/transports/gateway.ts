@@ -100,6 +100,7 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
         refused(message.id, refusal(message.code, message.detail));
         break;
       case 'halted':
+        events?.halted?.(message.unheld);
         settleAll(halting, (waiter) => waiter.resolve());
         break;
     }
@@ -132,8 +133,11 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
   /** Only packets have an id: without one it was a stop or a resume. */
   function refused(id: number | null, error: LinkError): void {
     if (id !== null) take(id)?.reject(error);
-    else
-      for (const waiters of [halting, resuming, naming]) settleAll(waiters, (waiter) => waiter.reject(error));
+    else rejectAll(error);
+  }
+
+  function rejectAll(error: LinkError): void {
+    for (const waiters of [halting, resuming, naming]) settleAll(waiters, (waiter) => waiter.reject(error));
   }
 
   function take(id: number): SettleSent | undefined {
@@ -173,7 +177,7 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
     slots.gone(error);
     for (const waiter of sending.values()) waiter.reject(error);
     sending.clear();
-    for (const waiters of [halting, resuming, naming]) settleAll(waiters, (waiter) => waiter.reject(error));
+    rejectAll(error);
     told?.lost(error);
   }
 

@@ -375,10 +375,19 @@ export interface NoiseMessage {
   bytes: string;
 }
 /**
- * The stop sequence has left the wire.
+ * The stop sequence has left the wire. `unheld`: what may go on in spite of it, if anything.
  */
 export interface HaltedMessage {
   type: 'halted';
+  unheld: UnheldServos | null;
+}
+/**
+ * What may go on in spite of a STOP: these servos, `null` where nobody knows which, for so long at most
+ * from its press.
+ */
+export interface UnheldServos {
+  servos: number[] | null;
+  forMs: number;
 }
 /**
  * Motion is allowed again, by somebody else's word.

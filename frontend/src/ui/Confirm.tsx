@@ -14,6 +14,8 @@ interface Question {
   readonly keepLabel: string;
   readonly confirmLabel: string;
   readonly closeLabel: string;
+  /** Another way to do it, which spares something. */
+  readonly otherwise?: { readonly label: string; onConfirm(): void } | undefined;
   onConfirm(): void;
 }
 
@@ -22,8 +24,12 @@ export interface ConfirmProps extends Question, Looks, Pick<ButtonProps, 'tone' 
 }
 
 export function Confirm({ label, tone, hint, ...question }: ConfirmProps) {
-  const { icon, isDisabled = false } = question;
+  const { icon, isDisabled = false, otherwise } = question;
   const [isAsking, setAsking] = useState(false);
+  const closingBefore = (act: () => void) => (): void => {
+    setAsking(false);
+    act();
+  };
   return (
     <>
       <Button
@@ -36,10 +42,8 @@ export function Confirm({ label, tone, hint, ...question }: ConfirmProps) {
         {...question}
         isOpen={isAsking}
         onClose={() => setAsking(false)}
-        onConfirm={() => {
-          setAsking(false);
-          question.onConfirm();
-        }}
+        otherwise={otherwise && { ...otherwise, onConfirm: closingBefore(otherwise.onConfirm) }}
+        onConfirm={closingBefore(question.onConfirm)}
       />
     </>
   );
@@ -66,7 +70,7 @@ export type ConfirmContentProps = Omit<ConfirmDialogProps, 'title' | 'closeLabel
 };
 
 export function ConfirmContent(props: ConfirmContentProps) {
-  const { text, keepLabel, confirmLabel, autoFocus = false, onClose, onConfirm, ...looks } = props;
+  const { text, keepLabel, confirmLabel, otherwise, autoFocus = false, onClose, onConfirm, ...looks } = props;
   return (
     <>
       <p className={styles.text}>{text}</p>
@@ -74,6 +78,11 @@ export function ConfirmContent(props: ConfirmContentProps) {
         <Button autoFocus={autoFocus} onPress={onClose}>
           {keepLabel}
         </Button>
+        {otherwise && (
+          <Button isDisabled={looks.isDisabled ?? false} onPress={otherwise.onConfirm}>
+            {otherwise.label}
+          </Button>
+        )}
         <Button {...looks} tone="danger" onPress={onConfirm}>
           {confirmLabel}
         </Button>

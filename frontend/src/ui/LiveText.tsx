@@ -13,7 +13,7 @@ export interface LiveTextProps {
   text(): string;
   readonly eachMs?: number;
   /** For what is no hurry while it goes on changing: written every other second, and at rest. */
-  readonly isCalm?: boolean;
+  isCalm?(): boolean;
   /** What it is about, where that is asked more quickly than the text. */
   about?(): unknown;
   readonly className?: string | undefined;
@@ -27,7 +27,7 @@ export interface LiveTextProps {
 export function LiveText({
   text,
   eachMs = 0,
-  isCalm = false,
+  isCalm = () => false,
   about = text,
   className,
   title,
@@ -43,7 +43,7 @@ export function LiveText({
   useFollow({
     read: about,
     draw: (_, nowMs) => {
-      if (!isCalm || isDue(nowMs)) write();
+      if (!isCalm() || isDue(nowMs)) write();
     },
     rest: write,
     eachMs,

@@ -28,6 +28,8 @@ interface Looked<T> {
 export const READABLE_MS = 100;
 /** Text that goes on changing is written no more often: a frame in which text is laid out takes twice as long as others. */
 export const CHANGING_EACH_MS = 2000;
+/** Soon enough for whoever hears it or takes it up with the keys. */
+export const HEARD_EACH_MS = 250;
 /** Longer than a slow drag takes from one value to the next; no more often is looked at what is out of sight. */
 const REST_MS = 250;
 

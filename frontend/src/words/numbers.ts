@@ -85,6 +85,8 @@ export function numbersIn({ locale, units, gap }: Locale) {
     /** Day and time, from milliseconds since 1970. */
     formatMoment: (epochMs: number): string => moment.format(epochMs),
     formatSeconds: (ms: number): string => seconds.format(ms / 1000),
+    /** Whole seconds, rounded up: for a longest time. */
+    formatSecondsUp: (ms: number): string => seconds.format(Math.ceil(ms / 1000)),
     /** `12.5 sec`, from two minutes on `3 min`: of what is known roughly. */
     formatRoughly: (ms: number): string =>
       ms < TWO_MINUTES_MS ? seconds.format(ms / 1000) : minutes.format(Math.round(ms / 60_000)),

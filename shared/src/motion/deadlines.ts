@@ -50,6 +50,11 @@ function begin(
   };
 }
 
+/** Running it does nothing, and the board says nothing of it (S44). */
+function isEmpty(slot: number, board: KnownBoard): boolean {
+  return board.playedFrames(slot)?.length === 0;
+}
+
 /** While another group runs: its length is overwritten, whatever comes of the request (S45, S46). */
 function requestDuring(
   motion: Motion,
@@ -64,6 +69,7 @@ function requestDuring(
 
 function request(motion: Motion, wanted: RunRequest, atMs: number, board: KnownBoard): Motion {
   const { run } = motion;
+  if (isEmpty(wanted.slot, board)) return motion;
   if (run !== null && run.kind !== 'deadlines') return runningUnknown(motion, null);
   const preempts = wanted.slot === PREEMPTIVE_SLOT && run?.slot !== PREEMPTIVE_SLOT;
   if (run !== null && !preempts) return requestDuring(motion, run, wanted, board);
@@ -93,9 +99,15 @@ function endPass(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion {
   return { ...motion, run: { ...run, next: 0, passAtMs: run.nextAtMs, loopsDone } };
 }
 
+/** The next one is played once (S49), unless there is none. */
+function isChained(slot: number | null, board: KnownBoard): boolean {
+  const { chainedSlot } = board.family.motion;
+  return chainedSlot !== null && (slot ?? chainedSlot) === chainedSlot && !isEmpty(chainedSlot + 1, board);
+}
+
 function endRun(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion {
   const ended = { ...motion, run: null };
-  if (run.slot !== board.family.motion.chainedSlot) return { ...ended, untoldEndMs: run.nextAtMs };
+  if (!isChained(run.slot, board)) return { ...ended, untoldEndMs: run.nextAtMs };
   // Its own end, still to be heard, and the next one's.
   return begin(
     ended,
@@ -124,8 +136,9 @@ function ended(motion: Motion, board: KnownBoard): Motion {
   if (run.kind === 'polled') return motion;
   if (run.endsToHear > 1) return { ...motion, run: { ...run, endsToHear: run.endsToHear - 1 } };
   const { chainedSlot } = board.family.motion;
-  const isChained = chainedSlot !== null && (run.slot ?? chainedSlot) === chainedSlot;
-  return isChained ? runningUnknown(motion, chainedSlot + 1) : { ...motion, run: null };
+  return chainedSlot !== null && isChained(run.slot, board)
+    ? runningUnknown(motion, chainedSlot + 1)
+    : { ...motion, run: null };
 }
 
 export const deadlines: Playback = {

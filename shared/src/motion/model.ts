@@ -5,7 +5,7 @@ import type { Frame } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
 import type { ReportKind } from '../protocol/reports.ts';
 import { onlyLetGo, type Told } from './told.ts';
-import type { Tracks } from './tracks.ts';
+import { doubted, type Tracks } from './tracks.ts';
 
 /** A group that may move anything at any time: its frames are not ours, or its time cannot be computed. */
 interface UnknownRun {
@@ -42,7 +42,7 @@ export interface PolledRun {
 
 export interface Motion {
   readonly tracks: Tracks;
-  /** Of servos without a track. */
+  /** Of servos at rest, with a track or without. */
   readonly told: Told;
   readonly run: UnknownRun | DeadlineRun | PolledRun | null;
   /** When a group ended by our clock that the board has not told the end of yet; -Infinity for none. */
@@ -53,6 +53,8 @@ export interface Motion {
   readonly answersOwed: readonly ReportKind[];
   /** A packet came while it was deaf, and may wait to be taken up. */
   readonly mayHoldPacket: boolean;
+  /** So many packets that come next it may take for the rest of one that was cut (S2, L3). */
+  readonly maySwallow: number;
   /** Until then a servo we know nothing of may still be on its way. */
   readonly restlessUntilMs: number;
   /** The next run skips its first frame (L11). */
@@ -62,7 +64,7 @@ export interface Motion {
 /** The board as far as it stays the same while it moves. */
 export interface KnownBoard {
   readonly family: Family;
-  /** The group with the times it is played with (X3), or null where nobody knows it. */
+  /** The group with the times it is played with (X3); empty where nothing is stored, null where nobody knows. */
   playedFrames(slot: number): readonly Frame[] | null;
 }
 
@@ -94,12 +96,13 @@ export const UNKNOWN_MOTION: Motion = {
   deafUntilMs: -Infinity,
   answersOwed: [],
   mayHoldPacket: false,
+  maySwallow: 0,
   restlessUntilMs: -Infinity,
   skipsFirst: 'no',
 };
 
-/** Nobody knows where anything is while that group may run, nor behind it. */
+/** Nobody knows where anything is while that group may run, nor behind it: perhaps its slot is empty, and the moves go on. */
 export function runningUnknown(motion: Motion, slot: number | null, endsToHear = 1): Motion {
   const told = onlyLetGo(motion.told);
-  return { ...motion, tracks: new Map(), told, run: { kind: 'unknown', slot, endsToHear } };
+  return { ...motion, tracks: doubted(motion.tracks), told, run: { kind: 'unknown', slot, endsToHear } };
 }

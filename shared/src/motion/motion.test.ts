@@ -2,19 +2,17 @@ import { describe, expect, test } from 'vitest';
 import type { Command, Frame } from '../protocol/commands.ts';
 import { family, type FamilyId } from '../protocol/families.ts';
 import type { Report } from '../protocol/reports.ts';
+import { haltPlan } from './haltPlan.ts';
 import {
   advance,
   afterCommand,
   afterEnd,
   afterReport,
   forgotten,
-  holdMove,
   leewayAt,
   passMs,
   positionAt,
-  remainingMs,
   targetOf,
-  unheldServos,
   UNKNOWN_MOTION,
   type KnownBoard,
   type Motion,
@@ -63,7 +61,7 @@ function robot(id: FamilyId, groups: Groups = {}) {
     at: (nowMs: number, servo = 1) => positionAt(advance(motion, nowMs, board), servo, nowMs),
     when: (nowMs: number) => advance(motion, nowMs, board),
     leeway: (nowMs: number) => leewayAt(advance(motion, nowMs, board), 1, nowMs, board.family),
-    hold: (nowMs: number) => holdMove(advance(motion, nowMs, board), nowMs, board.family),
+    plan: (nowMs: number) => haltPlan(motion, nowMs, board),
     passMs: (frames: readonly Frame[]) => passMs(frames, board),
   };
   return self.send(-1_000, move(20, [1, 1_000], [2, 1_000]));
@@ -115,9 +113,9 @@ describe('a move', () => {
   });
 
   test('leaves a way of one tick open, and nothing once it has ended', () => {
-    const old = robot('openarm-old').send(0, move(1_000, [1, 2_000]));
-    expect([old.leeway(500), old.leeway(1_000)]).toEqual([20, 0]);
-    expect(old.send(500, move(10_000, [1, 2_000])).leeway(600)).toBeGreaterThan(20);
+    const learm = robot('learm-esp32').send(0, move(1_000, [1, 2_000]));
+    expect([learm.leeway(500), learm.leeway(1_000)]).toEqual([10, 0]);
+    expect(learm.send(500, move(10_000, [1, 2_000])).leeway(600)).toBeGreaterThan(10);
   });
 });
 
@@ -329,8 +327,8 @@ describe('what a board says of its servos', () => {
     expect(
       robot('bus-ctrl')
         .hear(500, says(300))
-        .hold(600)
-        ?.targets.map(({ servo }) => servo),
+        .plan(600)
+        .hold?.targets.map(({ servo }) => servo),
     ).toEqual([1, 2]);
   });
 
@@ -358,36 +356,22 @@ describe('what a board says of its servos', () => {
     expect(robot('bus-ctrl').hear(500, says(300)).forget(600).at(700, 7)).toBeNull();
   });
 
-  test('changes nothing of one that was moved', () => {
-    expect(
-      robot('bus-ctrl')
-        .hear(500, { kind: 'positions', positions: [{ servo: 1, position: 3 }] })
-        .at(600),
-    ).toBe(1_000);
+  test('is where one that was moved stands, too; a hold goes on with what it was asked for', () => {
+    const gripping = robot('bus-ctrl').hear(500, {
+      kind: 'positions',
+      positions: [{ servo: 1, position: 3 }],
+    });
+    expect(gripping.at(600)).toBe(3);
+    expect(gripping.plan(600).hold?.targets[0]).toEqual({ servo: 1, position: 1_000 });
+    expect(gripping.send(1_000, move(1_000, [1, 503])).at(1_500)).toBe(253);
+  });
+
+  test('changes nothing of one that is under way', () => {
+    const moving = robot('bus-ctrl').send(100, move(1_000, [1, 500]));
+    expect(moving.hear(600, { kind: 'positions', positions: [{ servo: 1, position: 3 }] }).at(600)).toBe(750);
   });
 });
 
 test('nothing is known of a robot that was out of sight', () => {
   expect(robot('doc').forget(0).at(0)).toBeNull();
-});
-
-describe('holding', () => {
-  test('moves each known servo to where it is, in the shortest time', () => {
-    const doc = robot('doc').send(0, move(1_000, [1, 2_000], [2, 2_000]));
-    expect(doc.hold(500)).toEqual(frame(20, [1, 1_500], [2, 1_500]));
-  });
-
-  test.each([
-    ['doc', 1_000],
-    ['lsc-6', 20],
-  ] as const)('%s does not hurry a servo that is in its first move (S26)', (id, durationMs) => {
-    const moving = robot(id).send(0, move(1_500, [3, 2_000]));
-    expect(moving.hold(500)).toEqual(frame(durationMs, [1, 1_000], [2, 1_000]));
-    expect([unheldServos(moving.when(500), 500), unheldServos(moving.when(1_500), 1_500)]).toEqual([[3], []]);
-  });
-
-  test('is impossible while nothing is known', () => {
-    expect(holdMove(UNKNOWN_MOTION, 0, family('doc'))).toBeNull();
-    expect(remainingMs(UNKNOWN_MOTION, 0)).toBe(0);
-  });
 });

@@ -10,11 +10,13 @@
 import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
 import type { Report, ReportKind } from '../protocol/reports.ts';
 import type { Family } from '../protocol/families.ts';
+import { HEADER } from '../protocol/packet.ts';
 import { deadlines } from './deadlines.ts';
 import { runningUnknown, UNKNOWN_MOTION, type KnownBoard, type Motion, type Playback } from './model.ts';
 import { polled } from './polled.ts';
-import { afterOrder, afterPositions, onlyLetGo } from './told.ts';
+import { afterOrder, afterPositions, onlyLetGo, type Reading, type Told } from './told.ts';
 import {
+  boardDurationMs,
   endMs,
   lastEndMs,
   leewayOf,
@@ -22,8 +24,10 @@ import {
   only,
   positionOf,
   retarget,
+  shareDone,
   standingAt,
   stands,
+  type Track,
   type Tracks,
 } from './tracks.ts';
 
@@ -52,6 +56,11 @@ const ANSWERS: Readonly<Partial<Record<Command['kind'], ReportKind>>> = {
 };
 /** The worst of them: four sectors and the count table (S33, S34), with a margin. */
 const LONGEST_DEAFNESS_MS = 2_500;
+/** A group tells its end when the time of its last frame is over; a frame of no time still takes a tick (S43). */
+const LAST_TICKS_MS = 100;
+/** What LEN does not count, and the whole of a packet without parameters. */
+const HEAD_BYTES = 2;
+const SHORTEST_PACKET_BYTES = 4;
 
 function answersTo(kind: Command['kind']): readonly ReportKind[] {
   const answer = ANSWERS[kind];
@@ -67,8 +76,9 @@ export function advance(motion: Motion, nowMs: number, board: KnownBoard): Motio
   return playbackOf(board).advance(motion, nowMs, board);
 }
 
-/** False where the board may be too busy to take up what it is told. */
-export const hears = ({ deafUntilMs }: Motion, atMs: number): boolean => atMs >= deafUntilMs;
+/** False where the board may be too busy to take up what it is told, or takes it for the rest of a cut packet. */
+export const hears = ({ deafUntilMs, maySwallow }: Motion, atMs: number): boolean =>
+  atMs >= deafUntilMs && maySwallow === 0;
 
 /** After the last bit of `command` left the wire at `atMs`. */
 export function afterCommand(motion: Motion, command: Command, atMs: number, board: KnownBoard): Motion {
@@ -76,14 +86,34 @@ export function afterCommand(motion: Motion, command: Command, atMs: number, boa
   const isHeard = hears(current, atMs);
   const after = isHeard
     ? restless(current, afterHeard(current, command, atMs, board), atMs)
-    : afterUnheard(current, command, atMs, board);
+    : maybeSwallowed(afterUnheard(current, command, atMs, board), atMs);
   return { ...after, told: afterOrder(after.told, command, isHeard) };
 }
 
-/** Where a group nobody knows has ended, its last move may go on. */
-function restless(before: Motion, after: Motion, atMs: number): Motion {
+/** What it completes then may move any servo to anywhere. */
+function maybeSwallowed(motion: Motion, atMs: number): Motion {
+  if (motion.maySwallow === 0) return motion;
+  return {
+    ...motion,
+    tracks: new Map(),
+    told: onlyLetGo(motion.told),
+    maySwallow: motion.maySwallow - 1,
+    restlessUntilMs: Math.max(atMs, motion.deafUntilMs) + LONGEST_MOVE_MS,
+  };
+}
+
+/** After one of our packets was cut. Where no filler ends it (S7) the board waits for its rest, and takes what comes next for that. */
+export function afterCutPacket(motion: Motion, { resyncFiller, maxLength }: Family): Motion {
+  if (resyncFiller !== null) return motion;
+  // Cut in its head, it gets the first header of the next one for its LEN.
+  const longestBytes = Math.max(HEADER, maxLength) + HEAD_BYTES;
+  return { ...motion, maySwallow: Math.ceil(longestBytes / SHORTEST_PACKET_BYTES) };
+}
+
+/** Where a group nobody knows has ended, its last move may go on for that long. */
+function restless(before: Motion, after: Motion, atMs: number, forMs = LONGEST_MOVE_MS): Motion {
   if (before.run?.kind !== 'unknown' || after.run !== null) return after;
-  return { ...after, restlessUntilMs: atMs + LONGEST_MOVE_MS };
+  return { ...after, restlessUntilMs: atMs + forMs };
 }
 
 function afterHeard(motion: Motion, command: Command, atMs: number, board: KnownBoard): Motion {
@@ -103,22 +133,36 @@ function moved(
   { family }: KnownBoard,
 ): Motion {
   // A frame of that group may overrule it at any time.
-  if (motion.run?.kind === 'unknown') return motion;
-  return { ...motion, tracks: retarget(withStart(motion, targets), targets, durationMs, atMs, family) };
+  const isSure = motion.run?.kind !== 'unknown';
+  const tracks = retarget(withStart(motion, targets), targets, durationMs, atMs, family, isSure);
+  return { ...motion, tracks, restlessUntilMs: retimedMs(motion, durationMs, atMs, family) };
+}
+
+/** Where the board re-times every servo, also what nobody knows arrives with this move (S26). */
+function retimedMs({ restlessUntilMs }: Motion, requestedMs: number, atMs: number, family: Family): number {
+  if (family.motion.timing !== 'shared' || restlessUntilMs <= atMs) return restlessUntilMs;
+  const { tickMs, talkMs } = family.motion;
+  return atMs + boardDurationMs(requestedMs, family) + tickMs + talkMs;
 }
 
 /** Those of the targets that stand where the board said begin there. */
 function withStart({ tracks, told }: Motion, targets: readonly ServoTarget[]): Tracks {
   const standing = targets.flatMap(({ servo }) => {
-    const at = told.get(servo);
-    return at === undefined || at === null ? [] : [[servo, standingAt(at)] as const];
+    const at = heldAt(told, servo);
+    return at === null ? [] : [[servo, standingAt(at)] as const];
   });
-  return new Map([...standing, ...tracks]);
+  return new Map([...tracks, ...standing]);
+}
+
+/** Where the board said that it stands; null where it has not, or where hands may have turned it since. */
+function heldAt(told: Told, servo: number): number | null {
+  const reading = told.get(servo);
+  return reading === undefined || reading.isReleased ? null : reading.position;
 }
 
 /** It drops, who knows where to. */
 function released(motion: Motion, servos: readonly number[]): Motion {
-  return { ...motion, tracks: only(motion.tracks, (_, servo) => !servos.includes(servo)) };
+  return withoutServos(motion, servos);
 }
 
 /** Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group goes on, nobody knows when. */
@@ -145,12 +189,14 @@ function afterUnheard(motion: Motion, command: Command, atMs: number, { family }
     command.kind === 'move' ? command.targets.map(({ servo, position }) => [servo, position]) : [],
   );
   const freed = command.kind === 'release' ? command.servos : [];
-  const tracks = only(
-    motion.tracks,
-    (track, servo) =>
-      stands(track, atMs) && (targets.get(servo) ?? track.to) === track.to && !freed.includes(servo),
-  );
-  return { ...later, tracks, restlessUntilMs: deafUntilMs + LONGEST_MOVE_MS };
+  const isAtRest = (track: Track | undefined, servo: number): boolean =>
+    track !== undefined && stands(track, atMs) && (targets.get(servo) ?? track.to) === track.to;
+  const moves =
+    [...motion.tracks.values()].some((track) => !stands(track, atMs)) ||
+    [...targets.keys()].some((servo) => !isAtRest(motion.tracks.get(servo), servo));
+  const tracks = only(motion.tracks, (track, servo) => isAtRest(track, servo) && !freed.includes(servo));
+  const restlessUntilMs = moves ? deafUntilMs + LONGEST_MOVE_MS : motion.restlessUntilMs;
+  return { ...later, tracks, restlessUntilMs };
 }
 
 /** After the board said so at `atMs`; the end of a group is `afterEnd`. */
@@ -164,8 +210,14 @@ export function afterReport(motion: Motion, report: Report, atMs: number, board:
 
 /** It read them a while ago: what may have moved meanwhile it may have read on its way. */
 function afterWord(motion: Motion, positions: readonly ServoTarget[], atMs: number): Motion {
-  if (motion.run !== null || atMs < motion.restlessUntilMs + LONGEST_DEAFNESS_MS) return motion;
-  const standing = positions.filter(({ servo }) => !motion.tracks.has(servo));
+  if (motion.run !== null) return motion;
+  const isRestless = atMs < motion.restlessUntilMs + LONGEST_DEAFNESS_MS;
+  const standing = positions.filter(({ servo }) => {
+    // Without torque it is on no way.
+    if (isRestless) return motion.told.get(servo)?.isReleased ?? false;
+    const track = motion.tracks.get(servo);
+    return track === undefined || stands(track, atMs);
+  });
   return { ...motion, told: afterPositions(motion.told, standing) };
 }
 
@@ -174,9 +226,11 @@ function afterAnswer(motion: Motion, kind: ReportKind, atMs: number, { family }:
   const index = motion.answersOwed.indexOf(kind);
   if (index < 0) return motion;
   const answersOwed = motion.answersOwed.toSpliced(index, 1);
-  if (answersOwed.length > 0) return { ...motion, answersOwed };
+  // It took up what was asked behind the cut packet, so that one is over.
+  const answered = { ...motion, answersOwed, maySwallow: 0 };
+  if (answersOwed.length > 0) return answered;
   const deafUntilMs = motion.mayHoldPacket ? atMs + family.serviceGapMs : -Infinity;
-  return { ...motion, answersOwed, deafUntilMs, mayHoldPacket: false };
+  return { ...answered, deafUntilMs, mayHoldPacket: false };
 }
 
 /** By our own command a moment ago; or somebody started it at the board, and how long ago nobody can tell to the tick. */
@@ -186,13 +240,19 @@ function afterStart(motion: Motion, slot: number): Motion {
   return isOurs ? motion : runningUnknown(motion, slot);
 }
 
-/** After a group has ended by itself, or was ended behind our back: the one in `slot`, or null where nobody says which. */
+/** After a group has ended by itself, its last frame with it: the one in `slot`, or null where nobody says which. */
 export function afterEnd(motion: Motion, slot: number | null, atMs: number, board: KnownBoard): Motion {
   const current = advance(motion, atMs, board);
   const isAnother = current.run?.kind === 'deadlines' && slot !== null && slot !== current.run.slot;
   // Said so late that the next one runs already.
   if (isAnother) return current;
-  return restless(current, playbackOf(board).ended(current, board), atMs);
+  return restless(current, playbackOf(board).ended(current, board), atMs, LAST_TICKS_MS);
+}
+
+/** After somebody has stopped the group, or it is taken to have ended: its frame in progress goes on (S50). */
+export function afterCut(motion: Motion, atMs: number, board: KnownBoard): Motion {
+  const current = advance(motion, atMs, board);
+  return restless(current, { ...current, run: null }, atMs);
 }
 
 /** How long one pass of a group takes at most. */
@@ -200,44 +260,81 @@ export function passMs(frames: readonly Frame[], board: KnownBoard): number {
   return playbackOf(board).passMs(frames);
 }
 
-/** Nothing is known any more: the robot may have been moved or the board restarted. */
-export function forgotten({ deafUntilMs, told }: Motion, atMs: number): Motion {
+/** Nothing is known any more: the robot may have been moved or the board restarted. A group that ran may run on. */
+export function forgotten(motion: Motion, atMs: number): Motion {
+  const { deafUntilMs, told, run, tracks, maySwallow, restlessUntilMs } = motion;
   return {
     ...UNKNOWN_MOTION,
     told: onlyLetGo(told),
+    run: run && { kind: 'unknown', slot: null, endsToHear: 1 },
     deafUntilMs,
-    restlessUntilMs: atMs + LONGEST_MOVE_MS,
+    maySwallow,
+    restlessUntilMs: Math.max(
+      restlessUntilMs,
+      run === null ? lastEndMs(tracks, atMs) + LAST_TICKS_MS : atMs + LONGEST_MOVE_MS,
+    ),
     skipsFirst: 'maybe',
+  };
+}
+
+/** Of two forgotten motions nobody knows which it was. */
+export function eitherOf(one: Motion, other: Motion): Motion {
+  return {
+    ...one,
+    run: one.run ?? other.run,
+    deafUntilMs: Math.max(one.deafUntilMs, other.deafUntilMs),
+    restlessUntilMs: Math.max(one.restlessUntilMs, other.restlessUntilMs),
   };
 }
 
 /** Present position of a servo in board units, or null while it is unknown. */
 export function positionAt(motion: Motion, servo: number, nowMs: number): number | null {
   const track = motion.tracks.get(servo);
-  const position = track ? positionOf(track, nowMs) : (motion.told.get(servo) ?? null);
+  const position = heldAt(motion.told, servo) ?? (track ? positionOf(track, nowMs) : null);
   return position === null ? null : Math.round(position);
+}
+
+/** What the board said of a servo that nothing of ours has moved since, or null. */
+export function readingOf({ told }: Motion, servo: number): Reading | null {
+  return told.get(servo) ?? null;
 }
 
 /** How far off `positionAt` may be, in board units: the way of one tick, and more for a servo redirected on its way. */
 export function leewayAt(motion: Motion, servo: number, nowMs: number, family: Family): number {
+  if (heldAt(motion.told, servo) !== null) return 0;
   const track = motion.tracks.get(servo);
-  if (track) return leewayOf(track, nowMs, family);
-  return (motion.told.get(servo) ?? null) === null ? Infinity : 0;
+  return track ? leewayOf(track, nowMs, family) : Infinity;
+}
+
+/** How far from `to` a servo may be, in board units: on a way whose start nobody knows, what may be left of that way more. */
+export function farthestFrom(
+  motion: Motion,
+  servo: number,
+  to: number,
+  nowMs: number,
+  { position: { min, max } }: Family,
+): number {
+  const at = positionAt(motion, servo, nowMs);
+  if (at !== null) return Math.abs(to - at);
+  const track = motion.tracks.get(servo);
+  if (track === undefined || track.toLeeway === Infinity) return Math.max(to - min, max - to);
+  return Math.abs(to - track.to) + (max - min) * (1 - shareDone(track, nowMs));
 }
 
 /** Where a servo was last asked to be, or null when it never was. */
 export function targetOf(motion: Motion, servo: number): number | null {
-  return motion.tracks.get(servo)?.to ?? null;
+  const track = motion.tracks.get(servo);
+  return track === undefined || track.toLeeway === Infinity ? null : track.to;
+}
+
+/** The motion of the others alone. */
+export function withoutServos(motion: Motion, servos: readonly number[]): Motion {
+  return { ...motion, tracks: only(motion.tracks, (_, servo) => !servos.includes(servo)) };
 }
 
 /** Milliseconds until the moves in progress end; 0 at rest. */
 export function remainingMs(motion: Motion, nowMs: number): number {
   return lastEndMs(motion.tracks, nowMs) - nowMs;
-}
-
-/** Servos on a way that nobody knows the start of: a hold cannot freeze them (docs/adr/0002). */
-export function unheldServos(motion: Motion, nowMs: number): readonly number[] {
-  return [...motion.tracks.keys()].filter((servo) => positionAt(motion, servo, nowMs) === null);
 }
 
 /** How long a move must take at least, so that no servo whose start is unknown snaps to its target. */
@@ -247,30 +344,12 @@ export function gentleMs(
   nowMs: number,
   { motion: { timing } }: Family,
 ): number {
-  const unheld = unheldServos(motion, nowMs).filter((servo) => timing === 'shared' || servos.includes(servo));
-  return Math.ceil(
-    lastEndMs(
-      only(motion.tracks, (_, servo) => unheld.includes(servo)),
-      nowMs,
-    ) - nowMs,
+  const isShared = timing === 'shared';
+  if (isShared && motion.run?.kind === 'unknown') return Infinity;
+  const unknown = only(
+    motion.tracks,
+    (track, servo) => positionOf(track, nowMs) === null && (isShared || servos.includes(servo)),
   );
-}
-
-/**
- * The one move that freezes the robot where it is at `nowMs`, or null when no position is known. A servo in its first
- * move has no known position: it cannot be frozen, and where the board re-times every servo (S26) the hold takes as long
- * as that move still needs, so that it does not snap to its target.
- */
-export function holdMove(
-  motion: Motion,
-  nowMs: number,
-  family: Family,
-): { readonly targets: readonly ServoTarget[]; readonly durationMs: number } | null {
-  const targets = [...motion.tracks.keys()].flatMap((servo) => {
-    const position = positionAt(motion, servo, nowMs);
-    return position === null ? [] : [{ servo, position }];
-  });
-  const held = targets.map(({ servo }) => servo);
-  const durationMs = Math.max(family.shortestMoveMs, gentleMs(motion, held, nowMs, family));
-  return targets.length === 0 ? null : { targets, durationMs };
+  const restlessMs = isShared ? motion.restlessUntilMs - nowMs : 0;
+  return Math.ceil(Math.max(lastEndMs(unknown, nowMs) - nowMs, restlessMs));
 }

@@ -123,13 +123,15 @@ function advance(motion: Motion, nowMs: number): Motion {
 function cut(motion: Motion, atMs: number): Motion {
   const { run } = motion;
   if (run === null) return motion;
+  const restlessUntilMs = atMs + LONGEST_MOVE_MS;
+  if (run.kind === 'unknown') return { ...motion, run: null, restlessUntilMs };
   if (run.kind === 'polled' && (atMs < run.restAtMs || run.rest.size === 0)) return { ...motion, run: null };
   const named = run.kind === 'polled' ? run.rest : motion.tracks;
   return {
     ...motion,
     tracks: only(motion.tracks, (_, servo) => !named.has(servo)),
     run: null,
-    restlessUntilMs: atMs + LONGEST_MOVE_MS,
+    restlessUntilMs,
   };
 }
 

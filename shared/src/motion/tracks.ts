@@ -4,7 +4,10 @@
 import type { ServoTarget } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
 
-/** One servo's way. `from` is null when nobody knows where it started. */
+/**
+ * One servo's way. `from` is null when nobody knows where it started. A leeway of Infinity says that the position is right only
+ * if no group that nobody knows has moved the servo: a guess, good enough to hold it there, not to show it.
+ */
 export interface Track {
   readonly from: number | null;
   readonly to: number;
@@ -45,25 +48,40 @@ export function lastEndMs(tracks: Tracks, atMs: number): number {
   return Math.max(atMs, ...[...tracks.values()].map(endMs));
 }
 
-function share(track: Track, nowMs: number): number {
+/** Of its time. */
+export function shareDone(track: Track, nowMs: number): number {
   return nowMs >= endMs(track) ? 1 : Math.max(0, nowMs - track.startMs) / track.durationMs;
 }
 
-/** Exact, not rounded; null while nobody knows. */
-export function positionOf(track: Track, nowMs: number): number | null {
-  const done = share(track, nowMs);
+/** Exact, not rounded; null where even a guess is impossible. */
+export function guessOf(track: Track, nowMs: number): number | null {
+  const done = shareDone(track, nowMs);
   if (done === 1) return track.to;
   return track.from === null ? null : track.from + (track.to - track.from) * done;
+}
+
+/** The same; null while nobody knows. */
+export function positionOf(track: Track, nowMs: number): number | null {
+  const leeway = nowMs >= endMs(track) ? track.toLeeway : track.fromLeeway;
+  return leeway === Infinity ? null : guessOf(track, nowMs);
+}
+
+/** From now on a group that nobody knows may have moved them. */
+export function doubted(tracks: Tracks): Tracks {
+  const guess = { fromLeeway: Infinity, toLeeway: Infinity };
+  return new Map([...tracks].map(([servo, track]) => [servo, { ...track, ...guess }]));
 }
 
 /** How far off that may be: its way of one tick, held up by what the board says, and what the ends leave open. */
 export function leewayOf(track: Track, nowMs: number, { motion, position }: Family): number {
   const { from, to, durationMs, fromLeeway, toLeeway } = track;
   if (nowMs >= endMs(track) + motion.talkMs) return toLeeway;
+  if (fromLeeway === Infinity)
+    return nowMs < endMs(track) ? Infinity : position.max - position.min + toLeeway;
   const way = from === null ? position.max - position.min : Math.abs(to - from);
   const tick = Math.min(1, (motion.tickMs + motion.talkMs) / durationMs);
   // What was open at its start the board may have left behind one tick later than we.
-  const left = Math.min(1, 1 - share(track, nowMs) + tick);
+  const left = Math.min(1, 1 - shareDone(track, nowMs) + tick);
   return way * tick + toLeeway + (fromLeeway - toLeeway) * left;
 }
 
@@ -82,21 +100,32 @@ function redirected(
   return { from, to, startMs: atMs, durationMs, fromLeeway, toLeeway: 0 };
 }
 
-/** After new targets took effect at `atMs`. */
+/** Its way goes on as a guess. */
+function guessed(track: Track | undefined, to: number, atMs: number, durationMs: number): Track {
+  const from = track ? guessOf(track, atMs) : null;
+  return { from, to, startMs: atMs, durationMs, fromLeeway: Infinity, toLeeway: Infinity };
+}
+
+/** After new targets took effect at `atMs`; `isSure` false where a group that nobody knows may overrule them. */
 export function retarget(
   tracks: Tracks,
   targets: readonly ServoTarget[],
   requestedMs: number,
   atMs: number,
   family: Family,
+  isSure = true,
 ): Tracks {
   if (targets.length === 0) return tracks;
   const durationMs = boardDurationMs(requestedMs, family);
   const next = new Map(tracks);
-  const aim = (servo: number, to: number): void =>
-    void next.set(servo, redirected(tracks.get(servo), to, atMs, durationMs, family));
-  if (family.motion.timing === 'shared') tracks.forEach((track, servo) => aim(servo, track.to));
-  for (const { servo, position } of targets) aim(servo, position);
+  const aim = (servo: number, to: number, sure: boolean): void => {
+    const track = tracks.get(servo);
+    const way = sure ? redirected(track, to, atMs, durationMs, family) : guessed(track, to, atMs, durationMs);
+    next.set(servo, way);
+  };
+  if (family.motion.timing === 'shared')
+    tracks.forEach((track, servo) => aim(servo, track.to, Number.isFinite(track.toLeeway)));
+  for (const { servo, position } of targets) aim(servo, position, isSure);
   return next;
 }
 

@@ -66,7 +66,10 @@ export interface Family {
 /** How a board turns its servos and plays its groups: what the motion estimate has to know of it. */
 export interface MotionTraits {
   readonly tickMs: number;
-  /** The longest it says without being deaf to us: its servos wait that long, and what came meanwhile is late (S21, S29). */
+  /**
+   * The longest that its loop is busy without being deaf to us: with what it says (S21), a pad's poll (S52), entries handed on to
+   * bus servos (S31). Its servos wait that long, and what came meanwhile is late (S29).
+   */
   readonly talkMs: number;
   /** `shared`: any new target re-times every servo (S26). `perServo`: one that starts leaves the others alone. */
   readonly timing: 'shared' | 'perServo';
@@ -255,7 +258,7 @@ export const FAMILIES: Readonly<Record<FamilyId, Family>> = {
     servosPerFrame: 32,
     commands: ['move', 'run', 'stop', 'erase', 'readBattery', 'download'],
     answers: ['run', 'erase', 'readBattery', 'download'],
-    motion: { ...openFirmware.motion, talkMs: 6.3 },
+    motion: { ...openFirmware.motion, talkMs: 20 }, // a word of 6.3, and polls of 6.4 ms before a run begins and in it
   },
   'openarm-old': {
     ...openArm,
@@ -263,13 +266,14 @@ export const FAMILIES: Readonly<Record<FamilyId, Family>> = {
     name: 'uHand 2.0 / OpenArm, old build',
     answers: ['erase', 'download'], // S18
     emptySeven: 'unknown', // S48
-    motion: SHARED_TIME, // no chain (S49)
+    motion: { ...SHARED_TIME, talkMs: 16.5 }, // six entries of 5.2, and polls of 5.2 ms before a run begins and in it; no chain (S49)
   },
   'openarm-new': {
     ...openArm,
     id: 'openarm-new',
     name: 'uHand 2.0 / OpenArm',
     answers: ['run', 'erase', 'download'],
+    motion: { ...openFirmware.motion, talkMs: 23 }, // a word of 4.2, six entries of 5.2, and polls of 6.4 ms before a run begins and in it
   },
   'lsc-6': { ...pulseBoard, ...outputs(6), id: 'lsc-6', name: 'LSC-6' },
   'lsc-16': { ...pulseBoard, ...outputs(16), id: 'lsc-16', name: 'LSC-16' },

@@ -1,7 +1,7 @@
 // Which slots a board plays by itself, and what makes it: buttons of the wireless pad, the board's own key, the end of another
 // group. Source: S49, S55, S56, X8, L2 in boards.md.
 
-import type { BoardId } from './families.ts';
+import type { BoardId, Range } from './families.ts';
 
 export type SlotTrigger =
   | { readonly kind: 'pad'; readonly button: PadButton }
@@ -45,6 +45,17 @@ const MEANINGS: Readonly<Partial<Record<BoardId, readonly Meaning[]>>> = {
   'learm-esp32': leArm,
   'learm-esp32-bus': leArm,
 };
+
+/**
+ * What some board plays without being asked, or comes filled with from its maker: pad buttons and factory groups (S56, X8, boards.md
+ * chapter 9), the key and the slots that follow it by themselves (S49, S55). Of which board one has is not sure enough to differ.
+ */
+const LIVE: readonly Range[] = [
+  { min: 0, max: 20 },
+  { min: 100, max: 110 },
+];
+
+export const isLiveSlot = (slot: number): boolean => LIVE.some(({ min, max }) => slot >= min && slot <= max);
 
 /** null: only a run on purpose plays it. */
 export function slotTrigger(board: BoardId, slot: number): SlotTrigger | null {

@@ -10,10 +10,11 @@ import {
   createEstimateUnderTest,
   FETCH,
   isWrong,
+  longestStep,
   ROUNDING,
   SIMULATED,
+  type EstimateOptions,
   type EstimateUnderTest,
-  type Sample,
 } from './estimateUnderTest.ts';
 import { TIMES } from './faults/amount.ts';
 import {
@@ -42,16 +43,21 @@ const SHARP = 0.05;
 const BRIEF: Range = { min: 20, max: 400 };
 const TIMEOUT_MS = 600_000;
 
-const onForMs = fc.double({ min: 10_000, max: 10_040, noNaN: true });
+/** Where its ticks and the polls of its pad fall. */
+const someBoard = fc.record({
+  onForMs: fc.double({ min: 10_000, max: 10_110, noNaN: true }),
+  hasPad: fc.boolean(),
+});
+type SomeBoard = Pick<EstimateOptions, 'onForMs' | 'hasPad'>;
 
 /** All servos at one end, the groups stored. */
 async function prepared(
   family: Family,
   profile: ProfileName,
-  onMs: number,
+  board: SomeBoard,
   groups: readonly Frame[][],
 ): Promise<EstimateUnderTest> {
-  const robot = createEstimateUnderTest({ family, profile, onForMs: onMs });
+  const robot = createEstimateUnderTest({ family, profile, ...board });
   const targets = usualServos(family).map((servo) => ({
     servo,
     position: positionRange(family, servo).min,
@@ -81,15 +87,6 @@ async function take(robot: EstimateUnderTest, step: Step): Promise<void> {
   return robot.send(step);
 }
 
-/** What the simulated servo travelled in one tick at most: samples are closer than ticks. */
-function longestStep(samples: readonly Sample[]): number {
-  const positions = samples.map(({ simulated }) => simulated);
-  return Math.max(
-    0,
-    ...positions.slice(1).map((position, index) => Math.abs(position - (positions[index] ?? 0))),
-  );
-}
-
 describe.each(SIMULATED)('$profile', ({ family, profile }) => {
   test(
     'is where the estimate says, whatever was sent and when',
@@ -98,8 +95,8 @@ describe.each(SIMULATED)('$profile', ({ family, profile }) => {
       const counts = { all: 0, known: 0, sharp: 0 };
       const history = fc.array(someStep(family), { maxLength: 14 });
       await fc.assert(
-        fc.asyncProperty(groupsOf(family), history, onForMs, async (groups, steps, onMs) => {
-          const robot = await prepared(family, profile, onMs, groups);
+        fc.asyncProperty(groupsOf(family), history, someBoard, async (groups, steps, board) => {
+          const robot = await prepared(family, profile, board, groups);
           const begun = robot.samples.length;
           for (const step of steps) await take(robot, step);
           await robot.wait(700);
@@ -130,14 +127,14 @@ describe.each(SIMULATED)('$profile', ({ family, profile }) => {
       });
       const history = fc.array(fc.oneof(move, run), { minLength: 1, maxLength: 3 });
       await fc.assert(
-        fc.asyncProperty(groupsOf(family, BRIEF), history, onForMs, async (groups, steps, onMs) => {
-          const robot = await prepared(family, profile, onMs, groups);
+        fc.asyncProperty(groupsOf(family, BRIEF), history, someBoard, async (groups, steps, board) => {
+          const robot = await prepared(family, profile, board, groups);
           for (const step of steps) {
             const begun = robot.samples.length;
             await robot.send(step);
             await robot.rest();
-            // Only a run makes the board talk (S18, S48, X1), and its servos wait that long.
-            const ticks = step.kind === 'run' ? 1 + talkMs / tickMs : 1;
+            // It talks of a run (S18, S48, X1), polls its pad (S52) and copies to bus servos (S31), and its servos wait that long.
+            const ticks = 1 + talkMs / tickMs;
             for (const servo of usualServos(family)) {
               const own = robot.samples.slice(begun).filter((sample) => sample.servo === servo);
               const open = ticks * FETCH * longestStep(own) + ROUNDING;
@@ -158,7 +155,7 @@ describe.each(SIMULATED)('$profile', ({ family, profile }) => {
 test('a killed group of LeArm costs the next one its first frame (L11), on the board and in the estimate', async () => {
   const family = familyOf('learm-esp32');
   const frames = [1000, 2000].map((position) => ({ durationMs: 200, targets: [{ servo: 2, position }] }));
-  const robot = await prepared(family, 'learm-esp32', 10_003, [frames]);
+  const robot = await prepared(family, 'learm-esp32', { onForMs: 10_003 }, [frames]);
   await robot.send({ kind: 'run', slot: STORED_SLOTS[0], times: 1 });
   await robot.send({ kind: 'readVersion' });
   await robot.wait(3_000);
@@ -182,8 +179,8 @@ describe.each(TELLING)('$profile, which tells its positions,', ({ family, profil
       });
       let known = 0;
       await fc.assert(
-        fc.asyncProperty(history, onForMs, async (steps, onMs) => {
-          const robot = createEstimateUnderTest({ family, profile, onForMs: onMs });
+        fc.asyncProperty(history, someBoard, async (steps, board) => {
+          const robot = createEstimateUnderTest({ family, profile, ...board });
           for (const step of steps) await take(robot, step);
           await robot.wait(700);
           expect(robot.samples.filter(isWrong)).toEqual([]);

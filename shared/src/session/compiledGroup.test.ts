@@ -7,7 +7,7 @@ import { compile } from '../actions/group/compile.ts';
 import { totalDurationMs, type ActionGroup } from '../actions/group/group.ts';
 import { someGroup } from '../actions/group/groupsUnderTest.ts';
 import { positionAt, tracksOf, type Track } from '../actions/group/tracks.ts';
-import { createEstimateUnderTest, FETCH, ROUNDING, SIMULATED } from './estimateUnderTest.ts';
+import { createEstimateUnderTest, FETCH, ROUNDING, SIMULATED, longestStep } from './estimateUnderTest.ts';
 
 const STRAIGHT = SIMULATED.filter(
   ({ family: { motion, commands } }) => motion.groups === 'deadlines' && commands.includes('download'),
@@ -57,14 +57,16 @@ describe.each(STRAIGHT)('a group compiled for $profile', ({ family, profile }) =
           const aroundMs = TICK_MS + family.motion.talkMs + report.shiftedMs + 1;
           const open = (report.worst?.units ?? 0) * FETCH + ROUNDING;
           for (const track of tracksOf(group).values()) {
-            for (const { servo, atMs, simulated } of robot.samples.slice(heard)) {
-              if (servo !== track.servo) continue;
+            const own = robot.samples.slice(heard).filter(({ servo }) => servo === track.servo);
+            // It polls its pad at all times (S52): the next frame may cut off the last tick of the one before.
+            const cut = profile === 'openarm-old' ? longestStep(own) : 0;
+            for (const { atMs, simulated } of own) {
               const groupMs = atMs - begunMs;
               const places = placesOf(track, groupMs - aroundMs, groupMs + aroundMs);
               if (places === null) continue;
               looked += 1;
-              expect(simulated).toBeGreaterThanOrEqual(places[0] - open);
-              expect(simulated).toBeLessThanOrEqual(places[1] + open);
+              expect(simulated).toBeGreaterThanOrEqual(places[0] - open - cut);
+              expect(simulated).toBeLessThanOrEqual(places[1] + open + cut);
             }
           }
         },

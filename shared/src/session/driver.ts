@@ -18,7 +18,6 @@ import type { Replies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { setSpeed } from './speed.ts';
-import type { Unheld } from './state.ts';
 import type { SharedSlots } from './transport.ts';
 import { createTurns } from './turns.ts';
 import { createUnderWay } from './underWay.ts';
@@ -42,8 +41,6 @@ export interface Driver {
   applied(command: Command): void;
   /** The newest move, or null when there is nothing to say. */
   takeMove(): Outgoing | null;
-  /** What a hold cannot freeze now. */
-  unheld(): Unheld;
   /** Ends what is under way here. What the board was asked and did not answer stays unknown. */
   drop(error: LinkError): void;
 }
@@ -70,15 +67,19 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
   }
 
   /** What may wait for a newer one has to say all that waits, in one packet; a servo's first move waits for nobody. */
-  function outgoing({ move, isSwift }: Wishes): Outgoing {
-    const softened = robot.softened(move);
-    const targets = underWay.joined(move.targets);
-    if (!isSwift || softened !== move || targets === null || targets.length > family.servosPerMove) {
+  function outgoing({ move, swift }: Wishes): Outgoing {
+    const isSwift = swift.length === move.targets.length && robot.firstMs(move) === 0;
+    const targets = isSwift ? underWay.joined(move.targets) : null;
+    if (targets === null || targets.length > family.servosPerMove) {
       underWay.supersede(move.targets);
-      return { packet: encodeOrRefuse(softened, family) };
+      return { packet: encodeOrRefuse(robot.softened(move, swift), family) };
     }
     const joined = { ...move, targets, durationMs: intervalMs(targets, family) };
-    return { packet: encodeOrRefuse(joined, family), handed: () => underWay.handed(targets) };
+    const servos = targets.map(({ servo }) => servo);
+    return {
+      packet: encodeOrRefuse(robot.softened(joined, servos), family),
+      handed: () => underWay.handed(targets),
+    };
   }
 
   return {
@@ -97,11 +98,6 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
     takeMove() {
       const servos = turns.next(moves.servos());
       return servos.length === 0 ? null : outgoing(moves.take(servos));
-    },
-    unheld() {
-      const { activity } = store.state;
-      const isUnknown = activity.kind === 'running' && robot.groupMs(activity.slot) === null;
-      return isUnknown ? 'unknownGroup' : robot.unheld();
     },
     drop(error) {
       live.drop();

@@ -4,6 +4,7 @@
 import {
   advance,
   afterCommand,
+  afterCut,
   afterEnd,
   afterReport,
   forgotten,
@@ -57,6 +58,8 @@ export interface EstimateOptions {
   readonly profile: ProfileName;
   /** When the board was switched on: nobody can know where its ticks fall. */
   readonly onForMs: number;
+  /** A hand-held pad's receiver delays its ticks (S52). */
+  readonly hasPad?: boolean;
   readonly faults?: readonly Fault[];
 }
 
@@ -72,6 +75,15 @@ export const FETCH = 1.01;
 
 export function isWrong({ estimated, leeway, simulated }: Sample): boolean {
   return estimated !== null && Math.abs(estimated - simulated) > leeway * FETCH + ROUNDING;
+}
+
+/** What the simulated servo travelled in one tick at most: samples are closer than ticks. */
+export function longestStep(samples: readonly Sample[]): number {
+  const positions = samples.map(({ simulated }) => simulated);
+  return Math.max(
+    0,
+    ...positions.slice(1).map((position, index) => Math.abs(position - (positions[index] ?? 0))),
+  );
 }
 
 /** No divisor of a tick, so that samples fall everywhere between two. */
@@ -100,7 +112,7 @@ export function createEstimateUnderTest({ family, profile, ...options }: Estimat
     reports.push(report);
     motion = afterReport(motion, report, clock.now(), known);
     if (report.kind === 'runFinished') motion = afterEnd(motion, report.slot, clock.now(), known);
-    if (report.kind === 'runStopped') motion = afterEnd(motion, null, clock.now(), known);
+    if (report.kind === 'runStopped') motion = afterCut(motion, clock.now(), known);
   }
 
   function sample(): void {

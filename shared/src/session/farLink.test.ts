@@ -13,10 +13,12 @@ import { STOP_PACKET } from './halt.ts';
 import { LinkError } from './linkError.ts';
 import { firstMovesMs } from './rig.ts';
 import { createSession } from './session.ts';
-import type { Transport } from './transport.ts';
+import type { Transport, TransportEvents } from './transport.ts';
 
 const GAP_MS = familyOf('doc').serviceGapMs;
 const POINTER_MS = 4;
+/** The gateway gathers what left for so long. */
+const RELAY_MS = 50;
 
 interface Waiting {
   readonly packet: Uint8Array;
@@ -36,6 +38,7 @@ function farGateway(clock: Clock, delayMs: number, line: Transport) {
   let queue: Waiting[] = [];
   let isFree = true;
   let isLatched = false;
+  let events: TransportEvents | undefined;
 
   async function leave(): Promise<void> {
     const next = isFree ? queue.shift() : undefined;
@@ -67,6 +70,10 @@ function farGateway(clock: Clock, delayMs: number, line: Transport) {
 
   const transport: Transport = {
     ...line,
+    open(heard) {
+      events = heard;
+      return line.open(heard);
+    },
     async send(packet) {
       await put(packet, false);
     },
@@ -79,6 +86,7 @@ function farGateway(clock: Clock, delayMs: number, line: Transport) {
       while (!isFree) await sleep(clock, 1);
       for (const packet of [STOP_PACKET, ...(hold === null ? [] : [hold])]) {
         await line.send(packet);
+        clock.after(RELAY_MS + delayMs, () => events?.followed?.(packet));
         await sleep(clock, GAP_MS);
       }
       await sleep(clock, delayMs);

@@ -42,7 +42,7 @@ export function createGroups(
 ): Groups {
   const { family, clock, store, robot, lanes, exchange } = core;
   const storing = createStoring(core, ownMemory, shared);
-  let stopping = 0;
+  let stopping: Promise<void> | null = null;
   let cancelEndTimer = (): void => undefined;
 
   function began(slot: number, times: number, truth: Truth): void {
@@ -51,24 +51,30 @@ export function createGroups(
     const passMs = robot.groupMs(slot);
     if (times === 0 || passMs === null) return;
     // The board's own word for the end may be lost on the way.
-    cancelEndTimer = clock.after(passMs * times + RUN_END_GRACE_MS, () => ended(null));
+    cancelEndTimer = clock.after(passMs * times + RUN_END_GRACE_MS, assumeEnded);
   }
 
-  function ended(slot: number | null): void {
+  function assumeEnded(): void {
+    robot.groupEnded();
+    ended();
+  }
+
+  function ended(): void {
     cancelEndTimer();
-    robot.groupEnded(slot);
     if (store.state.activity.kind === 'running') setActivity(core, IDLE);
   }
 
+  /** Pressed again, it says so at once and again. */
   async function stop(): Promise<void> {
     requireReady(core.store);
-    stopping += 1;
+    const repeats = repeatStop(clock, () => lanes.stop(STOP_PACKET));
+    stopping = repeats;
     try {
-      await repeatStop(clock, () => lanes.stop(STOP_PACKET));
+      await repeats;
     } finally {
-      stopping -= 1;
+      if (stopping === repeats) stopping = null;
     }
-    ended(null);
+    ended();
   }
 
   async function run(slot: number, times: number): Promise<void> {
@@ -79,8 +85,9 @@ export function createGroups(
       throw new LinkError('slotBroken', `slot ${slot} holds half a group: download it again`);
     if (store.state.activity.kind === 'playing')
       throw new LinkError('busy', 'the page is playing: stop it first');
-    if (store.state.activity.kind === 'running') {
-      await stop();
+    if (stopping !== null || store.state.activity.kind === 'running') {
+      // One that left between the repeats of a stop would be ended by the last one.
+      await (stopping ?? stop());
       // Somebody may have pressed STOP meanwhile.
       requireReleased(core);
     }
@@ -88,7 +95,7 @@ export function createGroups(
     try {
       await begin(command);
     } catch (error) {
-      if (error instanceof LinkError && error.code === 'overslept') ended(null);
+      if (error instanceof LinkError && error.code === 'overslept') ended();
       else confirm('unknown');
       throw error;
     }
@@ -123,15 +130,14 @@ export function createGroups(
   return {
     run,
     stop,
-    isStopping: () => stopping > 0,
+    isStopping: () => stopping !== null,
     erase,
     download: storing.store,
     cancelDownload: storing.cancel,
     heard(report) {
       robot.heard(report);
       if (report.kind === 'runStarted') began(report.slot, report.times, 'acknowledged');
-      if (report.kind === 'runFinished') ended(report.slot);
-      if (report.kind === 'runStopped') ended(null);
+      if (report.kind === 'runFinished' || report.kind === 'runStopped') ended();
     },
     linked: storing.linked,
     unlinked() {

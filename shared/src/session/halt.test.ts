@@ -1,4 +1,7 @@
 import { describe, expect, test } from 'vitest';
+import type { Frame } from '../protocol/commands.ts';
+import { family } from '../protocol/families.ts';
+import { wireMs } from '../protocol/packet.ts';
 import { createFlashChip } from '../simulator/flashChip.ts';
 import { createRig, type Rig } from './rig.ts';
 
@@ -33,7 +36,7 @@ describe('STOP', () => {
     rig.session.move([{ servo: 3, position: 1_200 }], 0);
     await rig.clock.advance(300);
     void rig.session.halt();
-    expect(rig.session.state.latch).toMatchObject({ unheld: [3] });
+    expect(rig.session.state.latch).toMatchObject({ unheld: { servos: [3] } });
     await rig.clock.advance(3_000);
   });
 
@@ -49,12 +52,162 @@ describe('STOP', () => {
     void rig.session.run(5, 1);
     await rig.clock.advance(500);
     void rig.session.halt();
-    expect(rig.session.state.latch).toMatchObject({ unheld: 'unknownGroup' });
+    expect(rig.session.state.latch).toMatchObject({ unheld: { servos: null } });
     await rig.clock.advance(500);
     void rig.session.halt();
-    expect(rig.session.state.latch, 'pressed once more').toMatchObject({ unheld: 'unknownGroup' });
+    expect(rig.session.state.latch, 'pressed once more').toMatchObject({ unheld: { servos: null } });
     await rig.clock.advance(3_000);
     expect(rig.transport.board.pulse(1)).toBe(2_000);
+  });
+
+  /** A session on a board where another one has stored `frames` in slot 7. */
+  async function createRigWith(frames: readonly Frame[]): Promise<Rig> {
+    const flash = createFlashChip();
+    const before = await createRig({ flash });
+    const stored = before.session.download([{ slot: 7, frames }]);
+    await before.clock.advance(5_000);
+    await stored;
+    const rig = await createRig({ flash });
+    await knownAtRest(rig);
+    return rig;
+  }
+
+  /** Servo 1 until the last time it moves, counted from now. */
+  async function movesForMs({ clock, transport }: Rig): Promise<number> {
+    const sinceMs = clock.now();
+    let lastMs = sinceMs;
+    for (let at = transport.board.pulse(1); clock.now() - sinceMs < 12_000;) {
+      await clock.advance(10);
+      const now = transport.board.pulse(1);
+      if (now !== at) lastMs = clock.now();
+      at = now;
+    }
+    return lastMs - sinceMs;
+  }
+
+  const LONG_FRAME = [{ durationMs: 6_000, targets: [{ servo: 1, position: 2_000 }] }];
+
+  test('behind the end of a group that the board alone knows says for how long its frame may go on', async () => {
+    const rig = await createRigWith(LONG_FRAME);
+    void rig.session.run(7, 1);
+    await rig.clock.advance(600);
+    void rig.session.stopGroup();
+    await rig.clock.advance(200);
+    await expect(rig.session.download([{ slot: 8, frames: LONG_FRAME }])).rejects.toMatchObject({
+      code: 'busy',
+    });
+    void rig.session.halt();
+    const forMs = await movesForMs(rig);
+    expect(forMs).toBeGreaterThan(5_000);
+    expect(rig.session.state.latch?.unheld).toMatchObject({ servos: null });
+    expect(rig.session.state.latch?.unheld?.forMs).toBeGreaterThan(forMs);
+  });
+
+  test('a run right behind the end of a group leaves behind its last stop, and runs', async () => {
+    const rig = await createRigWith(LONG_FRAME);
+    void rig.session.stopGroup();
+    await rig.clock.advance(30);
+    const running = rig.session.run(7, 1);
+    await rig.clock.advance(1_000);
+    await running;
+    expect(rig.heard.slice(-4).map(({ command }) => command.kind)).toEqual(['stop', 'stop', 'stop', 'run']);
+    expect(rig.session.state.activity).toMatchObject({ kind: 'running', slot: 7 });
+    expect(rig.transport.board.runningSlot()).toBe(7);
+  });
+
+  test.each([
+    ['a slot that may be empty', false],
+    ['an erased slot', true],
+  ])('holds a move behind the run of %s', async (_, isErased) => {
+    const rig = await createRig();
+    await knownAtRest(rig);
+    if (isErased) {
+      const erased = rig.session.erase();
+      await rig.clock.advance(1_000);
+      await erased;
+    }
+    void rig.session.run(77, 1);
+    await rig.clock.advance(100);
+    rig.session.move([{ servo: 1, position: 2_000 }], 10_000);
+    await rig.clock.advance(1_000);
+    void rig.session.halt();
+    expect(await movesForMs(rig)).toBeLessThan(350);
+    const { unheld } = rig.session.state.latch ?? {};
+    if (isErased) expect(unheld).toBeNull();
+    else expect(unheld).toMatchObject({ servos: null });
+  });
+
+  describe('at a LeArm, which takes what comes for the rest of a packet that was cut (L3)', () => {
+    const TARGETS = [1, 2, 6].map((servo) => ({ servo, position: 1_200 }));
+
+    /** Its group moves servo 2; of a move on the wire so many bytes arrive, then the cable is off for a moment. */
+    async function createCutRig(bytes: number): Promise<Rig> {
+      const rig = await createRig({ profile: 'learm-esp32', family: family('learm-esp32') });
+      await knownAtRest(rig);
+      rig.session.move([{ servo: 2, position: 500 }], 0);
+      await rig.clock.advance(2_000);
+      const frames = [{ durationMs: 6_000, targets: [{ servo: 2, position: 2_000 }] }];
+      const stored = rig.session.download([{ slot: 5, frames }]);
+      await rig.clock.advance(3_000);
+      await stored;
+      void rig.session.run(5, 1);
+      await rig.clock.advance(500);
+      rig.session.move(TARGETS, 1_000);
+      await rig.clock.advance(wireMs(bytes + 0.5));
+      rig.transport.unplug();
+      await rig.clock.advance(100);
+      rig.transport.plugIn();
+      await rig.clock.advance(400);
+      return rig;
+    }
+
+    test('says that the robot may move on where no stop may have been heard', async () => {
+      const rig = await createCutRig(1);
+      expect(rig.session.state.latch?.unheld).toEqual({ servos: null, forMs: Infinity });
+      void rig.session.halt();
+      await rig.clock.advance(300);
+      const at = rig.transport.board.pulse(2);
+      await rig.clock.advance(3_000);
+      expect(rig.transport.board.pulse(2)).toBeGreaterThan(at + 500);
+      expect(rig.session.state.latch?.unheld).toEqual({ servos: null, forMs: Infinity });
+    });
+
+    test('stops it once more as soon as it answers', async () => {
+      const rig = await createCutRig(4);
+      const asked = rig.session.readVersion();
+      await rig.clock.advance(1_000);
+      await asked;
+      expect(rig.heard.slice(-3).map(({ command }) => command.kind)).toEqual(['stop', 'stop', 'stop']);
+      expect(rig.session.state.latch).toMatchObject({ stop: 'sent', unheld: { servos: [6] } });
+    });
+  });
+
+  test('pressed several times at once takes no servo back', async () => {
+    const rig = await createRig();
+    await knownAtRest(rig, 500);
+    rig.session.move([{ servo: 1, position: 2_500 }], 1_000);
+    await rig.clock.advance(500);
+    for (let presses = 0; presses < 6; presses += 1) void rig.session.halt();
+    let backBy = 0;
+    for (let at = rig.transport.board.pulse(1), pass = 0; pass < 100; pass += 1) {
+      await rig.clock.advance(5);
+      const now = rig.transport.board.pulse(1);
+      backBy = Math.max(backBy, at - now);
+      at = now;
+    }
+    expect(backBy).toBe(0);
+  });
+
+  test('pressed again while Resume waits for the one before, it stays', async () => {
+    const rig = await createRig();
+    await knownAtRest(rig);
+    void rig.session.halt();
+    await rig.clock.advance(50);
+    const resumed = rig.session.resume().catch((error: unknown) => error);
+    void rig.session.halt();
+    await rig.clock.advance(1_000);
+    expect(await resumed).toMatchObject({ code: 'latched' });
+    expect(rig.session.state.latch).toMatchObject({ reason: 'pressed' });
   });
 
   test('goes ahead of everything queued, and nothing else follows it', async () => {

@@ -2,12 +2,13 @@
 // what is known of the stop's fate. Motion waits until a person resumes.
 
 import { sleep, type Clock } from '../clock.ts';
+import type { HaltPlan, Unheld } from '../motion/haltPlan.ts';
 import { encodeCommand } from '../protocol/encode.ts';
 import { UNKNOWN_BOARD } from '../protocol/families.ts';
 import { requireReady } from './core.ts';
 import type { Lanes } from './lanes.ts';
 import { LinkError } from './linkError.ts';
-import type { Latch, Unheld } from './state.ts';
+import type { Latch } from './state.ts';
 import type { SessionStore } from './store.ts';
 import { STOP_REPEATS_MS } from './timings.ts';
 import type { HaltReason, SharedLatchReason, Transport } from './transport.ts';
@@ -17,14 +18,19 @@ export interface Halt {
   resume(): Promise<void>;
   /** Another screen stopped a shared link, `by` where a person did; what that sent is told apart. */
   latchedElsewhere(reason: SharedLatchReason, by: string | null): void;
+  /** A shared link has sent anybody's stop: what it says counts, since it knows all that has left. */
+  sharedHalted(unheld: Unheld | null): void;
   /** The link went: whoever brings it back must look before anything moves again. */
   latchedByLoss(): void;
   /** Another screen released a shared link. */
   released(): void;
   /** The link is back after a loss: end what may still run, wait for a person. */
   stopAfterReturn(): void;
-  /** The board says that a group runs: behind a stop it is one that it kept while its flash worked, which drops stops (S9, S41). */
-  runTold(): void;
+  /**
+   * The board says that a group runs: behind a stop it is one that it kept while its flash worked, which drops stops (S9, S41). Or it
+   * answers for the first time since a packet was cut: the stops since then it may have taken for the rest of that.
+   */
+  again(): void;
   confirmed(): void;
 }
 
@@ -43,44 +49,61 @@ export interface HaltOptions {
   readonly store: SessionStore;
   readonly lanes: Lanes;
   readonly transport: Transport;
-  /** The move that freezes the robot where it is estimated to be, or null where nothing is known. */
-  holdPacket(): Uint8Array | null;
-  /** What it cannot freeze. */
-  unheld(): Unheld;
+  /** What a STOP pressed now holds, and what not. */
+  plan(): HaltPlan;
+  /** The move that holds the robot and begins to leave now; null where there is nothing to hold. */
+  hold(): HaltPlan['hold'];
+  /** What goes on in spite of a STOP pressed then, whose last packet left just now. */
+  unheldSince(pressedMs: number): Unheld | null;
+  encoded(hold: NonNullable<HaltPlan['hold']>): Uint8Array;
   dropAll(error: LinkError): void;
-  /** Books a packet that a shared link sends for us, as if it had left by our own lanes. */
-  sentByOthers(packet: Uint8Array): void;
 }
 
 /** The same on every board, so also on one that nobody has identified. */
 export const STOP_PACKET = encodeCommand({ kind: 'stop' }, UNKNOWN_BOARD);
 
 export function createHalt(options: HaltOptions): Halt {
-  const { clock, store, lanes, transport, holdPacket, dropAll, sentByOthers } = options;
+  const { clock, store, lanes, transport, dropAll } = options;
 
   let underWay: Promise<void> = Promise.resolve();
   let stopsFollow = false;
+  let latches = 0;
 
   function latch(value: Latch): void {
+    latches += 1;
     store.update({ latch: value });
     dropAll(new LinkError('latched', 'stopped'));
   }
 
-  function note(stop: Latch['stop']): void {
+  function note(stop: Latch['stop'], unheld?: Unheld | null): void {
     const { latch: current } = store.state;
-    if (current !== null && current.stop !== 'confirmed') store.update({ latch: { ...current, stop } });
+    if (current === null) return;
+    const isConfirmed = current.stop === 'confirmed';
+    if (isConfirmed && unheld === undefined) return;
+    store.update({
+      latch: {
+        ...current,
+        stop: isConfirmed ? 'confirmed' : stop,
+        unheld: unheld === undefined ? current.unheld : unheld,
+      },
+    });
   }
 
+  /** Others may have pressed STOP, too: it is built when it leaves, behind their stops. */
   async function sendHold(): Promise<void> {
-    const hold = holdPacket();
-    if (hold !== null) await lanes.stop(hold);
+    const packet = (): Uint8Array | null => {
+      const hold = options.hold();
+      return hold && options.encoded(hold);
+    };
+    if (packet() !== null) await lanes.stop(packet);
   }
 
   /**
    * A stop never ends the move in progress (S50), so the first hold follows the first stop at once; the last one catches a
    * frame that began because that stop fell into a full mailbox (S52).
    */
-  async function haltOwnLink(): Promise<void> {
+  async function haltOwnLink(): Promise<Unheld | null> {
+    const pressedMs = clock.now();
     let holds = 0;
     stopsFollow = true;
     await repeatStop(clock, async () => {
@@ -88,29 +111,25 @@ export function createHalt(options: HaltOptions): Halt {
       if (holds++ === 0) await sendHold();
     }).finally(() => (stopsFollow = false));
     await sendHold();
+    return options.unheldSince(pressedMs);
   }
 
-  async function haltSharedLink(why: HaltReason): Promise<void> {
-    const hold = holdPacket();
-    const done = transport.halt?.(hold, why);
-    sentByOthers(STOP_PACKET);
-    if (hold !== null) sentByOthers(hold);
-    await done;
-    // What was under way left before it, and its word came behind.
-    if (hold !== null) sentByOthers(hold);
+  /** What it sends and what goes on it says itself. */
+  async function haltSharedLink(planned: HaltPlan['hold'], why: HaltReason): Promise<undefined> {
+    await transport.halt?.(planned && options.encoded(planned), why);
+    return undefined;
   }
 
-  /** The frame that goes on in spite of the first press does so at the next one: the group itself has ended by then. */
-  function unheldNow(): Unheld {
-    return store.state.latch?.unheld === 'unknownGroup' ? 'unknownGroup' : options.unheld();
-  }
-
-  async function send(sequence: () => Promise<void>): Promise<void> {
+  /** Behind its last packet more is known of what goes on than at the press; undefined where that is said elsewhere. */
+  async function send(sequence: () => Promise<Unheld | null | undefined>): Promise<void> {
     const sending = sequence();
-    underWay = sending.catch(() => undefined);
+    underWay = sending.then(
+      () => undefined,
+      () => undefined,
+    );
     try {
-      await sending;
-      note('sent');
+      const unheld = await sending;
+      note('sent', unheld);
     } catch (error) {
       note('failed');
       throw error;
@@ -119,26 +138,38 @@ export function createHalt(options: HaltOptions): Halt {
 
   return {
     latchedElsewhere(reason, by) {
-      latch({ reason, by, stop: 'sent', unheld: [] });
+      latch({ reason, by, stop: 'sent', unheld: options.plan().unheld });
     },
-    latchedByLoss: () => latch({ reason: 'reconnected', by: null, stop: 'failed', unheld: [] }),
+    sharedHalted(unheld) {
+      const { latch: current } = store.state;
+      if (current !== null) store.update({ latch: { ...current, unheld } });
+    },
+    latchedByLoss: () =>
+      latch({ reason: 'reconnected', by: null, stop: 'failed', unheld: options.plan().unheld }),
     async halt(why = 'pressed') {
-      latch({ reason: why, by: null, stop: 'sending', unheld: unheldNow() });
-      await send(transport.halt ? () => haltSharedLink(why) : haltOwnLink);
+      const { hold, unheld } = options.plan();
+      latch({ reason: why, by: null, stop: 'sending', unheld });
+      await send(transport.halt ? () => haltSharedLink(hold, why) : haltOwnLink);
     },
     async resume() {
       requireReady(store);
+      const resumed = latches;
       // Its last hold would take back what is moved meanwhile.
       await underWay;
-      await transport.resume?.();
+      if (resumed === latches) await transport.resume?.();
+      if (resumed !== latches) throw new LinkError('latched', 'stopped again');
       store.update({ latch: null });
     },
     released: () => store.update({ latch: null }),
     stopAfterReturn() {
       // Its failure is the latch's `failed`; there is no caller to tell.
-      send(() => repeatStop(clock, () => lanes.stop(STOP_PACKET))).catch(() => undefined);
+      const returnedMs = clock.now();
+      send(async () => {
+        await repeatStop(clock, () => lanes.stop(STOP_PACKET));
+        return options.unheldSince(returnedMs);
+      }).catch(() => undefined);
     },
-    runTold() {
+    again() {
       const { latch: current } = store.state;
       // A shared link has its own eye on it.
       if (current === null || stopsFollow || transport.halt !== undefined) return;

@@ -30,8 +30,8 @@ export interface LaneOptions {
 }
 
 export interface Lanes {
-  /** Goes ahead of everything that has not begun to leave. */
-  stop(packet: Uint8Array): Promise<void>;
+  /** Goes ahead of everything that has not begun to leave. One that is built then may turn out to be nothing. */
+  stop(packet: Uint8Array | (() => Uint8Array | null)): Promise<void>;
   request(packet: Uint8Array): Promise<void>;
   /** Says that `takeMove` has something. */
   wake(): void;
@@ -43,15 +43,21 @@ export interface Lanes {
   purge(error: LinkError): void;
 }
 
-interface Waiting extends Outgoing {
+interface Settle {
   readonly resolve: () => void;
   readonly reject: (error: unknown) => void;
+}
+
+type Waiting = Outgoing & Settle;
+
+interface WaitingStop extends Settle {
+  build(): Uint8Array | null;
 }
 
 type Hold = NonNullable<LaneOptions['sendNewest']>;
 
 export function createLanes(options: LaneOptions): Lanes {
-  const stops: Waiting[] = [];
+  const stops: WaitingStop[] = [];
   const requests: Waiting[] = [];
   let pumping = false;
   /** Command numbers of the packet that leaves or left last, and of the board's latest answer to it. */
@@ -62,7 +68,21 @@ export function createLanes(options: LaneOptions): Lanes {
   /** Moves that the link holds, or has sent without its word being here yet. A purge forgets them. */
   let held = new Set<Uint8Array>();
 
-  const next = (): Waiting | null => stops.shift() ?? requests.shift() ?? newestMove();
+  const next = (): Waiting | null => nextStop() ?? requests.shift() ?? newestMove();
+
+  function nextStop(): Waiting | null {
+    for (let stop = stops.shift(); stop !== undefined; stop = stops.shift()) {
+      const { build, resolve, reject } = stop;
+      try {
+        const packet = build();
+        if (packet !== null) return { packet, resolve, reject };
+        resolve();
+      } catch (error) {
+        reject(error);
+      }
+    }
+    return null;
+  }
 
   function newestMove(): Waiting | null {
     const move = options.takeMove();
@@ -144,16 +164,19 @@ export function createLanes(options: LaneOptions): Lanes {
     pumping = false;
   }
 
-  function enqueue(lane: Waiting[], packet: Uint8Array): Promise<void> {
+  function enqueue(put: (settle: Settle) => void): Promise<void> {
     return new Promise((resolve, reject) => {
-      lane.push({ packet, resolve, reject });
+      put({ resolve, reject });
       void pump();
     });
   }
 
   return {
-    stop: (packet) => enqueue(stops, packet),
-    request: (packet) => enqueue(requests, packet),
+    stop(packet) {
+      const build = typeof packet === 'function' ? packet : () => packet;
+      return enqueue((settle) => stops.push({ ...settle, build }));
+    },
+    request: (packet) => enqueue((settle) => requests.push({ ...settle, packet })),
     wake: () => void pump(),
     answered(command) {
       lastAnswer = command;

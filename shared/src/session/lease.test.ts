@@ -2,6 +2,7 @@
 
 import { expect, test } from 'vitest';
 import type { Command } from '../protocol/commands.ts';
+import type { Unheld } from '../motion/haltPlan.ts';
 import { encodeCommand } from '../protocol/encode.ts';
 import { family as familyOf } from '../protocol/families.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
@@ -23,12 +24,13 @@ async function sharedSession() {
   let tell: TransportEvents['leased'];
   let follow: TransportEvents['followed'];
   let latch: TransportEvents['latched'];
+  let halted: TransportEvents['halted'];
   let resumed: TransportEvents['resumed'];
   const left: number[] = [];
   const transport: Transport = {
     ...line,
     open(events) {
-      ({ leased: tell, followed: follow, latched: latch, resumed } = events);
+      ({ leased: tell, followed: follow, latched: latch, halted, resumed } = events);
       return line.open(events);
     },
     send(packet) {
@@ -43,6 +45,7 @@ async function sharedSession() {
     tell: (lease: Lease) => tell?.(lease),
     follow: (command: Command) => follow?.(encodeCommand(command, familyOf('doc'))),
     latch: (reason: SharedLatchReason, by?: string) => latch?.(reason, by),
+    halted: (unheld: Unheld | null) => halted?.(unheld),
     resumed: (by: string) => resumed?.(by),
   };
 }
@@ -125,4 +128,13 @@ test.each([
   ['nobody drives, a viewer looks on', { ...FREE, mayDrive: false }, false],
 ] as const)('who may resume: %s', (_, lease, may) => {
   expect(mayResume(lease)).toBe(may);
+});
+
+test('what a stop of anybody cannot hold a shared link says, and its word counts', async () => {
+  const { session, latch, halted } = await sharedSession();
+  latch('elsewhere', 'Anna');
+  halted({ servos: [3], forMs: 1_200 });
+  expect(session.state.latch).toMatchObject({ reason: 'elsewhere', unheld: { servos: [3], forMs: 1_200 } });
+  halted(null);
+  expect(session.state.latch).toMatchObject({ unheld: null });
 });

@@ -16,6 +16,7 @@ export interface LinkOptions extends Pick<
   TransportEvents,
   | 'received'
   | 'latched'
+  | 'halted'
   | 'resumed'
   | 'identified'
   | 'described'
@@ -89,6 +90,7 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
       await transport.open({
         received: ifMine(events.received),
         latched: ifMine(events.latched),
+        halted: ifMine(events.halted),
         resumed: ifMine(events.resumed),
         identified: ifMine(events.identified),
         described: ifMine(events.described),

@@ -1,6 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { wireMs } from '../protocol/packet.ts';
 import { createRig, firstMovesMs } from './rig.ts';
+import { RANGE_MS } from './timings.ts';
 
 const POSE = [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 1_500 }));
 
@@ -28,6 +29,42 @@ describe('moving', () => {
     await clock.advance(100);
     const [, second] = ofKind('move');
     expect(second?.durationMs).toBeGreaterThan(950);
+  });
+
+  test('nor one at its very end: the way back is not the rest of that time', async () => {
+    const { clock, session, ofKind } = await createRig();
+    session.move([{ servo: 1, position: 2_500 }], 0);
+    await clock.advance(1_400);
+    session.move([{ servo: 1, position: 500 }], 0);
+    await clock.advance(100);
+    expect(ofKind('move')[1]?.durationMs).toBeGreaterThanOrEqual(RANGE_MS);
+  });
+
+  test('as fast as the soft limit: the way from where the servo is when the move arrives', async () => {
+    const { clock, session, ofKind } = await createRig();
+    session.move([{ servo: 1, position: 2_500 }], 0);
+    await clock.advance(2_000);
+    session.move([{ servo: 1, position: 500 }], 0);
+    await clock.advance(RANGE_MS / 2);
+    session.move([{ servo: 1, position: 2_500 }], 0);
+    await clock.advance(1_000);
+    const [, whole, half] = ofKind('move').map(({ durationMs }) => durationMs);
+    expect(whole).toBe(RANGE_MS);
+    expect(half).toBeGreaterThanOrEqual(RANGE_MS / 2 - 20);
+    expect(half).toBeLessThanOrEqual(RANGE_MS / 2 + 20);
+  });
+
+  test('a jog does not hasten a slow servo where the board has one time for all (S26)', async () => {
+    const { clock, session, transport } = await createRig();
+    for (const servo of [1, 2]) session.move([{ servo, position: 1_000 }], 0);
+    await clock.advance(firstMovesMs(2));
+    session.move([{ servo: 1, position: 2_000 }], 5_000);
+    await clock.advance(1_000);
+    session.move([{ servo: 2, position: 1_020 }], 0);
+    await clock.advance(1_000);
+    expect(transport.board.pulse(1)).toBeLessThanOrEqual(1_410);
+    await clock.advance(3_100);
+    expect([transport.board.pulse(1), transport.board.pulse(2)]).toEqual([2_000, 1_020]);
   });
 
   test('the newest value wins, and the last one of a gesture is always sent', async () => {
@@ -126,6 +163,39 @@ describe('playing from the page', () => {
     expect(ofKind('move').length).toBe(1 + 2 + 27 + 1);
   });
 
+  test('goes on with another frame than the first where it is told so', async () => {
+    const { clock, session, heard } = await createRig();
+    const done = session.play(frames, { times: 3, loopFrom: 1 });
+    await clock.advance(5_000);
+    await done;
+    const arrivals = heard.map(({ atMs }) => atMs - (heard[0]?.atMs ?? 0));
+    expect(arrivals).toEqual([0, 1_500, 1_800, 2_050, 2_350, 2_600, 2_900]);
+  });
+
+  test('a computer that comes late plays each frame later, makes up for it little by little, and says so', async () => {
+    const many = Array.from({ length: 55 }, (_, index) => ({
+      durationMs: 40,
+      targets: [{ servo: 1, position: 1_000 + 10 * (index % 20) }],
+    }));
+    const { clock, session, asleep, ofKind, heard } = await createRig();
+    const done = session.play(many);
+    await clock.advance(1_500 + 400);
+    await asleep(300);
+    await clock.advance(200);
+    await asleep(120);
+    await clock.advance(6_000);
+    expect(ofKind('move').map(({ targets }) => targets[0]?.position)).toEqual(
+      many.map(({ targets }) => targets[0]?.position),
+    );
+    const gaps = heard.slice(1).map(({ atMs }, index) => atMs - (heard[index]?.atMs ?? 0));
+    expect(Math.min(...gaps)).toBeGreaterThanOrEqual(36 - 0.001);
+    expect((heard.at(-1)?.atMs ?? 0) - (heard[0]?.atMs ?? 0)).toBeLessThan(1_500 + 53 * 40 + 260);
+    const { lateFrames, latestMs, skippedFrames } = await done;
+    expect(lateFrames).toBeGreaterThan(0);
+    expect(latestMs).toBeGreaterThan(200);
+    expect(skippedFrames).toBe(0);
+  });
+
   test('is ended by STOP', async () => {
     const { clock, session, ofKind } = await createRig();
     const done = session.play(frames, { times: 0 });
@@ -134,6 +204,6 @@ describe('playing from the page', () => {
     await done;
     await clock.advance(5_000);
     expect(session.state.activity).toEqual({ kind: 'idle' });
-    expect(ofKind('move').filter((move) => move.durationMs > 20).length).toBe(2);
+    expect(ofKind('move').length, 'two frames and two holds').toBe(2 + 2);
   });
 });

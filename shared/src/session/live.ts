@@ -6,13 +6,14 @@ import { requireReleased, setActivity, type Core } from './core.ts';
 import { refuseUnfit } from './exchange.ts';
 import { LinkError } from './linkError.ts';
 import type { MoveBuffer } from './moveBuffer.ts';
-import { play, type Playing } from './player.ts';
+import { play, type Played, type Playing } from './player.ts';
 import type { Activity } from './state.ts';
 import type { Turns } from './turns.ts';
 
 export interface Live {
   move(targets: readonly ServoTarget[], durationMs: number): void;
-  play(frames: readonly Frame[], times: number): Promise<void>;
+  /** Each pass but the first begins with frame `loopFrom`. */
+  play(frames: readonly Frame[], times: number, loopFrom: number): Promise<Played>;
   stopPlaying(): void;
   /** Whether there was something to drop. */
   drop(): boolean;
@@ -35,21 +36,26 @@ export function createLive(core: Core, moves: MoveBuffer, turns: Turns): Live {
     return turns.startsWithinMs([...new Set([...moves.servos(), ...targets.map(({ servo }) => servo)])]);
   }
 
-  async function playFrames(frames: readonly Frame[], times: number): Promise<void> {
+  async function playFrames(frames: readonly Frame[], times: number, loopFrom: number): Promise<Played> {
     requireReleased(core);
     if (!activityIs('idle')) throw new LinkError('busy', 'something else is running');
     const current = play({
       clock: core.clock,
       frames,
       times,
+      loopFrom,
       startsWithinMs,
+      isWaiting: ({ targets }) => {
+        const waiting = moves.servos();
+        return targets.some(({ servo }) => waiting.includes(servo));
+      },
       move: (frame) => move(frame.targets, frame.durationMs),
       frameBegan: (frameIndex) =>
         setActivity(core, { kind: 'playing', frameIndex, frameCount: frames.length }),
     });
     playing = current;
     try {
-      await current.done;
+      return await current.done;
     } finally {
       if (playing === current) playing = null;
       if (activityIs('playing')) setActivity(core, { kind: 'idle' });

@@ -9,12 +9,12 @@ export type MoveCommand = Extract<Command, { kind: 'move' }>;
 
 export interface Wishes {
   readonly move: MoveCommand;
-  /** As fast as the link allows, all of them: to say them once more changes nothing. */
-  readonly isSwift: boolean;
+  /** Servos whose wish named no time: they go as fast as the soft limit and the link allow. */
+  readonly swift: readonly number[];
 }
 
 export interface MoveBuffer {
-  /** `durationMs` 0: as fast as the link allows. */
+  /** `durationMs` 0: as fast as the soft limit and the link allow. */
   put(targets: readonly ServoTarget[], durationMs: number): void;
   /** Servos with a wish, in the order they were first asked. */
   servos(): readonly number[];
@@ -39,9 +39,9 @@ export function createMoveBuffer(family: Family, cleared: () => void): MoveBuffe
         .map(([servo, wish]) => ({ servo, ...wish }));
       for (const { servo } of taken) wishes.delete(servo);
       const targets = taken.map(({ servo, position }) => ({ servo, position }));
-      const wishedMs = Math.max(...taken.map((wish) => wish.durationMs));
-      const durationMs = Math.max(wishedMs, intervalMs(targets, family));
-      return { move: { kind: 'move', targets, durationMs }, isSwift: wishedMs === 0 };
+      const durationMs = Math.max(intervalMs(targets, family), ...taken.map((wish) => wish.durationMs));
+      const swift = taken.filter((wish) => wish.durationMs === 0).map(({ servo }) => servo);
+      return { move: { kind: 'move', targets, durationMs }, swift };
     },
     clear() {
       wishes.clear();
@@ -52,6 +52,7 @@ export function createMoveBuffer(family: Family, cleared: () => void): MoveBuffe
 
 /** Time until the next packet of this size can take effect: shorter moves would make the servo stop and go. */
 export function intervalMs(targets: readonly ServoTarget[], family: Family): number {
-  const packetBytes = 7 + 3 * targets.length;
-  return Math.max(family.shortestMoveMs, Math.ceil(wireMs(packetBytes) + family.serviceGapMs));
+  return Math.max(family.shortestMoveMs, Math.ceil(wireMs(moveBytes(targets.length)) + family.serviceGapMs));
 }
+
+export const moveBytes = (servoCount: number): number => 7 + 3 * servoCount;

@@ -1,5 +1,5 @@
 // Plays frames from the page: each move on its deadline, counted from the start so that nothing drifts. The way to the
-// first frame is gentle. Knows time and moves; no link, no document.
+// first frame is gentle. A page that comes late plays later rather than dropping a frame. Knows time and moves; no link, no document.
 
 import type { Clock } from '../clock.ts';
 import type { Frame } from '../protocol/commands.ts';
@@ -10,34 +10,84 @@ export interface PlayerOptions {
   readonly frames: readonly Frame[];
   /** 0: until stopped. */
   readonly times: number;
+  /** Each pass but the first begins with this frame. */
+  readonly loopFrom: number;
   /** Until the last servo of the first frame may start. */
   startsWithinMs(first: Frame): number;
   move(frame: Frame): void;
+  /** The frame asked for has not left yet: another one would take its place. */
+  isWaiting(frame: Frame): boolean;
   /** Frame `index` begins. */
   frameBegan(index: number): void;
 }
 
+/** What came of the deadlines. */
+export interface Played {
+  /** Frames that began so late that those behind them were put off. */
+  readonly lateFrames: number;
+  /** The latest of them by so much. */
+  readonly latestMs: number;
+  /** Frames that had not left when the next one took their place. */
+  readonly skippedFrames: number;
+}
+
 export interface Playing {
   /** Resolves when the last frame has ended or `stop` was called. Rejects with what `move` threw. */
-  readonly done: Promise<void>;
+  readonly done: Promise<Played>;
   stop(): void;
 }
 
-export function play({ clock, frames, times, startsWithinMs, move, frameBegan }: PlayerOptions): Playing {
+/** So much of its time a frame may be cut short by to make up for lateness. */
+const CATCH_UP = 0.1;
+/** Later than a timer of a page that has nothing else to do. */
+const LATE_MS = 20;
+/** How often it is looked whether a frame has left, and how long at most: longer than any packet takes. */
+const LOOK_MS = 5;
+const GIVE_UP_MS = 250;
+
+export function play(options: PlayerOptions): Playing {
+  const { clock, frames, times, loopFrom, startsWithinMs, move, isWaiting, frameBegan } = options;
   let cancelTimer = (): void => undefined;
-  let finish = (): void => undefined;
+  let finish: (played: Played) => void = () => undefined;
   let failed: (error: unknown) => void = () => undefined;
-  const done = new Promise<void>((resolve, reject) => {
+  const done = new Promise<Played>((resolve, reject) => {
     finish = resolve;
     failed = reject;
   });
   let deadlineMs = clock.now();
   let begun = 0;
+  /** Not before: the frame under way would be cut short. */
+  let earliestMs = -Infinity;
+  let before: Frame | null = null;
+  let played: Played = { lateFrames: 0, latestMs: 0, skippedFrames: 0 };
+
+  const frameAfter = (count: number): number =>
+    count < frames.length ? count : loopFrom + ((count - frames.length) % (frames.length - loopFrom));
+
+  /** False: it is looked again. */
+  function mayBegin(dueMs: number): boolean {
+    const lateMs = clock.now() - dueMs;
+    const waits = before !== null && isWaiting(before);
+    if (waits && lateMs < GIVE_UP_MS) {
+      cancelTimer = clock.after(LOOK_MS, beginNext);
+      return false;
+    }
+    if (waits) played = { ...played, skippedFrames: played.skippedFrames + 1 };
+    if (lateMs >= LATE_MS)
+      played = {
+        ...played,
+        lateFrames: played.lateFrames + 1,
+        latestMs: Math.max(played.latestMs, Math.round(lateMs)),
+      };
+    return true;
+  }
 
   function beginNext(): void {
-    const index = begun % frames.length;
+    const index = frameAfter(begun);
     const frame = frames[index];
-    if (frame === undefined || (times > 0 && begun === times * frames.length)) return finish();
+    const count = frames.length + (times - 1) * (frames.length - loopFrom);
+    if (frame === undefined || (times > 0 && begun === count)) return finish(played);
+    if (!mayBegin(Math.max(deadlineMs, earliestMs))) return;
     const isFirst = begun === 0;
     const durationMs = isFirst ? Math.max(frame.durationMs, FIRST_MOVE_MS) : frame.durationMs;
     const waitMs = durationMs + (isFirst ? startsWithinMs(frame) : 0);
@@ -48,8 +98,10 @@ export function play({ clock, frames, times, startsWithinMs, move, frameBegan }:
     }
     frameBegan(index);
     begun += 1;
+    before = frame;
     deadlineMs += Math.max(1, waitMs);
-    cancelTimer = clock.after(Math.max(0, deadlineMs - clock.now()), beginNext);
+    earliestMs = clock.now() + waitMs * (1 - CATCH_UP);
+    cancelTimer = clock.after(Math.max(0, Math.max(deadlineMs, earliestMs) - clock.now()), beginNext);
   }
 
   beginNext();
@@ -57,7 +109,7 @@ export function play({ clock, frames, times, startsWithinMs, move, frameBegan }:
     done,
     stop() {
       cancelTimer();
-      finish();
+      finish(played);
     },
   };
 }

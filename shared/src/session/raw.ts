@@ -49,9 +49,9 @@ export function createRaw(core: Core, operations: RawOperations): (bytes: Uint8A
     const unknown = move.targets.map(({ servo }) => servo).filter(robot.isUnknown);
     if (unknown.length > 1)
       throw new LinkError('outOfRange', `servos ${unknown.join(', ')} make their first moves one by one`);
-    const { durationMs } = robot.softened(move);
-    if (durationMs === move.durationMs) return;
-    const reason = `the first move of a servo takes ${FIRST_MOVE_MS} ms, this one at least ${durationMs}`;
+    const needsMs = robot.firstMs(move);
+    if (needsMs <= move.durationMs) return;
+    const reason = `the first move of a servo takes ${FIRST_MOVE_MS} ms, this one at least ${needsMs}`;
     throw new LinkError('outOfRange', reason);
   }
 

@@ -47,7 +47,7 @@ describe('reading positions', () => {
     const rig = await rigOf('xarm');
     await outcome(rig, rig.session.readPositions([1]));
     const at = rig.transport.board.pulse(1);
-    expect(rig.session.motions()(1)).toEqual({ target: null, estimated: at });
+    expect(rig.session.motions()(1)).toEqual({ target: at, estimated: at, reported: 'untouched' });
     rig.session.move([{ servo: 1, position: at + 100 }], 200);
     await rig.clock.advance(1_000);
     rig.session.move([{ servo: 2, position: 500 }], 200);
@@ -182,6 +182,8 @@ describe('release', () => {
     await rig.clock.advance(100);
     expect(await outcome(rig, rig.session.release(SIX), 100)).toBe('busy');
     await outcome(rig, rig.session.stopGroup());
+    expect(await outcome(rig, rig.session.release(SIX)), 'its frame goes on').toBe('busy');
+    await rig.clock.advance(30_000);
     expect(await outcome(rig, rig.session.release([254]))).toBe('outOfRange');
     expect(await outcome(rig, rig.session.release([]))).toBe('outOfRange');
     expect(rig.ofKind('release')).toEqual([]);

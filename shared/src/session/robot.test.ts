@@ -25,7 +25,7 @@ test('a group is played at the speed the board was told (X3), and nobody knows i
   expect(robot.motions()(1)).toEqual({ target: 2_000, estimated: null });
   await clock.advance(600);
   expect(robot.motions()(1)).toEqual({ target: 2_000, estimated: 2_000 });
-  robot.forget();
+  robot.forget(null);
   expect(robot.groupMs(8)).toBeNull();
 });
 
@@ -37,7 +37,7 @@ test('a group somebody started at the board keeps everything unknown until it en
   robot.applied(move);
   await clock.advance(200);
   expect([robot.moving(), robot.motions()(1).estimated]).toEqual([true, null]);
-  robot.groupEnded(8);
+  robot.heard({ kind: 'runFinished', slot: 8 });
   robot.applied(move);
   await clock.advance(200);
   expect([robot.moving(), robot.motions()(1).estimated]).toEqual([false, 1_200]);

@@ -3,55 +3,74 @@
 
 import type { Clock } from '../clock.ts';
 import { takenOver, type MotionBefore } from '../motion/before.ts';
+import { haltPlan, holdBehindStop, unheldSince, type HaltPlan, type Unheld } from '../motion/haltPlan.ts';
 import {
   advance,
   afterCommand,
+  afterCut,
+  afterCutPacket,
   afterEnd,
   afterReport,
+  eitherOf,
+  farthestFrom,
   forgotten,
   gentleMs,
   hears,
-  holdMove,
   passMs,
   positionAt,
+  readingOf,
   remainingMs,
   targetOf,
-  unheldServos,
   UNKNOWN_MOTION,
+  withoutServos,
   type KnownBoard,
+  type Motion,
 } from '../motion/motion.ts';
 import type { Command, Frame } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
+import { wireMs } from '../protocol/packet.ts';
 import type { Report } from '../protocol/reports.ts';
 import { createGroupMemory } from './groupMemory.ts';
-import type { MoveCommand } from './moveBuffer.ts';
-import type { Motions } from './state.ts';
-import { FIRST_MOVE_MS } from './timings.ts';
+import { moveBytes, type MoveCommand } from './moveBuffer.ts';
+import type { Motions, ServoMotion } from './state.ts';
+import { FIRST_MOVE_MS, RANGE_MS } from './timings.ts';
 
 export interface RobotEstimate {
   /** A command's last bit left the wire just now. */
   applied(command: Command): void;
-  /** The board said something just now; the end of a group is told by `groupEnded`. */
+  /** The board said something just now. */
   heard(report: Report): void;
   motions(): Motions;
   /** Nobody has moved it, and the board has not said where it stands. */
   isUnknown(servo: number): boolean;
-  /** The move with the duration its unknown servos need (safety.md: first move). */
-  softened(move: MoveCommand): MoveCommand;
+  /** How long it takes at least because a servo of unknown place starts with it or is on its first way still; else 0. */
+  firstMs(move: MoveCommand): number;
+  /**
+   * The move with the time it needs at least: a first move 1.5 s, `swift` servos the soft limit's for their way from where they are
+   * when it arrives; and where the board re-times every servo (S26) the time that the others were given.
+   */
+  softened(move: MoveCommand, swift?: readonly number[]): MoveCommand;
+  /** What a STOP pressed now holds and what not; `leaving` is on the wire and cannot be called back. */
+  haltPlan(leaving: Command | null): HaltPlan;
+  /** What holds the robot, as a move that begins to leave now, a gap behind a stop. */
   hold(): MoveCommand | null;
-  /** Servos that a hold cannot freeze now. */
-  unheld(): readonly number[];
+  /** What goes on in spite of a STOP pressed then, whose last packet left just now. */
+  unheldSince(pressedMs: number): Unheld | null;
   moving(): boolean;
-  /** The board played its group to the end: the one in `slot`, or null where nobody says which. */
-  groupEnded(slot: number | null): void;
+  /** The group that runs is taken to have ended, without a word of the board. */
+  groupEnded(): void;
   stored(slot: number, frames: readonly Frame[]): void;
   /** What is in `slot` is no longer what we stored; without a slot, in all of them. */
   unstored(slot?: number): void;
   storedSlots(): readonly number[];
   /** Milliseconds that one pass of the group takes at most, or null when its frames are unknown. */
   groupMs(slot: number): number | null;
-  /** Nothing is known any more: the board may have moved or restarted behind our back. */
-  forget(): void;
+  /** Nothing is known any more: the board may have moved or restarted behind our back. `cut` may have arrived or not. */
+  forget(cut: Command | null): void;
+  /** A packet of ours was cut on the way, and nothing ends it but what is sent next. */
+  cut(): void;
+  /** The board may take what is sent next for the rest of a packet that was cut. */
+  maySwallow(): boolean;
   /** What others, who saw it move, know of it just now. */
   placed(before: MotionBefore): void;
 }
@@ -61,7 +80,7 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
   const board: KnownBoard = { family, playedFrames: memory.playedFrames };
   let motion = UNKNOWN_MOTION;
 
-  const now = (): typeof motion => (motion = advance(motion, clock.now(), board));
+  const now = (): Motion => (motion = advance(motion, clock.now(), board));
 
   /** A frame of a known group that is due was begun from what was stored until now. */
   function changeMemory(change: () => void): void {
@@ -73,35 +92,65 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     return targetOf(now(), servo) === null && positionAt(now(), servo, clock.now()) === null;
   }
 
+  function firstMs({ targets }: MoveCommand): number {
+    const servos = targets.map(({ servo }) => servo);
+    const gentle = servos.some(isUnknown) ? Infinity : gentleMs(now(), servos, clock.now(), family);
+    return Math.min(FIRST_MOVE_MS, gentle);
+  }
+
+  function softMs({ targets }: MoveCommand, swift: readonly number[]): number {
+    const motion = now();
+    const arrivesMs = clock.now() + wireMs(moveBytes(targets.length));
+    const ways = targets
+      .filter(({ servo }) => swift.includes(servo))
+      .map(({ servo, position }) => farthestFrom(motion, servo, position, arrivesMs, family));
+    const share = Math.max(0, ...ways) / (family.position.max - family.position.min);
+    // Boards cut what is no whole tick.
+    return Math.ceil((share * RANGE_MS) / family.motion.tickMs) * family.motion.tickMs;
+  }
+
+  function othersMs({ targets }: MoveCommand): number {
+    if (family.motion.timing !== 'shared') return 0;
+    const asked = targets.map(({ servo }) => servo);
+    return Math.ceil(remainingMs(withoutServos(now(), asked), clock.now()));
+  }
+
   return {
     applied(command) {
       const isHeard = hears(now(), clock.now());
       motion = afterCommand(motion, command, clock.now(), board);
-      if (command.kind !== 'setSpeed') return;
-      memory.setSpeed(command.slot, isHeard ? command.percent : null);
+      if (command.kind === 'setSpeed') memory.setSpeed(command.slot, isHeard ? command.percent : null);
+      if (command.kind === 'erase') memory.clear();
     },
-    heard: (report) => (motion = afterReport(motion, report, clock.now(), board)),
+    heard(report) {
+      if (report.kind === 'erased' && motion.answersOwed.includes('erased')) memory.empty();
+      motion = afterReport(motion, report, clock.now(), board);
+      if (report.kind === 'runFinished') motion = afterEnd(motion, report.slot, clock.now(), board);
+      if (report.kind === 'runStopped') motion = afterCut(motion, clock.now(), board);
+    },
     motions() {
       const nowMs = clock.now();
       const known = advance(motion, nowMs, board);
       motion = known;
-      return (servo) => ({ target: targetOf(known, servo), estimated: positionAt(known, servo, nowMs) });
+      return (servo) => motionOf(known, servo, nowMs);
     },
     isUnknown,
-    softened(move) {
-      const servos = move.targets.map(({ servo }) => servo);
-      const isNew = servos.some((servo) => isUnknown(servo));
-      const gentle = isNew ? Infinity : gentleMs(now(), servos, clock.now(), family);
-      const needsMs = Math.min(FIRST_MOVE_MS, gentle);
+    firstMs,
+    softened(move, swift = []) {
+      const needsMs = Math.max(firstMs(move), softMs(move, swift), othersMs(move));
       return move.durationMs >= needsMs ? move : { ...move, durationMs: needsMs };
     },
-    hold() {
-      const hold = holdMove(now(), clock.now(), family);
-      return hold && { kind: 'move', ...hold };
+    haltPlan(leaving) {
+      const begun = leaving === null ? now() : afterCommand(now(), leaving, clock.now(), board);
+      return haltPlan(begun, clock.now(), board);
     },
-    unheld: () => unheldServos(now(), clock.now()),
-    moving: () => now().run !== null || remainingMs(now(), clock.now()) > 0,
-    groupEnded: (slot) => (motion = afterEnd(motion, slot, clock.now(), board)),
+    hold: () => holdBehindStop(now(), clock.now() - family.serviceGapMs, board),
+    unheldSince: (pressedMs) => unheldSince(pressedMs, now(), clock.now(), board),
+    moving() {
+      const { run, restlessUntilMs } = now();
+      return run !== null || restlessUntilMs > clock.now() || remainingMs(now(), clock.now()) > 0;
+    },
+    groupEnded: () => (motion = afterCut(motion, clock.now(), board)),
     stored: (slot, frames) => changeMemory(() => memory.store(slot, frames)),
     unstored: (slot) => changeMemory(() => memory.clear(slot)),
     storedSlots: memory.slots,
@@ -109,10 +158,24 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
       const frames = memory.playedFrames(slot);
       return frames && passMs(frames, board);
     },
-    forget() {
+    forget(cut) {
+      const nowMs = clock.now();
+      const arrived = cut === null ? now() : afterCommand(now(), cut, nowMs, board);
       memory.forgetSpeeds();
-      motion = forgotten(motion, clock.now());
+      motion = eitherOf(forgotten(motion, nowMs), forgotten(arrived, nowMs));
     },
+    cut: () => (motion = afterCutPacket(now(), family)),
+    maySwallow: () => motion.maySwallow > 0,
     placed: (before) => (motion = takenOver(now(), before, clock.now(), family)),
   };
+}
+
+/** The one place where it is said where a servo is: reported, else estimated, else unknown. */
+function motionOf(motion: Motion, servo: number, nowMs: number): ServoMotion {
+  const target = targetOf(motion, servo);
+  const reading = readingOf(motion, servo);
+  if (typeof reading?.position !== 'number') return { target, estimated: positionAt(motion, servo, nowMs) };
+  const at = { target: reading.position, estimated: reading.position };
+  if (reading.isReleased) return { ...at, reported: 'released' };
+  return { ...at, reported: target === null ? 'untouched' : 'commanded' };
 }

@@ -15,6 +15,7 @@ import { createLanes } from './lanes.ts';
 import { notDriving, type Lease, type LeaseAction } from './lease.ts';
 import { createLink, type LineState } from './link.ts';
 import { LinkError } from './linkError.ts';
+import type { Played } from './player.ts';
 import { createReceiver } from './receiver.ts';
 import { createReplies } from './replies.ts';
 import { createResync } from './resync.ts';
@@ -88,7 +89,15 @@ export interface Session {
   /** Behind its frame in progress, with the groups behind it; on a shared link, whoever began it. */
   cancelDownload(): Promise<void>;
   /** Plays from the page. Resolves at the end or after `stopPlaying`. */
-  play(frames: readonly Frame[], options?: { readonly times?: number }): Promise<void>;
+  play(
+    frames: readonly Frame[],
+    options?: {
+      /** 0: until stopped. */
+      readonly times?: number;
+      /** Each pass but the first begins with this frame. */
+      readonly loopFrom?: number;
+    },
+  ): Promise<Played>;
   stopPlaying(): void;
   /** As of now. */
   motions(): Motions;
@@ -120,6 +129,7 @@ export function createSession(options: SessionOptions): Session {
       if (reason === null) halt.released();
       else if (store.state.latch === null) halt.latchedElsewhere(reason, by);
     },
+    halted: (unheld) => halt.sharedHalted(unheld),
     resumed: (by) => store.emit('resumed', by),
   });
 
@@ -137,12 +147,13 @@ export function createSession(options: SessionOptions): Session {
   let driver: Driver = driverFor(family);
   const halt = createHalt({
     ...{ clock, store, lanes, transport, dropAll: (error) => driver.drop(error) },
-    holdPacket() {
-      const hold = driver.core.robot.hold();
-      return hold && encodeOrRefuse(hold, driver.core.family);
+    plan() {
+      const leaving = lanes.unfinished();
+      return driver.core.robot.haltPlan(leaving && commandIn(leaving));
     },
-    unheld: () => driver.unheld(),
-    sentByOthers,
+    hold: () => driver.core.robot.hold(),
+    unheldSince: (pressedMs) => driver.core.robot.unheldSince(pressedMs),
+    encoded: (hold) => encodeOrRefuse(hold, driver.core.family),
   });
   const resync = createResync(lanes);
   const identification = createIdentification({
@@ -212,10 +223,12 @@ export function createSession(options: SessionOptions): Session {
     store.emit('traffic', { atMs: clock.now(), direction: 'in', bytes, report });
     lanes.answered(bytes[3] ?? 0);
     replies.deliver(report);
+    const mightSwallow = driver.core.robot.maySwallow();
     driver.groups.heard(report);
     driver.readings.heard(report);
     if (report.kind === 'runStopped') halt.confirmed();
-    if (report.kind === 'runAccepted' || report.kind === 'runStarted') halt.runTold();
+    const hearsAgain = mightSwallow && !driver.core.robot.maySwallow();
+    if (hearsAgain || report.kind === 'runAccepted' || report.kind === 'runStarted') halt.again();
     identification.heard(report, bytes);
   }
 
@@ -255,11 +268,15 @@ export function createSession(options: SessionOptions): Session {
   /** The board may have moved, restarted or been changed for another before it is ready again. */
   function unlinked(next: LinkState): void {
     const packet = lanes.unfinished();
-    // A shared link has its own way to mend the wire behind it.
-    if (packet !== null && !link.isOpen && transport.halt === undefined)
-      resync.cut(packet, driver.core.family.resyncFiller);
     if (!link.isOpen) receiver.reset();
-    driver.core.robot.forget();
+    driver.core.robot.forget(packet && commandIn(packet));
+    // A shared link has its own way to mend the wire behind it.
+    if (packet !== null && !link.isOpen && transport.halt === undefined) {
+      resync.cut(packet, driver.core.family.resyncFiller);
+      driver.core.robot.cut();
+    }
+    // Nothing ends it at the return.
+    if (next.status === 'closed') driver.core.robot.groupEnded();
     driver.groups.unlinked();
     store.update(NOTHING_READ);
     if (next.status === 'lost' || next.status === 'stale') halt.latchedByLoss();
@@ -298,7 +315,7 @@ export function createSession(options: SessionOptions): Session {
     release: (servos) => driver.release(servos),
     download: (groups) => driver.groups.download(groups),
     cancelDownload: () => driver.groups.cancelDownload(),
-    play: (frames, playing) => driver.live.play(frames, playing?.times ?? 1),
+    play: (frames, playing) => driver.live.play(frames, playing?.times ?? 1, playing?.loopFrom ?? 0),
     stopPlaying: () => driver.live.stopPlaying(),
     motions: () => driver.core.robot.motions(),
   };

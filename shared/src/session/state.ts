@@ -2,6 +2,7 @@
 // log. Knows no transport and no user interface. Every figure says how true it is: requested, estimated or confirmed.
 
 import type { Command } from '../protocol/commands.ts';
+import type { Unheld } from '../motion/haltPlan.ts';
 import type { Report, ServoOffset } from '../protocol/reports.ts';
 import type { Family } from '../protocol/families.ts';
 import type { Lease } from './lease.ts';
@@ -28,9 +29,6 @@ export type LinkState =
   /** Only a person can go on: no access, or nobody knows which board this is. */
   | { readonly status: 'refused'; readonly error: LinkError };
 
-/** Servos that end their slow first move; or whatever moved in the frame of a group that is known to its board alone. */
-export type Unheld = readonly number[] | 'unknownGroup';
-
 /** Motion is refused while this is not null; only `resume` clears it. */
 export interface Latch {
   /**
@@ -42,8 +40,8 @@ export interface Latch {
   readonly by: string | null;
   /** `sending`: the stop packets are on their way. `sent`: they left the wire. `confirmed`: the board said so. */
   readonly stop: 'sending' | 'sent' | 'confirmed' | 'failed';
-  /** What went on in spite of it: nobody knew where to hold it. */
-  readonly unheld: Unheld;
+  /** What may go on in spite of it; null: all is held. */
+  readonly unheld: Unheld | null;
 }
 
 export type Activity =
@@ -103,11 +101,26 @@ export interface SessionState {
   readonly robotOnBoard: RobotOnBoard | null;
 }
 
-/** Where a servo was asked to be in this session, null before, and where it should be by now, null while nobody knows. */
+/** Where a servo is to be and where it is by now, as far as anybody knows: every input starts from here. */
 export interface ServoMotion {
+  /** Where it was last asked to be; at rest the board's own word takes its place. null before either. */
   readonly target: number | null;
+  /** The best known position: reported while nothing of ours has moved it since, else estimated. null while nobody knows. */
   readonly estimated: number | null;
+  /**
+   * Left out unless both are the board's word. `commanded`: of a servo that holds what it was asked for, `untouched`: of one that was
+   * asked for nothing yet, `released`: of one without torque, which hands may have turned since.
+   */
+  readonly reported?: 'commanded' | 'untouched' | 'released';
 }
+
+/** Nothing but a command of ours can have moved it from where it is taken to be: its next move need not be slow. */
+export const startsKnown = ({ estimated, reported }: ServoMotion): boolean =>
+  estimated !== null && reported !== 'released';
+
+/** It holds what it was asked for, or is on its way there. */
+export const wasCommanded = ({ target, reported }: ServoMotion): boolean =>
+  target !== null && (reported ?? 'commanded') === 'commanded';
 
 /** Of each servo, all as of one moment. */
 export type Motions = (servo: number) => ServoMotion;

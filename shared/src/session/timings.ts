@@ -10,8 +10,7 @@ export const LINE_PAUSE_MS = 20;
 /** Far longer than the bytes of one packet are apart, whatever is between: a half packet was cut. */
 export const LINE_IDLE_MS = 60;
 
-/** Stop goes out three times: a lone one may fall into a full mailbox, and 70 ms outlast the key's 60 ms debounce (S54). */
-export const STOP_REPEATS_MS = [70, 140] as const;
+export { FIRST_MOVE_MS, STOP_REPEATS_MS } from '../motion/haltPlan.ts';
 
 /** Flash erase before the first frame and count table after the last: worst case 1.6 s and 0.4 s (S33, S34). */
 export const EDGE_FRAME_TIMEOUT_MS = 2_500;
@@ -35,8 +34,8 @@ export const POSITION_MARGIN_MS = 100;
 /** A LeArm takes up to 30 ms (L13); the rest is wire and margin. */
 export const DETAIL_TIMEOUT_MS = 300;
 
-/** A servo whose position nobody knows is moved at least this slowly (safety.md section 2). */
-export const FIRST_MOVE_MS = 1_500;
+/** The soft limit: a whole range in 0.7 s, what a common servo of these robots manages at 6 V with a load. */
+export const RANGE_MS = 700;
 /** Such servos start this far apart: enough to see which one moves, and not all of them draw their starting current at once. */
 export const FIRST_MOVE_STAGGER_MS = 250;
 

@@ -1,6 +1,7 @@
 // The one interface between a session and a way to a board: this computer's serial port, the gateway, or the simulator in
 // the page. A transport carries whole packets out and raw bytes in; it knows no command, keeps no queue and retries nothing.
 
+import type { Unheld } from '../motion/haltPlan.ts';
 import type { MotionBefore } from '../motion/before.ts';
 import type { Frame } from '../protocol/commands.ts';
 import type { BoardId } from '../protocol/families.ts';
@@ -20,13 +21,15 @@ export interface TransportEvents {
   lost(error: LinkError): void;
   /** Only a shared link (gateway): what refuses motion for everyone, and who stopped it; null once somebody has resumed. */
   latched?(reason: SharedLatchReason | null, by?: string | null): void;
+  /** Only a shared link: the stop of anybody has left the wire; what may go on in spite of it, null where all is held. */
+  halted?(unheld: Unheld | null): void;
   /** Only a shared link: whoever else allowed motion again. */
   resumed?(by: string): void;
   /** Only a shared link: somebody said which board this is, or wants it asked again (`unknown`). */
   identified?(board: BoardId): void;
   /** Only a shared link: which robot stands on the board. Told once it is open, and whenever any robot has changed there. */
   described?(robot: RobotOnBoard): void;
-  /** Only a shared link: this packet of somebody else has left the wire. */
+  /** Only a shared link: this packet has left the wire: somebody else's, or of a stop, whoever pressed it. */
   followed?(packet: Uint8Array): void;
   /** Only a shared link: what moves before this end came have made of the robot. Told once it is open. */
   placed?(motion: MotionBefore): void;
@@ -126,7 +129,7 @@ export interface Transport {
   sendNewest?(packet: Uint8Array): Promise<boolean>;
   /**
    * A shared link's own stop lane: purge, stop three times, send `hold`, latch. Where it is absent the session does that
-   * itself with `send`.
+   * itself with `send`. What may go on in spite of it `halted` tells first.
    */
   halt?(hold: Uint8Array | null, why: HaltReason): Promise<void>;
   resume?(): Promise<void>;

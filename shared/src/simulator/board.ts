@@ -25,6 +25,8 @@ export interface BoardOptions {
   /** 0: bytes take no time, a reply comes before `receive` returns. */
   readonly baud?: number;
   readonly batteryMv?: number;
+  /** A hand-held pad's receiver is plugged in: some builds poll it only then (S52). */
+  readonly hasPad?: boolean;
   readonly seed?: number;
   readonly faults?: readonly Fault[];
   readonly onByte?: (entry: BusLogEntry) => void;
@@ -47,6 +49,8 @@ export interface Board {
   /** Where the servo is now, in the unit of the board; 0 for a pin without pulses. Throws RangeError for a servo it has not. */
   readonly pulse: (servo: number) => number;
   readonly target: (servo: number) => number;
+  /** A hand turns the servo; one with torque holds against it. */
+  readonly turn: (servo: number, position: number) => void;
   readonly runningSlot: () => number | null;
   /** What the count table says; 255 for all after power was lost while it was written (S40). */
   readonly frameCount: (slot: number) => number;
@@ -120,6 +124,7 @@ export function createBoard(options: BoardOptions): Board {
       sectorMs: plan.sectorMs,
       servoCount,
       batteryMv,
+      hasPad: options.hasPad ?? false,
       ...sender,
     });
   }
@@ -184,6 +189,7 @@ export function createBoard(options: BoardOptions): Board {
     waitingBytes: () => turn(() => line.waitingBytes()),
     pulse: (servo) => turn(() => engine.pulse(servo)),
     target: (servo) => turn(() => engine.target(servo)),
+    turn: (servo, position) => turn(() => engine.turn?.(servo, position)),
     runningSlot: () => turn(() => engine.runningSlot()),
     frameCount: (slot) => turn(() => engine.frameCount(slot)),
     storedFrame: (slot, frameIndex) => turn(() => engine.storedFrame(slot, frameIndex)),

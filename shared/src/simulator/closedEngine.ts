@@ -58,7 +58,8 @@ export function createClosedEngine(traits: ClosedTraits, parts: EngineParts): En
     return frame && { ...frame, durationMs: speeds.played(group, frame.durationMs) };
   }
 
-  function issue({ durationMs, targets }: Frame): void {
+  function* issue({ durationMs, targets }: Frame): Work {
+    yield* [];
     for (const { servo, position } of targets) servos.accept(servo, position, durationMs);
   }
 
@@ -82,6 +83,7 @@ export function createClosedEngine(traits: ClosedTraits, parts: EngineParts): En
     takeByte: createParser(mailbox.put),
     sources: [createMainLoop({ now, slots, servos, mailbox, runner, panel, serve })],
     press: panel.press,
+    turn: servos.turn,
     pulse: servos.pulse,
     target: servos.target,
     frameCount: store.frameCount,

@@ -37,10 +37,10 @@ export function torqueHandlers({ slot, servos, servoCount, reply }: TorqueParts)
     return [...list].filter((servo) => servo >= 1 && servo <= servoCount);
   }
 
-  /** The simulated arm has no weight: it stays where it is, as if somebody held it. */
+  /** The simulated arm has no weight: it stays where it is until a hand turns it. */
   function* release(): Work {
     yield* [];
-    named().forEach(servos.freeze);
+    named().forEach(servos.release);
   }
 
   function* readPositions(): Work {

@@ -18,6 +18,8 @@ export interface HandlerParts {
   readonly servos: Servos;
   readonly runner: Runner;
   readonly reply: Reply;
+  /** How long handing so many entries on to bus servos takes; no time where nothing is said. */
+  readonly copyMs?: (entries: number) => number;
 }
 
 export interface StoreParts {
@@ -33,15 +35,18 @@ const FRAME_AT = 7;
 const AT_ONCE: Iterable<number> = [];
 
 /** Move, run and stop, as every board has them. With `acksRun` a run is answered before the group is looked up (S18). */
-export function motionHandlers({ slot, servos, runner, reply }: HandlerParts, acksRun: boolean): Handlers {
+export function motionHandlers(parts: HandlerParts, acksRun: boolean): Handlers {
+  const { slot, servos, runner, reply, copyMs = () => 0 } = parts;
+
   /** A count larger than the data executes what earlier packets left behind (S13). */
-  function move(): Iterable<number> {
+  function* move(): Work {
     const durationMs = readUint16(slot, PARAMS_AT + 1);
-    for (let entry = 0; entry < (slot[PARAMS_AT] ?? 0); entry += 1) {
+    const count = slot[PARAMS_AT] ?? 0;
+    for (let entry = 0; entry < count; entry += 1) {
       const at = MOVE_ENTRIES_AT + entry * 3;
       servos.accept(slot[at] ?? 0, readUint16(slot, at + 1), durationMs);
     }
-    return AT_ONCE;
+    yield copyMs(count);
   }
 
   function* run(): Work {

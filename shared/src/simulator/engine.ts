@@ -13,6 +13,8 @@ export interface EngineParts {
   readonly sectorMs: number;
   readonly servoCount: number;
   readonly batteryMv: number;
+  /** A hand-held pad's receiver is plugged in, found at power-up. */
+  readonly hasPad?: boolean;
   readonly reply: (command: number, params: readonly number[]) => Work;
   /** Text on the line, in plain ASCII. */
   readonly print: (text: string) => Work;
@@ -27,6 +29,8 @@ export interface Engine {
   readonly press: (press: Press) => void;
   /** Somebody presses the key that says whom the board listens to, where it has one (L2). */
   readonly pressMode?: () => void;
+  /** A hand turns a servo, where its torque can be off. */
+  readonly turn?: (servo: number, position: number) => void;
   readonly pulse: (servo: number) => number;
   readonly target: (servo: number) => number;
   readonly frameCount: (slot: number) => number;

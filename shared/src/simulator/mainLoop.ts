@@ -3,6 +3,7 @@
 
 import type { Source } from './agenda.ts';
 import type { Mailbox } from './mailbox.ts';
+import { NO_PAD_POLL, type PadPoll } from './padPoll.ts';
 import type { Panel } from './panel.ts';
 import { createProcessor } from './processor.ts';
 import type { Runner } from './runner.ts';
@@ -17,6 +18,7 @@ export interface MainLoopParts {
   readonly mailbox: Mailbox;
   readonly runner: Runner;
   readonly panel: Panel;
+  readonly padPoll?: PadPoll;
   /** Serves the packet in the mailbox's slot. */
   readonly serve: () => Work;
 }
@@ -24,24 +26,26 @@ export interface MainLoopParts {
 /** Packets are served from here on; one that came earlier waits (S61). */
 const BOOT_MS = 300;
 
-export function createMainLoop({ now, slots, servos, mailbox, runner, panel, serve }: MainLoopParts): Source {
+export function createMainLoop(parts: MainLoopParts): Source {
+  const { now, slots, servos, mailbox, runner, panel, padPoll = NO_PAD_POLL, serve } = parts;
+
   function wantedMs(): number {
     if (mailbox.waiting()) return 0;
     const tickMs = servos.moving() ? slots.nextTickMs() : Infinity;
     return Math.min(tickMs, runner.dueMs(), panel.dueMs());
   }
 
-  function* pass(): Work {
+  function* pass(idle: boolean): Work {
+    if (idle) {
+      yield* padPoll.begun();
+      slots.skipIdle(now(), servos.moving());
+    }
     if (slots.take(now())) servos.tick();
     if (mailbox.take()) yield* serve();
     yield* runner.step();
     yield* panel.step();
+    yield* padPoll.step();
   }
 
-  function begin(idle: boolean): Work {
-    if (idle) slots.skipIdle(now(), servos.moving());
-    return pass();
-  }
-
-  return createProcessor({ now, bootMs: BOOT_MS, wantedMs, pass: begin });
+  return createProcessor({ now, bootMs: BOOT_MS, wantedMs, pass });
 }

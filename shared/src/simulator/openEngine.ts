@@ -8,13 +8,14 @@ import type { Engine, EngineParts } from './engine.ts';
 import { createGroupStore, openLayout } from './groupStore.ts';
 import { createMailbox } from './mailbox.ts';
 import { createMainLoop } from './mainLoop.ts';
+import { createPadPoll, NO_PAD_POLL } from './padPoll.ts';
 import { createPanel } from './panel.ts';
 import { createParser } from './parser.ts';
 import { createRunner } from './runner.ts';
 import { createServos } from './servos.ts';
 import { createSlots } from './slots.ts';
 import { decodeFrame } from './storedFrame.ts';
-import { noWork } from './work.ts';
+import { noWork, type Work } from './work.ts';
 
 /** What differs between the builds of the open firmware (boards.md 3.2). */
 export interface OpenBuild {
@@ -26,8 +27,15 @@ export interface OpenBuild {
   readonly chainedSlot: number | null;
   /** Only the protocol document's board does: the open firmware reads the voltage and tells nobody (S17). */
   readonly answersBattery: boolean;
+  /** Every accepted move and frame goes to the bus servos, too, entry by entry (S31). */
+  readonly copiesToBus: boolean;
+  /** How long asking the receiver of a hand-held pad takes (S52), and whether it is asked where none was found. */
+  readonly padPollMs: number;
+  readonly alwaysPolls: boolean;
 }
 
+/** Ten bytes at 115200 baud, sent by busy-waiting (S31). */
+const BUS_ENTRY_MS = 0.87;
 /** Playback refuses more entries than this (S38), unless the board is configured for more servos. */
 const SERVOS_PLAYED = 8;
 
@@ -44,8 +52,11 @@ export function createOpenEngine(build: OpenBuild, parts: EngineParts): Engine {
     return decodeFrame(store.readFrame(group, frameIndex), servosPlayed);
   }
 
-  function issue({ durationMs, targets }: Frame): void {
+  const copyMs = (entries: number): number => (build.copiesToBus ? entries * BUS_ENTRY_MS : 0);
+
+  function* issue({ durationMs, targets }: Frame): Work {
     for (const { servo, position } of targets) servos.accept(servo, position, durationMs);
+    yield copyMs(targets.length);
   }
 
   const ended = build.reportsEnd ? () => reply(COMMAND_NUMBER.stop, []) : noWork;
@@ -57,16 +68,18 @@ export function createOpenEngine(build: OpenBuild, parts: EngineParts): Engine {
     reports: { started: noWork, stopped: noWork, ended },
     chainedSlot: build.chainedSlot,
   });
+  const polls = build.alwaysPolls || (parts.hasPad ?? false);
+  const padPoll = polls ? createPadPoll(now, build.padPollMs) : NO_PAD_POLL;
   const panel = createPanel((group) => runner.request(group, 1));
   const serve = createDispatch(
     slot,
-    motionHandlers({ slot, servos, runner, reply }, build.acksRun),
+    motionHandlers({ slot, servos, runner, reply, copyMs }, build.acksRun),
     storeHandlers({ slot, store, reply }),
     build.answersBattery ? batteryHandler(createBatterySampler(slots, parts.batteryMv), reply) : new Map(),
   );
   return {
     takeByte: createParser(mailbox.put),
-    sources: [createMainLoop({ now, slots, servos, mailbox, runner, panel, serve })],
+    sources: [createMainLoop({ now, slots, servos, mailbox, runner, panel, padPoll, serve })],
     press: panel.press,
     pulse: servos.pulse,
     target: servos.target,

@@ -6,6 +6,10 @@ import type { Servos } from './servos.ts';
 export interface OwnTimeServos extends Servos {
   /** Stays where it is from the next tick on, until the next target. */
   readonly freeze: (servo: number) => void;
+  /** Takes its torque off until the next target: it stays where it is unless a hand turns it. */
+  readonly release: (servo: number) => void;
+  /** A hand turns it; one with torque holds against it. */
+  readonly turn: (servo: number, position: number) => void;
 }
 
 export interface ServoTraits {
@@ -24,6 +28,7 @@ interface Channel {
   target: number;
   ticks: number;
   ticksLeft: number;
+  isReleased: boolean;
 }
 
 const SHORTEST_MOVE_MS = 20;
@@ -41,6 +46,7 @@ export function createOwnTimeServos(servoCount: number, traits: ServoTraits): Ow
       target: position ?? NO_PULSE,
       ticks: 0,
       ticksLeft: 0,
+      isReleased: false,
     });
   }
 
@@ -49,6 +55,7 @@ export function createOwnTimeServos(servoCount: number, traits: ServoTraits): Ow
     const target = traits.targetOf(servo, position);
     if (!channel || target === null) return;
     const durationMs = Math.min(Math.max(requestedMs, SHORTEST_MOVE_MS), LONGEST_MOVE_MS);
+    channel.isReleased = false;
     channel.target = target;
     channel.position ??= target;
     channel.start = channel.position;
@@ -75,6 +82,20 @@ export function createOwnTimeServos(servoCount: number, traits: ServoTraits): Ow
     channel.ticksLeft = 0;
   }
 
+  function release(servo: number): void {
+    freeze(servo);
+    const channel = channels.get(servo);
+    if (channel) channel.isReleased = true;
+  }
+
+  function turn(servo: number, position: number): void {
+    const channel = channelOf(servo);
+    const to = traits.targetOf(servo, position);
+    if (!channel.isReleased || to === null) return;
+    channel.position = to;
+    channel.target = to;
+  }
+
   function channelOf(servo: number): Channel {
     const channel = channels.get(servo);
     if (channel) return channel;
@@ -86,6 +107,8 @@ export function createOwnTimeServos(servoCount: number, traits: ServoTraits): Ow
     tick: () => channels.forEach(step),
     moving: () => [...channels.values()].some(({ ticksLeft }) => ticksLeft > 0),
     freeze,
+    release,
+    turn,
     pulse: (servo) => channelOf(servo).position ?? NO_PULSE,
     target: (servo) => channelOf(servo).target,
   };

@@ -15,9 +15,15 @@ export interface BoardProfile {
 }
 
 /** boards.md 3.2, column old: says nothing of runs and has no battery answer. */
-const OLD_BUILD: OpenBuild = { acksRun: false, reportsEnd: false, chainedSlot: null, answersBattery: false };
+const OLD_BUILD: OpenBuild = {
+  ...{ acksRun: false, reportsEnd: false, chainedSlot: null, answersBattery: false },
+  ...{ copiesToBus: true, padPollMs: 5.2, alwaysPolls: true },
+};
 /** boards.md 3.2, column leo. */
-const NEW_BUILD: OpenBuild = { acksRun: true, reportsEnd: true, chainedSlot: 100, answersBattery: false };
+const NEW_BUILD: OpenBuild = {
+  ...{ acksRun: true, reportsEnd: true, chainedSlot: 100, answersBattery: false },
+  ...{ copiesToBus: true, padPollMs: 6.4, alwaysPolls: false },
+};
 
 function openFirmware(build: OpenBuild, maxServoCount: number): BoardProfile {
   return { usualServoCount: 6, maxServoCount, createEngine: (parts) => createOpenEngine(build, parts) };
@@ -52,7 +58,7 @@ function leArm(traits: LearmTraits): BoardProfile {
 
 export const PROFILES = {
   /** The ideal board of the protocol document: the open firmware that tells its battery, with any number of servos. */
-  doc: openFirmware({ ...NEW_BUILD, answersBattery: true }, 32),
+  doc: openFirmware({ ...NEW_BUILD, answersBattery: true, copiesToBus: false }, 32),
   'openarm-old': openFirmware(OLD_BUILD, 6),
   'openarm-new': openFirmware(NEW_BUILD, 6),
   'lsc-6': closedFirmware(LSC, 6, 6),

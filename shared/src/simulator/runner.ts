@@ -28,7 +28,7 @@ export interface RunnerParts {
   readonly frameCount: (slot: number) => number;
   /** Null where the frame cannot be played. */
   readonly frame: (slot: number, frameIndex: number) => Frame | null;
-  readonly issue: (frame: Frame) => void;
+  readonly issue: (frame: Frame) => Work;
   readonly reports: RunReports;
   /** When this group ends by itself, the next one starts once (S49); null where the board does not chain. */
   readonly chainedSlot: number | null;
@@ -80,9 +80,9 @@ export function createRunner(parts: RunnerParts): Runner {
     }
     yield FRAME_FETCH_MS;
     frameIssued = true;
-    issue(next);
     // The raw time, not the one the servos were given (S43).
     deadlineMs += next.durationMs;
+    yield* issue(next);
   }
 
   function* endLoop(): Work {

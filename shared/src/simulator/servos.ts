@@ -52,7 +52,9 @@ export function createServos(servoCount: number): Servos {
     ticksDone += 1;
     for (const [channel, target] of targets.entries()) {
       const start = starts[channel] ?? target;
-      pulses[channel] = target + Math.trunc(((start - target) / tickCount) * (tickCount - ticksDone));
+      // In single precision, as the firmware computes (S27).
+      const perTick = Math.fround((start - target) / tickCount);
+      pulses[channel] = target + Math.trunc(Math.fround(perTick * (tickCount - ticksDone)));
     }
   }
 

@@ -85,7 +85,7 @@ describe('the readings of a visit', () => {
     await clock.advance(200);
     device.readPositions([1, 2, 3]);
     await clock.advance(2000);
-    expect(device.motion(1)).toEqual({ target: null, estimated: 400 });
+    expect(device.motion(1)).toEqual({ target: 400, estimated: 400, reported: 'untouched' });
     device.readBattery();
     await clock.advance(500);
     expect(battery.getState().readings.at(-1)?.atMs).toBeGreaterThan(2000);

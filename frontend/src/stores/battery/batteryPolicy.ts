@@ -6,6 +6,7 @@ import { isActionable, type Level } from '#shared/actions/battery/batteryGauge.t
 import { homeTargets } from '#shared/actions/poses/poseShapes.ts';
 import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { wasCommanded } from '#shared/session/state.ts';
 import { words } from '../../words/words.ts';
 import type { BatteryStore } from './battery.ts';
 import type { Device } from '../device/device.ts';
@@ -80,7 +81,7 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
   /** Servos that nobody moved in this visit stay: where they would come from, nobody knows. */
   function goToRest(): void {
     restIsDue = false;
-    const there = restTargets().filter(({ servo }) => device.motion(servo).target !== null);
+    const there = restTargets().filter(({ servo }) => wasCommanded(device.motion(servo)));
     if (there.length > 0) device.move(there, REST_MOVE_MS);
     const untilMs = clock.now() + REST_LIMIT_MS;
     const hasArrived = (): boolean =>

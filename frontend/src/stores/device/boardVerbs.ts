@@ -26,17 +26,17 @@ export interface BoardVerbs {
   readBattery(): void;
   /** Unasked, so nobody is told that it failed: another screen's question may have met this one on the board (S52). */
   watchBattery(): void;
-  readPositions(servos: readonly number[]): void;
+  readPositions(servos: readonly number[], settled?: Settled): void;
   /** Firmware and trims, one question after the other. */
   readDetails(): void;
   setSpeed(slot: number | null, percent: number): void;
-  release(servos: readonly number[]): void;
+  release(servos: readonly number[], settled?: Settled): void;
   sendRaw(packet: Uint8Array): void;
   /** One after the other. `settled` hears whether all of them are stored. */
   download(groups: readonly SlotGroup[], settled?: Settled): void;
   cancelDownload(): void;
-  /** `times` 0: until stopped. `settled` hears whether the last frame was played: not after a pause, a stop or a failure. */
-  play(frames: readonly Frame[], times: number, settled: Settled): void;
+  /** `times` 0: until stopped; each pass but the first begins with frame `loopFrom`. `settled` hears whether the last frame was played: not after a pause, a stop or a failure. */
+  play(frames: readonly Frame[], times: number, settled: Settled, loopFrom?: number): void;
   stopPlaying(): void;
 }
 
@@ -124,7 +124,7 @@ export function createBoardVerbs({
       void now()
         ?.readBattery()
         .catch(() => undefined),
-    readPositions: (servos) => attempt((current) => current.readPositions(servos)),
+    readPositions: (servos, settled) => attempt((current) => current.readPositions(servos), settled),
     readDetails: () => attempt((current) => current.readVersion().then(() => current.readOffsets())),
     setSpeed: (slot, percent) =>
       attempt((current) =>
@@ -132,7 +132,7 @@ export function createBoardVerbs({
           .setSpeed(slot, percent)
           .then(() => notices.tell('info', words.board.speedSent(slot, percent))),
       ),
-    release: (servos) => attempt((current) => current.release(servos)),
+    release: (servos, settled) => attempt((current) => current.release(servos), settled),
     download(groups, settled = () => undefined) {
       const onIt = gate.groups(groups);
       if (onIt === null) settled(false);
@@ -142,7 +142,7 @@ export function createBoardVerbs({
       if (gate.lets(packet)) attempt((current) => current.sendRaw(packet));
     },
     cancelDownload: () => attempt((current) => current.cancelDownload()),
-    play(frames, times, settled) {
+    play(frames, times, settled, loopFrom = 0) {
       const onIt = gate.frames(frames);
       if (onIt === null) {
         settled(false);
@@ -150,7 +150,9 @@ export function createBoardVerbs({
       }
       attemptRun(async (current) => {
         setPaused(false);
-        await current.play(onIt, { times });
+        const { lateFrames, latestMs, skippedFrames } = await current.play(onIt, { times, loopFrom });
+        if (skippedFrames > 0) notices.tell('warning', words.play.skipped(skippedFrames));
+        else if (lateFrames > 0) notices.tell('info', words.play.late(lateFrames, latestMs));
         return !paused && current.state.latch === null && current.state.link.status === 'ready';
       }, settled);
     },

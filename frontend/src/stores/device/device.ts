@@ -36,8 +36,10 @@ export interface DeviceState {
   readonly family: Family;
   readonly way: Way | null;
   readonly snapshot: SessionState;
-  /** Servos that were asked for something; where another one is nobody knows. */
+  /** Servos that were asked for something, or whose place the board has said; where another one is nobody knows. */
   readonly known: readonly number[];
+  /** Those of them whose place is the board's own word. */
+  readonly readServos: readonly number[];
   /** A servo is on its way, so far as anybody can know; looked at now and then, and kept for a moment between two moves. */
   readonly isMoving: boolean;
 }
@@ -54,7 +56,7 @@ export interface Device extends BoardVerbs {
   /** What each was last asked for, from the moment on that it was, and where it is by now: as of this moment. */
   motions(): Motions;
   motion(servo: number): ServoMotion;
-  /** What the robot was last asked for, without servos that nobody asked for anything. */
+  /** What the robot was last asked for, or at rest where the board says it stands; without servos of unknown place. */
   pose(): readonly ServoTarget[];
   /** Nothing moves and nothing is under way, so far as anybody can know. */
   isAtRest(): boolean;
@@ -82,7 +84,7 @@ export interface Device extends BoardVerbs {
 /** Failures after which the link is tried again and again. */
 const TRIED_ON = ['lost', 'portMissing', 'portBusy'] as const;
 
-const NOTHING = { way: null, snapshot: INITIAL_STATE, known: [], isMoving: false } as const;
+const NOTHING = { way: null, snapshot: INITIAL_STATE, known: [], readServos: [], isMoving: false } as const;
 
 const NO_MOTION: ServoMotion = { target: null, estimated: null };
 
@@ -123,12 +125,14 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     const { waitingToStart } = session.state;
     const targetOf = book.targets();
     return (servo) => {
-      const { target, estimated } = onBoardNow(servo);
+      const { target, estimated, reported } = onBoardNow(servo);
       const sent = target === null ? null : Math.round(meant(servo, target));
-      return {
+      const now = {
         target: targetOf(servo, sent, waitingToStart.includes(servo)),
         estimated: estimated === null ? null : meant(servo, estimated),
       };
+      // Once it is asked for something the board's word is where it comes from.
+      return reported === undefined || now.target !== sent ? now : { ...now, reported };
     };
   }
 
@@ -161,7 +165,11 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       before.known,
       servos.filter((servo) => motion(servo).target !== null),
     );
-    if (known !== before.known) store.setState({ known });
+    const readServos = sameList(
+      before.readServos,
+      servos.filter((servo) => motion(servo).reported !== undefined),
+    );
+    if (known !== before.known || readServos !== before.readServos) store.setState({ known, readServos });
     const isMoving = watch.isMoving();
     if (isMoving !== before.isMoving) store.setState({ isMoving });
   }

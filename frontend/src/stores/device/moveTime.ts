@@ -6,13 +6,11 @@ import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import type { Motions } from '#shared/session/state.ts';
 
-/** `hand`, or milliseconds set by the person. */
+/** `hand`: as fast as the session's soft limit allows; or milliseconds set by the person. */
 export type MoveTime = 'hand' | number;
 /** `leap`: to a figure that was typed, to an end or home, at one stroke. */
 export type Pace = MoveTime | 'leap';
 
-/** A whole range in 0.7 s: what a common servo of these robots manages at 6 V with a load. */
-const RANGE_MS = 700;
 /** A whole range in 2 s: time to see that it is the wrong way. */
 const LEAP_RANGE_MS = 2000;
 const LEAP_MIN_MS = 300;
@@ -26,11 +24,11 @@ export function moveDurationMs(
   motion: Motions,
 ): number {
   if (typeof pace === 'number') return pace;
+  if (pace === 'hand') return 0;
   const span = position.max - position.min;
   const ways = targets.map((target) => {
     const from = motion(target.servo).estimated;
-    return from === null ? 0 : Math.abs(target.position - from) / span;
+    return from === null ? 1 : Math.abs(target.position - from) / span;
   });
-  const way = Math.max(0, ...ways);
-  return Math.round(pace === 'hand' ? way * RANGE_MS : Math.max(LEAP_MIN_MS, way * LEAP_RANGE_MS));
+  return Math.round(Math.max(LEAP_MIN_MS, ...ways.map((way) => way * LEAP_RANGE_MS)));
 }

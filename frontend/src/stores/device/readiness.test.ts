@@ -18,24 +18,29 @@ const LEASE: Lease = {
   },
 };
 
+const STANDING = { target: 1500, estimated: 1500 };
+
 describe('what only brushes a servo', () => {
   test('moves one whose place is known, on a link of its own or while driving', () => {
-    expect(mayBrush(READY, 1500)).toBe(true);
-    expect(mayBrush({ ...READY, lease: { ...LEASE, driver: 'Anna', drives: true } }, 1500)).toBe(true);
+    expect(mayBrush(READY, STANDING)).toBe(true);
+    expect(mayBrush({ ...READY, lease: { ...LEASE, driver: 'Anna', drives: true } }, STANDING)).toBe(true);
   });
 
   test('is no first move', () => {
-    expect(mayBrush(READY, null)).toBe(false);
+    expect(mayBrush(READY, { target: null, estimated: null })).toBe(false);
+    expect(mayBrush(READY, { ...STANDING, reported: 'untouched' })).toBe(false);
+    expect(mayBrush(READY, { ...STANDING, reported: 'released' })).toBe(false);
+    expect(mayBrush(READY, { ...STANDING, reported: 'commanded' })).toBe(true);
   });
 
   test('does not begin to drive, though a press would', () => {
-    expect(mayBrush({ ...READY, lease: LEASE }, 1500)).toBe(false);
-    expect(mayBrush({ ...READY, lease: { ...LEASE, driver: 'Anna' } }, 1500)).toBe(false);
+    expect(mayBrush({ ...READY, lease: LEASE }, STANDING)).toBe(false);
+    expect(mayBrush({ ...READY, lease: { ...LEASE, driver: 'Anna' } }, STANDING)).toBe(false);
   });
 
   test('moves nothing that is stopped', () => {
     expect(
-      mayBrush({ ...READY, latch: { reason: 'pressed', by: null, stop: 'sent', unheld: [] } }, 1500),
+      mayBrush({ ...READY, latch: { reason: 'pressed', by: null, stop: 'sent', unheld: null } }, STANDING),
     ).toBe(false);
   });
 });

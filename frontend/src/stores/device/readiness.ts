@@ -3,7 +3,7 @@
 
 import { isWatching } from '#shared/session/lease.ts';
 import type { Family } from '#shared/protocol/families.ts';
-import type { SessionState } from '#shared/session/state.ts';
+import { wasCommanded, type ServoMotion, type SessionState } from '#shared/session/state.ts';
 
 export type Hindrance =
   'closed' | 'identifying' | 'stale' | 'latched' | 'watching' | 'asking' | 'viewing' | 'busy';
@@ -30,9 +30,9 @@ export function motionHindrance({ link, latch, lease, activity }: SessionState):
 }
 
 /** What only brushes a servo, like the wheel, may move it: never as its first move, and never to begin to drive. */
-export function mayBrush(snapshot: SessionState, target: number | null): boolean {
+export function mayBrush(snapshot: SessionState, motion: ServoMotion): boolean {
   const drives = snapshot.lease?.drives ?? true;
-  return drives && target !== null && motionHindrance(snapshot) === null;
+  return drives && wasCommanded(motion) && motionHindrance(snapshot) === null;
 }
 
 /** What moves the robot by itself ends here for good: whoever may drive again begins it anew. */

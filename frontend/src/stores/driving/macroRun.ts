@@ -5,6 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Macro, MacroStep } from '#shared/actions/macros/macro.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { startsKnown } from '#shared/session/state.ts';
 import { FIRST_MOVE_STAGGER_MS } from '#shared/session/timings.ts';
 import { words } from '../../words/words.ts';
 import type { Device } from '../device/device.ts';
@@ -73,9 +74,7 @@ export function createMacroRun({ device, poses, robots, notices, clock }: MacroR
 
   /** First moves are slow, whatever was asked for, and begin one after another (safety.md section 2). */
   function reachedAfterMs(targets: readonly ServoTarget[], durationMs: number): number {
-    const unknown = targets
-      .map(({ servo }) => servo)
-      .filter((servo) => device.motion(servo).estimated === null);
+    const unknown = targets.map(({ servo }) => servo).filter((servo) => !startsKnown(device.motion(servo)));
     const starting = new Set([...device.store.getState().snapshot.waitingToStart, ...unknown]);
     if (unknown.length === 0) return durationMs;
     return Math.max(durationMs, GENTLE_MOVE_MS) + (starting.size - 1) * FIRST_MOVE_STAGGER_MS;

@@ -8,6 +8,7 @@ import { maxErrorOf } from '#shared/actions/group/maxError.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Device } from '../device/device.ts';
 import type { Document } from './document.ts';
+import { knownFamily } from './groupBoard.ts';
 import type { RobotStore } from '../robots/robots.ts';
 import { setChanged } from '../setChanged.ts';
 import { workedOut, type Source, type WorkedOut } from './workedOut.ts';
@@ -47,11 +48,11 @@ export function createCompiled({ document, device, robots, clock, aside }: Compi
   let isBusy = false;
   const others = new WeakMap<ActionGroup, CompiledGroup>();
 
-  const wanted = (): Source =>
-    sourceOf(document.store.getState().present, {
-      family: device.store.getState().family,
-      robot: robots.current().robot,
-    });
+  function wanted(): Source {
+    const { robot } = robots.current();
+    const family = knownFamily(device.store.getState().family, robot);
+    return sourceOf(document.store.getState().present, { family, robot });
+  }
   const store = createStore<CompiledState>(() => ({ latest: compiled(wanted()), isFresh: true }));
 
   const isLatest = (source: Source): boolean => isSame(source, store.getState().latest.source);

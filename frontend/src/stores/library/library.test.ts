@@ -57,6 +57,25 @@ describe('keeping', () => {
     expect(listed!.facts.robot).not.toBe('');
   });
 
+  test('a list that says the same is the same list, and one changed group leaves the others as they are', async () => {
+    const page = createPlace().visit();
+    const listed = () => page.library.store.getState().documents;
+    page.capture(1500);
+    for (const name of ['Bow', 'Nod']) await page.library.add(emptyGroup(name, 'us'));
+    await page.later();
+    await page.library.refresh();
+    const before = listed();
+    await page.library.refresh();
+    expect(listed()).toBe(before);
+    page.capture(1600);
+    await page.later();
+    await page.library.refresh();
+    const others = before.filter(({ id }) => id !== page.openId());
+    expect(others).toHaveLength(2);
+    for (const other of others) expect(listed()).toContain(other);
+    expect(listed().find(({ id }) => id === page.openId())?.facts.frames).toBe(2);
+  });
+
   test('a page that only looks writes nothing', async () => {
     const { visit, keeper } = createPlace();
     const page = visit();

@@ -3,7 +3,7 @@
 // time both are kept. Never moves the robot.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Clock } from '#shared/clock.ts';
+import { sleep, type Clock } from '#shared/clock.ts';
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { rename } from '#shared/actions/group/groupEdits.ts';
 import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
@@ -31,12 +31,15 @@ import { createLibraryVersions, type LibraryVersions } from './libraryVersions.t
 import { createOpenDocument } from './openDocument.ts';
 import { createOutbox } from './outbox.ts';
 import { createShelving } from './shelving.ts';
+import { unchanged } from './unchanged.ts';
 
 export interface LibraryState {
   /** Where it lies; null until that is known. */
   readonly place: Keeper['place'] | null;
   /** Those in the trash too, in no order. */
   readonly documents: readonly Listed[];
+  /** How often it has been listed: what the list does not say, as versions, may have changed as well. */
+  readonly listings: number;
   readonly openId: string;
   /** The keeper has every change. */
   readonly isKept: boolean;
@@ -48,8 +51,11 @@ export interface Library extends LibraryFiles, LibraryVersions {
   /** Looks what others have changed; the group that is shown follows, if nothing of it waits here. */
   refresh(): Promise<void>;
   create(): void;
-  /** Keeps a group as a new document, without showing it. */
-  add(group: ActionGroup): void;
+  /**
+   * Keeps a group as a new document, without showing it. Resolves once the library has it, or does not take it soon: then it
+   * waits here.
+   */
+  add(group: ActionGroup): Promise<void>;
   open(id: string): Promise<void>;
   /** Null where it cannot be read. */
   group(id: string): Promise<ActionGroup | null>;
@@ -59,6 +65,9 @@ export interface Library extends LibraryFiles, LibraryVersions {
   remove(id: string): Promise<void>;
   restore(id: string): Promise<void>;
 }
+
+/** How long somebody who adds many groups waits for each. */
+const ADDED_WITHIN_MS = 700;
 
 /** Over as soon as nothing waits here any more. */
 const WAITING: readonly LibraryErrorCode[] = ['full', 'busy', 'unreachable'];
@@ -81,7 +90,7 @@ export function createLibrary(options: LibraryOptions): Library {
   const outbox = createOutbox(storage);
   const opened = createOpenDocument(document, storage, newId);
   const store = createStore<LibraryState>(() => ({
-    ...{ place: null, documents: [], openId: opened.id(), isKept: true },
+    ...{ place: null, documents: [], listings: 0, openId: opened.id(), isKept: true },
   }));
   const shown = (): ActionGroup => document.store.getState().present;
   /** What waits or is kept already; anything else that is shown is a change. */
@@ -91,6 +100,8 @@ export function createLibrary(options: LibraryOptions): Library {
   let isShowing = false;
   let hasToldSetAside = false;
   let isFound = true;
+  /** The library did not take the last group in time: nobody waits for it until it has everything. */
+  let isBehind = false;
 
   const shelving = createShelving({
     ...{ keeper: options.keeper, outbox, clock: options.clock },
@@ -98,8 +109,9 @@ export function createLibrary(options: LibraryOptions): Library {
     onKept(id, revision) {
       opened.setRevision(id, revision);
       tellKept();
-      if (outbox.entries().length === 0)
-        for (const code of WAITING) notices.takeBack(words.library.problem(code, ''));
+      if (outbox.entries().length > 0) return;
+      isBehind = false;
+      for (const code of WAITING) notices.takeBack(words.library.problem(code, ''));
     },
     onConflict: keepBoth,
     onFailure: tell,
@@ -198,6 +210,12 @@ export function createLibrary(options: LibraryOptions): Library {
     show(newId(), { ...group, robot: robot.name });
   }
 
+  async function add(group: ActionGroup): Promise<void> {
+    put(newId(), groupToText(group));
+    const late = sleep(options.clock, isBehind ? 0 : ADDED_WITHIN_MS).then(() => false);
+    isBehind = !(await (isBehind ? late : Promise.race([flush(), late])));
+  }
+
   async function open(id: string): Promise<void> {
     if (id !== opened.id()) show(id, await read(id));
   }
@@ -209,8 +227,10 @@ export function createLibrary(options: LibraryOptions): Library {
     const documents = listedOf(listing, 'group');
     if (setAside !== null && !hasToldSetAside) notices.tell('warning', words.library.setAside(setAside));
     hasToldSetAside ||= setAside !== null;
-    store.setState({ place: keeper.place, documents });
-    await follow(documents);
+    const { documents: before, listings } = store.getState();
+    const shared = unchanged(before, documents);
+    store.setState({ place: keeper.place, documents: shared, listings: listings + 1 });
+    await follow(shared);
   }
 
   /** What is shown follows the keeper, unless a change of it waits here. */
@@ -291,7 +311,7 @@ export function createLibrary(options: LibraryOptions): Library {
     store,
     refresh: look,
     create,
-    add: (group) => put(newId(), groupToText(group)),
+    add,
     open: (id) => attempt(open(id)),
     group: (id) =>
       read(id).catch((error: unknown) => {

@@ -36,6 +36,7 @@ export function createShelving(options: ShelvingOptions): Shelving {
   let cancelTimer = (): void => undefined;
   let turn = Promise.resolve(true);
   let failure: unknown = null;
+  const unreadable = new Set<string>();
 
   function after(delayMs: number): void {
     cancelTimer();
@@ -52,7 +53,8 @@ export function createShelving(options: ShelvingOptions): Shelving {
     const failures: unknown[] = [];
     for (let round = readable(); round.length > 0 && failures.length === 0; round = readable()) {
       // One that is refused must not keep the others waiting.
-      for (const unkept of round) await keep(unkept).catch((error: unknown) => failures.push(error));
+      for (const [id, unkept] of round)
+        await keep(id, unkept).catch((error: unknown) => failures.push(error));
     }
     const isFirst = failure === null;
     failure = failures[0] ?? null;
@@ -65,14 +67,11 @@ export function createShelving(options: ShelvingOptions): Shelving {
     if (!(await flush())) throw failure;
   }
 
-  function readable(): readonly Unkept[] {
-    return outbox.entries().flatMap(([id, { text, revision }]) => {
-      const facts = factsOf(text);
-      return facts === null ? [] : [{ id, text, revision, facts }];
-    });
-  }
+  const readable = () => outbox.entries().filter(([, { text }]) => !unreadable.has(text));
 
-  async function keep({ id, text, facts, revision: expected }: Unkept): Promise<void> {
+  async function keep(id: string, { text, revision: expected }: Stored): Promise<void> {
+    const facts = factsOf(text);
+    if (facts === null) return void unreadable.add(text);
     try {
       const revision = await (await keeper).write(id, { text, facts, expected, isRemoved: false });
       outbox.settle(id, { text, revision });
@@ -85,9 +84,4 @@ export function createShelving(options: ShelvingOptions): Shelving {
   }
 
   return { soon: () => after(PAUSE_MS), flush, settle };
-}
-
-interface Unkept extends Stored {
-  readonly id: string;
-  readonly facts: Facts;
 }

@@ -14,7 +14,14 @@ const OURS: Lease = {
 test('whoever is handed the robot is told from whom, once', () => {
   const told: string[] = [];
   const store = createStore<DeviceState>(() => ({
-    ...{ family: FAMILIES.doc, way: null, known: [], isMoving: false, snapshot: INITIAL_STATE },
+    ...{
+      family: FAMILIES.doc,
+      way: null,
+      known: [],
+      readServos: [],
+      isMoving: false,
+      snapshot: INITIAL_STATE,
+    },
   }));
   tellHandedOver(store, { tell: (_tone, text) => void told.push(text) });
   const given = { ...OURS, givenBy: 'Anna' };

@@ -54,7 +54,7 @@ export interface People {
 }
 /**
  * A paired device, a script's token or a stop-only link. `here`: it has the page open now,
- * and `drives` where it moves the robot.
+ * and `drives` where it moves the robot. `unattendedSlot`: of the group that runs on without it.
  */
 export interface Person {
   id: string;
@@ -65,6 +65,7 @@ export interface Person {
   lastSeenMs: number | null;
   here: boolean;
   drives: boolean;
+  unattendedSlot: number | null;
 }
 /**
  * `picture` is the link as a QR code: the address of an SVG image that holds itself.

@@ -110,7 +110,7 @@ test('a token is shown until it is closed', async () => {
 
 test('what the gateway refuses is told with its reason', async () => {
   people.change('anna', { role: 'viewer' });
-  people.revoke('ben');
+  people.revoke('ben', false);
   await settled();
   expect(told).toEqual([
     'The gateway refuses that: This is the last owner',

@@ -1,14 +1,17 @@
 // What playing means now: which part of the group, from where, how often, and which servos hear of it. Plays nothing.
 
 import { totalDurationMs } from '#shared/actions/group/group.ts';
-import { passageOf, type Passage } from '#shared/actions/group/passage.ts';
+import { passageOf, type Passage, type PassageOptions } from '#shared/actions/group/passage.ts';
 import { poseAtMs, tracksOf } from '#shared/actions/group/tracks.ts';
 import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
+import type { Family } from '#shared/protocol/families.ts';
+import { startsKnown } from '#shared/session/state.ts';
+import { RANGE_MS } from '#shared/session/timings.ts';
 import type { CompiledGroup } from '../group/compiled.ts';
 import type { Device } from '../device/device.ts';
 import type { Document } from '../group/document.ts';
 import type { FollowedPose } from '../driving/follower.ts';
-import { chosenPlace } from '../slots/groupPlace.ts';
+import { chosenTimes } from '../slots/groupPlace.ts';
 import type { Playhead } from './playhead.ts';
 import type { RobotStore } from '../robots/robots.ts';
 import { isSilent, servoViewFor } from '../servoView.ts';
@@ -36,6 +39,14 @@ export interface MeantPartOptions {
   chosen(): { readonly loops: boolean; readonly speedPercent: number };
 }
 
+/** Of a servo's range: so much further on nobody sees a jerk. */
+const LARGEST_SEAM = 0.05;
+
+const seamOf = ({ position: { min, max } }: Family): PassageOptions['seam'] => ({
+  largestStep: (max - min) * LARGEST_SEAM,
+  unitsPerMs: (max - min) / RANGE_MS,
+});
+
 export function createMeantPart(options: MeantPartOptions): MeantPart {
   const { device, document, view, playhead, robots, chosen } = options;
 
@@ -52,7 +63,7 @@ export function createMeantPart(options: MeantPartOptions): MeantPart {
 
   function passes(): number {
     if (chosen().loops) return 0;
-    return within() === null ? chosenPlace(view.getState()).times : 1;
+    return within() === null ? chosenTimes(view.getState()) : 1;
   }
 
   /** Rows that are muted, or beside those that play alone, are not sent. */
@@ -67,11 +78,12 @@ export function createMeantPart(options: MeantPartOptions): MeantPart {
     return passageOf(frames.map(heard), {
       fromMs: within() ?? range?.fromMs ?? 0,
       toMs: range?.toMs ?? null,
+      seam: seamOf(source.family),
       longestMs: source.family.durationMs.max,
       speedPercent: chosen().speedPercent,
       strangers: source.robot.servos
         .map(({ servo }) => servo)
-        .filter((servo) => device.motion(servo).estimated === null),
+        .filter((servo) => !startsKnown(device.motion(servo))),
     });
   }
 

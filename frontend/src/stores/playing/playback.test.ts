@@ -155,6 +155,34 @@ describe('playing from the page', () => {
     expect(phase()).toBeNull();
   });
 
+  test('a marked part that ends where it begins is looped without a seam', async () => {
+    const { playback, timeline, draw, heard, phase } = await deskWith(WAVE);
+    timeline.setState({ range: { fromMs: 600, toMs: 1400 } });
+    playback.set({ loops: true });
+    playback.play();
+    const phases = new Set<unknown>();
+    for (let passed = 0; passed < 10_000; passed += 100) {
+      await draw(100);
+      phases.add(phase());
+    }
+    const [, ...arrivals] = heard.map(({ atMs }) => atMs);
+    const gaps = new Set(arrivals.slice(1).map((atMs, index) => Math.round(atMs - (arrivals[index] ?? 0))));
+    expect(gaps).toEqual(new Set([200, 600]));
+    expect(phases).toEqual(new Set(['leading', 'playing']));
+  });
+
+  test('one that ends far from there goes back gently, and says so', async () => {
+    const { playback, timeline, draw, moves, phase } = await deskWith(WAVE);
+    timeline.setState({ range: { fromMs: 400, toMs: 800 } });
+    playback.set({ loops: true });
+    playback.play();
+    await draw(1500 + 400 + 200);
+    expect(phase()).toBe('returning');
+    await draw(1400);
+    expect(phase()).toBe('playing');
+    expect(moves().map(({ durationMs }) => durationMs)).toEqual([1500, 400, 1500, 400]);
+  });
+
   test('plays as often as the group is run, from within it the rest once', async () => {
     const { playback, playhead, view, draw, moves, phase } = await deskWith(WAVE);
     view.setState({ times: 3 });
@@ -394,7 +422,7 @@ describe('playing on the board', () => {
     await draw(600);
     expect(phase()).toBe('running');
     expect(ofKind('download').length).toBe(3);
-    expect(ofKind('run')).toEqual([{ kind: 'run', slot: 0, times: 1 }]);
+    expect(ofKind('run')).toEqual([{ kind: 'run', slot: 21, times: 1 }]);
     await draw(400);
     expect(playhead.at()).toBeGreaterThan(200);
     await draw(1600);
@@ -437,35 +465,36 @@ describe('playing on the board', () => {
     await draw(1000);
     expect(phase()).toBeNull();
     expect(ofKind('run')).toEqual([]);
-    expect(told()).toEqual([words.board.downloadCancelled(0)]);
+    expect(told()).toEqual([words.board.downloadCancelled(21)]);
   });
 
   describe('where the slot holds another group', () => {
-    /** The first group is in slot 0, and the second one at hand. */
+    /** The first group is in slot 21, the second one at hand is to go there. */
     async function deskWithAnother(name: string, board: Parameters<typeof createDesk>[1] = {}) {
       const desk = await deskWith(WAVE, board);
-      const { playback, document, shelf, ofKind, draw } = desk;
+      const { playback, document, opened, view, replacing, ofKind, draw } = desk;
       playback.runOnBoard();
       await draw(3000);
-      shelf.openId = 'another';
+      opened.setState({ openId: 'another' });
       document.take(startHistory({ ...groupOf(frame(400, 1200)), name }));
+      view.setState({ slot: 21 });
       const counts = () => [ofKind('download').length, ofKind('run').length];
-      const asked = () => playback.store.getState().replacing;
+      const asked = () => replacing.store.getState().question?.conflicts[0] ?? null;
       return { ...desk, counts, asked };
     }
 
     for (const name of ['Bow', 'Wave'])
       test(`asks before “${name}” takes the place of “Wave”`, async () => {
-        const { playback, draw, counts, asked } = await deskWithAnother(name);
+        const { playback, replacing, draw, counts, asked } = await deskWithAnother(name);
         playback.runOnBoard();
         await draw(1000);
-        expect(asked()).toMatchObject({ name, record: { slot: 0, name: 'Wave' } });
+        expect(asked()).toMatchObject({ name, record: { slot: 21, name: 'Wave' } });
         expect(counts()).toEqual([3, 1]);
-        playback.answer(false);
+        replacing.answer('leave');
         await draw(1000);
         expect([asked(), counts()]).toEqual([null, [3, 1]]);
         playback.runOnBoard();
-        playback.answer(true);
+        replacing.answer('replace');
         await draw(2000);
         expect([asked(), counts()]).toEqual([null, [4, 2]]);
         playback.runOnBoard();
@@ -474,11 +503,11 @@ describe('playing on the board', () => {
       });
 
     test('asks again where the slot got still another one meanwhile', async () => {
-      const { playback, slots, draw, counts, asked } = await deskWithAnother('Bow');
+      const { playback, replacing, slots, draw, counts, asked } = await deskWithAnother('Bow');
       playback.runOnBoard();
-      slots.download([{ slot: 0, name: 'Third', documentId: 'third', frames: [frame(500, 1300)] }]);
+      slots.download([{ slot: 21, name: 'Third', documentId: 'third', frames: [frame(500, 1300)] }]);
       await draw(2000);
-      playback.answer(true);
+      replacing.answer('replace');
       await draw(1000);
       expect(asked()).toMatchObject({ record: { name: 'Third' } });
       expect(counts()).toEqual([4, 1]);
@@ -486,18 +515,18 @@ describe('playing on the board', () => {
 
     test('asks again where somebody else has stored something there meanwhile, and before', async () => {
       const { sharedSlots, othersStore, asked: stored } = createSharedSlots();
-      const { playback, draw, asked, phase } = await deskWithAnother('Bow', { sharedSlots });
+      const { playback, replacing, draw, asked, phase } = await deskWithAnother('Bow', { sharedSlots });
       // Of a board that holds nothing only the clock tells when a run is over.
       await draw(6000);
       expect(phase()).toBeNull();
       playback.runOnBoard();
-      expect(asked()).toMatchObject({ slot: 0, record: { name: 'Wave' } });
-      othersStore(0, { version: 'of Bert', name: 'Nod' });
-      playback.answer(true);
+      expect(asked()).toMatchObject({ slot: 21, record: { name: 'Wave' } });
+      othersStore(21, { version: 'of Bert', name: 'Nod' });
+      replacing.answer('replace');
       await draw(1000);
-      expect(asked()).toMatchObject({ slot: 0, record: null, version: 'of Bert', held: 'Nod' });
+      expect(asked()).toMatchObject({ slot: 21, record: null, version: 'of Bert', held: 'Nod' });
       expect(stored).toHaveLength(1);
-      playback.answer(true);
+      replacing.answer('replace');
       await draw(1000);
       expect(asked()).toBeNull();
       expect(stored.map(({ replaces }) => replaces)).toEqual(['', 'of Bert']);

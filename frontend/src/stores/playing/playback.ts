@@ -6,7 +6,7 @@ import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { frameEnds } from '#shared/actions/group/tracks.ts';
 import type { Activity } from '#shared/session/state.ts';
 import { words } from '../../words/words.ts';
-import { createBoardRun, type Replacing } from './boardRun.ts';
+import { createBoardRun } from './boardRun.ts';
 import { obstacles, type CompiledGroup, type CompiledStore } from '../group/compiled.ts';
 import { problemText } from '../group/problemText.ts';
 import type { Device } from '../device/device.ts';
@@ -18,11 +18,13 @@ import { pageAt, previewAt, type PagePlay, type PreviewPlay } from './playedAt.t
 import type { Playhead } from './playhead.ts';
 import { endsMotion, startHindrance } from '../device/readiness.ts';
 import type { RobotStore } from '../robots/robots.ts';
+import type { GroupPlace } from '../slots/groupPlace.ts';
+import type { Replacing } from '../slots/replacing.ts';
 import type { Slots } from '../slots/slots.ts';
 import type { View } from '../view.ts';
 
-/** `leading`: gently on the way to the first pose. `storing`: the board gets the group first. `previewing`: only on the drawing. */
-export type PlaybackPhase = 'leading' | 'playing' | 'storing' | 'running' | 'previewing';
+/** `leading`: gently on the way to the first pose. `returning`: gently back there, in a loop. `storing`: the board gets the group first. `previewing`: only on the drawing. */
+export type PlaybackPhase = 'leading' | 'returning' | 'playing' | 'storing' | 'running' | 'previewing';
 
 export interface PlaybackState {
   readonly speedPercent: number;
@@ -31,8 +33,6 @@ export interface PlaybackState {
   readonly isLive: boolean;
   /** null: nothing is played by this. */
   readonly phase: PlaybackPhase | null;
-  /** What would go from the board, while the person is asked. */
-  readonly replacing: Replacing | null;
 }
 
 /** `fromMs` null: from the beginning; `times` 0: until stopped. */
@@ -53,7 +53,6 @@ export interface Playback {
   togglePreview(): void;
   /** Downloads first where the board has not just this, and asks before another group goes for it. */
   runOnBoard(): void;
-  answer(mayReplace: boolean): void;
   /** Where it is; a group on the board ends after its frame in progress. */
   pause(): void;
   /** To the end of the next frame of the group, or of the one before; the robot goes along where it follows. */
@@ -71,6 +70,8 @@ export interface PlaybackOptions {
   readonly document: Document;
   readonly compiled: CompiledStore;
   readonly slots: Slots;
+  readonly place: GroupPlace;
+  readonly replacing: Replacing;
   readonly notices: Notices;
   readonly view: View;
   readonly playhead: Playhead;
@@ -85,7 +86,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
   const { device, document, compiled, slots, notices, view, playhead, robots } = options;
   const { clock } = device;
   const store = createStore<PlaybackState>(() => ({
-    ...{ speedPercent: 100, loops: false, isLive: false, phase: null, replacing: null },
+    ...{ speedPercent: 100, loops: false, isLive: false, phase: null },
   }));
   const follower = createFollower(device);
   const meant = createMeantPart({
@@ -132,11 +133,12 @@ export function createPlayback(options: PlaybackOptions): Playback {
     phase('leading');
     const times = meant.passes();
     playhead.show(passage.atMs[0] ?? 0);
-    device.play(passage.frames, times, (isDone) => {
+    const ended = (isDone: boolean): void => {
       if (isDone) playhead.go(passage.atMs.at(-1) ?? 0);
       following = null;
       phase(null);
-    });
+    };
+    device.play(passage.frames, times, ended, passage.loopFrom);
   }
 
   function preview(): void {
@@ -156,26 +158,19 @@ export function createPlayback(options: PlaybackOptions): Playback {
   }
 
   const board = createBoardRun({
-    ...{ device, compiled, slots, view },
+    ...{ device, compiled, slots, place: options.place, replacing: options.replacing, view },
     documentId: () => options.documentId(),
-    ask: (replacing) => store.setState({ replacing }),
     phase(next) {
       phase(next);
       if (next === 'running') playhead.show(0);
     },
   });
 
-  function runOnBoard(allowed: Replacing | null): void {
+  function runOnBoard(): void {
     const group = playable('board');
     const { times, untilStopped } = view.getState();
     const isEndless = untilStopped || store.getState().loops;
-    if (group !== null) board.begin(group, isEndless ? 0 : times, allowed);
-  }
-
-  function answer(mayReplace: boolean): void {
-    const { replacing } = store.getState();
-    store.setState({ replacing: null });
-    if (mayReplace) runOnBoard(replacing);
+    if (group !== null) board.begin(group, isEndless ? 0 : times);
   }
 
   function pause(): void {
@@ -200,7 +195,8 @@ export function createPlayback(options: PlaybackOptions): Playback {
     if (next.kind === 'playing' && following !== null) {
       const isLead = following.isLead && next.frameIndex === 0;
       following = { ...following, index: next.frameIndex, beganMs: clock.now(), isLead };
-      phase(isLead ? 'leading' : 'playing');
+      const isBack = following.passage.returns && next.frameIndex === 0;
+      phase(isLead ? 'leading' : isBack ? 'returning' : 'playing');
     }
     if (next.kind !== 'idle' || store.getState().phase !== 'running') return;
     phase(null);
@@ -240,8 +236,7 @@ export function createPlayback(options: PlaybackOptions): Playback {
     play,
     toggle: () => (store.getState().phase === null ? play() : pause()),
     togglePreview: () => (store.getState().phase === null ? preview() : pause()),
-    runOnBoard: () => runOnBoard(null),
-    answer,
+    runOnBoard,
     pause,
     step,
     frame() {

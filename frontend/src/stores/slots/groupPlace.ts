@@ -1,43 +1,90 @@
-// Where a group belongs on the board, and how often it is run there: what Download and Run mean is what the group says, until the
-// person chooses otherwise, and what was chosen can be kept in the group. Pure, but for the one that follows.
+// Where the group at hand goes on the board, and how often it is run there. What a person chooses holds until another group is opened or
+// this one names its own; else it is the group's own slot, or a free one of the board. Moves and stores nothing.
 
+import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { ownSlot, slotFor, type KnownSlots } from '#shared/actions/slots/placing.ts';
+import type { Device } from '../device/device.ts';
 import type { Document } from '../group/document.ts';
-import type { Library } from '../library/library.ts';
 import type { View, ViewState } from '../view.ts';
+import type { Slots } from './slots.ts';
 
-export type GroupPlace = Pick<ActionGroup, 'slot' | 'times'>;
-type Choice = Pick<ViewState, 'slot' | 'times' | 'untilStopped'>;
-
-/** As the group would have it. */
-export function chosenPlace({ slot, times, untilStopped }: Choice): GroupPlace {
-  return { slot, times: untilStopped ? 0 : times };
+export interface PlaceState {
+  /** The one that Download and Run are about. */
+  readonly slot: number;
 }
 
-/** A group that says no slot leaves the one that is chosen. */
-function choiceOf({ slot, times }: GroupPlace): Partial<Choice> {
-  return {
-    ...(slot !== null && { slot }),
-    ...(times === 0 ? { untilStopped: true } : { times, untilStopped: false }),
-  };
+export interface GroupPlace {
+  readonly store: StoreApi<PlaceState>;
+  known(): KnownSlots;
 }
 
-export function followPlace(stores: {
+export interface GroupPlaceOptions {
   readonly document: Document;
-  readonly library: Pick<Library, 'store'>;
+  /** Which document of the library is open. */
+  readonly opened: Pick<StoreApi<{ readonly openId: string }>, 'getState' | 'subscribe'>;
   readonly view: View;
-}): void {
-  const { document, library, view } = stores;
+  readonly slots: Slots;
+  readonly device: Device;
+}
+
+/** 0: until stopped. */
+export function chosenTimes({ times, untilStopped }: Pick<ViewState, 'times' | 'untilStopped'>): number {
+  return untilStopped ? 0 : times;
+}
+
+export function createGroupPlace({ document, opened, view, slots, device }: GroupPlaceOptions): GroupPlace {
   const present = (): ActionGroup => document.store.getState().present;
-  const choose = (): void => view.setState(choiceOf(present()));
-  let seen: GroupPlace = present();
-  document.store.subscribe(({ present: now }) => {
-    const isSame = now.slot === seen.slot && now.times === seen.times;
-    seen = now;
-    if (!isSame) choose();
+
+  function known(): KnownSlots {
+    const { family, snapshot } = device.store.getState();
+    const { slotVersions, brokenSlots } = snapshot;
+    const { book } = slots.store.getState();
+    return { book, versions: slotVersions ?? {}, broken: brokenSlots, range: family.slot };
+  }
+
+  function slotNow(): number {
+    const chosen = view.getState().slot;
+    if (chosen !== null) return chosen;
+    const own = ownSlot(opened.getState().openId, present(), known());
+    const { commands, slot } = device.store.getState().family;
+    // A board that takes no groups from here runs those it was filled with.
+    return commands.includes('download') ? slotFor(own, known()) : (own ?? slot.min);
+  }
+
+  const store = createStore<PlaceState>(() => ({ slot: slotNow() }));
+  const follow = (): void => {
+    const slot = slotNow();
+    if (slot !== store.getState().slot) store.setState({ slot });
+  };
+
+  function beginAnew(): void {
+    const { times } = present();
+    view.setState({
+      slot: null,
+      ...(times === 0 ? { untilStopped: true } : { times, untilStopped: false }),
+    });
+    follow();
+  }
+
+  document.store.subscribe(({ present: now }, { present: before }) => {
+    if (now.slot !== before.slot || now.times !== before.times) beginAnew();
   });
-  library.store.subscribe(({ openId }, before) => {
-    if (openId !== before.openId) choose();
+  opened.subscribe(({ openId }, before) => {
+    if (openId !== before.openId) beginAnew();
   });
-  choose();
+  view.subscribe(({ slot }, before) => {
+    if (slot !== before.slot) follow();
+  });
+  slots.store.subscribe(follow);
+  device.store.subscribe(({ family, snapshot }, before) => {
+    const { slotVersions, brokenSlots } = before.snapshot;
+    const isSame =
+      family === before.family &&
+      snapshot.slotVersions === slotVersions &&
+      snapshot.brokenSlots === brokenSlots;
+    if (!isSame) follow();
+  });
+  beginAnew();
+  return { store, known };
 }

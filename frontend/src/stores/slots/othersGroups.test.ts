@@ -26,7 +26,7 @@ async function openDesk() {
   const { device, robots, compiled, slots } = desk;
   const keeper = createMemoryKeeper();
   const store = createStore<LibraryState>(() => ({
-    ...{ place: 'gateway', documents: [], openId: 'at hand', isKept: true },
+    ...{ place: 'gateway', documents: [], listings: 0, openId: 'at hand', isKept: true },
   }));
   const refreshed: string[] = [];
   const library = { store, refresh: () => Promise.resolve(void refreshed.push('the list')) };

@@ -46,6 +46,21 @@ describe('the slots of a board', () => {
     expect(stored()).toEqual([]);
   });
 
+  test('that a slot is broken is not said any longer once it is empty or whole again', async () => {
+    for (const mend of ['erase', 'download'] as const) {
+      const { slots, draw, told } = await openDesk();
+      slots.download([BOW]);
+      await draw(40);
+      slots.cancel();
+      await draw(4000);
+      expect(told()).toEqual([words.board.downloadCancelled(9)]);
+      if (mend === 'erase') slots.erase();
+      else slots.download([BOW]);
+      await draw(4000);
+      expect(told()).toEqual([mend === 'erase' ? words.board.erased : words.board.downloaded([9])]);
+    }
+  });
+
   test('called off in its last frame, a group is whole, and the next one is not begun', async () => {
     const { slots, stored, draw, told, transport } = await openDesk();
     const heard: boolean[] = [];

@@ -99,9 +99,16 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     // From here on nobody knows what is left, whatever the board will say.
     if (isErasing(state) && !isErasing(before)) keep(withErasing(store.getState().book));
     noteDownload(state);
+    takeBackMended(before.snapshot.brokenSlots, state.snapshot.brokenSlots);
     // Until it has ended, versions may still be told that it has taken.
     if (!isErasing(state)) noteVersions(state);
   });
+
+  /** That a slot is broken is said until it is empty or whole. */
+  function takeBackMended(before: readonly number[], now: readonly number[]): void {
+    if (now === before) return;
+    for (const slot of before) if (!now.includes(slot)) notices.takeBack(words.board.downloadCancelled(slot));
+  }
 
   /** Others may have stored something there while this page was away. */
   function noteVersions({ snapshot: { link, slotVersions } }: DeviceState): void {

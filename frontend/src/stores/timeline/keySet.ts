@@ -10,21 +10,49 @@ export const NO_KEYS: KeySet = new Set();
 
 export const keyName = ({ frameId, servo }: KeyRef): KeyName => `${frameId}/${servo}`;
 
-/** What a set was made of: thousands of names are not read again after each edit. */
-const made = new WeakMap<KeySet, readonly KeyRef[]>();
+/** Made once for each list: thousands of names are not written again after each edit. */
+const made = new WeakMap<readonly KeyRef[], KeySet>();
+const madeOf = new WeakMap<KeySet, readonly KeyRef[]>();
+/** And what each says, read once. */
+const read = new WeakMap<KeySet, FramesByServo>();
+
+type FramesByServo = ReadonlyMap<number, ReadonlySet<number>>;
 
 export function keySet(refs: readonly KeyRef[]): KeySet {
-  const keys = new Set(refs.map(keyName));
-  if (keys.size === refs.length) made.set(keys, refs);
+  const keys = made.get(refs) ?? new Set(refs.map(keyName));
+  isMadeOf(keys, refs);
   return keys;
 }
 
-export const refsOf = (keys: KeySet): readonly KeyRef[] => made.get(keys) ?? namedIn(keys);
+/** `refs` are the keys of the set. */
+export function isMadeOf(keys: KeySet, refs: readonly KeyRef[]): void {
+  made.set(refs, keys);
+  madeOf.set(keys, refs);
+}
+
+/** In which frames a servo's key is in the set. */
+export function framesByServo(keys: KeySet): FramesByServo {
+  const frames = read.get(keys) ?? framesNamedIn(keys);
+  read.set(keys, frames);
+  return frames;
+}
+
+function framesNamedIn(keys: KeySet): FramesByServo {
+  const frames = new Map<number, Set<number>>();
+  for (const { frameId, servo } of refsOf(keys)) {
+    const own = frames.get(servo);
+    if (own === undefined) frames.set(servo, new Set([frameId]));
+    else own.add(frameId);
+  }
+  return frames;
+}
+
+export const refsOf = (keys: KeySet): readonly KeyRef[] => madeOf.get(keys) ?? namedIn(keys);
 
 function namedIn(keys: KeySet): readonly KeyRef[] {
   return [...keys].map((name) => {
-    const [frameId, servo] = name.split('/').map(Number);
-    return { frameId: frameId ?? 0, servo: servo ?? 0 };
+    const [frameId = 0, servo = 0] = name.split('/').map(Number);
+    return { frameId, servo };
   });
 }
 

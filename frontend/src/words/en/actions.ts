@@ -14,11 +14,12 @@ export const actionWords = {
   empty: 'No frames yet',
   emptyHint: 'Pose the robot with the sliders, then capture the pose. Two or three poses make a motion.',
   capture: 'Capture frame',
-  captureHint: 'Adds the commanded pose after the selected frame',
+  captureHint: 'Adds the commanded or reported pose after the selected frame',
   captureHere: 'Capture',
-  captureEndHint: 'Adds the commanded pose at the end of the action group',
+  captureEndHint: 'Adds the commanded or reported pose at the end of the action group',
   captured: (number: number): string => `Frame ${formatWhole(number)} is captured.`,
   nothingKnown: 'Move a servo first.',
+  nothingKnownOrRead: 'Move a servo or read positions first.',
   frame: (number: number): string => `Frame ${formatWhole(number)}`,
   frameAbout: (number: number, durationMs: number, changed: readonly number[]): string => {
     const moved =
@@ -60,14 +61,21 @@ export const actionWords = {
     paste: (count: number): string => `paste ${counted(count, 'frame')}`,
     time: (number: number): string => `time of frame ${formatWhole(number)}`,
     rename: 'rename group',
+    convert: 'convert for this board',
   },
   /** Numbers of the same frames; several stand together afterwards. */
   moved: (from: readonly number[], to: readonly number[]): string =>
     to.length === 1
       ? `Frame ${formatWhole(from[0] ?? 0)} is now frame ${formatWhole(to[0] ?? 0)}`
       : `${counted(to.length, 'frame')} are now frames ${formatWhole(to[0] ?? 0)} to ${formatWhole(to.at(-1) ?? 0)}`,
-  otherUnit: (unit: PositionUnit): string =>
-    `This group is in ${unitSymbol(unit)}; the connected board counts otherwise.`,
+  otherUnit: (unit: PositionUnit): string => `Made for another board, which counts in ${unitSymbol(unit)}.`,
+  otherBoard: 'Made for another board. Convert?',
+  convert: 'Convert',
+  convertHint: (to: PositionUnit): string =>
+    to === 'steps'
+      ? 'To steps: (µs − 500) ÷ 2, rounded. Can be undone'
+      : 'To µs: steps × 2 + 500. Can be undone',
+  notConverted: 'Not converted: a position below 500 µs has no counterpart in steps.',
   broken: 'The saved group could not be read. It was set aside unharmed, and a new group begun.',
   notSaved: 'The browser does not store the group; it is kept until the page is closed.',
 };

@@ -22,6 +22,7 @@ import { compileWords } from './compile.ts';
 import { exampleWords, recordWords } from './examples.ts';
 import { macroWords } from './macros.ts';
 import { playWords } from './play.ts';
+import { teachWords } from './teach.ts';
 import { poseWords } from './poses.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
@@ -94,6 +95,7 @@ export const english = {
   pad: padWords,
   compile: compileWords,
   play: playWords,
+  teach: teachWords,
   slots: slotWords,
   lease: leaseWords,
   examples: exampleWords,

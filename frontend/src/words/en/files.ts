@@ -113,12 +113,24 @@ const UNITS: Readonly<Record<PositionUnit, string>> = {
 
 export const fileWords = {
   title: 'Files',
-  button: (waiting: number): string => (waiting === 0 ? 'Files' : `Files, ${formatWhole(waiting)} opened`),
+  button: (opened: number, refused: number): string =>
+    [
+      'Files',
+      ...(opened === 0 ? [] : [`${formatWhole(opened)} opened`]),
+      ...(refused === 0 ? [] : [`${formatWhole(refused)} not opened`]),
+    ].join(', '),
   open: 'Open',
   choose: 'Choose files',
   hint: 'XML, .rob, .d6a, CSV and Servodeck’s own. Or drop them here.',
   list: 'Opened files',
-  reading: 'Reading',
+  reading: 'Reading files',
+  readSoFar: (done: number, total: number): string =>
+    `${formatWhole(done)} of ${counted(total, 'file')} read`,
+  unread: (count: number): string => `Cancelled. ${counted(count, 'file')} not read.`,
+  taking: 'Adding groups to the library',
+  takenSoFar: (done: number, total: number): string =>
+    `${formatWhole(done)} of ${counted(total, 'group')} in the library`,
+  cancel: 'Cancel',
   refused: (file: string): string => `${file} was not opened.`,
   about: (frames: number, durationMs: number, servos: number): string =>
     `${counted(frames, 'frame')}, ${formatSeconds(durationMs)}, ` + counted(servos, 'servo'),
@@ -145,7 +157,10 @@ export const fileWords = {
       outside === 0 ? 'all of them fit' : `${formatWhole(outside)} ${outside === 1 ? 'does' : 'do'} not fit`;
     return `${range}. Here ${span(positions)}: ${fit}.`;
   },
-  convert: 'Convert to steps: (µs − 500) ÷ 2, rounded',
+  /** The connected one, else the robot's. */
+  forBoard: (board: string): string => `Written for ${board}. Without a board, the robot’s own counts.`,
+  convert: (to: PositionUnit): string =>
+    to === 'steps' ? 'Convert to steps: (µs − 500) ÷ 2, rounded' : 'Convert to µs: steps × 2 + 500',
 
   problem: (problem: Problem): string => placed(problem, PROBLEMS[problem.code](problem.found)),
   remark: (remark: Remark): string => placed(remark, REMARKS[remark.code](remark.found)),

@@ -21,6 +21,7 @@ export const {
   formatPosition,
   formatRoughly,
   formatSeconds,
+  formatSecondsUp,
   formatTick,
   formatTimeOfDay,
   formatVolts,

@@ -1,7 +1,7 @@
 // Words about coming in and letting in: pairing, people and devices, what plain http means.
 
 import type { PeopleErrorCode, PersonRoleName } from '../people.ts';
-import { formatCount, formatWhen } from './numbers.ts';
+import { formatCount, formatWhen, formatWhole } from './numbers.ts';
 
 const PROBLEMS: Readonly<Record<PeopleErrorCode, string>> = {
   unreachable: 'The gateway does not answer. Is this device still on the robot’s network?',
@@ -87,6 +87,10 @@ export const peopleWords = {
   revoke: 'Revoke',
   revokeOf: (name: string): string => `Revoke ${name}?`,
   revokeText: 'It is out at once, and needs a new invitation to come back.',
+  revokeTextOfRun: (slot: number): string =>
+    `It is out at once, and needs a new invitation to come back. Slot ${formatWhole(slot)}, which it let go on, still runs.`,
+  revokeAndStop: 'Revoke and stop',
+  revokeGroupGoesOn: 'Revoke, let it run',
   keep: 'Keep',
 
   more: {

@@ -18,13 +18,12 @@ export const playWords = {
     isOlder
       ? `The copy in slot ${formatWhole(slot)} is older: downloads this group first, then runs it`
       : `Downloads to slot ${formatWhole(slot)} first, then runs it`,
-  replaceTitle: (slot: number): string => `Slot ${formatWhole(slot)} holds another group`,
-  replaceText: (slot: number, held: string, name: string): string =>
-    `“${name}” takes the place of ${held === '' ? 'what is' : `“${held}”`} in slot ${formatWhole(slot)} of the board. To keep both, choose another slot below.`,
-  replaceKeep: 'Leave it as it is',
-  replace: 'Replace and run',
   silent: (names: readonly string[]): string =>
     `Not sent from here: ${formatNames(names)}. The board plays every row.`,
+  late: (frames: number, ms: number): string =>
+    `This page was busy while it played: ${frames === 1 ? 'a frame' : `${formatWhole(frames)} frames`} began late, by up to ${formatWhole(ms)} ms. None was left out.`,
+  skipped: (frames: number): string =>
+    `${frames === 1 ? 'A frame was' : `${formatWhole(frames)} frames were`} left out: the link was busy.`,
   back: 'A frame back',
   forth: 'A frame on',
   loop: 'Loop',
@@ -33,6 +32,7 @@ export const playWords = {
   percent: '%',
   phase: {
     leading: 'Going gently to the first pose',
+    returning: 'The loop ends far from where it begins: going back gently',
     playing: (share: number): string => `Playing, ${formatPercent(share)} of the speed`,
     storing: 'The board gets this group first',
     running: 'The board plays it',

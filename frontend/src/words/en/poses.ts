@@ -24,7 +24,7 @@ export const poseWords = {
 
   capture: 'Capture pose',
   captured: (name: string): string => `${name} is captured.`,
-  captureHint: 'Keeps the commanded pose under a name',
+  captureHint: 'Keeps the commanded or reported pose under a name',
   newName: (number: number): string => `Pose ${formatWhole(number)}`,
   copyOf: (name: string): string => `${name}, copy`,
   name: (name: string): string => `Name of ${name}`,

@@ -21,6 +21,13 @@ const READY: Readonly<Record<ReadyRobotId, string>> = {
   plain32: 'Plain, 32 servos',
 };
 
+/** What it is called once it is a robot: its servos may become more or fewer. */
+const NAMES: Readonly<Record<ReadyRobotId, string>> = {
+  ...{ arm: 'Arm', hand: 'Hand', hexapod18: 'Hexapod' },
+  ...{ humanoid16: 'Humanoid', humanoid18: 'Humanoid' },
+  ...{ plain6: 'Plain', plain16: 'Plain', plain24: 'Plain', plain32: 'Plain' },
+};
+
 const ROLE_NAMES: Readonly<Record<Role, string>> = {
   gripper: 'Gripper',
   wristRoll: 'Wrist roll',
@@ -164,7 +171,7 @@ export const robotWords = {
 
 function robotNames(id: ReadyRobotId): RobotNames {
   return {
-    robot: READY[id],
+    robot: NAMES[id],
     role: (role, servo) =>
       role === 'servo' ? `${ROLE_NAMES.servo} ${formatWhole(servo)}` : ROLE_NAMES[role],
     limb: (limb) => LIMB_NAMES[limb],

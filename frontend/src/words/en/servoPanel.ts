@@ -17,6 +17,7 @@ export const servoPanelWords = {
   estimated: (position: string): string => `≈ ${position}`,
   /** For ears: `1500 µs, commanded`. */
   commanded: (position: string): string => `${position}, commanded`,
+  reported: (position: string): string => `${position}, reported`,
   positionsIn: 'Positions in',
   degrees: '°',
   /** For ears: everything that the row shows beside its figures. */

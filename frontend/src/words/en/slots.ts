@@ -51,6 +51,17 @@ export const slotWords = {
     name === undefined ? `${slotName(slot)}: ${about[fate]}` : `${slotName(slot)}: ${name}. ${about[fate]}`,
   about: (fate: SlotFate): string => about[fate],
   holds,
+  /** In a few words; `name` as for `holds`. */
+  inBar: (fate: SlotFate, name: string): string =>
+    ({
+      arriving: 'Being downloaded',
+      broken: 'Broken',
+      same: 'Holds this group',
+      older: 'Holds an older copy',
+      other: name === '' ? 'Holds another group' : `Holds “${name}”`,
+      empty: 'Empty',
+      unknown: 'Unknown',
+    })[fate],
   badge: {
     arriving: 'Arriving',
     broken: 'Broken',
@@ -72,6 +83,13 @@ export const slotWords = {
     trigger.kind === 'pad'
       ? (SIGNS[trigger.button] ?? buttons[trigger.button])
       : { select: 'SELECT', key: 'key', chain: 'chain' }[trigger.kind],
+  /** In a few words. */
+  triggerInBar: (trigger: SlotTrigger): string =>
+    trigger.kind === 'pad'
+      ? `Pad button ${SIGNS[trigger.button] ?? buttons[trigger.button]}`
+      : trigger.kind === 'chain'
+        ? `Follows slot ${formatWhole(trigger.after)}`
+        : { select: 'Pad button with SELECT', key: 'Key on the board' }[trigger.kind],
   stored: (name: string, when: string, count: number, durationMs: number, version: string): string =>
     `${name === '' ? 'Without a name' : name}, ${frameCount(count)}, ${formatSeconds(durationMs)}, downloaded ${when}, version ${version}`,
   /** `size`: null where nobody knows. */
@@ -92,6 +110,25 @@ export const slotWords = {
       .filter((part) => part !== null)
       .join(', '),
   notInLibrary: 'The library does not hold this version: it can be neither compared nor restored from here.',
+  replaceTitle: (slots: readonly number[]): string =>
+    slots.length === 1
+      ? `${slotName(slots[0] ?? 0)} holds another group`
+      : `${counted(slots.length, 'slot')} hold other groups`,
+  /** `isInLibrary`: what is there can be downloaded again; `trigger`: what plays it. */
+  replaceText: (slot: number, held: string, name: string, isInLibrary: boolean, trigger: string): string =>
+    [
+      `“${name}” takes the place of ${held === '' ? 'the group' : `“${held}”`} in slot ${formatWhole(slot)} of the board.`,
+      isInLibrary
+        ? `${held === '' ? 'That group' : `“${held}”`} stays in the library.`
+        : `${held === '' ? 'That group' : `“${held}”`} is not in the library and is lost.`,
+      ...(trigger === '' ? [] : [`${trigger}.`]),
+    ].join(' '),
+  replaceLeave: 'Leave it as it is',
+  replaceFree: (slots: readonly number[]): string =>
+    slots.length === 1
+      ? `Use slot ${formatWhole(slots[0] ?? 0)} (free)`
+      : `Use slots ${formatNames(slots.map((slot) => formatWhole(slot)))} (free)`,
+  replace: 'Replace',
   run: 'Run',
   compare: 'Compare',
   same: 'The copy on the board and the group on this page are the same.',
@@ -102,8 +139,8 @@ export const slotWords = {
     `${name}: ${onBoard === null ? 'not moved' : formatWhole(onBoard)} on the board, ${here === null ? 'not moved' : formatWhole(here)} here`,
   willGo: (groups: readonly { readonly slot: number; readonly name: string }[]): string =>
     `Can be restored afterwards: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}.`,
-  ofOthersWillGo: (groups: readonly { readonly slot: number; readonly name: string }[]): string =>
-    `Downloaded by others in a version that the library does not hold, and not restored: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()))}.`,
+  notRestored: (groups: readonly { readonly slot: number; readonly name: string }[]): string =>
+    `Cannot be restored, because the library does not hold the version that was downloaded: ${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()))}.`,
   restoreAll: (count: number): string => `Restore all ${formatCount(count)}`,
   restoreHint: 'Downloads again what the last erase took',
   job: (done: number, count: number): string => `${formatCount(done)} of ${counted(count, 'group')}`,

@@ -1,7 +1,8 @@
 // Words about STOP and Resume: what became of a stop, whose it was, and who may allow motion again.
 
 import type { Lease } from '#shared/session/lease.ts';
-import { formatList } from './numbers.ts';
+import type { Unheld } from '#shared/motion/haltPlan.ts';
+import { formatList, formatSecondsUp } from './numbers.ts';
 import { named } from './lease.ts';
 
 const STOPPED_AT: Readonly<Record<string, string>> = {
@@ -27,11 +28,13 @@ export const stopWords = {
   },
   stoppedBy: (by: string | null): string =>
     by === null ? 'Stopped on another screen' : (STOPPED_AT[by] ?? `Stopped by ${by}`),
-  unheld: (servos: readonly number[]): string =>
-    servos.length === 1
-      ? `Servo ${formatList(servos)} ends its slow first move: nobody knows where to hold it`
-      : `Servos ${formatList(servos)} end their slow first moves: nobody knows where to hold them`,
-  unheldGroup: 'The frame that had begun goes on to its end: only the board knows this group',
+  unheld: ({ servos, forMs }: Unheld): string => {
+    const who =
+      servos === null ? 'The robot' : `${servos.length === 1 ? 'Servo' : 'Servos'} ${formatList(servos)}`;
+    return Number.isFinite(forMs)
+      ? `${who} may move on for up to ${formatSecondsUp(forMs)}`
+      : `${who} may move on. Switch it off if it does`;
+  },
   outcome: {
     sending: 'Stopping',
     sent: 'Stop sent; this board does not confirm',

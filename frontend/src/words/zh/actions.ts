@@ -14,11 +14,12 @@ export const actionWords: typeof english = {
   empty: '还没有帧',
   emptyHint: '用滑块摆好机器人，然后记录一帧。两三帧就能组成一个动作。',
   capture: '记录一帧',
-  captureHint: '把目标姿态加到所选帧的后面',
+  captureHint: '把目标姿态或回读姿态加到所选帧的后面',
   captureHere: '记录',
-  captureEndHint: '把目标姿态加到动作组的末尾',
+  captureEndHint: '把目标姿态或回读姿态加到动作组的末尾',
   captured: (number) => `已记录第${formatWhole(number)}帧。`,
   nothingKnown: '请先移动一个舵机。',
+  nothingKnownOrRead: '请先移动一个舵机，或读取位置。',
   frame: (number) => `第${formatWhole(number)}帧`,
   frameAbout: (number, durationMs, changed) => {
     const moved = changed.length === 0 ? '没有舵机移动' : `移动${formatList(changed)}号舵机`;
@@ -57,12 +58,18 @@ export const actionWords: typeof english = {
     paste: (count) => `粘贴${formatCount(count)}帧`,
     time: (number) => `第${formatWhole(number)}帧的时间`,
     rename: '重命名动作组',
+    convert: '换算给当前控制板',
   },
   moved: (from, to) =>
     to.length === 1
       ? `第${formatWhole(from[0] ?? 0)}帧现在是第${formatWhole(to[0] ?? 0)}帧`
       : `${formatCount(to.length)}帧现在是第${formatWhole(to[0] ?? 0)}至${formatWhole(to.at(-1) ?? 0)}帧`,
-  otherUnit: (unit) => `这个动作组的单位是${unitSymbol(unit)}，与当前控制板不同。`,
+  otherUnit: (unit) => `为别的控制板制作，单位是${unitSymbol(unit)}。`,
+  otherBoard: '为别的控制板制作。要换算吗？',
+  convert: '换算',
+  convertHint: (to) =>
+    to === 'steps' ? '换算成步数：（微秒 − 500）÷ 2，取整。可以撤销' : '换算成微秒：步数 × 2 + 500。可以撤销',
+  notConverted: '没有换算：小于500微秒的位置没有对应的步数。',
   broken: '已保存的动作组无法读取。它已完好地另存，并新建了一个动作组。',
   notSaved: '浏览器不能保存动作组；关闭页面前它一直在。',
 };

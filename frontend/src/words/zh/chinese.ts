@@ -20,6 +20,7 @@ import { formatAge, formatCount, formatRoughly, formatWhole, numbers } from './n
 import { packetWords, timesWords } from './packets.ts';
 import { padWords } from './pad.ts';
 import { playWords } from './play.ts';
+import { teachWords } from './teach.ts';
 import { poseWords } from './poses.ts';
 import { rangeText } from './refusals.ts';
 import { robotEditorWords } from './robotEditor.ts';
@@ -93,6 +94,7 @@ export const chinese: Words = {
   pad: padWords,
   compile: compileWords,
   play: playWords,
+  teach: teachWords,
   slots: slotWords,
   lease: leaseWords,
   examples: exampleWords,

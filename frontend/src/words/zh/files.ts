@@ -111,12 +111,22 @@ const UNITS: Readonly<Record<PositionUnit, string>> = {
 
 export const fileWords: typeof english = {
   title: '文件',
-  button: (waiting) => (waiting === 0 ? '文件' : `文件，已打开${formatWhole(waiting)}个`),
+  button: (opened, refused) =>
+    [
+      '文件',
+      ...(opened === 0 ? [] : [`已打开${formatWhole(opened)}个`]),
+      ...(refused === 0 ? [] : [`${formatWhole(refused)}个没有打开`]),
+    ].join('，'),
   open: '打开',
   choose: '选择文件',
   hint: 'XML、.rob、.d6a、CSV 和 Servodeck 自己的文件。也可以拖到这里。',
   list: '已打开的文件',
-  reading: '正在读取',
+  reading: '正在读取文件',
+  readSoFar: (done, total) => `已读取${formatWhole(done)}个，共${formatWhole(total)}个文件`,
+  unread: (count) => `已取消，有${formatWhole(count)}个文件没有读取。`,
+  taking: '正在放入动作库',
+  takenSoFar: (done, total) => `已放入${formatWhole(done)}个，共${formatWhole(total)}个动作组`,
+  cancel: '取消',
   refused: (file) => `没有打开 ${file}。`,
   about: (frames, durationMs, servos) =>
     `${formatWhole(frames)}帧，${formatSeconds(durationMs)}，${formatWhole(servos)}个舵机`,
@@ -139,7 +149,8 @@ export const fileWords: typeof english = {
     const fit = outside === 0 ? '全部合适' : `${formatWhole(outside)}个不合适`;
     return `${range}。这里是${span(positions)}，${fit}。`;
   },
-  convert: '换算成步数：（微秒 − 500）÷ 2，取整',
+  forBoard: (board) => `为${board}编写。没有连接控制板时，以机器人设置里的为准。`,
+  convert: (to) => (to === 'steps' ? '换算成步数：（微秒 − 500）÷ 2，取整' : '换算成微秒：步数 × 2 + 500'),
 
   problem: (problem) => placed(problem, PROBLEMS[problem.code](problem.found)),
   remark: (remark) => placed(remark, REMARKS[remark.code](remark.found)),

@@ -23,6 +23,7 @@ export const {
   formatPosition,
   formatRoughly,
   formatSeconds,
+  formatSecondsUp,
   formatTick,
   formatTimeOfDay,
   formatVolts,

@@ -2,7 +2,7 @@
 
 import type { peopleWords as english } from '../en/people.ts';
 import type { PeopleErrorCode } from '../people.ts';
-import { formatCount, formatWhen } from './numbers.ts';
+import { formatCount, formatWhen, formatWhole } from './numbers.ts';
 
 const PROBLEMS: Readonly<Record<PeopleErrorCode, string>> = {
   unreachable: '网关没有应答。这台设备还在机器人的网络里吗？',
@@ -86,6 +86,9 @@ export const peopleWords: typeof english = {
   revoke: '撤销',
   revokeOf: (name) => `撤销${name}？`,
   revokeText: '它会立刻退出，再来需要新的邀请。',
+  revokeTextOfRun: (slot) => `它会立刻退出，再来需要新的邀请。它离开后，槽位${formatWhole(slot)}仍在运行。`,
+  revokeAndStop: '撤销并停止',
+  revokeGroupGoesOn: '撤销，让它继续',
   keep: '保留',
 
   more: {

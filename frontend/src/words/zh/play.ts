@@ -19,12 +19,10 @@ export const playWords: typeof english = {
     isOlder
       ? `槽位${formatWhole(slot)}里是旧版本：先下载这个动作组，再运行`
       : `先下载到槽位${formatWhole(slot)}，再运行`,
-  replaceTitle: (slot) => `槽位${formatWhole(slot)}里是另一个动作组`,
-  replaceText: (slot, held, name) =>
-    `“${name}”会替换控制板槽位${formatWhole(slot)}里的${held === '' ? '内容' : `“${held}”`}。想两个都保留，请在下面选择别的槽位。`,
-  replaceKeep: '保持原样',
-  replace: '替换并运行',
   silent: (names) => `不从页面发送：${formatNames(names)}。控制板会播放每一行。`,
+  late: (frames, ms) =>
+    `播放时本页面繁忙：${formatWhole(frames)}帧开始得晚了，最多晚${formatWhole(ms)}毫秒。没有漏帧。`,
+  skipped: (frames) => `漏发了${formatWhole(frames)}帧：连接繁忙。`,
   back: '后退一帧',
   forth: '前进一帧',
   loop: '循环',
@@ -33,6 +31,7 @@ export const playWords: typeof english = {
   percent: '%',
   phase: {
     leading: '正缓慢走向第一个姿态',
+    returning: '循环的终点离起点较远：正缓慢返回',
     playing: (share) => `正在播放，速度${formatPercent(share)}`,
     storing: '先把这个动作组下载到控制板',
     running: '控制板正在播放',

@@ -23,7 +23,7 @@ export const poseWords: typeof english = {
 
   capture: '记录姿态',
   captured: (name) => `已记录${name}。`,
-  captureHint: '把目标姿态起名保存',
+  captureHint: '把目标姿态或回读姿态起名保存',
   newName: (number) => `姿态${formatWhole(number)}`,
   copyOf: (name) => `${name}（副本）`,
   name: (name) => `${name}的名字`,

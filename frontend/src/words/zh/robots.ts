@@ -21,6 +21,12 @@ const READY: Readonly<Record<ReadyRobotId, string>> = {
   plain32: '普通，32个舵机',
 };
 
+const NAMES: Readonly<Record<ReadyRobotId, string>> = {
+  ...{ arm: '机械臂', hand: '机械手', hexapod18: '六足机器人' },
+  ...{ humanoid16: '人形机器人', humanoid18: '人形机器人' },
+  ...{ plain6: '普通', plain16: '普通', plain24: '普通', plain32: '普通' },
+};
+
 const ROLE_NAMES: Readonly<Record<Role, string>> = {
   gripper: '夹爪',
   wristRoll: '腕部旋转',
@@ -62,7 +68,7 @@ const LIMB_NAMES: Readonly<Record<Limb, string>> = {
 
 function robotNames(id: ReadyRobotId): RobotNames {
   return {
-    robot: READY[id],
+    robot: NAMES[id],
     role: (role, servo) => (role === 'servo' ? `${formatWhole(servo)}号舵机` : ROLE_NAMES[role]),
     limb: (limb) => LIMB_NAMES[limb],
   };

@@ -12,6 +12,7 @@ export const servoPanelWords: typeof english = {
   someUnknown: (servos) => `${servosText(servos)}：位置未知，第一次移动可能很慢。`,
   estimated: (position) => `≈ ${position}`,
   commanded: (position) => `${position}，目标`,
+  reported: (position) => `${position}，回读`,
   positionsIn: '位置单位',
   degrees: '°',
   about: (name, joint, marks) => [name, ...(joint === name ? [] : [joint]), ...marks].join('，'),

@@ -46,6 +46,16 @@ export const slotWords: typeof english = {
     name === undefined ? `${slotName(slot)}：${about[fate]}` : `${slotName(slot)}：${name}。${about[fate]}`,
   about: (fate) => about[fate],
   holds,
+  inBar: (fate, name) =>
+    ({
+      arriving: '正在下载',
+      broken: '已损坏',
+      same: '存有这个动作组',
+      older: '存有旧版本',
+      other: name === '' ? '存有另一个动作组' : `存有“${name}”`,
+      empty: '空',
+      unknown: '未知',
+    })[fate],
   badge: {
     arriving: '下载中',
     broken: '已损坏',
@@ -67,6 +77,12 @@ export const slotWords: typeof english = {
     trigger.kind === 'pad'
       ? buttons[trigger.button]
       : { select: 'SELECT', key: '按键', chain: '接续' }[trigger.kind],
+  triggerInBar: (trigger) =>
+    trigger.kind === 'pad'
+      ? `手柄按键：${buttons[trigger.button]}`
+      : trigger.kind === 'chain'
+        ? `接在槽位${formatWhole(trigger.after)}之后`
+        : { select: '手柄 SELECT 加一个键', key: '控制板上的按键' }[trigger.kind],
   stored: (name, when, count, durationMs, version) =>
     `${name === '' ? '无名称' : name}，${frameCount(count)}，${formatSeconds(durationMs)}，下载于${when}，版本${version}`,
   storedByOthers: (name, by, when, version, size) =>
@@ -74,6 +90,24 @@ export const slotWords: typeof english = {
       .filter((part) => part !== null)
       .join('，'),
   notInLibrary: '库里没有这个版本：不能从这里比较，也不能从这里恢复。',
+  replaceTitle: (slots) =>
+    slots.length === 1
+      ? `${slotName(slots[0] ?? 0)}里是另一个动作组`
+      : `${formatCount(slots.length)}个槽位里是别的动作组`,
+  replaceText: (slot, held, name, isInLibrary, trigger) =>
+    [
+      `“${name}”会替换控制板槽位${formatWhole(slot)}里的${held === '' ? '动作组' : `“${held}”`}。`,
+      isInLibrary
+        ? `${held === '' ? '那个动作组' : `“${held}”`}仍在库里。`
+        : `${held === '' ? '那个动作组' : `“${held}”`}不在库里，会丢失。`,
+      ...(trigger === '' ? [] : [`${trigger}。`]),
+    ].join(''),
+  replaceLeave: '保持原样',
+  replaceFree: (slots) =>
+    slots.length === 1
+      ? `用槽位${formatWhole(slots[0] ?? 0)}（空闲）`
+      : `用槽位${formatNames(slots.map((slot) => formatWhole(slot)))}（空闲）`,
+  replace: '替换',
   run: '运行',
   compare: '比较',
   same: '控制板上的副本与这个页面上的动作组相同。',
@@ -83,8 +117,8 @@ export const slotWords: typeof english = {
   differs: (name, onBoard, here) => `${name}：控制板上${place(onBoard)}，这里${place(here)}`,
   willGo: (groups) =>
     `之后可以恢复：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`))}。`,
-  ofOthersWillGo: (groups) =>
-    `由别人下载、库里没有该版本、不能恢复的内容：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()))}。`,
+  notRestored: (groups) =>
+    `不能恢复，因为库里没有下载的那个版本：${formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()))}。`,
   restoreAll: (count) => `全部恢复（${formatCount(count)}）`,
   restoreHint: '重新下载上次擦除的内容',
   job: (done, count) => `${formatCount(done)}/${formatCount(count)}个动作组`,

@@ -1,7 +1,7 @@
 // Words about STOP and Resume, in Chinese.
 
 import type { Words } from '../en/english.ts';
-import { formatList } from './numbers.ts';
+import { formatList, formatSecondsUp } from './numbers.ts';
 import { named } from './lease.ts';
 
 const STOPPED_AT: Readonly<Record<string, string>> = {
@@ -24,8 +24,8 @@ export const stopWords: Words['stop'] = {
     reconnected: '连接恢复了；请先看看机器人',
   },
   stoppedBy: (by) => (by === null ? '在另一个屏幕上停止' : (STOPPED_AT[by] ?? `由${by}停止`)),
-  unheld: (servos) => `${formatList(servos)}号舵机会走完缓慢的第一次移动：不知道该让它停在哪里`,
-  unheldGroup: '已开始的一帧会走完：只有控制板知道这个动作组',
+  unheld: ({ servos, forMs }) =>
+    `${servos === null ? '机器人' : `${formatList(servos)}号舵机`}可能还会动${Number.isFinite(forMs) ? `，最长${formatSecondsUp(forMs)}` : '；如果在动，请关掉它的电源'}`,
   outcome: {
     sending: '正在停止',
     sent: '停止已发出；这种控制板不会确认',

@@ -4,7 +4,7 @@ import { emptyGroup, type ActionGroup } from '../group/group.ts';
 import { insertFrame } from '../group/groupEdits.ts';
 import { readyRobot } from '../robot/readyRobots.ts';
 import { misfitsOf } from './fit.ts';
-import { inUnit, meaningIn, onlyFittingUnit, toSteps } from './units.ts';
+import { inUnit, meaningIn, onlyFittingUnit } from './units.ts';
 
 const family = FAMILIES['openarm-new'];
 const ready = readyRobot('arm', 'openarm-new', {
@@ -91,16 +91,5 @@ describe('units', () => {
   test('naming the unit changes no number', () => {
     expect(inUnit(group, 'steps')).toEqual({ ...group, unit: 'steps' });
     expect(inUnit(group, 'us')).toBe(group);
-  });
-
-  test('pulse widths become steps only where each is one', () => {
-    const steps = toSteps(groupOf({ 1: 500, 2: 1501 }, { 1: 2500 }));
-    expect(steps?.unit).toBe('steps');
-    expect(steps?.frames.map(({ targets }) => targets.map(({ position }) => position))).toEqual([
-      [0, 501],
-      [1000],
-    ]);
-    expect(toSteps(group)).toBeNull();
-    expect(toSteps({ ...groupOf({ 1: 500 }), unit: 'steps' })).toBeNull();
   });
 });

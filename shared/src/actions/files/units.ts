@@ -1,8 +1,7 @@
-// What a group's numbers would mean in either unit, and the one conversion that people use between them. Knows no board:
-// pulse widths and steps are what they are on all of them (boards.md section 2.1).
+// What a group's numbers would mean in either unit, and which of them is left. Knows no board: pulse widths and steps are what they are on all of them (boards.md section 2.1).
 
 import type { Range } from '../../protocol/families.ts';
-import { sortedTargets, type ActionGroup } from '../group/group.ts';
+import type { ActionGroup } from '../group/group.ts';
 import type { Unit } from './reading.ts';
 
 export const UNIT_RANGE: Readonly<Record<Unit, Range>> = {
@@ -37,15 +36,3 @@ export function onlyFittingUnit(group: ActionGroup): Unit | null {
 
 export const inUnit = (group: ActionGroup, unit: Unit): ActionGroup =>
   group.unit === unit ? group : { ...group, unit };
-
-/** As others rescale it: (p − 500) / 2, to the nearest step. null where a position is no pulse width. */
-export function toSteps(group: ActionGroup): ActionGroup | null {
-  if (group.unit !== 'us' || meaningIn('us', group).outside > 0) return null;
-  const frames = group.frames.map((frame) => ({
-    ...frame,
-    targets: sortedTargets(
-      frame.targets.map(({ servo, position }) => ({ servo, position: Math.round((position - 500) / 2) })),
-    ),
-  }));
-  return { ...group, unit: 'steps', frames };
-}

@@ -10,6 +10,7 @@ import { setMeta } from './groupEdits.ts';
 import { sampled, someGroup, someRange, someRefs, withGroup } from './groupsUnderTest.ts';
 import { deleteKeys, moveKeys, scaleAmplitude, setKey, setPositions } from './keyEdits.ts';
 import { addMarker, deleteMarker, moveMarker, renameMarker } from './markerEdits.ts';
+import { reverseKeys } from './reverseKeys.ts';
 import {
   deleteTime,
   insertTime,
@@ -46,6 +47,7 @@ const KEY_EDITS: Readonly<Record<string, Edit>> = {
   setKey: (group, { servo, fromMs, delta }) => setKey(group, servo, fromMs, delta),
   moveKeys: (group, { refs, delta, factor }) =>
     moveKeys(group, refs, { deltaMs: delta, deltaPosition: factor * delta }, STAY),
+  reverseKeys: (group, { refs }) => reverseKeys(group, refs),
   setPositions: (group, { refs, delta }) =>
     setPositions(
       group,

@@ -63,12 +63,15 @@ export function boundedMove(
   { deltaMs, deltaPosition }: KeyMove,
 ): KeyMove {
   if (keys.length === 0) return { deltaMs: 0, deltaPosition: 0 };
-  const least = (some: readonly number[]): number => some.reduce((one, other) => Math.min(one, other));
-  const positions = keys.map(({ position }) => position);
-  const room = LARGEST_POSITION + least(positions.map((position) => -position));
+  let [firstMs, lowest, highest] = [Infinity, Infinity, -Infinity];
+  for (const { atMs, position } of keys) {
+    if (atMs < firstMs) firstMs = atMs;
+    if (position < lowest) lowest = position;
+    if (position > highest) highest = position;
+  }
   return {
-    deltaMs: Math.max(-least(keys.map(({ atMs }) => atMs)), Math.round(deltaMs)),
-    deltaPosition: Math.min(room, Math.max(-least(positions), Math.round(deltaPosition))),
+    deltaMs: Math.max(-firstMs, Math.round(deltaMs)),
+    deltaPosition: Math.min(LARGEST_POSITION - highest, Math.max(-lowest, Math.round(deltaPosition))),
   };
 }
 

@@ -3,6 +3,7 @@
 import type { ServoTarget } from '../../protocol/commands.ts';
 import type { ActionGroup, GroupFrame } from './group.ts';
 import { momentsOf, withTargets, type Moment } from './moments.ts';
+import type { TimeRange } from './timeEdits.ts';
 import type { KeyRef } from './tracks.ts';
 
 export interface LiftedKeys {
@@ -36,6 +37,11 @@ export function lifted(group: ActionGroup, refs: readonly KeyRef[]): Lifted {
     return withTargets(moment, left);
   });
   return { kept, keys, vacated };
+}
+
+/** Whether keys are left in the range, its ends included. */
+export function hasOthers(kept: Lifted['kept'], { fromMs, toMs }: TimeRange): boolean {
+  return kept.some(({ atMs, frame }) => atMs >= fromMs && atMs <= toMs && frame.targets.length > 0);
 }
 
 export function servosByFrame(refs: readonly KeyRef[]): ReadonlyMap<number, ReadonlySet<number>> {

@@ -62,7 +62,8 @@ export function withMoments(
 }
 
 function sameFrame(before: GroupFrame | undefined, after: GroupFrame): GroupFrame {
-  if (before === undefined || !samePose(before.targets, after.targets)) return after;
+  if (before === undefined) return after;
+  if (before.targets !== after.targets && !samePose(before.targets, after.targets)) return after;
   return changed(before, { ...after, targets: before.targets });
 }
 

@@ -11,6 +11,7 @@ const WHOLE: PassageOptions = {
   speedPercent: 100,
   longestMs: 30_000,
   strangers: [],
+  seam: { largestStep: 50, unitsPerMs: 2 },
 };
 
 const at = (durationMs: number, ...positions: readonly number[]) => ({
@@ -22,7 +23,10 @@ const FRAMES = [at(200, 1000, 1500), at(400, 2000, 1500), at(600, 1400, 1800)];
 
 describe('a passage', () => {
   test('of the whole group is the group', () => {
-    expect(passageOf(FRAMES, WHOLE)).toEqual({ frames: FRAMES, atMs: [200, 600, 1200], beginMs: 0 });
+    expect(passageOf(FRAMES, WHOLE)).toEqual({
+      ...{ frames: FRAMES, loopFrom: 0, returns: false },
+      ...{ atMs: [200, 600, 1200], beginMs: 0 },
+    });
   });
 
   test('from within leads to the pose there, then goes on', () => {
@@ -39,8 +43,23 @@ describe('a passage', () => {
 
   test('that ends where it begins is repeated without a way back', () => {
     const circle = [at(200, 1000), at(400, 2000), at(400, 1000)];
-    expect(passageOf(circle, { ...WHOLE, fromMs: 400, toMs: 800 }).frames[0]).toEqual(at(0, 1500));
-    expect(passageOf(circle, { ...WHOLE, fromMs: 400 }).frames[0]).toEqual(at(1500, 1500));
+    const way = ({ loopFrom, returns }: ReturnType<typeof passageOf>) => [loopFrom, returns];
+    expect(way(passageOf(circle, { ...WHOLE, fromMs: 400, toMs: 800 }))).toEqual([1, false]);
+    expect(way(passageOf(circle, { ...WHOLE, fromMs: 400 }))).toEqual([0, true]);
+    // 40 units further on, and within the soft limit there.
+    expect(way(passageOf(circle, { ...WHOLE, fromMs: 416, toMs: 800 }))).toEqual([1, false]);
+    expect(
+      way(
+        passageOf(circle, { ...WHOLE, fromMs: 416, toMs: 800, seam: { largestStep: 50, unitsPerMs: 0.1 } }),
+      ),
+    ).toEqual([0, true]);
+  });
+
+  test('names where its loop begins what would stay at its end', () => {
+    const group = [at(200, 1000, 1500), at(400, 2000), at(400, 1000, 1540)];
+    const { frames, loopFrom } = passageOf(group, { ...WHOLE, fromMs: 300, toMs: 900 });
+    expect(loopFrom).toBe(1);
+    expect(frames[1]).toEqual(at(300, 2000, 1500));
   });
 
   test('from behind its end is the whole of it', () => {
@@ -48,7 +67,7 @@ describe('a passage', () => {
   });
 
   test('of nothing is nothing', () => {
-    expect(passageOf([], WHOLE)).toEqual({ frames: [], atMs: [], beginMs: 0 });
+    expect(passageOf([], WHOLE)).toEqual({ frames: [], loopFrom: 0, returns: false, atMs: [], beginMs: 0 });
   });
 
   test('takes frames that are too long when slowed down in parts', () => {

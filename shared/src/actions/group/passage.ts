@@ -16,18 +16,29 @@ export interface PassageOptions {
    * the others later.
    */
   readonly strangers: readonly number[];
+  /** How much further than written servos may go where a part that is repeated begins again at once. */
+  readonly seam: {
+    /** A larger step from its end to its beginning is a gentle way back. */
+    readonly largestStep: number;
+    /** The soft limit. */
+    readonly unitsPerMs: number;
+  };
 }
 
 export interface Passage {
-  /** The first one leads to where the passage begins; when it is repeated, back there. Empty where there is nothing to play. */
+  /** The first one leads to where the passage begins. Empty where there is nothing to play. */
   readonly frames: readonly Frame[];
+  /** Repeated, it goes on with this one behind its last: 0 leads back. */
+  readonly loopFrom: 0 | 1;
+  /** The way back is gentle: the robot ends elsewhere than it begins. */
+  readonly returns: boolean;
   /** Where in the group one is when each of them is done. */
   readonly atMs: readonly number[];
   /** Where one is when the first of them begins, when it is repeated. */
   readonly beginMs: number;
 }
 
-/** The way back to where a part of a group begins; one from the group's beginning has a first frame that says how long. */
+/** The way to where a part of a group begins; one from the group's beginning has a first frame that says how long. */
 const LEAD_MS = 1500;
 
 interface Step {
@@ -45,7 +56,7 @@ export function passageOf(frames: readonly Frame[], options: PassageOptions): Pa
   const fromMs = options.fromMs < toMs ? Math.max(0, options.fromMs) : 0;
   const first = steps.findIndex(({ endMs }) => endMs > fromMs);
   const step = steps[Math.max(0, first)];
-  if (step === undefined) return { frames: [], atMs: [], beginMs: 0 };
+  if (step === undefined) return { frames: [], loopFrom: 0, returns: false, atMs: [], beginMs: 0 };
   const pace = 100 / options.speedPercent;
   // Before the first frame is done nobody knows where its servos come from.
   const isWhole = first <= 0;
@@ -54,11 +65,15 @@ export function passageOf(frames: readonly Frame[], options: PassageOptions): Pa
   const pose = isWhole ? new Map(step.targets.map(pair)) : poseIn(step, fromMs);
   const parts = rest.flatMap((one) => slowed(one, startMs, pace, options.longestMs));
   const lead = {
-    durationMs: isWhole ? leadMs(step, pace, options) : backMs(pose, rest.at(-1)),
+    durationMs: isWhole ? leadMs(step, pace, options) : LEAD_MS,
     targets: targetsOf(withStrangers(pose, rest, options.strangers)),
   };
+  const [begin, ...others] = parts.map(({ frame }) => frame);
+  const seam = isWhole || begin === undefined ? null : seamless(begin, pose, rest.at(-1), options);
   return {
-    frames: [lead, ...parts.map(({ frame }) => frame)],
+    frames: [lead, ...(begin === undefined ? [] : [seam ?? begin, ...others])],
+    loopFrom: seam === null ? 0 : 1,
+    returns: !isWhole && seam === null,
     atMs: [startMs, ...parts.map(({ endMs }) => endMs)],
     beginMs: isWhole ? 0 : startMs,
   };
@@ -126,9 +141,23 @@ function slowed(step: Step, startMs: number, pace: number, longestMs: number): r
   });
 }
 
-function backMs(pose: ReadonlyMap<number, number>, last: Step | undefined): number {
+/** The frame behind the lead so that it can follow the last one, too; null where the way to it would be too far or too fast. */
+function seamless(
+  begin: Frame,
+  pose: ReadonlyMap<number, number>,
+  last: Step | undefined,
+  { seam }: PassageOptions,
+): Frame | null {
   const end = last === undefined ? pose : poseIn(last, last.endMs);
-  return [...pose].every(([servo, position]) => end.get(servo) === position) ? 0 : LEAD_MS;
+  const targets = new Map([...pose, ...begin.targets.map(pair)]);
+  const named = new Set(begin.targets.map(({ servo }) => servo));
+  for (const [servo, position] of pose) {
+    const from = end.get(servo) ?? position;
+    const step = Math.abs(position - from);
+    if (step > seam.largestStep || step / seam.unitsPerMs > begin.durationMs) return null;
+    if (from === position && !named.has(servo)) targets.delete(servo);
+  }
+  return { ...begin, targets: targetsOf(targets) };
 }
 
 function withStrangers(

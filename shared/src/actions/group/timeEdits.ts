@@ -2,7 +2,7 @@
 // object where nothing changes. Markers go along with what they stand on. Knows no key's position.
 
 import { BACKWARDS } from './easings.ts';
-import type { ActionGroup, Marker } from './group.ts';
+import type { ActionGroup, GroupFrame, Marker } from './group.ts';
 import { indexOfFrame } from './groupEdits.ts';
 import { momentsOf, wholeMs, withMoments, type Moment } from './moments.ts';
 
@@ -130,21 +130,22 @@ export function reverse(group: ActionGroup, { fromMs, toMs }: TimeRange): Action
   const turned = (atMs: number): number => (isWithin(atMs) ? fromMs + toMs - atMs : atMs);
   const moments = momentsOf(group);
   const within = moments.filter(({ atMs }) => isWithin(atMs));
-  const easings = within.map(({ frame }) => frame.easing);
-  const ways = [
-    easings[0],
-    ...easings
-      .slice(1)
-      .toReversed()
-      .map((easing) => BACKWARDS[easing]),
-  ];
-  const backwards = within.toReversed().map(({ atMs, frame }, index) => {
-    const easing = ways[index] ?? frame.easing;
-    return { atMs: turned(atMs), frame: { ...frame, easing } };
-  });
+  const frames = backwards(within.map(({ frame }) => frame));
+  const reversed = within
+    .toReversed()
+    .map(({ atMs, frame }, index) => ({ atMs: turned(atMs), frame: frames[index] ?? frame }));
   const first = moments.findIndex(({ atMs }) => isWithin(atMs));
-  const all = within.length < 2 ? moments : moments.toSpliced(first, within.length, ...backwards);
+  const all = within.length < 2 ? moments : moments.toSpliced(first, within.length, ...reversed);
   return withMoments(group, all, { markers: markersAt(group.markers, turned) });
+}
+
+/** Frames in the opposite order, each with the easing of the way that is then gone to it; the very same where that is the one it has. */
+export function backwards(frames: readonly GroupFrame[]): readonly GroupFrame[] {
+  return frames.toReversed().map((frame, index) => {
+    const behind = frames[frames.length - index];
+    const easing = behind === undefined ? (frames[0] ?? frame).easing : BACKWARDS[behind.easing];
+    return easing === frame.easing ? frame : { ...frame, easing };
+  });
 }
 
 /** Every moment and marker that stays, at its new time. */
@@ -160,6 +161,13 @@ function retimed(
 }
 
 const later = (moment: Moment, byMs: number): Moment => ({ ...moment, atMs: moment.atMs + byMs });
+
+/** Those behind an instant come so much later. */
+export const shiftMarkersBehind = (
+  markers: readonly Marker[],
+  instantMs: number,
+  byMs: number,
+): readonly Marker[] => markersAt(markers, (atMs) => (atMs > instantMs ? atMs + byMs : atMs));
 
 function markersAt(markers: readonly Marker[], at: (atMs: number) => number): readonly Marker[] {
   return markers.map((marker) => {

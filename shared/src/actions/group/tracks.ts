@@ -188,11 +188,21 @@ export function poseAtMs(
   return pose;
 }
 
-/** The keys of these servos at these times, by name; what is not there is left out. */
+/**
+ * The keys of these servos at these times, by name; what is not there is left out. Mostly they are wanted in the order of time:
+ * then the next one stands right behind the one found last.
+ */
 export function keysAt(tracks: Tracks, wanted: readonly Pick<Key, 'servo' | 'atMs'>[]): readonly KeyRef[] {
-  return wanted.flatMap(({ servo, atMs }) => {
+  const found: KeyRef[] = [];
+  const ahead = new Map<number, number>();
+  for (const { servo, atMs } of wanted) {
     const keys = tracks.get(servo)?.keys ?? [];
-    const key = keys[keysUntil(keys, atMs) - 1];
-    return key?.atMs === atMs ? [{ frameId: key.frameId, servo }] : [];
-  });
+    const next = ahead.get(servo) ?? 0;
+    const isNext = keys[next]?.atMs === atMs && keys[next + 1]?.atMs !== atMs;
+    const place = isNext ? next : keysUntil(keys, atMs) - 1;
+    const key = keys[place];
+    if (key?.atMs === atMs) found.push({ frameId: key.frameId, servo });
+    ahead.set(servo, place + 1);
+  }
+  return found;
 }

@@ -152,6 +152,23 @@ function othersIn(
   return stored && { fingerprint: stored.version, documentId: stored.documentId };
 }
 
+/** What an erase takes and nothing here can bring back. Where a download broke off, what was there is gone already. */
+export function notRestored(
+  book: Pick<SlotBook, 'stored'>,
+  {
+    versions,
+    broken,
+  }: {
+    readonly versions: Readonly<Partial<Record<number, { readonly name: string }>>>;
+    readonly broken: readonly number[];
+  },
+): readonly Pick<SlotRecord, 'slot' | 'name'>[] {
+  const restored = new Set([...broken, ...book.stored.map(({ slot }) => slot)]);
+  return Object.entries(versions)
+    .map(([slot, stored]) => ({ slot: Number(slot), name: stored?.name ?? '' }))
+    .filter(({ slot }) => !restored.has(slot));
+}
+
 export function slotBookToText({ stored, erased, isEmptied, begun }: SlotBook): string {
   const packed = ({ documentId, ...record }: SlotRecord) => ({
     ...record,

@@ -6,6 +6,7 @@ import { fingerprintOf } from './fingerprint.ts';
 import {
   EMPTY_SLOT_BOOK,
   fateOf,
+  notRestored,
   recordOf,
   slotBookFromText,
   slotBookToText,
@@ -142,6 +143,13 @@ describe('the book of slots', () => {
     for (const text of ['', '{}', '{"format":"servodeck-slots","version":1,"content":{"stored":[7]}}'])
       expect(slotBookFromText(text)).toHaveProperty('problem');
   });
+});
+
+test('an erase takes what others stored; what a download broke is gone already, whoever began it', () => {
+  const stored = (name: string) => ({ name, version: 'a', documentId: null });
+  const book = withStored(EMPTY_SLOT_BOOK, record(5));
+  const versions = { 5: stored('Wave'), 6: stored('Nod'), 7: stored('Bow') };
+  expect(notRestored(book, { versions, broken: [7] })).toEqual([{ slot: 6, name: 'Nod' }]);
 });
 
 describe('comparing two groups', () => {

@@ -3,9 +3,9 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.board.motion import END_GRACE_S, Motion
+from servodeck.board.estimate import END_GRACE_MS, Estimate
 from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.packets import encode, parse_command
+from servodeck.protocol.packets import encode
 from servodeck.protocol.values import (
     Command,
     Move,
@@ -21,7 +21,7 @@ from servodeck.protocol.values import (
     ServoTarget,
     Stop,
 )
-from tests.samples import RUN, STOP
+from tests.samples import RUN, STOP, stored
 
 DOC = FAMILIES["doc"]
 
@@ -30,13 +30,16 @@ def move(duration_ms: int, **positions: int) -> Command:
     return Move(duration_ms, tuple(ServoTarget(int(name[1:]), at) for name, at in positions.items()))
 
 
-def held(motion: Motion, now: float) -> Command | None:
-    packet = motion.hold(now)
-    return None if packet is None else parse_command(packet)
+# With what the board says first.
+END_GRACE_S = END_GRACE_MS / 1000 + 0.01
 
 
-def told(*packets: tuple[float, Command], family: str = "doc") -> Motion:
-    motion = Motion(FAMILIES[family])
+def held(motion: Estimate, now: float) -> Command | None:
+    return motion.halt_plan(now).hold
+
+
+def told(*packets: tuple[float, Command], family: str = "doc") -> Estimate:
+    motion = Estimate(FAMILIES[family])
     for at_s, command in packets:
         motion.left(encode(command, FAMILIES[family]), at_s)
     return motion
@@ -56,8 +59,9 @@ def test_a_first_move_is_held_only_once_it_has_ended() -> None:
 
 def test_a_new_target_takes_the_others_with_it_where_boards_share_the_time_and_only_there() -> None:
     ways = ((0.0, move(0, s1=1000, s2=1000)), (1.0, move(1000, s1=2000)), (1.5, move(1000, s2=2000)))
-    assert held(told(*ways), 2.0) == move(20, s1=1750, s2=1500)
-    assert held(told(*ways, family="lsc-6"), 2.0) == move(20, s1=2000, s2=1500)
+    anew = (2, 1000, 2000, 500, 1000)
+    assert told_ways(told(*ways), 2.0) == [(1, 1500, 2000, 500, 1000), anew]
+    assert told_ways(told(*ways, family="lsc-6"), 2.0) == [(1, 1000, 2000, 1000, 1000), anew]
 
 
 def test_a_servo_let_go_is_not_held() -> None:
@@ -78,7 +82,7 @@ def test_a_group_is_over_when_the_board_says_so_but_not_by_the_word_about_the_on
 
 def test_what_was_moved_is_known_and_a_first_move_counts_down() -> None:
     motion = told((0.0, move(2000, s1=1000)))
-    assert (motion.is_unknown(1), motion.is_unknown(2)) == (False, True)
+    assert (motion.is_unknown(1, 1.0), motion.is_unknown(2, 1.0)) == (False, True)
     assert motion.first_moves_ms([1], 0.5) == motion.first_moves_ms([2], 0.5) == 1500
     assert motion.first_moves_ms([1], 2.0) == 0
     own_time = told((0.0, move(2000, s1=1000)), family="lsc-6")
@@ -98,7 +102,7 @@ def test_a_group_may_move_anything_until_it_is_stopped() -> None:
     assert held(motion, 8.0) == move(20, s1=1500)
 
 
-def told_ways(motion: Motion, now: float) -> list[tuple[int, float | None, int, float, float]]:
+def told_ways(motion: Estimate, now: float) -> list[tuple[int, float | None, int, float, float]]:
     """As whoever comes now is told of them."""
     return [
         (way.servo, way.start, way.target, way.begun_ms_ago, way.duration_ms)
@@ -124,7 +128,7 @@ def test_while_a_group_may_run_no_place_is_told_but_that_it_may() -> None:
 def test_a_group_begun_at_the_board_makes_every_place_unknown_until_its_end() -> None:
     motion = told((0.0, move(0, s1=1000)), family="lsc-6")
     motion.heard(RunStarted(3, 1), 5.0)
-    assert (motion.is_unknown(1), motion.told(6.0).run_slot) == (True, 3)
+    assert (motion.is_unknown(1, 6.0), motion.told(6.0).run_slot) == (True, 3)
     motion.heard(RunFinished(3), 9.0)
     assert not motion.group_may_run(9.0)
 
@@ -141,15 +145,15 @@ def test_the_word_that_our_own_group_has_begun_starts_it_no_second_time() -> Non
     assert motion.group_may_run(60.0)
 
 
-def test_a_stop_ends_the_moves_of_a_learm_who_knows_where() -> None:
+def test_a_stop_ends_the_moves_of_a_learm() -> None:
     packets = (0.0, move(0, s1=1000, s2=1000)), (1.0, move(1000, s1=1400)), (1.5, Stop())
-    assert [way[0] for way in told_ways(told(*packets, family="learm-esp32"), 5.0)] == [2]
-    assert [way[0] for way in told_ways(told(*packets, family="lsc-6"), 5.0)] == [1, 2]
+    assert [way[2] for way in told_ways(told(*packets, family="learm-esp32"), 5.0)] == [1200, 1000]
+    assert [way[2] for way in told_ways(told(*packets, family="lsc-6"), 5.0)] == [1400, 1000]
 
 
-def running(*runs: tuple[float, Run], stored_ms: int = 500) -> Motion:
-    motion = Motion(DOC)
-    motion.stored(8, [stored_ms] * 4)
+def running(*runs: tuple[float, Run], stored_ms: int = 500) -> Estimate:
+    motion = Estimate(DOC)
+    motion.stored(8, stored(8, *[stored_ms] * 4), 0.0)
     for at_s, run in runs:
         motion.left(encode(run, DOC), at_s)
     return motion
@@ -170,8 +174,8 @@ def test_a_known_group_is_over_after_its_time_unless_it_has_no_end_or_another_on
     assert running((1.0, Run(8, 0))).group_may_run(1000.0)
     assert running((1.0, Run(7, 0)), (2.0, Run(8, 1))).group_may_run(1000.0)
     assert not running((1.0, Run(8, 1)), (9.0, Run(8, 1))).group_may_run(9.0 + 2.0 + END_GRACE_S)
-    once.unstored(8)
-    once.left(encode(Run(8, 1), DOC), 20.0)
+    once.left(stored(8, 500)[0], 20.0)
+    once.left(encode(Run(8, 1), DOC), 23.0)
     assert once.group_may_run(1000.0)
 
 
@@ -203,12 +207,10 @@ def test_a_hold_is_a_move_that_the_board_can_take_and_freezes_what_rests(
     if not pauses:
         assert hold is None
         return
-    rest = motion.hold(at_s + 10.0)
-    assert rest is not None
     last = {target.servo: target.position for _, command in timed for target in command.targets}
-    parsed = parse_command(rest)
-    assert isinstance(parsed, Move)
-    assert {target.servo: target.position for target in parsed.targets} == last
+    rest = held(motion, at_s + 10.0)
+    assert isinstance(rest, Move)
+    assert {target.servo: target.position for target in rest.targets} == last
     if hold is not None:
         assert isinstance(hold, Move)
         assert 20 <= hold.duration_ms <= 3000
@@ -219,14 +221,14 @@ ASK, ANSWER = ReadPositions((1,)), Positions((ServoTarget(1, 400),))
 STAND = (0.0, move(20, s1=400, s2=400))
 
 
-def bus_board(*packets: tuple[float, Command]) -> Motion:
+def bus_board(*packets: tuple[float, Command]) -> Estimate:
     return told(STAND, *packets, family="bus-ctrl")
 
 
 def test_a_move_that_a_bus_board_may_not_have_heard_leaves_its_servos_unknown() -> None:
     motion = bus_board((10.0, ASK), (10.1, move(500, s1=600)))
-    assert motion.is_unknown(1)
-    assert not motion.is_unknown(2)
+    assert motion.is_unknown(1, 11.0)
+    assert not motion.is_unknown(2, 11.0)
     assert held(motion, 11.0) == move(20, s2=400)
     assert motion.is_moving(12.9)
     assert not motion.is_moving(13.1)
@@ -244,7 +246,7 @@ def test_behind_what_it_may_hold_the_next_one_may_be_dropped_for_a_gap() -> None
     motion.heard(ANSWER, 10.4)
     family = FAMILIES["bus-ctrl"]
     motion.left(encode(move(20, s2=700), family), 10.4 + family.service_gap_ms / 2000)
-    assert motion.is_unknown(2)
+    assert motion.is_unknown(2, 11.0)
     motion.left(encode(move(20, s1=700), family), 11.0)
     assert held(motion, 12.0) == move(20, s1=700)
 

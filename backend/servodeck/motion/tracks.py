@@ -1,0 +1,168 @@
+"""Where each servo is on its way: linear, in whole ticks of the board (S25-S27, L5). Knows targets and times;
+no group, no command. The board's ticks fall where nobody can see them, so a servo under way may be one tick
+off, either way. Twin of shared/src/motion/tracks.ts.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import inf
+
+from servodeck.protocol.families import Family
+from servodeck.protocol.values import ServoTarget
+
+# Of every board: S25, L5; of the closed ones nobody knows better.
+LONGEST_MOVE_MS = 30_000
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """One servo's way. `start` is None where nobody knows where it began. `start_leeway` and `to_leeway`: how
+    far off the two ends may be; a servo whose way is changed or halted keeps what was open then. Infinite
+    says that the position is right only if no group that nobody knows has moved the servo: a guess, good
+    enough to hold it there, not to show it.
+    """
+
+    start: float | None
+    to: float
+    start_ms: float
+    duration_ms: float
+    start_leeway: float = 0
+    to_leeway: float = 0
+
+
+Tracks = Mapping[int, Track]
+
+
+def board_duration_ms(duration_ms: float, family: Family) -> float:
+    """The board's own duration: clamped, in whole ticks."""
+    clamped = min(max(duration_ms, family.shortest_move_ms), LONGEST_MOVE_MS)
+    return math.floor(clamped / family.motion.tick_ms) * family.motion.tick_ms
+
+
+def end_ms(track: Track) -> float:
+    return track.start_ms + track.duration_ms
+
+
+def standing_at(at: float) -> Track:
+    """A servo that rests there."""
+    return Track(at, at, -inf, 0)
+
+
+def stands(track: Track, now_ms: float) -> bool:
+    """It has arrived, or was there from the start."""
+    return end_ms(track) <= now_ms or (track.start == track.to and track.start_leeway == 0)
+
+
+def last_end_ms(tracks: Tracks, at_ms: float) -> float:
+    """When the last of them arrives; `at_ms` where all have."""
+    return max([at_ms, *map(end_ms, tracks.values())])
+
+
+def share(track: Track, now_ms: float) -> float:
+    return 1 if now_ms >= end_ms(track) else max(0.0, now_ms - track.start_ms) / track.duration_ms
+
+
+def guess_of(track: Track, now_ms: float) -> float | None:
+    """Exact, not rounded; None where even a guess is impossible."""
+    done = share(track, now_ms)
+    if done == 1:
+        return track.to
+    return None if track.start is None else track.start + (track.to - track.start) * done
+
+
+def position_of(track: Track, now_ms: float) -> float | None:
+    """The same; None while nobody knows."""
+    leeway = track.to_leeway if now_ms >= end_ms(track) else track.start_leeway
+    return None if leeway == inf else guess_of(track, now_ms)
+
+
+def doubted(tracks: Tracks) -> Tracks:
+    """From now on a group that nobody knows may have moved them."""
+    return {servo: replace(track, start_leeway=inf, to_leeway=inf) for servo, track in tracks.items()}
+
+
+def leeway_of(track: Track, now_ms: float, family: Family) -> float:
+    """How far off that may be: its way of one tick, held up by what the board says, and what the ends leave
+    open.
+    """
+    traits, position = family.motion, family.position
+    if now_ms >= end_ms(track) + traits.talk_ms:
+        return track.to_leeway
+    if track.start_leeway == inf:
+        return inf if now_ms < end_ms(track) else position.max - position.min + track.to_leeway
+    way = position.max - position.min if track.start is None else abs(track.to - track.start)
+    tick = min(1.0, (traits.tick_ms + traits.talk_ms) / track.duration_ms) if track.duration_ms else 1.0
+    # What was open at its start the board may have left behind one tick later than we.
+    left = min(1.0, 1 - share(track, now_ms) + tick)
+    return way * tick + track.to_leeway + (track.start_leeway - track.to_leeway) * left
+
+
+def redirected(track: Track | None, to: float, at_ms: float, duration_ms: float, family: Family) -> Track:
+    """Its way from `at_ms` on to `to`."""
+    start = position_of(track, at_ms) if track else None
+    carried = leeway_of(track, at_ms, family) if track and start is not None else 0
+    # Positions are whole numbers to the board, wherever it cuts a way short.
+    return Track(start, to, at_ms, duration_ms, start_leeway=0 if carried == 0 else carried + 1)
+
+
+def guessed(track: Track | None, to: float, at_ms: float, duration_ms: float) -> Track:
+    """Its way goes on as a guess."""
+    start = guess_of(track, at_ms) if track else None
+    return Track(start, to, at_ms, duration_ms, inf, inf)
+
+
+def retarget(
+    tracks: Tracks,
+    targets: Sequence[ServoTarget],
+    requested_ms: float,
+    at_ms: float,
+    family: Family,
+    *,
+    is_sure: bool = True,
+) -> Tracks:
+    """After new targets took effect at `at_ms`; `is_sure` False where a group that nobody knows may overrule
+    them.
+    """
+    if not targets:
+        return tracks
+    duration_ms = board_duration_ms(requested_ms, family)
+
+    def aimed(servo: int, to: float, *, sure: bool) -> Track:
+        track = tracks.get(servo)
+        if sure:
+            return redirected(track, to, at_ms, duration_ms, family)
+        return guessed(track, to, at_ms, duration_ms)
+
+    changed = dict(tracks)
+    if family.motion.timing == "shared":
+        for servo, track in tracks.items():
+            changed[servo] = aimed(servo, track.to, sure=track.to_leeway != inf)
+    for target in targets:
+        changed[target.servo] = aimed(target.servo, target.position, sure=is_sure)
+    return changed
+
+
+def frozen(tracks: Tracks, family: Family, at_ms: float) -> Tracks:
+    """After a stop: those that it halts are where they were."""
+    after = dict(tracks)
+    for servo in family.motion.halted_by_stop:
+        track = tracks.get(servo)
+        if track is None or end_ms(track) <= at_ms:
+            continue
+        to, leeway = position_of(track, at_ms), leeway_of(track, at_ms, family) + 1
+        if to is None:
+            del after[servo]
+        else:
+            after[servo] = Track(to, to, at_ms, 0, leeway, leeway)
+    return after
+
+
+def lengthened(track: Track, until_ms: float) -> Track:
+    """It arrives, but nobody knows from where and when: by then at the latest."""
+    return replace(track, start=None, duration_ms=max(end_ms(track), until_ms) - track.start_ms)
+
+
+def only(tracks: Tracks, keep: Callable[[Track, int], bool]) -> Tracks:
+    """Those of the tracks that `keep` says."""
+    return {servo: track for servo, track in tracks.items() if keep(track, servo)}

@@ -1,0 +1,212 @@
+"""Whoever is revoked, or may not drive any more, moves nothing from the gateway's answer on: what they asked
+for ends before it.
+"""
+
+import asyncio
+from typing import Any
+
+import pytest
+from fastapi import FastAPI
+from httpx2 import Response
+
+from servodeck.access.guard import Guard
+from servodeck.driving.scripts import Scripts
+from servodeck.errors import NotPairedError
+from servodeck.messages import LeaseMessage, StopMessage
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import encode
+from servodeck.protocol.values import Run
+from servodeck.web.clients import take
+from tests.client import Client
+from tests.samples import RUN, STOPS
+from tests.scripted import ANNA, Scripted, move, refusal, script
+from tests.virtual_time import in_virtual_time
+
+REVOKE, DEMOTE = "DELETE", "PATCH"
+RUN_TWICE = encode(Run(8, 2), FAMILIES["doc"])
+
+
+async def send_away(here: Scripted, how: str, **params: Any) -> None:
+    body = {"role": "viewer"} if how == DEMOTE else None
+    path = f"/api/people/{here.token_id}"
+    answer = await here.client.request(how, path, json=body, params=params, headers=here.owner)
+    assert answer.status_code in (200, 204), answer.text
+
+
+def scripts_of(here: Scripted) -> Scripts:
+    app = here.app
+    assert isinstance(app, Guard)
+    assert isinstance(app.app, FastAPI)
+    scripts = app.app.state.scripts
+    assert isinstance(scripts, Scripts)
+    return scripts
+
+
+def begin(asked: Any) -> "asyncio.Task[Response]":
+    return asyncio.create_task(asked)
+
+
+@pytest.mark.parametrize("how", [REVOKE, DEMOTE])
+@pytest.mark.parametrize("after_ms", [30, 80, 130, 150])
+@in_virtual_time
+async def test_a_run_that_waits_for_a_moves_end_ends_with_whoever_asked(how: str, after_ms: int) -> None:
+    async with script() as here:
+        await here.move(3000, s1=2000)
+        waiting = begin(here.post("slots/8/run"))
+        await asyncio.sleep(after_ms / 1000)
+        await send_away(here, how)
+        assert waiting.done()
+        assert here.control.driving.driver is None
+        await asyncio.sleep(2)
+        assert RUN not in here.sent()
+        assert here.control.driving.driver is None
+        assert refusal(await waiting) == (409, "cancelled")
+
+
+@pytest.mark.parametrize("how", [REVOKE, DEMOTE])
+@in_virtual_time
+async def test_first_moves_that_wait_for_the_one_before_end_before_the_answer(how: str) -> None:
+    async with script() as here:
+        waiting = begin(here.move(1500, s1=2000, s2=2000, s3=2000))
+        await asyncio.sleep(0.1)
+        await send_away(here, how)
+        assert waiting.done()
+        await asyncio.sleep(2)
+        assert here.sent()[0] == move(1500, s1=2000)
+        assert move(1500, s2=2000) not in here.sent()
+
+
+@in_virtual_time
+async def test_what_was_read_before_and_asked_after_the_revocation_is_refused() -> None:
+    async with script() as here:
+        caller = here.entrance.devices.get(here.token_id).caller
+        await send_away(here, REVOKE)
+        with pytest.raises(NotPairedError):
+            scripts_of(here).act(caller, "request")
+        assert here.control.driving.driver is None
+
+
+@pytest.mark.parametrize("how", [REVOKE, DEMOTE])
+@in_virtual_time
+async def test_a_page_drops_its_packets_and_is_not_heard_before_the_answer(how: str) -> None:
+    async with script() as here:
+        page = Client(here.control, here.entrance.devices.get(here.token_id).caller)
+        await page.send(move(1500, s1=2000))
+        waiting = [page.send(move(1500, s1=1000 + each)) for each in range(3)]
+        await send_away(here, how)
+        assert here.control.driving.driver is None
+        take(LeaseMessage(type="lease", action="request"), page, here.control)
+        assert here.control.driving.driver is None
+        assert all(one.done() for one in waiting)
+        already = len(here.sent())
+        await asyncio.sleep(2)
+        assert {packet[5:7] for packet in here.sent()[already:]}.isdisjoint({move(1500, s1=1000)[5:7]})
+
+
+@in_virtual_time
+async def test_the_pose_that_a_page_brought_with_its_stop_is_not_sent_any_more() -> None:
+    """The stop itself goes on: the gateway holds by what it knows."""
+    async with script() as here:
+        page = Client(here.control, here.entrance.devices.get(here.token_id).caller)
+        take(LeaseMessage(type="lease", action="request"), page, here.control)
+        take(StopMessage(type="stop", hold=move(77, s1=999).hex()), page, here.control)
+        await asyncio.sleep(0.05)
+        assert here.sent() == [STOPS[0], move(77, s1=999)]
+        await send_away(here, REVOKE)
+        await asyncio.sleep(1)
+        assert here.sent()[2:4] == STOPS[1:]
+        assert move(77, s1=999) not in here.sent()[2:]
+
+
+@in_virtual_time
+async def test_every_loss_of_the_lease_raises_the_epoch() -> None:
+    async with script() as here:
+        await here.move(1500, s1=2000)
+        before = here.control.driving.epoch
+        await here.post("lease", action="release")
+        assert here.control.driving.epoch == before + 1
+
+
+@pytest.mark.parametrize("how", [REVOKE, DEMOTE])
+@pytest.mark.parametrize("after_s", [0.5, 5])
+@in_virtual_time
+async def test_a_group_that_they_let_go_on_is_stopped_in_the_owners_name(how: str, after_s: float) -> None:
+    """Whether they still drive or not."""
+    async with script() as here:
+        anna = Client(here.control, ANNA)
+        await here.post("slots/8/run", times=2, continueForMs=60_000)
+        await asyncio.sleep(after_s)
+        assert await unattended_slot(here) == 8
+        await send_away(here, how)
+        assert here.control.board.unattended.told() is None
+        await asyncio.sleep(1)
+        assert here.sent() == [RUN_TWICE, *STOPS]
+        assert (here.control.latch, (await latest_state(anna))["stoppedBy"]) == (True, "Olga")
+
+
+@pytest.mark.parametrize("after_s", [0.5, 5])
+@in_virtual_time
+async def test_the_owner_may_let_that_group_go_on(after_s: float) -> None:
+    async with script() as here:
+        anna = Client(here.control, ANNA)
+        await here.post("slots/8/run", times=2, continueForMs=60_000)
+        await asyncio.sleep(after_s)
+        await send_away(here, REVOKE, groupGoesOn=True)
+        await asyncio.sleep(40)
+        assert here.sent() == [RUN_TWICE]
+        assert (await latest_state(anna))["unattended"]["by"] == "Dance"
+        await asyncio.sleep(20)
+        assert here.sent() == [RUN_TWICE, *STOPS]
+
+
+@in_virtual_time
+async def test_a_group_that_nobody_let_go_on_is_stopped_whatever_the_owner_says() -> None:
+    async with script() as here:
+        await here.post("slots/8/run", times=2)
+        await send_away(here, REVOKE, groupGoesOn=True)
+        await asyncio.sleep(1)
+        assert here.sent() == [RUN_TWICE, *STOPS]
+
+
+@in_virtual_time
+async def test_the_group_of_whoever_may_still_drive_goes_on_under_the_new_role() -> None:
+    async with script() as here:
+        await here.post("slots/8/run", times=2, continueForMs=60_000)
+        await asyncio.sleep(5)
+        path = f"/api/people/{here.token_id}"
+        promoted = await here.client.patch(path, json={"role": "owner"}, headers=here.owner)
+        assert promoted.status_code == 200
+        await asyncio.sleep(1)
+        assert here.sent() == [RUN_TWICE]
+        assert (await unattended_slot(here)) == 8
+        await send_away(here, REVOKE)
+        await asyncio.sleep(1)
+        assert here.sent() == [RUN_TWICE, *STOPS]
+
+
+@in_virtual_time
+async def test_the_revocation_of_somebody_else_stops_nothing() -> None:
+    async with script() as here:
+        await here.move(3000, s1=2000)
+        other, _ = here.entrance.devices.admit("device", "Bert", "driver")
+        assert (await here.client.delete(f"/api/people/{other.id}", headers=here.owner)).status_code == 204
+        await asyncio.sleep(0.5)
+        assert here.sent() == [move(3000, s1=2000)]
+
+
+async def unattended_slot(here: Scripted) -> object:
+    listed = (await here.client.get("/api/people", headers=here.owner)).json()["people"]
+    return next(one["unattendedSlot"] for one in listed if one["id"] == here.token_id)
+
+
+async def latest_state(seat: Client) -> Any:
+    return next(told for told in reversed(await seat.heard()) if "unattended" in told)
+
+
+@in_virtual_time
+async def test_a_viewer_stops_the_robot_and_moves_nothing_with_it() -> None:
+    async with script("viewer") as here:
+        page = Client(here.control, here.entrance.devices.get(here.token_id).caller)
+        take(StopMessage(type="stop", hold=move(77, s1=999).hex()), page, here.control)
+        await asyncio.sleep(1)
+        assert here.sent() == STOPS

@@ -1,0 +1,229 @@
+"""Several callers ask for anything through every door, and are revoked, demoted or dropped at any instant.
+
+The oracle is what the port was given: each request moves for a time, or runs a slot, that no other one has,
+so that a packet says whose it is.
+"""
+
+import asyncio
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from httpx2 import Response
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from servodeck.access.intake import Intake, Rate
+from servodeck.callers import THIS_COMPUTER, Caller
+from servodeck.messages import AnyClientMessage, ContinueMessage, LeaseMessage, SendMessage, StopMessage
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import encode, parse_command
+from servodeck.protocol.values import Command, Move, Run
+from servodeck.web.clients import take
+from tests.amount import TIMES
+from tests.client import Client
+from tests.samples import STOP
+from tests.scripted import Scripted, move, script
+from tests.virtual_time import in_virtual_time
+
+NAMES = ("Anna", "Bert", "Cleo")
+FIRST_MOVE_MS = 1500
+What = Literal[
+    "script moves",
+    "script runs",
+    "script acts",
+    "page moves",
+    "page runs",
+    "page ends a group",
+    "page stops",
+    "somebody resumes",
+    "page drops",
+    "is revoked",
+    "is demoted",
+]
+OFTEN: list[What] = ["script moves", "script runs", "page moves", "page runs"]
+OVER_HTTP: list[What] = ["script moves", "script runs", "script acts"]
+ON_PAGES: list[What] = ["page moves", "page runs", "page ends a group", "page stops"]
+LOSSES: list[What] = ["page drops", "is revoked", "is demoted"]
+
+
+@dataclass(frozen=True)
+class Step:
+    """`after_ms`: since the step before."""
+
+    after_ms: int
+    what: What
+    who: str
+
+
+class Page(Client):
+    """Of which few messages are taken at once, so that one may wait when it is sent away."""
+
+    def __init__(self, here: Scripted, caller: Caller) -> None:
+        super().__init__(here.control, caller)
+        self._intake = Intake(Rate(20, 2, here.control.now), self._take, lambda _: None, lambda: None)
+
+    def say(self, message: AnyClientMessage) -> None:
+        if isinstance(message, StopMessage):
+            self._intake.take_at_once(message)
+        else:
+            self._intake.offer(message)
+
+    def say_packet(self, packet: bytes, *, newest: bool = False) -> None:
+        if self.control.driving.driver is None:
+            self.say(LeaseMessage(type="lease", action="request"))
+        self.say(SendMessage(type="send", id=1, packet=packet.hex(), nonce=self.nonce, newest=newest))
+
+    def _take(self, message: AnyClientMessage) -> None:
+        take(message, self, self.control)
+
+
+@dataclass
+class Party:
+    """A device of a driver: its requests over HTTP, and its page."""
+
+    name: str
+    caller: Caller
+    headers: dict[str, str]
+    page: Page
+    asked: "list[asyncio.Task[Response]]" = field(default_factory=list)
+    is_out: bool = False
+
+
+class History:
+    def __init__(self, here: Scripted) -> None:
+        self.here = here
+        self.parties = {name: self._admit(name) for name in NAMES}
+        self._senders: dict[tuple[str, int], str] = {}
+        # How much the port had been given when that sender was gone.
+        self._gone_behind: dict[str, int] = {}
+        self._losses: list[asyncio.Task[None]] = []
+
+    def _admit(self, name: str) -> Party:
+        device, token = self.here.entrance.devices.admit("device", name, "driver")
+        return Party(
+            name, device.caller, {"authorization": f"Bearer {token}"}, Page(self.here, device.caller)
+        )
+
+    def do(self, step: Step, number: int) -> None:
+        """`number` is no other step's."""
+        if step.what in OVER_HTTP:
+            self._ask(self.parties[step.who], step.what, number)
+        elif step.what in ON_PAGES:
+            self._say(self.parties[step.who], step.what, number)
+        elif step.what == "somebody resumes":
+            self.here.control.resume(THIS_COMPUTER)
+        else:
+            self._lose(self.parties[step.who], step.what)
+
+    def _ask(self, party: Party, what: What, number: int) -> None:
+        sender = f"{party.name} by HTTP"
+        if what == "script moves":
+            time_ms = self._mark("move", FIRST_MOVE_MS + number, sender)
+            positions = {str(servo): 1000 for servo in range(1, 2 + number % 4)}
+            self._post(party, "move", {"timeMs": time_ms, "positions": positions})
+        elif what == "script runs":
+            alone = {"continueForMs": 5000} if number % 2 else {}
+            self._post(party, f"slots/{self._mark('run', number, sender)}/run", {"times": 1, **alone})
+        else:
+            self._post(party, "lease", {"action": ("request", "release", "beat")[number % 3]})
+
+    def _say(self, party: Party, what: What, number: int) -> None:
+        page, sender = party.page, f"{party.name} on a page"
+        if what == "page moves":
+            time_ms = self._mark("move", FIRST_MOVE_MS + number, sender)
+            page.say_packet(move(time_ms, s1=1000), newest=number % 2 == 0)
+        elif what == "page runs":
+            page.say_packet(encode(Run(self._mark("run", number, sender), 1), FAMILIES["doc"]))
+            page.say(ContinueMessage(type="continue", for_ms=5000))
+        elif what == "page ends a group":
+            page.say_packet(STOP)
+        else:  # a page that is closed behind its stop has brought a good pose: only a revoked one's is not
+            time_ms = self._mark("move", FIRST_MOVE_MS + number, f"{party.name}, stopping")
+            page.say(StopMessage(type="stop", hold=move(time_ms, s1=1000).hex()))
+
+    def _lose(self, party: Party, what: What) -> None:
+        if what == "page drops":
+            self.here.control.leave(party.page)
+            self._gone(f"{party.name} on a page")
+        elif not party.is_out:
+            party.is_out = True
+            self._losses.append(asyncio.create_task(self._send_away(party, what)))
+
+    def _mark(self, kind: str, number: int, sender: str) -> int:
+        self._senders[kind, number] = sender
+        return number
+
+    def _post(self, party: Party, path: str, body: Mapping[str, object]) -> None:
+        asking = self.here.client.post(f"/api/{path}", json=body, headers=party.headers)
+        party.asked.append(asyncio.create_task(asking))
+
+    def _gone(self, sender: str) -> None:
+        self._gone_behind.setdefault(sender, len(self.here.port.written))
+
+    async def _send_away(self, party: Party, what: What) -> None:
+        path, control = f"/api/people/{party.caller.id}", self.here.control
+        if what == "is revoked":
+            answer = await self.here.client.delete(path, headers=self.here.owner)
+        else:
+            answer = await self.here.client.patch(path, json={"role": "viewer"}, headers=self.here.owner)
+        assert answer.status_code in (200, 204), answer.text
+        self._gone(f"{party.name} by HTTP")
+        self._gone(f"{party.name} on a page")
+        self._gone(f"{party.name}, stopping")
+        driver = control.driving.driver
+        assert driver is None or driver.caller.id != party.caller.id
+
+    async def end(self) -> None:
+        await asyncio.gather(*self._losses)
+        for party in self.parties.values():
+            for answer in await asyncio.gather(*party.asked):
+                assert answer.status_code in (200, 401, 403, 409, 422, 429), answer.text
+        await asyncio.sleep(8)
+        for index, packet in enumerate(self.here.port.packets()):
+            sender = self._sender_of(parse_command(packet))
+            behind = self._gone_behind.get(sender or "")
+            assert behind is None or index < behind, f"{sender} was gone, and {packet.hex()} left"
+
+    def _sender_of(self, command: Command | None) -> str | None:
+        match command:
+            case Move(duration_ms, _):
+                return self._senders.get(("move", duration_ms))
+            case Run(slot, _):
+                return self._senders.get(("run", slot))
+        return None
+
+
+@in_virtual_time
+async def play(steps: list[Step]) -> None:
+    async with script() as here:
+        history = History(here)
+        for number, step in enumerate(steps):
+            await asyncio.sleep(step.after_ms / 1000)
+            history.do(step, number)
+        await history.end()
+
+
+PAUSES_MS = st.one_of(st.integers(0, 20), st.integers(20, 160), st.sampled_from([300, 800, 2100]))
+ASKED = st.sampled_from([*OFTEN * 2, *OVER_HTTP, *ON_PAGES])
+LOST = st.sampled_from([*LOSSES, "is revoked"])
+
+
+@st.composite
+def episodes(draw: st.DrawFn) -> list[Step]:
+    """Somebody asks for a few things and may be lost; others come between, and somebody may resume."""
+    who = draw(st.sampled_from(NAMES))
+    asked = [Step(draw(PAUSES_MS), what, who) for what in draw(st.lists(ASKED, min_size=1, max_size=3))]
+    between = [
+        Step(draw(PAUSES_MS), what, draw(st.sampled_from(NAMES)))
+        for what in draw(st.lists(ASKED, max_size=1))
+    ]
+    lost = [Step(draw(PAUSES_MS), what, who) for what in draw(st.lists(LOST, max_size=1))]
+    resumed = [Step(draw(PAUSES_MS), "somebody resumes", who)] if draw(st.booleans()) else []
+    return asked + between + lost + resumed
+
+
+@settings(max_examples=40 * TIMES)
+@given(history=st.lists(episodes(), min_size=1, max_size=4))
+def test_nothing_of_whoever_is_gone_begins_to_leave_behind_the_answer(history: list[list[Step]]) -> None:
+    play([step for episode in history for step in episode])

@@ -1,0 +1,102 @@
+// A library of 504 groups: how long it takes to open one of them, from the click on its picture to the frame in which it stands on
+// the timeline and the dialog is gone, and what that costs the page's main thread.
+
+import type { ElementHandle, Page } from '@playwright/test';
+import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
+import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { groupToText } from '#shared/actions/group/groupText.ts';
+import { factsOf } from '#shared/actions/library/facts.ts';
+import type { Figure } from './figure.ts';
+import { mainThreadOf } from './mainThread.ts';
+import { openDashboard, withBoard, withPage } from './station.ts';
+import { median } from './statistics.ts';
+
+const GROUPS = 504;
+const SERVOS = 16;
+const FRAMES = 56;
+const REPEATS = 9;
+const REST_MS = 400;
+const OPEN_LIMIT_MS = 150;
+
+export function measureLibrary(): Promise<Figure[]> {
+  return withBoard([], (board) =>
+    withPage(board.device, async (page, url) => {
+      await fill(url);
+      const thread = await mainThreadOf(page);
+      await openDashboard(page, url);
+      const times: number[] = [];
+      const works: number[] = [];
+      for (let repeat = 1; repeat <= REPEATS; repeat += 1) {
+        const card = await cardOf(page, `Group ${repeat * 5}`);
+        const { result, allMs } = await thread.work(() => timeToOpen(card, `Group ${repeat * 5}`));
+        times.push(result);
+        works.push(allMs);
+      }
+      const what = `one of ${GROUPS} groups of ${FRAMES} frames and ${SERVOS} servos is opened, a median of ${REPEATS}`;
+      return [
+        {
+          ...{ key: 'library.openMs', value: median(times), unit: 'ms', limit: { atMost: OPEN_LIMIT_MS } },
+          note: `from the click to the drawn timeline: ${what}`,
+        },
+        {
+          ...{ key: 'library.openWorkMs', value: median(works), unit: 'ms' },
+          note: "the main thread's work for it, with layout and paint",
+        },
+      ];
+    }),
+  );
+}
+
+/** Found before the clock runs: among so many it takes long to find one by its role. */
+async function cardOf(page: Page, name: string): Promise<ElementHandle<Element>> {
+  await page.getByRole('button', { name: 'Library' }).click();
+  const card = await page.getByRole('button', { name: `Open ${name}`, exact: true }).elementHandle();
+  await page.waitForTimeout(REST_MS);
+  return card;
+}
+
+function timeToOpen(card: ElementHandle<Element>, name: string): Promise<number> {
+  return card.evaluate(
+    (element, wanted) =>
+      new Promise<number>((resolve) => {
+        const startMs = performance.now();
+        (element as HTMLElement).click();
+        const field = document.querySelector<HTMLInputElement>('input[aria-label="Name of the group"]');
+        requestAnimationFrame(function look() {
+          const isThere = field?.value === wanted && document.querySelector('[role=dialog]') === null;
+          if (!isThere) return void requestAnimationFrame(look);
+          const channel = new MessageChannel();
+          channel.port1.onmessage = () => resolve(performance.now() - startMs);
+          channel.port2.postMessage(null);
+        });
+      }),
+    name,
+  );
+}
+
+async function fill(url: string): Promise<void> {
+  for (let index = 1; index <= GROUPS; index += 1) {
+    const group = groupOf(`Group ${index}`, index);
+    const facts = factsOf(group, { updatedAtMs: Date.now() - index * 1000, robot: 'Robot' });
+    const wanted = { text: groupToText(group), facts, expected: 0, isRemoved: false };
+    const response = await fetch(`${url}/api/library/bench-${index}`, {
+      method: 'PUT',
+      headers: { 'content-type': 'application/json' },
+      body: JSON.stringify(wanted),
+    });
+    if (!response.ok) throw new Error(`the gateway took no group: ${await response.text()}`);
+  }
+}
+
+function groupOf(name: string, seed: number): ActionGroup {
+  return Array.from({ length: FRAMES }).reduce<ActionGroup>(
+    (group, _, frame) => {
+      const targets = Array.from({ length: SERVOS }, (_each, index) => ({
+        servo: index + 1,
+        position: Math.round(1500 + 700 * Math.sin(frame * 0.3 + index + seed)),
+      }));
+      return insertFrame(group, frame, { durationMs: 300, targets });
+    },
+    emptyGroup(name, 'us'),
+  );
+}

@@ -1,0 +1,47 @@
+// Teaching by hand over Web Serial: an xArm whose released servos are turned in the page's own board.
+
+import { ofKind } from '../fixtures/bus.ts';
+import { expect, poll, test } from '../fixtures/test.ts';
+
+test.use({ boardSettings: { board: 'xarm' } });
+
+test('the arm is posed by hand, captured while it is read, and holds at the end', async ({
+  page,
+  robot,
+  dashboard,
+}) => {
+  await expect(page.getByText('Move a servo or read positions first.').first()).toBeVisible();
+  await dashboard.button('Teach').click();
+  const warning = page.getByRole('alertdialog', { name: 'Teach by hand?' });
+  await expect(warning).toContainText('the arm drops: hold it');
+  await warning.getByRole('button', { name: 'Release and teach' }).click();
+  await expect(dashboard.target(3)).toHaveValue('400');
+  await expect(page.getByText('Teaching: turn the servos by hand')).toBeVisible();
+
+  await page.evaluate(() => window.portInPage.turn(3, 620));
+  await expect(dashboard.target(3)).toHaveValue('620');
+  await dashboard.button('Capture frame').click();
+  await page.evaluate(() => window.portInPage.turn(3, 300));
+  await expect(dashboard.target(3)).toHaveValue('300');
+  await dashboard.button('Capture frame').click();
+  await expect(dashboard.frame(2)).toBeVisible();
+  expect(ofKind(await robot.bus(), 'move')).toEqual([]);
+
+  await dashboard.button('Hold and end teaching').click();
+  await poll(async () => {
+    const moves = ofKind(await robot.bus(), 'move');
+    return moves.map(({ targets: [target], durationMs }) => [target?.servo, target?.position, durationMs]);
+  }).toEqual([1, 2, 3, 4, 5, 6].map((servo) => [servo, servo === 3 ? 300 : 400, 1500]));
+  await expect(dashboard.button('Teach')).toBeEnabled();
+});
+
+test('Esc ends it and moves nothing', async ({ page, robot, dashboard }) => {
+  await dashboard.button('Teach').click();
+  await page.getByRole('button', { name: 'Release and teach' }).click();
+  await expect(dashboard.target(1)).toHaveValue('400');
+  await page.keyboard.press('Escape');
+  await expect(dashboard.resume).toBeVisible();
+  // Behind the message that all is stopped.
+  await expect(page.getByText('Teaching has ended.')).toHaveCount(1);
+  expect(ofKind(await robot.bus(), 'move')).toEqual([]);
+});

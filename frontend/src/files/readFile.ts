@@ -1,0 +1,20 @@
+// A file as the browser gives it, read whatever its format: in the worker, or in the page where there is none. Never rejects.
+
+import { MAX_FILE_BYTES, readGroupFile } from '#shared/actions/files/readGroupFile.ts';
+import type { Problem, Reading } from '#shared/actions/files/reading.ts';
+import { fileMeans } from './means.ts';
+import { loadSqlite } from './sqlite.ts';
+
+const means = fileMeans(loadSqlite);
+
+export async function readFile(file: File): Promise<Reading> {
+  if (file.size > MAX_FILE_BYTES) return problem('tooLarge');
+  try {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    return await readGroupFile({ name: file.name, bytes }, means);
+  } catch {
+    return problem('unreadable');
+  }
+}
+
+const problem = (code: Problem['code']): Reading => ({ problem: { code, place: null, found: '' } });

@@ -1,0 +1,179 @@
+// What STOP can do about a motion: the move that holds the robot where it is, and what goes on in spite of it. Both come from
+// one value, so that they cannot contradict each other. Knows the estimate; no clock, no link, no session.
+
+import type { Command, ServoTarget } from '../protocol/commands.ts';
+import type { Family } from '../protocol/families.ts';
+import { wireMs } from '../protocol/packet.ts';
+import type { KnownBoard, Motion } from './model.ts';
+import { advance, afterCommand, hears } from './motion.ts';
+import { endMs, guessOf, leewayOf, LONGEST_MOVE_MS, stands, type Track } from './tracks.ts';
+
+/** What a STOP cannot hold; null where all is held. */
+export interface Unheld {
+  /** Null: nobody knows which, because a group whose frames are not known may run. */
+  readonly servos: readonly number[] | null;
+  /** The longest that they may still move, counted from the press of STOP; Infinity where a group may run that heard no stop. */
+  readonly forMs: number;
+}
+
+type Hold = Extract<Command, { kind: 'move' }>;
+
+export interface HaltPlan {
+  readonly hold: Hold | null;
+  readonly unheld: Unheld | null;
+}
+
+/** Stop leaves three times: a lone one may fall into a full mailbox, and 70 ms outlast the key's 60 ms debounce (S54). */
+export const STOP_REPEATS_MS = [70, 140] as const;
+/** "All is held": no pulse changes later than this after the last byte of the STOP. */
+const HELD_WITHIN_MS = 150;
+/** A servo goes over its whole range in this time where nobody knows how far it has to go: its first move, an unsure hold. */
+export const FIRST_MOVE_MS = 1_500;
+/**
+ * A hold where frames that nobody knows may be under way: it re-times them (S26), and longer than the frames of nearly all groups
+ * (boards.md chapter 9), it makes none of them faster.
+ */
+const UNKNOWN_FRAME_MS = 3_000;
+
+const STOP: Command = { kind: 'stop' };
+const STOP_MS = wireMs(4);
+
+/** As of the press of STOP at `nowMs`: the first hold, and what goes on behind the last one. */
+export function haltPlan(motion: Motion, nowMs: number, board: KnownBoard): HaltPlan {
+  const stoppedMs = nowMs + STOP_MS;
+  const stopped = afterCommand(advance(motion, nowMs, board), STOP, stoppedMs, board);
+  const hold = holdBehindStop(stopped, stoppedMs, board);
+  let current = afterHold(stopped, hold, stoppedMs, board);
+  for (const offsetMs of STOP_REPEATS_MS) current = afterCommand(current, STOP, stoppedMs + offsetMs, board);
+  const lastStopMs = stoppedMs + Math.max(...STOP_REPEATS_MS);
+  const lastHold = holdBehindStop(current, lastStopMs, board);
+  const lastMs = holdLeavesMs(lastHold, lastStopMs, board.family);
+  return {
+    hold,
+    unheld: unheldSince(nowMs, afterHold(current, lastHold, lastStopMs, board), lastMs, board),
+  };
+}
+
+/** The hold that follows a stop whose last bit left at `stoppedMs`. */
+export function holdBehindStop(motion: Motion, stoppedMs: number, board: KnownBoard): Hold | null {
+  const arrivesMs = stoppedMs + board.family.serviceGapMs + wireMs(7 + 3 * motion.tracks.size);
+  return holdAt(advance(motion, arrivesMs, board), arrivesMs, board.family);
+}
+
+function holdLeavesMs(hold: Hold | null, stoppedMs: number, { serviceGapMs }: Family): number {
+  return hold === null ? stoppedMs : stoppedMs + serviceGapMs + wireMs(7 + 3 * hold.targets.length);
+}
+
+function afterHold(motion: Motion, hold: Hold | null, stoppedMs: number, board: KnownBoard): Motion {
+  return hold === null
+    ? motion
+    : afterCommand(motion, hold, holdLeavesMs(hold, stoppedMs, board.family), board);
+}
+
+/** What may go on, now that the last packet of a STOP pressed at `pressedMs` left at `lastMs`. */
+export function unheldSince(
+  pressedMs: number,
+  motion: Motion,
+  lastMs: number,
+  board: KnownBoard,
+): Unheld | null {
+  const { family } = board;
+  const limitMs = lastMs + HELD_WITHIN_MS;
+  const current = advance(motion, lastMs, board);
+  const restlessMs = current.run === null ? current.restlessUntilMs : Infinity;
+  if (restlessMs > limitMs) {
+    const untilMs =
+      current.maySwallow > 0
+        ? restlessMs
+        : Math.min(restlessMs, Math.max(lastMs, current.deafUntilMs) + LONGEST_MOVE_MS);
+    return { servos: hears(current, lastMs) ? notHaltedByStop(family) : null, forMs: untilMs - pressedMs };
+  }
+  const late = [...current.tracks].flatMap(([servo, track]) => {
+    const untilMs = restsMs(track, family);
+    return untilMs > limitMs ? [{ servo, untilMs }] : [];
+  });
+  if (late.length === 0) return null;
+  return {
+    servos: late.map(({ servo }) => servo).sort((a, b) => a - b),
+    forMs: Math.max(...late.map(({ untilMs }) => untilMs)) - pressedMs,
+  };
+}
+
+/** When the board's last tick for it is over. */
+function restsMs(track: Track, { motion: { tickMs, talkMs } }: Family): number {
+  return track.from === track.to && track.fromLeeway === 0 ? -Infinity : endMs(track) + tickMs + talkMs;
+}
+
+/** Where stops halt some servos, only the others go on with a frame (L9). */
+function notHaltedByStop({ motion: { haltedByStop }, usualServoCount }: Family): readonly number[] | null {
+  if (haltedByStop.length === 0) return null;
+  return Array.from({ length: usualServoCount }, (_, index) => index + 1).filter(
+    (servo) => !haltedByStop.includes(servo),
+  );
+}
+
+interface Held extends ServoTarget {
+  readonly isUnderWay: boolean;
+  /** How far it may have to go to get there. */
+  readonly way: number;
+}
+
+/** The one move that holds the robot where it is at `atMs`, which is when it arrives; null where there is nothing to hold. */
+function holdAt(motion: Motion, atMs: number, family: Family): Hold | null {
+  const all = [...motion.tracks].flatMap(([servo, track]) => {
+    const held = heldAt(track, atMs, family);
+    return held === null ? [] : [{ servo, ...held }];
+  });
+  if (all.length === 0) return null;
+  const first = all.toSorted((one, other) => Number(other.isUnderWay) - Number(one.isUnderWay));
+  const held = first.slice(0, family.servosPerMove);
+  return {
+    kind: 'move',
+    targets: held.map(({ servo, position }) => ({ servo, position })),
+    durationMs: holdMs(motion, held, atMs, family),
+  };
+}
+
+/** Null for a servo that nobody can hold, or that need not be held. */
+function heldAt(track: Track, atMs: number, family: Family): Omit<Held, 'servo'> | null {
+  const leeway = leewayOf(track, atMs, family);
+  if (leeway === 0) return { position: track.to, isUnderWay: false, way: 0 };
+  const at = guessOf(track, atMs);
+  const isOver = stands(track, atMs);
+  if (leeway === Infinity) return at === null || isOver || track.from === track.to ? null : guessHeld(at);
+  // A stop has halted it, nobody knows where to the tick.
+  if (at === null || (isOver && track.toLeeway > 0)) return null;
+  return heldAhead(at, track.to, leeway);
+}
+
+function guessHeld(at: number): Omit<Held, 'servo'> {
+  return { position: Math.round(at), isUnderWay: true, way: 0 };
+}
+
+/** The farthest place where it may be by now, at most its target: a hold never takes a servo back. */
+function heldAhead(at: number, to: number, leeway: number): Omit<Held, 'servo'> {
+  const left = to - at;
+  const ahead = Math.abs(left) <= leeway ? to : at + Math.sign(left) * leeway;
+  const position = left < 0 ? Math.max(to, Math.floor(ahead)) : Math.min(to, Math.ceil(ahead));
+  return { position, isUnderWay: true, way: Math.abs(position - at) + leeway };
+}
+
+/** As short as can be where each place is sure; no servo goes faster than in its first move, and no unknown one snaps to its target. */
+function holdMs(motion: Motion, held: readonly Held[], atMs: number, family: Family): number {
+  const { motion: traits, position, shortestMoveMs } = family;
+  const isGuess = held.some(({ isUnderWay, way }) => isUnderWay && way === 0);
+  const way = Math.max(...held.map((one) => one.way));
+  const needsMs = Math.max(
+    shortestMoveMs,
+    (FIRST_MOVE_MS * way) / (position.max - position.min),
+    isGuess ? UNKNOWN_FRAME_MS : 0,
+    traits.timing === 'shared' ? unknownMs(motion, atMs) : 0,
+  );
+  return Math.ceil(needsMs / traits.tickMs) * traits.tickMs;
+}
+
+/** How long what nobody can hold still needs, or is given. */
+function unknownMs({ tracks, restlessUntilMs }: Motion, atMs: number): number {
+  const ends = [...tracks.values()].filter((track) => guessOf(track, atMs) === null).map(endMs);
+  return Math.max(Math.min(UNKNOWN_FRAME_MS, restlessUntilMs - atMs), ...ends.map((end) => end - atMs));
+}
