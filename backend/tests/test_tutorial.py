@@ -59,11 +59,20 @@ def variables(url: str, folder: Path) -> dict[str, str]:
     }
 
 
+async def at_rest(gateway: Running) -> None:
+    """As for a reader: first moves last longer than the commands that began them."""
+    control = gateway.control
+    async with asyncio.timeout(10):
+        while control.board.motion.is_moving(control.now()):  # noqa: ASYNC110 (nothing announces it)
+            await asyncio.sleep(0.02)
+
+
 async def test_each_piece_of_the_tutorial_runs(board: Board, gateway: Running, tmp_path: Path) -> None:
     url = f"http://{gateway.host}"
     environment = variables(url, tmp_path)
     assert {language for language, _ in pieces()} == set(PROGRAMS)
     for language, text in pieces():
+        await at_rest(gateway)
         done = await asyncio.to_thread(
             subprocess.run,
             PROGRAMS[language],
