@@ -7,6 +7,8 @@ export default defineConfig({
     include: ['shared/src/**/*.test.ts', 'frontend/src/**/*.test.{ts,tsx}', 'bench/**/*.test.ts'],
     setupFiles: ['vitest.setup.ts'],
     environment: 'node',
+    // A worker of its own for each of 200 files would cost more than the tests.
+    isolate: false,
     restoreMocks: true,
     expect: { requireAssertions: true },
   },
