@@ -25,6 +25,7 @@ export async function pythonEnvironment() {
 async function install() {
   if ((await run(python, ['-c', probe])).code !== 0) await makeEnvironment();
   await installLocked();
+  await run(python, ['-m', 'compileall', '-q', 'backend/servodeck']);
   writeFileSync(path.join(sitePackages(), 'servodeck-source.pth'), `${at('backend')}\n`);
   writeCommand();
 }
@@ -64,7 +65,8 @@ async function installLocked() {
   const uv = await run(python, [...pip, 'install', '--quiet', `uv==${uvVersion}`]);
   const locked = ['install', '--quiet', '--require-hashes', '-r', lock];
   if (uv.code === 0) {
-    const quick = await run(python, ['-m', 'uv', 'pip', ...locked, '--python', python]);
+    // Bytecode at once, as pip makes it: where Python may write none, each start would compile everything anew.
+    const quick = await run(python, ['-m', 'uv', 'pip', ...locked, '--compile-bytecode', '--python', python]);
     if (quick.code === 0) return;
   }
   await mustRun('install the Python packages', python, [...pip, ...locked]);
