@@ -9,8 +9,10 @@ import sys
 def main() -> None:
     if sys.argv[1:] == ["stop"] and is_stopped():
         return
-    from servodeck.cli.cli import main as command_line
+    from servodeck.loading import loading
 
+    with loading():
+        from servodeck.cli.cli import main as command_line
     command_line()
 
 

@@ -9,8 +9,6 @@ from dataclasses import dataclass
 from typing import Literal
 from urllib.parse import urlsplit
 
-import ifaddr
-
 Mode = Literal["local", "lan", "proxy"]
 Scheme = Literal["http", "https"]
 LOOPBACK = frozenset({"127.0.0.1", "localhost", "[::1]"})
@@ -107,6 +105,8 @@ def answered_at(host: str, addresses: list[str]) -> list[str]:
 
 def lan_addresses() -> list[str]:
     """This computer's IPv4 addresses that others may reach, for people to read. Never raises."""
+    import ifaddr  # here: a gateway for this computer alone asks for none
+
     try:
         adapters = list(ifaddr.get_adapters())
     except OSError:

@@ -5,10 +5,12 @@ Knows how an address is written; makes no secret.
 """
 
 import io
-
-import segno
+from typing import TYPE_CHECKING
 
 from servodeck.access.access import LOOPBACK, Access, answered_at, lan_addresses
+
+if TYPE_CHECKING:
+    from segno import QRCode
 
 QUIET_MODULES = 3
 
@@ -36,10 +38,16 @@ def stop_link(base: str, credential: str) -> str:
 
 def picture_of(link: str) -> str:
     """An address that holds the whole SVG image, black on white so that it can be read in any theme."""
-    return segno.make(link, micro=False).svg_data_uri(border=QUIET_MODULES, light="#fff", dark="#000")
+    return code_of(link).svg_data_uri(border=QUIET_MODULES, light="#fff", dark="#000")
 
 
 def drawn_for_terminal(link: str) -> str:
     text = io.StringIO()
-    segno.make(link, micro=False).terminal(text, border=2, compact=True)
+    code_of(link).terminal(text, border=2, compact=True)
     return text.getvalue()
+
+
+def code_of(link: str) -> "QRCode":
+    import segno  # here: most starts draw none
+
+    return segno.make(link, micro=False)

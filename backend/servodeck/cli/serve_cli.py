@@ -6,7 +6,6 @@ Imports the gateway only where it is served, so that the small commands answer a
 import os
 import sys
 import time
-import webbrowser
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -16,8 +15,9 @@ import typer
 from servodeck.cli.config import PREFIX, take_file
 from servodeck.cli.exits import USAGE, fail
 from servodeck.cli.listening import DEFAULT_LISTEN, LAN_LISTEN, bind, is_loopback, parse_listen, url_of
+from servodeck.loading import loading
 from servodeck.protocol.families import FAMILIES, UNKNOWN
-from servodeck.run.logs import Form, Level
+from servodeck.run.log_choices import Form, Level
 
 if TYPE_CHECKING:
     from servodeck.access.access import Access
@@ -72,22 +72,23 @@ def serve(
     ] = False,
 ) -> None:
     """Serve the page and own the serial port. Each option may also come from SERVODECK_NAME or a file."""
-    from servodeck.access import access
-    from servodeck.access.greeting import greeting, urls_for_others
-    from servodeck.board.slot_memory import SlotMemory
-    from servodeck.cli.data_folder import data_folder
-    from servodeck.driving.control import Control
-    from servodeck.driving.epoch import first_epoch
-    from servodeck.errors import StorageError
-    from servodeck.files.remembered import Remembered
-    from servodeck.library.library import Library
-    from servodeck.port.background import BackgroundPorts
-    from servodeck.run.announcement import Announcement
-    from servodeck.run.app import create_app
-    from servodeck.run.descriptors import allow_descriptors
-    from servodeck.run.logs import set_up_logs
-    from servodeck.run.server import Server, leave_with_stdin
-    from servodeck.web.library_api import robots_in
+    with loading():
+        from servodeck.access import access
+        from servodeck.access.greeting import greeting, urls_for_others
+        from servodeck.board.slot_memory import SlotMemory
+        from servodeck.cli.data_folder import data_folder
+        from servodeck.driving.control import Control
+        from servodeck.driving.epoch import first_epoch
+        from servodeck.errors import StorageError
+        from servodeck.files.remembered import Remembered
+        from servodeck.library.library import Library
+        from servodeck.port.background import BackgroundPorts
+        from servodeck.run.announcement import Announcement
+        from servodeck.run.app import create_app
+        from servodeck.run.descriptors import allow_descriptors
+        from servodeck.run.logs import set_up_logs
+        from servodeck.run.server import Server, leave_with_stdin
+        from servodeck.web.library_api import robots_in
 
     allow_descriptors()
     recalls_board = not board
@@ -124,6 +125,11 @@ def serve(
         read_robot=robots_in(library),
     )
 
+    def show(address: str) -> None:
+        import webbrowser
+
+        webbrowser.open(address)
+
     def ready() -> None:
         print(f"Servodeck is at {url}", flush=True)
         if entrance.access.needs_pairing:
@@ -132,7 +138,7 @@ def serve(
             only_here = LAN_LISTEN if is_alone else ""
             print(greeting(entrance, others, invites=invite, only_here=only_here), flush=True)
         if sys.stdout.isatty() if open_page is None else open_page:
-            webbrowser.open(url)
+            show(url)
 
     app = create_app(control, library, entrance)
     server = Server(app, control, device, ready)

@@ -12,13 +12,11 @@ import threading
 import time
 from collections.abc import Callable
 from datetime import UTC, datetime
-from typing import Literal
 
 from servodeck.access.intake import Rate
 from servodeck.access.refusals import LOGGER as REFUSALS
+from servodeck.run.log_choices import Form, Level
 
-Level = Literal["debug", "info", "warning", "error"]
-Form = Literal["text", "json"]
 STDERR = 2
 LINES_WAITING = 1000
 LAST_LINES_S = 0.2

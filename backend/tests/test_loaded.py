@@ -1,0 +1,41 @@
+"""What a start does not load, because nothing that is served at first needs it."""
+
+import subprocess
+import sys
+
+import pytest
+
+# Pictures of links, names on the network, a browser, colours, other clients, and what would report elsewhere.
+NOT_TO_SERVE = (
+    *("segno", "ifaddr", "zeroconf", "webbrowser", "rich", "pygments", "jinja2", "yaml", "email_validator"),
+    *("httpx", "httpx2", "requests", "multipart", "fastapi.testclient"),
+    *("opentelemetry.sdk", "opentelemetry.exporter", "google.protobuf", "grpc"),
+)
+NOT_FOR_A_COMMAND = ("fastapi", "starlette", "uvicorn", "prometheus_client", "asyncio")
+# Where the gateway would begin to serve, it says what is loaded and leaves.
+SERVE = """
+from servodeck.run.server import Server
+def run(self, sockets):
+    print(*sys.modules, flush=True)
+Server.run = run
+"""
+
+
+def loaded_by(*arguments: str, before: str = "") -> set[str]:
+    program = f"import sys\n{before}\nsys.argv[1:] = {list(arguments)}\nfrom servodeck.__main__ import main\n"
+    ending = "try:\n    main()\nfinally:\n    print(*sys.modules)\n"
+    said = subprocess.check_output([sys.executable, "-c", program + ending], text=True)
+    return set(said.splitlines()[-1].split())
+
+
+def test_a_start_loads_what_it_serves_with_and_no_more(tmp_path: object) -> None:
+    loaded = loaded_by("serve", "--listen", "127.0.0.1:0", "--data", str(tmp_path), "--no-open", before=SERVE)
+    assert "servodeck.run.app" in loaded
+    assert sorted(loaded & set(NOT_TO_SERVE)) == []
+
+
+@pytest.mark.parametrize("arguments", [("--version",), ("decode", "55", "55", "02", "07")])
+def test_a_small_command_loads_no_gateway(arguments: tuple[str, ...]) -> None:
+    loaded = loaded_by(*arguments)
+    assert "servodeck.cli.cli" in loaded
+    assert sorted(loaded & set(NOT_FOR_A_COMMAND)) == []
