@@ -1,5 +1,6 @@
 // Every check and test of the project as a list; test.mjs and check.mjs choose from it. Knows how each tool is called.
 
+import { availableParallelism } from 'node:os';
 import { findBrowser } from './browser.mjs';
 import { python } from './python.mjs';
 import {
@@ -102,11 +103,17 @@ export function unit({ long }) {
   };
 }
 
-/** @param {{long: boolean}} options @returns {Task} */
-export function gateway({ long }) {
+/** Two at least: some tests wait. */
+const workers = String(Math.max(2, availableParallelism()));
+
+/** @param {{long: boolean, exhaustive: boolean}} options @returns {Task} */
+export function gateway({ long, exhaustive }) {
   return {
     name: 'gateway',
-    command: pythonModule('pytest', `--junitxml=${pytestReport}`),
+    command: pythonModule(
+      ...['pytest', `--junitxml=${pytestReport}`, '-n', workers, '--dist', 'worksteal'],
+      ...(exhaustive ? ['-m', ''] : []), // else without the tests that are marked so
+    ),
     ...(long ? longRun : {}),
     count: countPytest,
   };

@@ -1,5 +1,5 @@
-// `npm test`: sets everything up, a browser included, then every check and test there is. `-- --long` gives properties and
-// tables of faults at least ten times the inputs.
+// `npm test`: sets everything up, a browser included, then every check and the tests. `--all` adds those that start many
+// processes or wait in real time; `--long` those too, and gives properties and tables of faults ten times the inputs.
 
 import { browserForTests } from './browser.mjs';
 import * as all from './checks.mjs';
@@ -18,7 +18,7 @@ await main(async () => {
   const built = await runTasks([all.build]); // the page is part of what is tested below
   const still = runTasks([
     all.unit({ long }),
-    all.gateway({ long }),
+    all.gateway({ long, exhaustive: long || process.argv.includes('--all') }),
     all.lint,
     all.types,
     all.pageTypes,

@@ -1,5 +1,6 @@
 """What the network hears, over real multicast on the loopback addresses; skipped where there is none."""
 
+import os
 import socket
 import sys
 import threading
@@ -12,8 +13,8 @@ from zeroconf import ServiceInfo, Zeroconf
 
 from servodeck.run.announcement import SERVICE, Announcement
 
-# A gateway that runs beside the tests has the real one.
-NAME = "servodeck-under-test.local"
+# A gateway that runs beside the tests has the real one, and several processes run tests.
+NAME = f"servodeck-under-test-{os.getpid()}.local"
 HERE, THERE = "127.0.0.1", "127.0.0.2"
 LOOK_AGAIN_S = 0.05
 
@@ -21,10 +22,10 @@ LOOK_AGAIN_S = 0.05
 def hears_itself() -> bool:
     service = ServiceInfo(
         "_probe._tcp.local.",
-        "probe._probe._tcp.local.",
+        f"probe-{os.getpid()}._probe._tcp.local.",
         port=1,
         addresses=[b"\x7f\0\0\x01"],
-        server="a.local.",
+        server=f"probe-{os.getpid()}.local.",
     )
     try:
         with Zeroconf(interfaces=[HERE]) as asking, Zeroconf(interfaces=[HERE]) as told:
@@ -34,10 +35,15 @@ def hears_itself() -> bool:
         return False
 
 
-pytestmark = [
-    pytest.mark.skipif(sys.platform != "linux", reason="only Linux has a second loopback address unasked"),
-    pytest.mark.skipif(not hears_itself(), reason="this system has no multicast on its loopback"),
-]
+pytestmark = pytest.mark.skipif(
+    sys.platform != "linux", reason="only Linux has a second loopback address unasked"
+)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _multicast() -> None:
+    if not hears_itself():
+        pytest.skip("this system has no multicast on its loopback")
 
 
 @pytest.fixture(autouse=True)
@@ -78,6 +84,7 @@ def test_others_hear_the_name_the_port_and_the_address() -> None:
         assert (found.server, found.port, found.parsed_addresses()) == (f"{NAME}.", 8300, [HERE])
 
 
+@pytest.mark.exhaustive
 def test_the_second_in_a_room_goes_by_its_computers_name() -> None:
     with network() as others, announced("first"):
         assert heard(others, "first")
@@ -87,6 +94,7 @@ def test_the_second_in_a_room_goes_by_its_computers_name() -> None:
             assert second.server == "second.local."
 
 
+@pytest.mark.exhaustive
 def test_what_ends_is_taken_back() -> None:
     with network() as others:
         with announced("leaving"):
@@ -95,6 +103,7 @@ def test_what_ends_is_taken_back() -> None:
         assert heard(others, "leaving", 600) is None
 
 
+@pytest.mark.exhaustive
 def test_a_network_that_comes_later_is_used() -> None:
     addresses: list[str] = []
     with network() as others, announced("late", lambda: list(addresses)):
@@ -103,6 +112,7 @@ def test_a_network_that_comes_later_is_used() -> None:
         assert heard(others, "late")
 
 
+@pytest.mark.exhaustive
 def test_a_failure_is_logged_and_tried_again(caplog: pytest.LogCaptureFixture) -> None:
     asked = threading.Semaphore(0)
 
@@ -116,11 +126,13 @@ def test_a_failure_is_logged_and_tried_again(caplog: pytest.LogCaptureFixture) -
     assert "cannot be announced" in caplog.text
 
 
+@pytest.mark.exhaustive
 def test_a_long_computer_name_is_cut() -> None:
     with network() as others, announced("x" * 63):
         assert heard(others, "x" * 40)
 
 
+@pytest.mark.exhaustive
 def test_no_name_is_needed() -> None:
     with network() as others, announced(""):
         assert heard(others, socket.gethostname().partition(".")[0][:40])

@@ -109,6 +109,7 @@ def board_of(served: Served) -> str:
         return str(json.load(answer)["board"])
 
 
+@pytest.mark.exhaustive
 def test_the_board_is_what_it_was_last_unless_an_option_says(tmp_path: Path) -> None:
     pty, data = Pty(), ("--data", str(tmp_path))
     memory = {"boards": {pty.device: "lsc-6"}}
@@ -122,6 +123,7 @@ def test_the_board_is_what_it_was_last_unless_an_option_says(tmp_path: Path) -> 
     pty.unplug()
 
 
+@pytest.mark.exhaustive
 def test_the_port_that_was_chosen_is_opened_again_with_a_stop_and_an_option_goes_before_it(
     tmp_path: Path,
 ) -> None:
@@ -188,6 +190,7 @@ def test_a_public_address_that_cannot_be_is_refused(url: str) -> None:
     assert "--public-url" in result.stderr
 
 
+@pytest.mark.exhaustive
 def test_a_lan_start_tells_addresses_invites_its_first_owner_and_warns(tmp_path: Path) -> None:
     served = Served("--lan", "--data", str(tmp_path))
     assert served.process.stdout
@@ -214,6 +217,7 @@ def test_a_lan_start_tells_addresses_invites_its_first_owner_and_warns(tmp_path:
     again.end()
 
 
+@pytest.mark.exhaustive
 def test_a_lan_start_on_loopback_names_only_an_address_that_answers(tmp_path: Path) -> None:
     served = Served("--lan", "--data", str(tmp_path))
     assert served.process.stdout

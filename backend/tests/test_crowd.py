@@ -24,7 +24,10 @@ from tests.samples import MOVE, STOP
 from tests.test_cli import Served
 from tests.test_flood import rss_kib
 
-pytestmark = pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc")
+pytestmark = [
+    pytest.mark.exhaustive,
+    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc"),
+]
 
 FULL = TIMES > 1
 # With the driver one more than there are seats while the deaf ones sit, too.

@@ -32,7 +32,13 @@ def mounts() -> bool:
     return attempt.returncode == 0
 
 
-pytestmark = pytest.mark.skipif(not mounts(), reason="this system lets nobody mount a disk of his own")
+pytestmark = pytest.mark.exhaustive
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _mounts() -> None:
+    if not mounts():
+        pytest.skip("this system lets nobody mount a disk of his own")
 
 
 @contextmanager

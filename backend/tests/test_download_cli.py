@@ -71,6 +71,7 @@ def file_in(folder: Path, name: str, text: Any) -> str:
     return str(folder / name)
 
 
+@pytest.mark.exhaustive
 def test_several_files_go_to_their_slots(served: Served, board: Board, tmp_path: Path) -> None:
     wave = file_in(tmp_path, "wave.json", {"frames": FRAMES})
     bow = file_in(tmp_path, "bow.json", {"name": "Deep bow", "frames": FRAMES[:1]})
@@ -87,6 +88,7 @@ def test_several_files_go_to_their_slots(served: Served, board: Board, tmp_path:
     assert (told["status"], told["name"]) == ("done", "wave")
 
 
+@pytest.mark.exhaustive
 def test_it_may_go_on_without_the_command(served: Served, board: Board, tmp_path: Path) -> None:
     wave = file_in(tmp_path, "wave.json", {"frames": FRAMES * 20})
     begun = run("download", f"5={wave}", "--no-wait", "--url", served.url)
@@ -99,6 +101,7 @@ def test_it_may_go_on_without_the_command(served: Served, board: Board, tmp_path
     assert {slot for slot, _ in board.stored} <= {5}
 
 
+@pytest.mark.exhaustive
 def test_what_one_request_does_not_take_goes_in_several_as_one_job(
     served: Served, board: Board, tmp_path: Path
 ) -> None:
@@ -113,6 +116,7 @@ def test_what_one_request_does_not_take_goes_in_several_as_one_job(
     assert run("stop", "--url", served.url).exit_code == 0
 
 
+@pytest.mark.exhaustive
 def test_what_ends_it_early_is_told_with_what_is_stored(served: Served, board: Board, tmp_path: Path) -> None:
     wave = file_in(tmp_path, "wave.json", {"frames": FRAMES})
     board.silent_after = 3

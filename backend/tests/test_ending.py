@@ -22,7 +22,10 @@ from tests.samples import MOVE, STOP
 from tests.test_cli import END_S, Served
 from tests.test_library_api import body
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals and ptys need POSIX")
+pytestmark = [
+    pytest.mark.exhaustive,
+    pytest.mark.skipif(os.name != "posix", reason="signals and ptys need POSIX"),
+]
 
 
 @pytest.fixture

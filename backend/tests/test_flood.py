@@ -19,7 +19,10 @@ from tests.bus import kept_waiting_s
 from tests.test_cli import Served
 from tests.test_clients import hear_until, say
 
-pytestmark = pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc")
+pytestmark = [
+    pytest.mark.exhaustive,
+    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc"),
+]
 
 FLOODERS = 10 if TIMES > 1 else 2
 LASTS_S = 20.0 if TIMES > 1 else 3.0

@@ -32,7 +32,10 @@ from tests.test_flood import rss_kib
 from tests.test_library_api import body
 from tests.test_ports import Pty
 
-pytestmark = pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc")
+pytestmark = [
+    pytest.mark.exhaustive,
+    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc"),
+]
 
 FLOOD = Path(__file__).parents[2] / "bench" / "unauthenticated.py"
 FULL = TIMES > 1

@@ -26,7 +26,10 @@ from tests.test_cli import END_S, Served
 from tests.test_library_api import body
 from tests.test_ports import Pty
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals and ptys need POSIX")
+pytestmark = [
+    pytest.mark.exhaustive,
+    pytest.mark.skipif(os.name != "posix", reason="signals and ptys need POSIX"),
+]
 OLDEST_MOTION_S = 0.5
 LIVES_IN_A_FOLDER = 5  # each saves some hundred documents, and a library takes 5,000
 DOWNLOAD_HEAD = bytes.fromhex("55550b1908")

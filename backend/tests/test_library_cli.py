@@ -16,6 +16,8 @@ from tests.scripted import move
 from tests.test_cli import Served, run
 from tests.test_poses_api import ARM
 
+pytestmark = pytest.mark.exhaustive
+
 WAVE = {
     "kind": "group",
     "name": "Wave",

@@ -43,6 +43,7 @@ def send_garbage(served: Served) -> None:
         client.recv(1000)
 
 
+@pytest.mark.exhaustive
 def test_each_line_is_an_object_also_those_of_the_libraries(json_served: Served) -> None:
     send_garbage(json_served)
     json_served.pty.unplug()
@@ -64,6 +65,7 @@ def test_each_line_is_an_object_also_those_of_the_libraries(json_served: Served)
     assert all(line["level"] in LEVELS and line["time"].endswith("+00:00") for line in lines)
 
 
+@pytest.mark.exhaustive
 def test_whoever_is_refused_costs_few_lines_and_no_error(json_served: Served) -> None:
     ws = f"ws{json_served.url.removeprefix('http')}/ws"
     for _ in range(30):
@@ -112,6 +114,7 @@ def status_of(served: Served) -> str:
         return str(json.loads(client.recv())["port"]["status"])
 
 
+@pytest.mark.exhaustive
 def test_no_packet_stands_in_the_log_at_any_level(json_served: Served) -> None:
     with connect(f"ws{json_served.url.removeprefix('http')}/ws") as client:
         client.send(json.dumps({"type": "board", "board": "doc"}))

@@ -14,7 +14,10 @@ import pytest
 from tests.test_cli import Served
 from tests.test_flood import rss_kib
 
-pytestmark = pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc")
+pytestmark = [
+    pytest.mark.exhaustive,
+    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc"),
+]
 
 ENDED_WITHIN_S = 1.0
 # Slow machines run tests, too.

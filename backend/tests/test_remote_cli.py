@@ -31,6 +31,7 @@ def served(tmp_path: Path) -> Iterator[Served]:
     made.end()
 
 
+@pytest.mark.exhaustive
 def test_status_is_told_for_people_and_for_programs(served: Served) -> None:
     told = run("status", "--url", served.url)
     assert told.exit_code == 0
@@ -51,6 +52,7 @@ def test_a_stop_leaves_and_refuses_motion_until_resume(served: Served) -> None:
     assert os.read(served.pty.board, 100) == MOVE_OF_TWO
 
 
+@pytest.mark.exhaustive
 def test_a_bare_stop_does_not_wait_for_the_rest_of_the_command_line(served: Served) -> None:
     program = (
         "import sys; sys.argv = ['servodeck', 'stop']; from servodeck.__main__ import main; main(); "
@@ -100,12 +102,14 @@ def test_a_bare_stop_that_fails_is_explained() -> None:
     assert (done.returncode, "servodeck serve" in done.stderr) == (UNREACHABLE, True)
 
 
+@pytest.mark.exhaustive
 def test_what_is_out_of_range_is_told_in_the_gateways_words(served: Served) -> None:
     refused = run("move", "1=2600", "--url", served.url)
     assert (refused.exit_code, refused.stdout) == (FAILURE, "")
     assert refused.stderr.startswith("position of servo 1 is 2600, allowed 500..2500")
 
 
+@pytest.mark.exhaustive
 def test_a_silent_board_is_told_with_what_to_do(served: Served) -> None:
     silent = run("battery", "--url", served.url)
     assert silent.exit_code == FAILURE
@@ -113,6 +117,7 @@ def test_a_silent_board_is_told_with_what_to_do(served: Served) -> None:
     assert os.read(served.pty.board, 100) == BATTERY
 
 
+@pytest.mark.exhaustive
 def test_a_run_is_watched_over_until_ctrl_c_ends_it(served: Served) -> None:
     with begin(served, "run", "8") as watching:
         assert watching.stdout
@@ -125,6 +130,7 @@ def test_a_run_is_watched_over_until_ctrl_c_ends_it(served: Served) -> None:
         assert "waits for resume" not in run("status", "--url", served.url).stdout
 
 
+@pytest.mark.exhaustive
 def test_a_run_whose_end_nobody_hears_of_is_ended_in_time_with_a_code_of_its_own(served: Served) -> None:
     ended = run("run", "9", "--timeout", "1.2", "--url", served.url)
     assert (ended.exit_code, "within 1.2 s" in ended.stderr, "empty" in ended.stderr) == (
@@ -141,6 +147,7 @@ def test_an_end_is_waited_for_as_long_as_the_group_takes_or_half_a_minute() -> N
     assert usual_limit_s(None) == 30
 
 
+@pytest.mark.exhaustive
 def test_an_endless_run_says_so_and_begins_only_where_its_watch_has_an_end(served: Served) -> None:
     refused = run("run", "8", "--times", "0", "--url", served.url)
     assert (refused.exit_code, "until somebody stops it" in refused.stderr) == (USAGE, True)
@@ -151,6 +158,7 @@ def test_an_endless_run_says_so_and_begins_only_where_its_watch_has_an_end(serve
     assert both.exit_code == USAGE
 
 
+@pytest.mark.exhaustive
 def test_a_run_that_somebody_stops_ends_its_watch(served: Served) -> None:
     with begin(served, "run", "8") as watching:
         assert watching.stdout
@@ -159,6 +167,7 @@ def test_a_run_that_somebody_stops_ends_its_watch(served: Served) -> None:
         assert watching.wait(5) == 0
 
 
+@pytest.mark.exhaustive
 def test_a_run_may_go_on_without_the_command(served: Served) -> None:
     assert run("run", "8", "--continue", "60", "--url", served.url).exit_code == 0
     told = run("status", "--url", served.url).stdout
@@ -166,6 +175,7 @@ def test_a_run_may_go_on_without_the_command(served: Served) -> None:
     assert "running  slot 8, 1 times" in told
 
 
+@pytest.mark.exhaustive
 def test_events_are_told_line_by_line(served: Served) -> None:
     with begin(served, "events") as listening:
         assert listening.stdout
@@ -176,10 +186,12 @@ def test_events_are_told_line_by_line(served: Served) -> None:
         assert listening.wait(5) == INTERRUPTED
 
 
+@pytest.mark.exhaustive
 def test_ports_of_the_gateways_computer_are_told(served: Served) -> None:
     assert served.pty.device in run("ports", "--url", served.url).stdout
 
 
+@pytest.mark.exhaustive
 def test_strangers_are_told_where_a_token_comes_from_and_with_one_they_come_in(tmp_path: Path) -> None:
     served = Served("--lan", "--data", str(tmp_path), *SILENT)
     refused = run("status", "--url", served.url)

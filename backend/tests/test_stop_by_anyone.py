@@ -46,6 +46,7 @@ async def test_a_viewer_stops_it(state: str) -> None:
             await stop_at_random(STATES.get(state, []), random.Random(seed), state == DOWNLOADING)
 
 
+@pytest.mark.exhaustive
 @in_virtual_time
 async def test_a_viewer_who_floods_with_others_stops_it() -> None:
     for seed in seeds(50):

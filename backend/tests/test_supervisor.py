@@ -60,6 +60,7 @@ def served_for(supervisor: Supervisor, **variables: str) -> Served:
     return Served(variables={"NOTIFY_SOCKET": supervisor.socket.getsockname(), **variables})
 
 
+@pytest.mark.exhaustive
 def test_systemd_hears_of_readiness_life_and_end(supervisor: Supervisor) -> None:
     served = served_for(supervisor, WATCHDOG_USEC="2000000")
     assert "READY=1" in supervisor.hear_until("READY=1")
@@ -75,6 +76,7 @@ def test_systemd_hears_of_readiness_life_and_end(supervisor: Supervisor) -> None
     served.end()
 
 
+@pytest.mark.exhaustive
 def test_a_supervisor_that_watches_another_process_hears_no_life(supervisor: Supervisor) -> None:
     served = served_for(supervisor, WATCHDOG_USEC="2000000", WATCHDOG_PID="1")
     supervisor.hear_until("READY=1")
@@ -84,6 +86,7 @@ def test_a_supervisor_that_watches_another_process_hears_no_life(supervisor: Sup
     served.end()
 
 
+@pytest.mark.exhaustive
 def test_a_name_without_a_file_will_do() -> None:
     supervisor = Supervisor(f"\0servodeck-test-{os.getpid()}")
     served = Served(variables={"NOTIFY_SOCKET": f"@servodeck-test-{os.getpid()}"})
@@ -92,6 +95,7 @@ def test_a_name_without_a_file_will_do() -> None:
     supervisor.socket.close()
 
 
+@pytest.mark.exhaustive
 def test_a_supervisor_that_is_gone_is_no_reason_to_fail() -> None:
     served = Served(variables={"NOTIFY_SOCKET": "/nowhere/at/all"})
     served.end()
@@ -131,6 +135,7 @@ def test_the_unit_waits_long_enough_and_gives_only_what_is_needed() -> None:
     assert all(device.endswith(" rw") and "tty" in device for device in settings["DeviceAllow"])
 
 
+@pytest.mark.exhaustive
 @pytest.mark.skipif(not HAS_SYSTEMD, reason="systemd is not installed")
 @pytest.mark.parametrize("check", [["verify"], ["security", "--offline=true", "--threshold=20"]])
 def test_systemd_finds_nothing_wrong_with_the_unit(check: list[str], tmp_path: Path) -> None:

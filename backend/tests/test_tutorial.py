@@ -20,7 +20,11 @@ from servodeck.protocol.values import Move, Run, ServoTarget
 from tests.running import Running, server_on
 from tests.test_with_simulator import ROOT, Board, board, pytestmark
 
-pytestmark = [*pytestmark, pytest.mark.skipif(shutil.which("curl") is None, reason="curl is not installed")]
+pytestmark = [
+    pytest.mark.exhaustive,
+    *pytestmark,
+    pytest.mark.skipif(shutil.which("curl") is None, reason="curl is not installed"),
+]
 fixtures = (board,)
 
 PIECE = re.compile(r"^```(sh|python)\n(.*?)^```$", re.MULTILINE | re.DOTALL)

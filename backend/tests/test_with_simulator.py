@@ -111,6 +111,7 @@ async def test_moves_battery_and_stop_reach_the_board_in_order(board: Board, gat
     )
 
 
+@pytest.mark.exhaustive
 async def test_a_pulled_cable_is_told_and_a_plugged_one_found_again(board: Board, gateway: Running) -> None:
     async with connect(gateway.ws) as client:
         await hear_port(client, "open")
@@ -151,6 +152,7 @@ async def ask_at_rest(client: AsyncClient, path: str, **body: Any) -> dict[str, 
     return said
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("board", ["openarm-old"], indirect=True)
 async def test_a_group_that_the_gateway_stored_is_held_where_its_frame_has_the_servo(
     board: Board, gateway: Running
