@@ -4,7 +4,7 @@
 import { useMemo, useState, type CSSProperties, type KeyboardEvent } from 'react';
 import { indexOfFrame } from '#shared/actions/group/groupEdits.ts';
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
-import { useStores, useView } from '../stores/stores.ts';
+import { useStores } from '../stores/stores.ts';
 import { showFrame } from '../timeline/inStep.ts';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { useInFrame } from '../ui/useInFrame.ts';
@@ -23,7 +23,7 @@ const ATTRIBUTE = 'data-frame';
 export function FrameStrip() {
   const stores = useStores();
   const group = useInFrame(stores.document.store, ({ present }) => present);
-  const selected = useView((state) => state.selectedFrame);
+  const selected = useInFrame(stores.view, (state) => state.selectedFrame);
   const playing = usePlayedFrame();
   const whole = useWholeFrames();
   const [ownKeys] = useState(() => createStripKeys(stores));

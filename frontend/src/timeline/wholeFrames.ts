@@ -5,7 +5,8 @@ import type { GroupFrame } from '#shared/actions/group/group.ts';
 import { sameList } from '#shared/actions/group/groupEdits.ts';
 import type { Key } from '#shared/actions/group/tracks.ts';
 import { framesByServo, type KeySet } from '../stores/timeline/keySet.ts';
-import { useDocument, useTimeline } from '../stores/stores.ts';
+import { useStores } from '../stores/stores.ts';
+import { useInFrame } from '../ui/useInFrame.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { useRows } from './useRows.ts';
 
@@ -66,10 +67,13 @@ function wholeNow(times: GroupTimes, selected: KeySet, shown: readonly number[])
   return latest;
 }
 
+/** With the next frame: what an edit of thousands of keys does to strip and tools does not keep the key that made it. */
 export function useWholeFrames(): readonly number[] {
-  const selected = useTimeline((state) => state.selected);
+  const { document, timeline } = useStores();
   const shown = useRows().find(({ kind }) => kind === 'all')?.servos ?? NO_SERVOS;
-  return useDocument(({ present }) => wholeNow(timesOf(present), selected, shown));
+  return useInFrame(document.store, ({ present }) =>
+    wholeNow(timesOf(present), timeline.getState().selected, shown),
+  );
 }
 
 const NO_SERVOS: readonly number[] = [];

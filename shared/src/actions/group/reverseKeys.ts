@@ -4,12 +4,15 @@
 import type { ActionGroup } from './group.ts';
 import { hasOthers, lifted } from './lifted.ts';
 import { merged } from './merged.ts';
-import { withMoments } from './moments.ts';
-import { backwards, reverse } from './timeEdits.ts';
+import { momentsOf, withMoments } from './moments.ts';
+import { backwards, reverse, type TimeRange } from './timeEdits.ts';
 import type { KeyRef } from './tracks.ts';
 
-/** A key that comes to a frame of other keys comes in as they do: a frame has one easing. */
+/** `refs` name keys of the group, each once. A key that comes to a frame of other keys comes in as they do: a frame has one easing. */
 export function reverseKeys(group: ActionGroup, refs: readonly KeyRef[]): ActionGroup {
+  const ends = keyedEnds(group);
+  // Thousands of keys, mostly all of them: nothing has to be lifted.
+  if (refs.length === ends.keys) return ends.keys === 0 ? group : reverse(group, ends);
   const { kept, keys, vacated } = lifted(group, refs);
   const [first, last] = [keys[0], keys.at(-1)];
   if (first === undefined || last === undefined) return group;
@@ -24,4 +27,11 @@ export function reverseKeys(group: ActionGroup, refs: readonly KeyRef[]): Action
   const staying = kept.filter(({ frame }) => !vacated.has(frame.id));
   const all = merged(staying, reversed, vacated);
   return withMoments(group, [...all.staying, ...all.added]);
+}
+
+/** How many keys there are, and the instants of the first and the last. */
+function keyedEnds(group: ActionGroup): TimeRange & { readonly keys: number } {
+  const keyed = momentsOf(group).filter(({ frame }) => frame.targets.length > 0);
+  const [fromMs, toMs] = [keyed[0]?.atMs ?? 0, keyed.at(-1)?.atMs ?? 0];
+  return { fromMs, toMs, keys: keyed.reduce((sum, { frame }) => sum + frame.targets.length, 0) };
 }
