@@ -75,7 +75,7 @@ test('each group keeps its own undo; versions, tags, copies and the trash work f
   await library.open('Salute, copy');
 });
 
-test('of many groups those in sight are drawn, and more as the end of the list comes into sight', async ({
+test('of many groups those in sight are drawn, wherever the list is, and keys lead to each of them', async ({
   dashboard,
   page,
 }) => {
@@ -94,14 +94,29 @@ test('of many groups those in sight are drawn, and more as the end of the list c
     ...{ name: 'many.json', mimeType: 'application/json' },
     buffer: Buffer.from(libraryToText({ documents })),
   });
-  const more = library.dialog.getByRole('button', { name: /^Show more of / });
-  await expect(more).toBeVisible();
-  expect(await library.names()).toHaveLength(48);
-  await more.scrollIntoViewIfNeeded();
-  await poll(async () => (await library.names()).length).toBeGreaterThanOrEqual(96);
-  await library.list.getByRole('listitem').last().scrollIntoViewIfNeeded();
-  await expect(more).toBeHidden();
-  expect(await library.names()).toEqual(expect.arrayContaining(documents.map(({ group }) => group.name)));
+  const cards = library.list.getByRole('listitem');
+  const named = library.list.getByRole('button', { name: /^Open / });
+  await expect(cards.first()).toHaveAttribute('aria-setsize', /^10\d$/);
+  const count = Number(await cards.first().getAttribute('aria-setsize'));
+  expect((await library.names()).length).toBeLessThan(50);
+  const [first] = await library.names();
+  await named.first().press('End');
+  await expect(cards.last()).toHaveAttribute('aria-posinset', String(count));
+  await expect(cards.last().getByRole('button', { name: /^Open / })).toBeFocused();
+  await expect(cards.last()).toBeInViewport();
+  expect((await library.names()).length).toBeLessThan(50);
+  expect(await library.names()).not.toContain(first);
+
+  // Back by the arrow, card after card, to such that were not drawn before.
+  for (let place = count; place > count - 40; place -= 1) {
+    await expect(library.list.locator('li:focus-within')).toHaveAttribute('aria-posinset', String(place));
+    await page.keyboard.press('ArrowUp');
+  }
+  // The wheel alone leaves nothing of what was seen behind it.
+  await library.dialog.evaluate((dialog) => dialog.scrollTo({ top: dialog.scrollHeight }));
+  await expect(cards.last()).toHaveAttribute('aria-posinset', String(count));
+  await expect(cards.last()).toBeInViewport();
+  expect((await library.names()).length).toBeLessThan(50);
   // What is looked for is found wherever it would stand.
   await library.dialog.getByRole('searchbox').fill('Step 1');
   await library.open('Step 1');

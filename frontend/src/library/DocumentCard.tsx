@@ -1,6 +1,6 @@
 // One group of the library: its picture opens it, and more about it unfolds in place.
 
-import { memo } from 'react';
+import { memo, type Ref } from 'react';
 import type { Listed } from '#shared/actions/library/keeper.ts';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
@@ -11,6 +11,12 @@ import { DocumentThumb } from './DocumentThumb.tsx';
 import styles from './Library.module.css';
 
 export interface DocumentCardProps {
+  /** Where its height stands for that of its row: with the row's index. */
+  readonly ref?: Ref<HTMLLIElement>;
+  readonly row?: number;
+  /** In the whole list of `count`, from 1: not all of them are drawn. */
+  readonly place: number;
+  readonly count: number;
   readonly document: Listed;
   readonly nowMs: number;
   readonly isUnfolded: boolean;
@@ -20,6 +26,10 @@ export interface DocumentCardProps {
 
 /** Drawn again only where it is another: the list is looked at every few seconds. */
 export const DocumentCard = memo(function DocumentCard({
+  ref,
+  row,
+  place,
+  count,
   document,
   nowMs,
   isUnfolded,
@@ -32,7 +42,14 @@ export const DocumentCard = memo(function DocumentCard({
   const { name, frames, durationMs, robot, tags } = facts;
   const open = (): void => void library.open(id).then(onDone);
   return (
-    <li className={cx(styles.card, isUnfolded && styles.unfolded, isOpen && styles.current)}>
+    <li
+      ref={ref}
+      data-index={row}
+      data-document={id}
+      aria-posinset={place}
+      aria-setsize={count}
+      className={cx(styles.card, isUnfolded && styles.unfolded, isOpen && styles.current)}
+    >
       <div className={styles.front}>
         <button
           type="button"

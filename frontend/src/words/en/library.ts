@@ -36,7 +36,6 @@ export const libraryWords = {
   empty: 'No groups in the library yet',
   emptyHint:
     'Close this and capture a frame: the group goes into the library by itself, with every change. Or import a file.',
-  showMore: (count: number): string => `Show more of ${counted(count, 'group')}`,
   nothingFound: 'No group is like that.',
 
   search: 'Find a group',

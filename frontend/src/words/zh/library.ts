@@ -33,7 +33,6 @@ export const libraryWords: typeof english = {
   waiting: '还有修改没有存进动作库。',
   empty: '动作库里还没有动作组',
   emptyHint: '关闭这里并记录一帧：动作组和每次修改都会自动存进动作库。也可以导入文件。',
-  showMore: (count) => `显示更多（还有${formatCount(count)}个）`,
   nothingFound: '没有这样的动作组。',
 
   search: '查找动作组',
