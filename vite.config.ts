@@ -1,18 +1,36 @@
 // How the page is built: into the Python package, so that one wheel serves it. Nothing inline and no data: addresses,
 // because the gateway serves it under a strict Content-Security-Policy.
 
-import { resolve } from 'node:path';
+import { readFileSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { brotliCompressSync, gzipSync } from 'node:zlib';
 import react from '@vitejs/plugin-react';
-import { defineConfig } from 'vite';
+import { defineConfig, type Plugin } from 'vite';
 
 const gateway = 'http://127.0.0.1:8300';
 // The gateway accepts its own Host and Origin only, so the development server speaks in its name.
 const proxy = { target: gateway, changeOrigin: true, headers: { origin: gateway } };
 
+/** Compressed files beside the plain ones, for the gateway: its loop, on which STOP waits, compresses nothing. */
+function compressed(): Plugin {
+  return {
+    name: 'compressed',
+    apply: 'build',
+    writeBundle({ dir = '' }, bundle) {
+      for (const name of Object.keys(bundle).filter((one) => /[.](js|css|html|svg|wasm)$/.test(one))) {
+        const file = path.join(dir, name);
+        const content = readFileSync(file);
+        writeFileSync(`${file}.br`, brotliCompressSync(content));
+        writeFileSync(`${file}.gz`, gzipSync(content, { level: 9 }));
+      }
+    },
+  };
+}
+
 export default defineConfig({
   root: 'frontend',
   base: './',
-  plugins: [react()],
+  plugins: [react(), compressed()],
   server: {
     host: '127.0.0.1',
     proxy: { '/api': proxy, '/ws': { ...proxy, ws: true } },
@@ -25,8 +43,6 @@ export default defineConfig({
     assetsInlineLimit: 0,
     reportCompressedSize: false,
     rolldownOptions: {
-      // In full: the build and the development server begin at different folders.
-      input: ['index.html', 'gallery.html'].map((page) => resolve(import.meta.dirname, 'frontend', page)),
       // The packages change less often than the page: a browser keeps them. SQLite is fetched only when it is wanted.
       output: { codeSplitting: { groups: [{ name: 'packages', test: /node_modules(?!.*sql[.]js)/ }] } },
     },

@@ -1,4 +1,4 @@
-// `npm run build`: the page into the Python package, the simulated board as one file for Node.
+// `npm run build`: the page into the Python package, the gallery of its states beside it, the simulated board as one file for Node.
 
 import { build } from 'vite';
 import { buildInputs, buildStamp } from './setup.mjs';
@@ -8,6 +8,13 @@ const logLevel = 'warn';
 
 function buildPage() {
   return build({ configFile: at('vite.config.ts'), logLevel });
+}
+
+/** For those who look at it and for tests: no part of the package. */
+function buildGallery() {
+  const outDir = at('build/gallery');
+  const rolldownOptions = { input: at('frontend/gallery.html') };
+  return build({ configFile: at('vite.config.ts'), logLevel, build: { outDir, rolldownOptions } });
 }
 
 function buildSimulator() {
@@ -28,7 +35,7 @@ function buildSimulator() {
 
 await main(async () => {
   const inputs = buildInputs(); // before: what changes meanwhile is not in the build
-  await Promise.all([buildPage(), buildSimulator()]);
+  await Promise.all([buildPage(), buildGallery(), buildSimulator()]);
   writeStamp(buildStamp, inputs);
   return 0;
 });

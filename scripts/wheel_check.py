@@ -22,7 +22,7 @@ from zipfile import ZipFile
 import httpx2
 from websockets.sync.client import connect
 
-NEEDED = ("servodeck/static/index.html", "servodeck/__main__.py")
+NEEDED = ("servodeck/static/index.html", "servodeck/static/index.html.br", "servodeck/__main__.py")
 STOP = bytes.fromhex("55550207")
 READY = re.compile(r"Servodeck is at (\S+)")
 END_S = 3.0
@@ -32,9 +32,13 @@ BIN = "Scripts" if os.name == "nt" else "bin"
 def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         wheel = build(Path(folder))
-        missing = set(NEEDED) - set(ZipFile(wheel).namelist())
+        names = ZipFile(wheel).namelist()
+        missing = set(NEEDED) - set(names)
         if missing:
             print(f"{wheel.name} lacks {', '.join(sorted(missing))}")
+            return 1
+        if any("gallery" in name for name in names):
+            print(f"{wheel.name} has the gallery, which is for those who build the page")
             return 1
         if os.name == "posix":  # the end below is a signal
             use(install(wheel, Path(folder) / "installed"), Path(folder))

@@ -1,6 +1,8 @@
 """The assembled gateway: who gets in on every route, headers, the page, the documentation, errors."""
 
 import gc
+import gzip
+import os
 import re
 import time
 import weakref
@@ -20,6 +22,9 @@ from tests.running import NO_LIBRARY, PORT, entrance_to, http_to
 from tests.test_gate import headers_of
 
 NOWHERE = FakePorts(PortMissingError("There is no such port."))
+SCRIPT = "export const answer = 42;\n" * 200
+AS_GZIP = gzip.compress(SCRIPT.encode())
+AS_BROTLI = b"any bytes: the gateway reads none of them"
 
 
 @pytest.mark.parametrize(
@@ -140,7 +145,10 @@ async def test_nothing_is_measured_for_anybody_else_whatever_the_environment_say
 def built(tmp_path: Path) -> Path:
     (tmp_path / "assets").mkdir()
     (tmp_path / "index.html").write_text("<!doctype html><title>Servodeck</title>")
-    (tmp_path / "assets" / "page-1a2b3c.js").write_text("export const answer = 42;\n" * 200)
+    script = tmp_path / "assets" / "page-1a2b3c.js"
+    script.write_text(SCRIPT)
+    script.with_name("page-1a2b3c.js.gz").write_bytes(AS_GZIP)
+    script.with_name("page-1a2b3c.js.br").write_bytes(AS_BROTLI)
     (tmp_path / "sw.js").write_text("self.x = 1;")
     return tmp_path
 
@@ -155,11 +163,59 @@ async def test_the_page_is_asked_for_again_and_hashed_files_are_kept(built: Path
         assert again.status_code == 304
         script = await client.get("/assets/page-1a2b3c.js")
         assert script.headers["cache-control"] == "public, max-age=31536000, immutable"
-        assert script.headers["content-encoding"] == "gzip"
         assert script.headers["content-type"].startswith("text/javascript")
         assert (await client.get("/sw.js")).headers["cache-control"] == "no-cache"
         assert (await client.get("/../pyproject.toml")).status_code == 404
         assert (await client.get("/%2e%2e/%2e%2e/pyproject.toml")).status_code == 404
+
+
+@pytest.mark.parametrize(
+    ("accepts", "encoding"),
+    [
+        ("gzip, deflate, br, zstd", "br"),
+        ("gzip, deflate", "gzip"),
+        ("GZIP;q=0.5, br;q=0", "gzip"),
+        ("br;q=0, *;q=0.1", "gzip"),
+        ("*", "br"),
+        ("identity", None),
+        ("gzip;q=0, br;q=none", None),
+        ("", None),
+    ],
+)
+async def test_a_script_comes_as_the_browser_takes_it(
+    built: Path, accepts: str, encoding: str | None
+) -> None:
+    path = "/assets/page-1a2b3c.js"
+    async with http_to(NOWHERE, time.monotonic, device=None, static=built) as (client, _):
+        asked = {"accept-encoding": accepts}
+        async with client.stream("GET", path, headers=asked) as answer:
+            raw = b"".join([part async for part in answer.aiter_raw()])
+        assert answer.headers.get("content-encoding") == encoding
+        assert raw == {"br": AS_BROTLI, "gzip": AS_GZIP, None: SCRIPT.encode()}[encoding]
+        assert answer.headers["content-length"] == str(len(raw))
+        assert answer.headers["content-type"].startswith("text/javascript")
+        assert answer.headers["vary"] == "Accept-Encoding"
+        assert answer.headers["cache-control"] == "public, max-age=31536000, immutable"
+        head = await client.head(path, headers=asked)
+        assert (head.content, dict(head.headers)) == (b"", dict(answer.headers))
+        known = {**asked, "if-none-match": answer.headers["etag"]}
+        again = await client.get(path, headers=known)
+        assert (again.status_code, again.headers["vary"]) == (304, "Accept-Encoding")
+        other = {**known, "accept-encoding": "gzip" if encoding != "gzip" else "br"}
+        assert (await client.head(path, headers=other)).status_code == 200
+
+
+async def test_a_new_page_of_the_same_size_and_time_is_not_taken_for_the_old_one(built: Path) -> None:
+    index = built / "index.html"
+    async with http_to(NOWHERE, time.monotonic, device=None, static=built) as (client, _):
+        old = await client.get("/")
+        was = index.stat()
+        index.write_text(old.text.replace("Servodeck", "Newerdeck"))
+        os.utime(index, ns=(was.st_atime_ns, was.st_mtime_ns))
+        new = await client.get("/", headers={"if-none-match": old.headers["etag"]})
+        assert (new.status_code, "Newerdeck" in new.text) == (200, True)
+        same = await client.get("/", headers={"if-none-match": new.headers["etag"]})
+        assert same.status_code == 304
 
 
 async def test_an_unbuilt_page_says_how_to_build_it(tmp_path: Path) -> None:
