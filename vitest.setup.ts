@@ -1,5 +1,5 @@
-// Properties: `npm test` tries the same inputs each time, so that it fails by a change and by nothing else. `npm run test:long`
-// tries new ones, ten times as many, and has the time for them; nothing else depends on it.
+// Properties: `npm test` tries the same inputs each time, so that it fails by a change and by nothing else. A long run tries new
+// ones, ten times as many, and has the time for them; nothing else depends on it.
 
 import { configureGlobal } from 'fast-check';
 import { afterAll, vi } from 'vitest';

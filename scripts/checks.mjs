@@ -1,17 +1,11 @@
-// Every check and test of the project as a list; test.mjs and check.mjs choose from it. Knows how each tool is called.
+// Every check and test of the project, and which of them `npm test` and `npm run check` take. Knows how each tool is called.
 
 import { availableParallelism } from 'node:os';
-import { findBrowser } from './browser.mjs';
+import { browserForTests, findBrowser } from './browser.mjs';
 import { python } from './python.mjs';
-import {
-  countPlaywright,
-  countPytest,
-  countVitest,
-  playwrightReport,
-  pytestReport,
-  vitestReport,
-} from './reports.mjs';
+import { clearReports, reportOf, testsOf } from './reports.mjs';
 import { at } from './steps.mjs';
+import { conclude, runTasks } from './tasks.mjs';
 
 /** @typedef {import('./tasks.mjs').Task} Task */
 
@@ -29,15 +23,15 @@ const tsc = 'typescript/bin/tsc';
 const cache = 'node_modules/.cache';
 
 /** @type {Task} */
-export const build = { name: 'build', command: [process.execPath, 'scripts/build.mjs'] };
+const build = { name: 'build', command: [process.execPath, 'scripts/build.mjs'] };
 /** @type {Task} */
-export const types = { name: 'types, Node side', command: node(tsc, '-p', '.') };
+const types = { name: 'types, Node side', command: node(tsc, '-p', '.') };
 /** @type {Task} */
-export const pageTypes = { name: 'types, page', command: node(tsc, '-p', 'frontend') };
+const pageTypes = { name: 'types, page', command: node(tsc, '-p', 'frontend') };
 /** @type {Task} */
-export const sharedTypes = { name: 'types, shared', command: node(tsc, '-p', 'shared') };
+const sharedTypes = { name: 'types, shared', command: node(tsc, '-p', 'shared') };
 /** @type {Task} */
-export const lint = {
+const lint = {
   name: 'lint',
   command: node(
     'eslint/bin/eslint.js',
@@ -50,12 +44,12 @@ export const lint = {
   ),
 };
 /** @type {Task} */
-export const format = {
+const format = {
   name: 'format',
   command: node('prettier/bin/prettier.cjs', '--check', '--cache', '--log-level', 'warn', '.'),
 };
 /** @type {Task} */
-export const layers = {
+const layers = {
   name: 'layer rule',
   command: node(
     'dependency-cruiser/bin/dependency-cruise.mjs',
@@ -63,73 +57,111 @@ export const layers = {
   ),
 };
 /** @type {Task} */
-export const unused = { name: 'unused code', command: node('knip/bin/knip.js') };
+const unused = { name: 'unused code', command: node('knip/bin/knip.js') };
 /** @type {Task} */
-export const messages = {
+const messages = {
   name: 'message types',
   command: [process.execPath, 'scripts/message_types.mjs', '--check'],
 };
 /** @type {Task} */
-export const locks = { name: 'lock files', command: [process.execPath, 'scripts/lock_check.mjs'] };
+const locks = { name: 'lock files', command: [process.execPath, 'scripts/lock_check.mjs'] };
 /** @type {Task} */
-export const pythonLint = { name: 'lint, Python', command: pythonModule('ruff', 'check', '.') };
+const pythonLint = { name: 'lint, Python', command: pythonModule('ruff', 'check', '.') };
 /** @type {Task} */
-export const pythonFormat = {
+const pythonFormat = {
   name: 'format, Python',
   command: pythonModule('ruff', 'format', '--check', '.'),
 };
 /** @type {Task} */
-export const pythonTypes = { name: 'types, Python', command: pythonModule('mypy') };
+const pythonTypes = { name: 'types, Python', command: pythonModule('mypy') };
 
 /** @type {Task} */
-export const wheel = { name: 'wheel', command: [python, 'scripts/wheel_check.py'] };
+const wheel = { name: 'wheel', command: [python, 'scripts/wheel_check.py'] };
 
-/** Ten times as much: a property gets 1,000 inputs instead of 100, and so on. */
-const longRun = { env: { PROPERTY_RUNS: '1000' }, limitMs: 30 * 60_000 };
+/**
+ * How much is tried: `usual` in `npm test`; `all` of every table, and what starts processes or waits in real time;
+ * `long`, each property with ten times the inputs.
+ * @typedef {'usual' | 'all' | 'long'} Amount
+ */
+/** @param {Amount} amount @returns {Partial<Task>} */
+function tried(amount) {
+  if (amount === 'usual') return {};
+  const env = { EXHAUSTIVE: '1', ...(amount === 'long' ? { PROPERTY_RUNS: '1000' } : {}) };
+  return { env, limitMs: 60 * 60_000 };
+}
 
-/** @param {{long: boolean}} options @returns {Task} */
-export function unit({ long }) {
+/** @param {Amount} amount @returns {Task} */
+function unit(amount) {
   return {
     name: 'unit and property',
     command: node(
       'vitest/vitest.mjs',
-      'run',
-      '--reporter=dot',
-      '--reporter=json',
-      `--outputFile.json=${vitestReport}`,
+      ...['run', '--reporter=dot', '--reporter=junit', `--outputFile.junit=${reportOf('vitest')}`],
     ),
-    ...(long ? longRun : {}),
-    count: countVitest,
+    ...tried(amount),
+    tests: () => testsOf('vitest'),
   };
 }
 
 /** Two at least: some tests wait. */
 const workers = String(Math.max(2, availableParallelism()));
 
-/** @param {{long: boolean, exhaustive: boolean}} options @returns {Task} */
-export function gateway({ long, exhaustive }) {
+/** @param {Amount} amount @returns {Task} */
+function gateway(amount) {
   return {
     name: 'gateway',
     command: pythonModule(
-      ...['pytest', `--junitxml=${pytestReport}`, '-n', workers, '--dist', 'worksteal'],
-      ...(exhaustive ? ['-m', ''] : []), // else without the tests that are marked so
+      ...['pytest', `--junitxml=${reportOf('pytest')}`, '-n', workers, '--dist', 'worksteal'],
+      ...(amount === 'usual' ? [] : ['-m', '']), // else without the tests that are marked exhaustive
     ),
-    ...(long ? longRun : {}),
-    count: countPytest,
+    ...tried(amount),
+    tests: () => testsOf('pytest'),
   };
 }
 
 /** @returns {Task} */
-export function endToEnd() {
+function endToEnd() {
   return {
     name: 'end to end',
-    command: node('@playwright/test/cli.js', 'test', '--reporter=dot,json'),
+    command: node('@playwright/test/cli.js', 'test', '--fail-on-flaky-tests', '--reporter=dot,junit'),
     env: {
-      PLAYWRIGHT_JSON_OUTPUT_FILE: at(playwrightReport),
+      PLAYWRIGHT_JUNIT_OUTPUT_FILE: at(reportOf('playwright')),
       CHROMIUM_PATH: findBrowser() ?? '',
       NO_COLOR: undefined, // its workers are told to colour, and Node warns of the contradiction
     },
     limitMs: 45 * 60_000, // it ends itself before that
-    count: countPlaywright,
+    tests: () => testsOf('playwright'),
   };
+}
+
+const still = [
+  lint,
+  types,
+  pageTypes,
+  pythonTypes,
+  sharedTypes,
+  layers,
+  messages,
+  format,
+  pythonLint,
+  pythonFormat,
+];
+
+/** @returns {Promise<number>} the exit code */
+export async function check() {
+  clearReports();
+  return conclude(await runTasks([unit('usual'), gateway('usual'), ...still]));
+}
+
+/** @param {Amount} amount @returns {Promise<number>} the exit code */
+export async function test(amount) {
+  clearReports();
+  const built = await runTasks([build]); // the page is part of what is tested below
+  // Fetching a browser waits for the network; the checks use that time.
+  const [checked] = await Promise.all([
+    runTasks([unit(amount), gateway(amount), ...still, unused, wheel, locks]),
+    browserForTests(),
+  ]);
+  const journeys = await runTasks([endToEnd()]);
+  return conclude([...built, ...checked, ...journeys], { slowest: amount !== 'usual' });
 }

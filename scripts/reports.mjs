@@ -1,14 +1,42 @@
-// Where each test tool leaves its report, how many tests it speaks of and which of them failed. Runs nothing.
+// The reports of the test runners, all in JUnit's XML: how many tests passed, which failed or were skipped, how long each
+// took. Runs nothing.
 
 import { mkdirSync, readFileSync, rmSync } from 'node:fs';
+import { XMLParser } from 'fast-xml-parser';
 import { at } from './steps.mjs';
 
-/** @typedef {import('./tasks.mjs').Counts} Counts */
+/**
+ * @typedef {object} Tests
+ * @property {number} passed
+ * @property {readonly string[]} failures names
+ * @property {readonly string[]} skipped reasons, one for each
+ * @property {readonly {name: string, seconds: number}[]} seconds of each
+ *
+ * @typedef {{message?: string}} Remark
+ * @typedef {object} Case
+ * @property {string} name
+ * @property {string} [classname]
+ * @property {string} time
+ * @property {Remark} [failure]
+ * @property {Remark} [error]
+ * @property {Remark} [skipped]
+ * @typedef {{testcase?: Case[], testsuite?: Suite[]}} Suite
+ */
 
 const folder = 'build/reports';
-export const vitestReport = `${folder}/vitest.json`;
-export const pytestReport = `${folder}/pytest.xml`;
-export const playwrightReport = `${folder}/playwright.json`;
+
+const parser = new XMLParser({
+  ignoreAttributes: false,
+  attributeNamePrefix: '',
+  parseAttributeValue: false,
+  alwaysCreateTextNode: true,
+  isArray: (name) => name === 'testcase' || name === 'testsuite',
+});
+
+/** @param {string} runner */
+export function reportOf(runner) {
+  return `${folder}/${runner}.xml`;
+}
 
 /** Old reports would be counted again when a run breaks off. */
 export function clearReports() {
@@ -16,88 +44,38 @@ export function clearReports() {
   mkdirSync(at(folder), { recursive: true });
 }
 
-/**
- * @typedef {object} VitestReport the part that is read here
- * @property {number} numPassedTests
- * @property {number} numFailedTests
- * @property {number} numPendingTests
- * @property {number} numTodoTests
- * @property {{assertionResults: {status: string, fullName: string}[]}[]} testResults
- */
-
-/** @returns {Counts} */
-export function countVitest() {
-  const report = /** @type {VitestReport} */ (JSON.parse(readFileSync(at(vitestReport), 'utf8')));
-  const skipped = report.numPendingTests + report.numTodoTests;
-  const failures = report.testResults.flatMap(({ assertionResults }) =>
-    assertionResults.filter(({ status }) => status === 'failed').map(({ fullName }) => fullName),
-  );
-  return { passed: report.numPassedTests, failed: report.numFailedTests, skipped, failures };
+/** @param {string} runner @returns {Tests} nothing passed where the run broke off before its report */
+export function testsOf(runner) {
+  const cases = read(runner);
+  const seconds = cases.map((one) => ({ name: nameOf(one), seconds: Number(one.time) }));
+  const failures = cases.filter(hasFailed).map(nameOf);
+  const skipped = cases.flatMap(({ skipped: why }) => (why ? [why.message ?? 'without a reason'] : []));
+  return { passed: cases.length - failures.length - skipped.length, failures, skipped, seconds };
 }
 
-/** @returns {Counts} */
-export function countPytest() {
-  const report = readFileSync(at(pytestReport), 'utf8');
-  const figure = (/** @type {string} */ name) =>
-    Number(new RegExp(` ${name}="(\\d+)"`).exec(report)?.[1] ?? 0);
-  const failed = figure('failures') + figure('errors');
-  const skipped = figure('skipped');
-  const reasons = [...report.matchAll(/<skipped[^>]* message="([^"]*)"/g)].map(([, reason = '']) => reason);
-  const failures = [...report.matchAll(/<testcase [^>]*name="([^"]*)"[^>]*><(?:failure|error)/g)];
-  return {
-    passed: figure('tests') - failed - skipped,
-    failed,
-    skipped,
-    reasons,
-    failures: failures.map(([, name = '']) => name),
-  };
+/** @param {string} runner @returns {Case[]} */
+function read(runner) {
+  try {
+    const { testsuites } = /** @type {{testsuites: Suite}} */ (
+      parser.parse(readFileSync(at(reportOf(runner))))
+    );
+    return casesOf(testsuites);
+  } catch {
+    return []; // the run broke off, and its output says why
+  }
 }
 
-/**
- * @typedef {object} Suite the part of Playwright's JSON report that is read here
- * @property {Spec[]} [specs]
- * @property {Suite[]} [suites]
- * @typedef {object} Spec
- * @property {string} title
- * @property {string} file
- * @property {{status: string, projectName: string, annotations: {type: string, description?: string}[]}[]} tests
- * @typedef {{expected: number, unexpected: number, flaky: number, skipped: number}} Stats
- */
-
-/** @returns {Counts} */
-export function countPlaywright() {
-  const report = /** @type {Suite & {stats: Stats, errors: unknown[]}} */ (
-    JSON.parse(readFileSync(at(playwrightReport), 'utf8'))
-  );
-  const { expected, unexpected, flaky, skipped } = report.stats;
-  const specs = specsOf(report);
-  return {
-    passed: expected,
-    // A test that passed on a second try has failed once; nobody should get used to that.
-    failed: unexpected + flaky + report.errors.length,
-    skipped,
-    reasons: skipReasons(specs),
-    failures: specsThatWere('unexpected', specs),
-    flaky: specsThatWere('flaky', specs),
-  };
+/** @param {Suite} suite @returns {Case[]} */
+function casesOf({ testcase = [], testsuite = [] }) {
+  return [...testcase, ...testsuite.flatMap(casesOf)];
 }
 
-/** @param {Suite} suite @returns {Spec[]} */
-function specsOf({ specs = [], suites = [] }) {
-  return [...specs, ...suites.flatMap(specsOf)];
+/** @param {Case} one */
+function hasFailed({ failure, error }) {
+  return failure !== undefined || error !== undefined;
 }
 
-/** @param {readonly Spec[]} specs @returns {string[]} */
-function skipReasons(specs) {
-  const notes = specs.flatMap(({ tests }) => tests.flatMap(({ annotations }) => annotations));
-  return notes.flatMap(({ type, description }) => (type === 'skip' && description ? [description] : []));
-}
-
-/** @param {string} wanted @param {readonly Spec[]} specs @returns {string[]} */
-function specsThatWere(wanted, specs) {
-  return specs.flatMap(({ title, file, tests }) =>
-    tests
-      .filter(({ status }) => status === wanted)
-      .map(({ projectName }) => `[${projectName}] ${file} › ${title}`),
-  );
+/** @param {Case} one */
+function nameOf({ classname, name }) {
+  return classname ? `${classname} › ${name}` : name;
 }

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 # Set by hand to repeat one failing case.
 ONLY_SEED = os.environ.get("FAULT_SEED")
-# `npm run test:long` sets it for every property, here and in TypeScript.
+# `npm run test:all -- --long` sets it for every property, here and in TypeScript.
 TIMES = 10 if int(os.environ.get("PROPERTY_RUNS", "0")) > 0 else 1
 
 

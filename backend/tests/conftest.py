@@ -1,4 +1,4 @@
-"""Properties try the same inputs each time; in `npm run test:long` new ones, ten times as many."""
+"""Properties try the same inputs each time; in `npm run test:all -- --long` new ones, ten times as many."""
 
 from hypothesis import settings
 
