@@ -23,9 +23,7 @@ NOWHERE = FakePorts(PortMissingError("There is no such port."))
 
 
 def app_at(entrance: Entrance | None = None) -> Guard:
-    app = create_app(Control(NOWHERE, time.monotonic, "doc"), NO_LIBRARY, entrance or entrance_to())
-    assert isinstance(app, Guard)
-    return app
+    return create_app(Control(NOWHERE, time.monotonic, "doc"), NO_LIBRARY, entrance or entrance_to())
 
 
 def roles_of_routes() -> Iterator[tuple[str, str, list[Role | None]]]:

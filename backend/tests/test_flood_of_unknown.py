@@ -46,7 +46,7 @@ STOPPED_WITHIN_S = 0.05 if FULL else 1.0
 SETTLES_S = 1.0
 PATIENCE_S = 10.0
 # Those that took the most before; the others say the same in more ways.
-FEW = {"idle": 1100, "half-body": 1000, "many-headers": 100}
+FEW = {"idle": 1100, "half-body": 1000, "many-headers": 100, "upgrade": 100}
 ALL = ("half-head", "half-body", "whole-body", "long-head", "many-headers", "upgrade", "page")
 KINDS = {"idle": 1100, **dict.fromkeys(ALL, 1000)} if FULL else FEW
 

@@ -3,9 +3,11 @@
 import asyncio
 import json
 import time
+from typing import Any
 
 import pytest
 from websockets.asyncio.client import connect
+from websockets.exceptions import InvalidStatus
 
 from servodeck.access import access, impatient, unauthenticated
 from servodeck.run import server
@@ -181,6 +183,31 @@ async def test_who_answers_no_ping_is_gone_and_who_does_stays(monkeypatch: pytes
         writer.close()
         await client.send('{"type":"stop","hold":null}')
         await hear_until(client, "halted")
+
+
+async def test_an_upgrade_that_is_refused_costs_no_more_than_a_request(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    made: list[impatient.ImpatientSocket] = []
+
+    class NotedSocket(impatient.ImpatientSocket):
+        def __init__(self, *more: Any, **named: Any) -> None:
+            super().__init__(*more, **named)
+            made.append(self)
+
+    monkeypatch.setattr(server, "ImpatientSocket", NotedSocket)
+    async with server_on(FakePorts(FakePort()), make_access=access.lan) as gateway:
+        _, token = gateway.entrance.devices.admit("token", "Script", "viewer")
+        origin = {"Origin": "http://evil.example"}
+        for headers, status in ((None, 401), ({"Authorization": "Bearer forged"}, 401), (origin, 403)):
+            with pytest.raises(InvalidStatus, match=str(status)) as refused:
+                await connect(gateway.ws, additional_headers=headers)
+            assert refused.value.response.headers["Connection"] == "close"
+            assert json.loads(refused.value.response.body)["code"]
+        assert made == []
+        async with connect(gateway.ws, additional_headers={"Authorization": f"Bearer {token}"}) as client:
+            await hear_until(client, "welcome")
+        assert len(made) == 1
 
 
 async def test_what_was_to_be_said_when_that_end_comes_is_no_mistake(

@@ -85,6 +85,10 @@ def judge_body_size(headers: Headers, limit: int) -> None:
         raise TooLargeError(f"The request is larger than {limit} bytes.")
 
 
+def asks_for_socket(headers: Headers) -> bool:
+    return any(name == b"upgrade" and value.lower() == b"websocket" for name, value in headers)
+
+
 def judge_site(headers: list[tuple[bytes, bytes]]) -> None:
     """A browser may leave Origin out of a plain GET, but says whether another site asks. Following a link is
     fine.

@@ -14,11 +14,11 @@ from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from servodeck.access.entrance import Entrance
-from servodeck.access.gate import judge_body_size, judge_body_type, judge_handshake
+from servodeck.access.gate import asks_for_socket, judge_body_size, judge_body_type, judge_handshake
 from servodeck.access.impatient import connection_of
 from servodeck.access.intake import Rate
 from servodeck.access.refusals import log_refusal
-from servodeck.errors import GatewayError
+from servodeck.errors import GatewayError, NotPairedError
 
 BODY_BYTES = 16 * 1024
 LARGER_BODIES = (
@@ -59,23 +59,36 @@ class Guard:
         if scope["type"] == "lifespan":
             return await self.app(scope, receive, send)
         own_address = scope["server"][0] if scope.get("server") else None
+        upgrades = asks_for_socket(scope["headers"])
         try:
             host = judge_handshake(scope["headers"], self._access, own_address)
             if scope["type"] == "http":
                 judge_body_type(scope["method"], scope["headers"])
                 judge_body_size(scope["headers"], body_bytes(scope["path"]))
             is_known = self._entrance.find(scope["headers"]) is not None
+            if upgrades and not is_known:
+                raise NotPairedError("This device is not paired with the gateway.")
         except GatewayError as error:
             await self._turn_of_unknown(scope)
             log_refusal(scope, error)
             # The Host is not to be trusted here, so it does not appear in the policy.
             refusal = JSONResponse({"code": error.code, "detail": error.detail}, error.status)
+            if upgrades:  # nobody reads what follows it
+                refusal.headers["Connection"] = "close"
             return await refusal(scope, receive, with_headers(send, "'self'"))
         if not is_known:
             await self._turn_of_unknown(scope)
         limited = limit_body(receive, body_bytes(scope["path"])) if scope["type"] == "http" else receive
         socket = f"{'wss' if self._access.is_secure else 'ws'}://{host}"
         return await self.app(scope, limited, with_headers(send, socket))
+
+    def may_upgrade(self, headers: list[tuple[bytes, bytes]], own_address: str | None) -> bool:
+        """Whether somebody known asks for a socket, before there is one. Its role is judged by its route."""
+        try:
+            judge_handshake(headers, self._access, own_address)
+            return self._entrance.find(headers) is not None
+        except GatewayError:
+            return False
 
     async def _turn_of_unknown(self, scope: Scope) -> None:
         """In the order in which they came, past those who have left."""

@@ -6,6 +6,7 @@ Knows time and bytes, no request's meaning. uvicorn itself waits for ever.
 """
 
 import asyncio
+from collections.abc import Callable
 from typing import Any, Protocol
 
 from starlette.types import Scope
@@ -63,12 +64,17 @@ def connection_of(scope: Scope) -> Connection | None:
     return connection
 
 
+MayUpgrade = Callable[[list[tuple[bytes, bytes]], str | None], bool]
+
+
 class State(ServerState):
     """What all connections share."""
 
-    def __init__(self) -> None:
+    def __init__(self, may_upgrade: MayUpgrade) -> None:
+        """`may_upgrade` judges the headers of an upgrade that came in at that address of ours."""
         super().__init__()
         self.unauthenticated = Unauthenticated()
+        self.may_upgrade = may_upgrade
 
 
 class HeadTooLargeError(Exception):
@@ -82,21 +88,26 @@ class ImpatientProtocol(HttpToolsProtocol):
     _in_head = False
     _in_body = False
     _is_known = False
+    _upgrades = False
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
         self._end_in(IDLE_S)
-        unauthenticated_in(self.server_state).add(transport, self.client[0] if self.client else "")
+        self._shared.unauthenticated.add(transport, self.client[0] if self.client else "")
 
     def connection_lost(self, exc: Exception | None) -> None:
         self._end_in(None)
-        unauthenticated_in(self.server_state).remove(self.transport)
+        self._shared.unauthenticated.remove(self.transport)
         super().connection_lost(exc)
+
+    @property
+    def _shared(self) -> State:
+        return shared(self.server_state)
 
     def know(self) -> None:
         self._is_known = True
         self.timeout_keep_alive = KNOWN_IDLE_S
-        unauthenticated_in(self.server_state).remove(self.transport)
+        self._shared.unauthenticated.remove(self.transport)
         if not self._in_body:
             self._end_in(None)
 
@@ -112,6 +123,15 @@ class ImpatientProtocol(HttpToolsProtocol):
             self._received_bytes += len(data)
             if self._received_bytes > HEAD_BYTES:  # a header that does not end
                 self._refuse_head()
+
+    def _should_upgrade(self) -> bool:
+        """Else it is answered as any other request: a socket that is refused stays in memory, in circles of
+        references, until the garbage of all of them is collected.
+        """
+        return self._upgrades
+
+    def _unsupported_upgrade_warning(self) -> None:
+        """Nothing to warn of: whoever refuses it says why."""
 
     def handle_websocket_upgrade(self) -> None:
         self._end_in(None)
@@ -131,9 +151,12 @@ class ImpatientProtocol(HttpToolsProtocol):
     def on_headers_complete(self) -> None:
         self._in_head, self._in_body = False, True
         self._end_in(BODY_S)
-        unauthenticated_in(self.server_state).use(self.transport)
+        self._shared.unauthenticated.use(self.transport)
+        self._upgrades = super()._should_upgrade() and self._shared.may_upgrade(
+            self.headers, self.server[0] if self.server else None
+        )
         super().on_headers_complete()
-        if not (self.parser.should_upgrade() and self._should_upgrade()):
+        if not (self.parser.should_upgrade() and self._upgrades):
             self.scope["extensions"] = {EXTENSION: {"connection": self}}
             self.flow.pause_reading()  # until somebody asks for the body
 
@@ -147,7 +170,7 @@ class ImpatientProtocol(HttpToolsProtocol):
 
     def on_response_complete(self) -> None:
         super().on_response_complete()
-        unauthenticated_in(self.server_state).use(self.transport)
+        self._shared.unauthenticated.use(self.transport)
         if not self.cycle.response_complete or self._in_head:  # the next request is here already
             return
         if self._in_body:
@@ -187,9 +210,9 @@ class ImpatientProtocol(HttpToolsProtocol):
         self._timer = None if seconds is None else self.loop.call_later(seconds, self.transport.abort)
 
 
-def unauthenticated_in(state: ServerState) -> Unauthenticated:
+def shared(state: ServerState) -> State:
     assert isinstance(state, State)
-    return state.unauthenticated
+    return state
 
 
 class ImpatientSocket(WebSocketsSansIOProtocol):
@@ -199,7 +222,7 @@ class ImpatientSocket(WebSocketsSansIOProtocol):
 
     def __init__(self, config: Config, server_state: ServerState, *more: Any, **named: Any) -> None:
         super().__init__(config, server_state, *more, **named)
-        self._unauthenticated = unauthenticated_in(server_state)
+        self._unauthenticated = shared(server_state).unauthenticated
         self._cut: asyncio.TimerHandle | None = None
         self._is_lost = False
 

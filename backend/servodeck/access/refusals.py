@@ -6,6 +6,7 @@ import logging
 
 from starlette.types import Scope
 
+from servodeck.access.gate import asks_for_socket
 from servodeck.errors import GatewayError
 
 LOGGER = "servodeck.access"
@@ -18,7 +19,7 @@ def log_refusal(scope: Scope, error: GatewayError) -> None:
     client = scope.get("client")
     facts = {
         "from": client[0] if client else None,
-        "type": scope["type"],
+        "type": "websocket" if asks_for_socket(scope["headers"]) else scope["type"],
         "path": scope["path"][:MAX_CHARACTERS],
         "code": error.code,
         "reason": error.detail[:MAX_CHARACTERS],

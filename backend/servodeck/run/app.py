@@ -13,7 +13,6 @@ from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
 from starlette.requests import HTTPConnection
 from starlette.responses import HTMLResponse, JSONResponse, Response
-from starlette.types import ASGIApp
 
 from servodeck import __version__, metrics
 from servodeck.access.entrance import Entrance
@@ -57,7 +56,7 @@ DETAILS = {
 }
 
 
-def create_app(control: Control, library: Library, entrance: Entrance, static: Path = STATIC) -> ASGIApp:
+def create_app(control: Control, library: Library, entrance: Entrance, static: Path = STATIC) -> Guard:
     """The gateway with that entrance and the page built into `static`."""
     app = FastAPI(
         title="Servodeck gateway",

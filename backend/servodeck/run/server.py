@@ -16,9 +16,9 @@ from collections.abc import Callable, Iterator
 from types import FrameType
 
 import uvicorn
-from starlette.types import ASGIApp
 
 from servodeck import __version__
+from servodeck.access.guard import Guard
 from servodeck.access.impatient import (
     IDLE_S,
     PING_S,
@@ -43,7 +43,7 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 class Server(uvicorn.Server):
     """Calls `ready` when it answers; stops the robot before it says goodbye to anybody."""
 
-    def __init__(self, app: ASGIApp, control: Control, device: str | None, ready: Callable[[], None]) -> None:
+    def __init__(self, app: Guard, control: Control, device: str | None, ready: Callable[[], None]) -> None:
         super().__init__(
             uvicorn.Config(
                 app,
@@ -62,7 +62,7 @@ class Server(uvicorn.Server):
                 proxy_headers=False,
             )
         )
-        self.server_state = State()
+        self.server_state = State(app.may_upgrade)
         self._control = control
         self._device = device
         self._ready = ready
