@@ -2,6 +2,7 @@
 
 import contextlib
 import errno
+import itertools
 import json
 import os
 import shutil
@@ -13,6 +14,7 @@ from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 
 import pytest
+from serial.serialutil import Timeout
 from serial.tools import list_ports
 from typer.testing import CliRunner
 
@@ -76,6 +78,24 @@ def test_an_unplugged_port_is_lost_whatever_is_done_with_it(pty: Pty) -> None:
         port.read()
     with pytest.raises(PortLostError):
         port.write(b"\x55")
+    port.close()
+
+
+def test_a_pause_of_the_gateway_amid_a_write_is_no_lost_port(
+    pty: Pty, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pauses = itertools.count()
+    monkeypatch.setattr(Timeout, "TIME", lambda: float(next(pauses)))
+    port = open_port(pty.device)
+    port.write(b"\x55\x55\x02\x07")
+    assert os.read(pty.board, 100) == b"\x55\x55\x02\x07"
+    port.close()
+
+
+def test_a_port_that_takes_nothing_more_is_lost(pty: Pty) -> None:
+    port = open_port(pty.device)
+    with pytest.raises(PortLostError):
+        port.write(bytes(400_000))
     port.close()
 
 

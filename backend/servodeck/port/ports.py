@@ -7,6 +7,7 @@ event loop: every call here may block for a moment.
 import errno
 import os
 import re
+import select
 import socket
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -85,7 +86,7 @@ class SerialPort:
         return data
 
     def write(self, data: bytes) -> None:
-        self._guarded(lambda: self._port.write(data))
+        self._guarded(lambda: write_all(self._port.fileno(), data) if POSIX else self._port.write(data))
 
     def close(self) -> None:
         try:
@@ -103,6 +104,17 @@ class SerialPort:
 
     def _lost(self) -> PortLostError:
         return PortLostError(f"The connection to {self._device} broke off. Is the cable still plugged in?")
+
+
+def write_all(descriptor: int, data: bytes) -> None:
+    """pyserial's own takes a pause of this process, on a busy computer or asleep, for a port that takes
+    nothing more.
+    """
+    while data:
+        _, ready, _ = select.select((), (descriptor,), (), WRITE_WAIT_S)
+        if not ready:
+            raise TimeoutError
+        data = data[os.write(descriptor, data) :]
 
 
 def open_port(device: str) -> OpenPort:
