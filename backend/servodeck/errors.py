@@ -37,6 +37,7 @@ ErrorCode = Literal[
     "storageFull",
     "storageBusy",
     "storageFailed",
+    "damaged",
     "internal",
 ]
 
@@ -237,6 +238,13 @@ class StorageError(GatewayError):
 
     code: ClassVar[ErrorCode] = "storageFailed"
     status: ClassVar[int] = 503
+
+
+class DamagedTextError(GatewayError):
+    """What the disk gives back is not what was written to it."""
+
+    code: ClassVar[ErrorCode] = "damaged"
+    status: ClassVar[int] = 500
 
 
 class StorageFullError(StorageError):

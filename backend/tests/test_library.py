@@ -1,5 +1,6 @@
 """The library on a real SQLite file: what is kept and refused, and what trouble on the disk does to it."""
 
+import json
 import os
 import sqlite3
 import tempfile
@@ -16,6 +17,7 @@ from hypothesis.stateful import Bundle, RuleBasedStateMachine, initialize, invar
 
 from servodeck.errors import (
     ConflictError,
+    DamagedTextError,
     NotFoundError,
     OutOfRangeError,
     StorageBusyError,
@@ -179,15 +181,18 @@ def test_a_damaged_file_is_set_aside_and_told(library: Library, tmp_path: Path) 
 
 
 def test_a_damaged_journal_takes_the_last_few_at_most(library: Library, tmp_path: Path) -> None:
-    """SQLite takes what stands behind a damaged page of it for never written, and tells nobody."""
+    """SQLite takes what stands behind a damaged page of it for never written; that some was, we tell."""
     for number in range(100):
         library.write(f"a{number}", "x" * 1000, "f", 0)
     (tmp_path / "later").mkdir()
     journal = (tmp_path / f"{FILE}-wal").read_bytes()
     (tmp_path / "later" / FILE).write_bytes((tmp_path / FILE).read_bytes())
     (tmp_path / "later" / f"{FILE}-wal").write_bytes(b"\xa5" * len(journal))
-    found = {one.id for one in reopened(tmp_path / "later").list()}
+    later = reopened(tmp_path / "later")
+    found = {one.id for one in later.list()}
     assert found >= {f"a{number}" for number in range(90)}
+    assert later.changes_lost
+    assert not any(one.changes_lost for one in (library, reopened(tmp_path)))
 
 
 @given(seed=st.integers(0, 2**32), part=st.sampled_from(["", "-wal"]), ends=st.booleans())
@@ -215,6 +220,94 @@ def test_whatever_is_damaged_no_document_is_another_and_nothing_is_raised_but_wh
             for one in damaged.list():
                 assert damaged.read(one.id) == (texts[one.id], 1)
         damaged.close()
+
+
+@given(seed=st.integers(0, 2**32), part=st.sampled_from(["", "-wal"]))
+@settings(max_examples=100 * TIMES, deadline=None)
+def test_whichever_bit_is_flipped_all_is_as_it_was_or_said_to_be_damaged(seed: int, part: str) -> None:
+    chance = Random(seed)
+    with tempfile.TemporaryDirectory() as name:
+        before, after = Path(name, "before"), Path(name, "after")
+        library = Library(before)
+        fill(library)
+        copytree(before, after)
+        expected = content_of(library)
+        library.close()
+        path = after / f"{FILE}{part}"
+        content = bytearray(path.read_bytes())
+        content[chance.randrange(len(content))] ^= 1 << chance.randrange(8)
+        path.write_bytes(content)
+        damaged = Library(after)
+        with suppress(StorageError, DamagedTextError):
+            found = content_of(damaged)
+            assert found == expected or damaged.set_aside or damaged.changes_lost
+        damaged.close()
+
+
+def fill(library: Library) -> None:
+    for number in range(20):
+        library.write(f"a{number}", str(number) * 700, json.dumps({"name": f"Group {number}"}), 0)
+        library.keep_version(f"a{number}", Version("v", "First try", number), str(number) * 300)
+    library.remove(["a3", "a5"])
+
+
+def content_of(library: Library) -> object:
+    """All that it holds. Raises a DamagedTextError."""
+    listed = library.list()
+    if any(one.facts is None for one in listed):
+        raise DamagedTextError("in the list")
+    return [
+        (
+            one,
+            library.read(one.id),
+            [(version, library.read_version(one.id, version.id)) for version in library.versions(one.id)],
+        )
+        for one in listed
+    ]
+
+
+def flip(folder: Path, text: str) -> None:
+    """A bit of that text where the file holds it."""
+    content = (folder / FILE).read_bytes()
+    assert content.count(text.encode()) == 1
+    changed = bytes((text.encode()[0] ^ 1,)) + text.encode()[1:]
+    (folder / FILE).write_bytes(content.replace(text.encode(), changed))
+
+
+def test_a_damaged_document_is_named_with_its_way_back_and_nothing_is_deleted(
+    library: Library, tmp_path: Path
+) -> None:
+    library.write("a", '{"now": 1}', '{"name": "Wave"}', 0)
+    library.keep_version("a", Version("v", "First try", 1), '{"then": 1}')
+    library.keep_version("a", Version("w", "Second try", 2), '{"later": 1}')
+    library.write("b", "{}", '{"name": "Nod"}', 0)
+    library.close()
+    flip(tmp_path, '{"now": 1}')
+    flip(tmp_path, '{"later": 1}')
+    again = reopened(tmp_path)
+    with pytest.raises(DamagedTextError, match=r"Wave is damaged.* whole: First try"):
+        again.read("a")
+    with pytest.raises(DamagedTextError, match="Second try is damaged"):
+        again.read_version("a", "w")
+    assert again.read_version("a", "v") == '{"then": 1}'
+    assert [one.id for one in again.list()] == ["a", "b"]
+    assert again.read("b") == ("{}", 1)
+    assert again.write("a", '{"then": 1}', '{"name": "Wave"}', 1) == 2
+    assert again.read("a") == ('{"then": 1}', 2)
+
+
+def test_what_a_list_says_of_a_document_is_not_believed_where_it_is_damaged(
+    library: Library, tmp_path: Path
+) -> None:
+    """The limits of a robot are among it."""
+    library.write("arm", "{}", '{"name": "Arm"}', 0, kind="robot")
+    library.close()
+    flip(tmp_path, '{"name": "Arm"}')
+    again = reopened(tmp_path)
+    assert again.list() == [Listed("arm", 1, False, None, "robot")]
+    assert again.read("arm") == ("{}", 1)
+    with pytest.raises(DamagedTextError):
+        again.facts_of("arm", "robot")
 
 
 def test_a_document_stays_of_its_kind_and_is_asked_for_by_it(library: Library) -> None:

@@ -47,7 +47,11 @@ async def test_a_document_is_kept_listed_and_read(tmp_path: Path) -> None:
     async with client_of(tmp_path) as client:
         assert (await client.put("/api/library/a", json=body('{"x": "é"}'))).json() == {"revision": 1}
         listed = {"id": "a", "revision": 1, "isRemoved": False, "facts": FACTS}
-        assert (await client.get("/api/library")).json() == {"documents": [listed], "setAside": None}
+        assert (await client.get("/api/library")).json() == {
+            "documents": [listed],
+            "setAside": None,
+            "changesLost": False,
+        }
         assert (await client.get("/api/library/a")).json() == {"text": '{"x": "é"}', "revision": 1}
 
 

@@ -4,21 +4,31 @@ Knows no HTTP and nothing of what a text means. Its file is opened when it is fi
 failure, so that driving a robot never waits for a disk. May be called from any thread; blocks.
 """
 
+import logging
 import sqlite3
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from servodeck.errors import ConflictError, ForbiddenError, NotFoundError, OutOfRangeError
-from servodeck.library.library_file import STEPS, code_of, open_library, storage_error
+from servodeck.errors import ConflictError, DamagedTextError, ForbiddenError, NotFoundError, OutOfRangeError
+from servodeck.library.library_file import (
+    FACTS_SUM,
+    STEPS,
+    TEXT_SUM,
+    VERSION_SUM,
+    code_of,
+    open_library,
+    storage_error,
+)
 
 TRASH_MS = 30 * 24 * 3600 * 1000
 MAX_DOCUMENTS = 5000
 MAX_VERSIONS = 200
 CLOSE_WAIT_S = 0.5
+log = logging.getLogger("servodeck.library")
 # After these a connection may be used on; after any other it is opened anew.
 PASSING = frozenset({sqlite3.SQLITE_FULL, sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED})
 
@@ -27,7 +37,9 @@ class Listed(NamedTuple):
     id: str
     revision: int
     is_removed: bool
-    facts: str
+    facts: str | None
+    """None where the disk has damaged them, or anything else of this."""
+    kind: str = "group"
 
 
 class Version(NamedTuple):
@@ -49,6 +61,8 @@ class Library:
     ) -> None:
         self.set_aside: str | None = None
         """The name of a damaged file that was found and kept."""
+        self.changes_lost = False
+        """The last ones before the start may be missing."""
         self.folder = folder
         self._now_ms = now_ms
         self._steps = steps
@@ -57,24 +71,32 @@ class Library:
 
     def list(self) -> list[Listed]:
         with self._transaction("BEGIN") as db:
-            rows = db.execute("SELECT id, revision, removed_at_ms IS NOT NULL, facts FROM document")
-            return [Listed(row[0], row[1], bool(row[2]), row[3]) for row in rows]
+            rows = db.execute(
+                "SELECT id, revision, removed_at_ms IS NOT NULL, "
+                f"CASE WHEN facts_sum = {FACTS_SUM} THEN facts END, kind FROM document"
+            )
+            return [Listed(row[0], row[1], bool(row[2]), *row[3:]) for row in rows]
 
     def read(self, document: str) -> tuple[str, int]:
-        """The text and its revision."""
+        """The text and its revision. Raises a DamagedTextError for one that is not what was written."""
         with self._transaction("BEGIN") as db:
-            return found(db.execute("SELECT text, revision FROM document WHERE id = ?", (document,)))
+            query = f"SELECT text, revision, text_sum = {TEXT_SUM} FROM document WHERE id = ?"
+            text, revision, is_whole = found(db.execute(query, (document,)))
+            if not is_whole:
+                raise DamagedTextError(f"{name_in(db, document)} is damaged. {whole_versions(db, document)}")
+            return text, revision
 
     def facts_of(self, document: str, kind: str) -> tuple[str, int]:
         """What a list says of one of that kind outside the trash, and its revision."""
         with self._transaction("BEGIN") as db:
-            return found(
-                db.execute(
-                    "SELECT facts, revision FROM document "
-                    "WHERE id = ? AND kind = ? AND removed_at_ms IS NULL",
-                    (document, kind),
-                )
+            query = (
+                f"SELECT facts, revision, facts_sum = {FACTS_SUM} FROM document "
+                "WHERE id = ? AND kind = ? AND removed_at_ms IS NULL"
             )
+            facts, revision, is_whole = found(db.execute(query, (document, kind)))
+            if not is_whole:
+                raise DamagedTextError(f"What the library says of {name_in(db, document)} is damaged.")
+            return facts, revision
 
     def write(
         self,
@@ -99,11 +121,13 @@ class Library:
             revision = row[0] if row and row[1] == text else expected + 1
             removed_at_ms = self._now_ms() if is_removed else None
             db.execute(
-                "INSERT INTO document VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT (id) DO UPDATE SET "
+                "INSERT INTO document VALUES (?, ?, ?, ?, ?, ?, 0, 0) ON CONFLICT (id) DO UPDATE SET "
                 "revision = excluded.revision, removed_at_ms = excluded.removed_at_ms, "
                 "facts = excluded.facts, text = excluded.text",
                 (document, revision, removed_at_ms, facts, text, kind),
             )
+            sums = f"text_sum = {TEXT_SUM}, facts_sum = {FACTS_SUM}"
+            db.execute(f"UPDATE document SET {sums} WHERE id = ?", (document,))
             return int(revision)
 
     def remove(self, documents: Sequence[str]) -> None:
@@ -131,8 +155,11 @@ class Library:
 
     def read_version(self, document: str, version: str) -> str:
         with self._transaction("BEGIN") as db:
-            key = (document, version)
-            return str(found(db.execute("SELECT text FROM version WHERE document = ? AND id = ?", key))[0])
+            query = f"SELECT text, name, text_sum = {VERSION_SUM} FROM version WHERE document = ? AND id = ?"
+            text, name, is_whole = found(db.execute(query, (document, version)))
+            if not is_whole:
+                raise DamagedTextError(f"Version {name} is damaged. {whole_versions(db, document)}")
+            return str(text)
 
     def keep_version(self, document: str, version: Version, text: str) -> None:
         """Instead of the one with that id, if there is one."""
@@ -140,7 +167,9 @@ class Library:
             found(db.execute("SELECT id FROM document WHERE id = ?", (document,)))
             others = "version WHERE document = ? AND id != ?"
             require_room(db, others, (document, version.id), MAX_VERSIONS)
-            db.execute("INSERT OR REPLACE INTO version VALUES (?, ?, ?, ?, ?)", (document, *version, text))
+            row, key = (document, *version, text), (document, version.id)
+            db.execute("INSERT OR REPLACE INTO version VALUES (?, ?, ?, ?, ?, 0)", row)
+            db.execute(f"UPDATE version SET text_sum = {VERSION_SUM} WHERE document = ? AND id = ?", key)
 
     def remove_version(self, document: str, version: str) -> None:
         """For good."""
@@ -160,6 +189,7 @@ class Library:
             for document in documents:
                 found(db.execute("SELECT id FROM document WHERE id = ?", (document,)))
                 db.execute("UPDATE document SET removed_at_ms = ? WHERE id = ?", (removed_at_ms, document))
+                db.execute(f"UPDATE document SET facts_sum = {FACTS_SUM} WHERE id = ?", (document,))
 
     @contextmanager
     def _transaction(self, begin: str = "BEGIN IMMEDIATE") -> Iterator[sqlite3.Connection]:
@@ -180,9 +210,16 @@ class Library:
                 raise storage_error(error) from error
 
     def _open(self) -> sqlite3.Connection:
-        db, aside = open_library(self.folder, self._steps)
+        db, aside, changes_lost = open_library(self.folder, self._steps)
         self.set_aside = aside or self.set_aside
-        db.execute("DELETE FROM document WHERE removed_at_ms < ?", (self._now_ms() - TRASH_MS,))
+        self.changes_lost |= changes_lost
+        if aside:
+            log.warning("library set aside", extra={"facts": {"damaged": aside}})
+        if changes_lost:
+            log.warning("library's journal damaged: its last changes may be missing")
+        past_ms = self._now_ms() - TRASH_MS
+        # Whatever is damaged stays.
+        db.execute(f"DELETE FROM document WHERE removed_at_ms < ? AND facts_sum = {FACTS_SUM}", (past_ms,))
         return db
 
     def _forget(self) -> None:
@@ -191,11 +228,29 @@ class Library:
         self._db = None
 
 
-def found(rows: sqlite3.Cursor) -> tuple[str, int]:
-    row: tuple[str, int] | None = rows.fetchone()
+def found(rows: sqlite3.Cursor) -> tuple[Any, ...]:
+    row: tuple[Any, ...] | None = rows.fetchone()
     if row is None:
         raise NotFoundError("The library does not hold that.")
     return row
+
+
+def name_in(db: sqlite3.Connection, document: str) -> str:
+    """What a list calls it, where that can be read."""
+    query = "SELECT json_extract(facts, '$.name') FROM document WHERE id = ? AND json_valid(facts)"
+    row = db.execute(query, (document,)).fetchone()
+    return str(row[0]) if row and row[0] else document
+
+
+def whole_versions(db: sqlite3.Connection, document: str) -> str:
+    """For whoever looks for a way back, the newest first."""
+    query = (
+        f"SELECT name FROM version WHERE document = ? AND text_sum = {VERSION_SUM} ORDER BY at_ms DESC, id"
+    )
+    names = [name for (name,) in db.execute(query, (document,))]
+    return (
+        f"Go back to a version that is whole: {', '.join(names)}." if names else "No version of it is whole."
+    )
 
 
 def require_room(db: sqlite3.Connection, where: str, values: tuple[str, ...], limit: int) -> None:

@@ -8,12 +8,26 @@ import time
 from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
+from typing import NamedTuple
+from zlib import crc32
 
 from servodeck.errors import StorageBusyError, StorageError, StorageFullError
 
 FILE = "library.sqlite"
 BUSY_S = 2.0
 JOURNAL_PAGES = 16
+# SQLite's file format, "The WAL File Format".
+JOURNAL_HEAD_BYTES, FRAME_HEAD_BYTES = 32, 24
+PAGE_SIZES = frozenset(2**power for power in range(9, 17))
+USUAL_PAGE_BYTES = 4096
+
+# SQLite finds what contradicts its own shape; a bit that the disk has changed within a row, only these. As
+# bytes, because what is damaged may be no text any more. They are written into files: never change them.
+TEXT_SUM = "sum_of(CAST(text AS BLOB))"
+FACTS_SUM = "sum_of(CAST(id AS BLOB), revision, removed_at_ms, CAST(kind AS BLOB), CAST(facts AS BLOB))"
+VERSION_SUM = (
+    "sum_of(CAST(document AS BLOB), CAST(id AS BLOB), CAST(name AS BLOB), at_ms, CAST(text AS BLOB))"
+)
 
 # Each entry brings the file from one version to the next; the first makes it. Only ever append.
 STEPS: Sequence[Sequence[str]] = (
@@ -28,6 +42,13 @@ STEPS: Sequence[Sequence[str]] = (
         "ALTER TABLE document ADD COLUMN kind TEXT NOT NULL DEFAULT 'group'",
         "UPDATE document SET facts = json_set(facts, '$.kind', 'group')",
     ),
+    (
+        "ALTER TABLE document ADD COLUMN text_sum INTEGER NOT NULL DEFAULT 0",
+        "ALTER TABLE document ADD COLUMN facts_sum INTEGER NOT NULL DEFAULT 0",
+        "ALTER TABLE version ADD COLUMN text_sum INTEGER NOT NULL DEFAULT 0",
+        f"UPDATE document SET text_sum = {TEXT_SUM}, facts_sum = {FACTS_SUM}",
+        f"UPDATE version SET text_sum = {VERSION_SUM}",
+    ),
 )
 
 DAMAGED = frozenset({sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB})
@@ -37,32 +58,42 @@ class DamagedError(Exception):
     """The file is no library any more."""
 
 
-def open_library(
-    folder: Path, steps: Sequence[Sequence[str]] = STEPS
-) -> tuple[sqlite3.Connection, str | None]:
-    """The open file, and the name under which a damaged one was set aside before. Raises a StorageError."""
+class Opened(NamedTuple):
+    db: sqlite3.Connection
+    set_aside: str | None
+    """The name under which a damaged file was kept."""
+    changes_lost: bool
+    """The journal is damaged before its end: what was written last may be missing."""
+
+
+def open_library(folder: Path, steps: Sequence[Sequence[str]] = STEPS) -> Opened:
+    """Raises a StorageError."""
     path = folder / FILE
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        announced = announced_frames(path)
         try:
-            return open_sound(path, steps), None
+            db, aside = open_sound(path, steps), None
         except DamagedError:
-            aside = set_aside(path)
-            return open_sound(path, steps), aside
+            aside, announced = set_aside(path), 0
+            db = open_sound(path, steps)
+        return Opened(db, aside, changes_lost=announced > found_frames(db))
     except (OSError, DamagedError) as error:
         raise StorageError(f"The library in {folder} cannot be opened: {error}.") from error
 
 
 def open_sound(path: Path, steps: Sequence[Sequence[str]]) -> sqlite3.Connection:
     db = sqlite3.connect(path, timeout=BUSY_S, isolation_level=None, check_same_thread=False)
+    db.create_function("sum_of", -1, sum_of, deterministic=True)
+    db.text_factory = lambda data: data.decode(errors="replace")  # its sum tells
     try:
         db.execute("PRAGMA journal_mode = WAL")
         # A document that was called kept survives a power cut; writes are rare enough to pay for it.
         db.execute("PRAGMA synchronous = FULL")
-        # What a damaged journal held is gone without a word: few documents stand in it alone.
+        # What a damaged journal held is gone: few documents stand in it alone.
         db.execute(f"PRAGMA wal_autocheckpoint = {JOURNAL_PAGES}")
         db.execute("PRAGMA foreign_keys = ON")
-        if db.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
+        if db.execute("PRAGMA integrity_check(1)").fetchone()[0] != "ok":
             raise DamagedError("its contents contradict each other")  # noqa: TRY301
         upgrade(db, path, steps)
     except sqlite3.Error as error:
@@ -72,6 +103,34 @@ def open_sound(path: Path, steps: Sequence[Sequence[str]]) -> sqlite3.Connection
         db.close()
         raise
     return db
+
+
+def announced_frames(path: Path) -> int:
+    """Up to where the journal says that something was written for good, before SQLite looks at it: that
+    stops without a word where the first frame is damaged. Frames of earlier rounds bear another salt.
+    """
+    try:
+        journal = path.with_name(f"{path.name}-wal").read_bytes()
+    except OSError:
+        return 0
+    page_bytes = int.from_bytes(journal[8:12])
+    step = FRAME_HEAD_BYTES + (page_bytes if page_bytes in PAGE_SIZES else USUAL_PAGE_BYTES)
+    heads = [journal[at : at + FRAME_HEAD_BYTES] for at in range(JOURNAL_HEAD_BYTES, len(journal), step)]
+    salts = {journal[16:24], *(head[8:16] for head in heads[:1])}
+    ends = (n for n, head in enumerate(heads, 1) if head[8:16] in salts and any(head[4:8]))
+    return max(ends, default=0)
+
+
+def found_frames(db: sqlite3.Connection) -> int:
+    """As many of them as SQLite has found whole."""
+    return int(db.execute("PRAGMA wal_checkpoint(PASSIVE)").fetchone()[1])
+
+
+def sum_of(*values: bytes | int | None) -> int:
+    sum_ = 0
+    for value in values:
+        sum_ = crc32(value if isinstance(value, bytes) else b"\0%s\0" % str(value).encode(), sum_)
+    return sum_
 
 
 def upgrade(db: sqlite3.Connection, path: Path, steps: Sequence[Sequence[str]]) -> None:

@@ -6,7 +6,7 @@ page's types are generated. Knows no file and no route.
 
 import json
 import sys
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, TypeAdapter
 
@@ -69,6 +69,15 @@ Facts = Annotated[GroupFacts | RobotFacts, Field(discriminator="kind")]
 facts_of: TypeAdapter[GroupFacts | RobotFacts] = TypeAdapter(Facts)
 
 
+def unknown_facts(document: str, kind: str) -> Facts:
+    """Of a document whose own are damaged: it stays in the list, can be opened, and is written anew then."""
+    facts: dict[str, Any] = {"kind": kind, "name": f"Damaged: {document}"[:64], "updatedAtMs": 0}
+    if kind == "robot":
+        return facts_of.validate_python(facts | {"board": "", "limits": [], "poses": []})
+    empty = {"robot": "", "tags": [], "frames": 0, "durationMs": 0, "unit": "us", "pose": []}
+    return facts_of.validate_python(facts | empty)
+
+
 class ListedDocument(Message):
     id: Id
     revision: Whole
@@ -77,10 +86,13 @@ class ListedDocument(Message):
 
 
 class LibraryListing(Message):
-    """`setAside` names a damaged file that was found and kept."""
+    """`setAside` names a damaged file that was found and kept; `changesLost`: the last changes before the
+    gateway's start may be missing.
+    """
 
     documents: list[ListedDocument]
     set_aside: str | None
+    changes_lost: bool
 
 
 class StoredDocument(Message):

@@ -179,7 +179,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         ("outOfRange", "portMissing", "portBusy", "portDenied", "otherDevice"),
     ),
     ("DELETE", "/api/port"): Example(CLOSED),
-    ("GET", "/api/library"): Example({"documents": [LISTED], "setAside": None}),
+    ("GET", "/api/library"): Example({"documents": [LISTED], "setAside": None, "changesLost": False}),
     ("POST", "/api/library/remove"): Example(None, {"ids": [DOCUMENT]}, ("notFound",)),
     ("POST", "/api/library/restore"): Example(None, {"ids": [DOCUMENT]}, ("notFound",)),
     ("GET", "/api/library/{document}"): Example({"text": TEXT, "revision": 4}, errors=("notFound",)),

@@ -28,6 +28,7 @@ from servodeck.library.library_messages import (
     VersionText,
     VersionWrite,
     facts_of,
+    unknown_facts,
 )
 from servodeck.library.robot_of_board import ReadFacts
 from servodeck.web.api import Controlled, routes
@@ -62,11 +63,11 @@ def list_documents(library: Kept) -> LibraryListing:
             id=one.id,
             revision=one.revision,
             is_removed=one.is_removed,
-            facts=facts_of.validate_json(one.facts),
+            facts=facts_of.validate_json(one.facts) if one.facts else unknown_facts(one.id, one.kind),
         )
         for one in library.list()
     ]
-    return LibraryListing(documents=documents, set_aside=library.set_aside)
+    return LibraryListing(documents=documents, set_aside=library.set_aside, changes_lost=library.changes_lost)
 
 
 @library_api.post("/remove", status_code=204, dependencies=[OWNER])

@@ -74,7 +74,7 @@ export function createBrowserKeeper(name: string, nowMs: () => number): Keeper {
           ...{ id, revision, facts: { ...OLDEST, ...facts } },
           isRemoved: removedAtMs !== null,
         }));
-        return { documents, setAside: null };
+        return { documents, setAside: null, changesLost: false };
       }),
     read: (id) => inside('readonly', async (store) => required(await storedOf(store, id))),
     write: (id, writing) =>

@@ -29,6 +29,7 @@ const CODES: Readonly<Record<string, LibraryErrorCode>> = {
   storageFull: 'full',
   storageBusy: 'busy',
   tooLarge: 'tooLarge',
+  damaged: 'damaged',
 };
 
 const whole = z.number().check(z.int());
@@ -37,6 +38,7 @@ const listingSchema: z.ZodMiniType<LibraryListing> = z.object({
     z.object({ id: z.string(), revision: whole, isRemoved: z.boolean(), facts: factsSchema }),
   ),
   setAside: z.nullable(z.string()),
+  changesLost: z.boolean(),
 });
 const storedSchema: z.ZodMiniType<StoredDocument> = z.object({ text: z.string(), revision: whole });
 const writtenSchema: z.ZodMiniType<DocumentWritten> = z.object({ revision: whole });

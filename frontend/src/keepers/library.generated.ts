@@ -96,11 +96,13 @@ export interface VersionWrite {
   text: string;
 }
 /**
- * `setAside` names a damaged file that was found and kept.
+ * `setAside` names a damaged file that was found and kept; `changesLost`: the last changes before the
+ * gateway's start may be missing.
  */
 export interface LibraryListing {
   documents: ListedDocument[];
   setAside: string | null;
+  changesLost: boolean;
 }
 export interface ListedDocument {
   id: string;

@@ -32,7 +32,7 @@ export function createMemoryKeeper(place: Keeper['place'] = 'browser'): Keeper {
 
   return {
     place,
-    list: () => asked(() => ({ documents: [...documents].map(listed), setAside: null })),
+    list: () => asked(() => ({ documents: [...documents].map(listed), setAside: null, changesLost: false })),
     read: (id) =>
       asked(() => {
         const { text, revision } = required(documents.get(id));

@@ -169,6 +169,7 @@ export interface PortState {
         | 'storageFull'
         | 'storageBusy'
         | 'storageFailed'
+        | 'damaged'
         | 'internal'
       )
     | null;
@@ -276,6 +277,7 @@ export interface JobState {
         | 'storageFull'
         | 'storageBusy'
         | 'storageFailed'
+        | 'damaged'
         | 'internal'
       )
     | null;
@@ -357,6 +359,7 @@ export interface RefusedMessage {
     | 'storageFull'
     | 'storageBusy'
     | 'storageFailed'
+    | 'damaged'
     | 'internal';
   detail: string;
 }

@@ -381,6 +381,47 @@ describe('files', () => {
     return { ...place, page, text: (await page.library.exportText())! };
   }
 
+  test('a damaged group is told by name, and one of its versions takes its place', async () => {
+    const { visit, clock, keeper } = createPlace();
+    const first = visit();
+    first.document.edit(() => 'rename', called('Wave'));
+    first.capture(1500);
+    await first.later();
+    await first.library.keepVersion(first.openId(), 'First try');
+    const id = first.openId();
+    first.capture(1800);
+    await first.later();
+
+    let isDamaged = true;
+    const damaged: Keeper = {
+      ...keeper,
+      list: async () => ({ ...(await keeper.list()), changesLost: true }),
+      read: (wanted) =>
+        isDamaged && wanted === id
+          ? Promise.reject(new LibraryError('damaged', 'Wave is damaged.'))
+          : keeper.read(wanted),
+      write: (wanted, writing) => {
+        isDamaged = false;
+        return keeper.write(wanted, writing);
+      },
+    };
+    const page = createVisit(damaged, clock);
+    await page.later();
+    await page.library.refresh();
+    expect(page.told().filter((text) => text === words.library.changesLost)).toHaveLength(1);
+    await page.library.open(id);
+    expect(page.told()).toContain(words.library.problem('damaged', 'Wave is damaged.'));
+    expect(page.openId()).not.toBe(id);
+
+    const [version] = await page.library.versions(id);
+    await page.library.restoreVersion(id, version!);
+    expect(page.openId()).toBe(id);
+    await page.later();
+    expect(page.group().frames).toHaveLength(1);
+    expect((await textAt(keeper, id))?.frames).toHaveLength(1);
+    expect(page.names()).toEqual(['Wave']);
+  });
+
   test('all of a library moves to another place, with its versions', async () => {
     const { text } = await twoGroups();
     const elsewhere = createPlace();

@@ -15,6 +15,7 @@ import {
   type GroupFacts,
   type Keeper,
   type Listed,
+  type Listing,
   type Stored,
   type LibraryErrorCode,
 } from '#shared/actions/library/keeper.ts';
@@ -98,7 +99,7 @@ export function createLibrary(options: LibraryOptions): Library {
   /** In the outbox, or not to be there. */
   let isWritten = true;
   let isShowing = false;
-  let hasToldSetAside = false;
+  const toldDamage = new Set<string>();
   let isFound = true;
   /** The library did not take the last group in time: nobody waits for it until it has everything. */
   let isBehind = false;
@@ -216,17 +217,34 @@ export function createLibrary(options: LibraryOptions): Library {
     isBehind = !(await (isBehind ? late : Promise.race([flush(), late])));
   }
 
-  async function open(id: string): Promise<void> {
-    if (id !== opened.id()) show(id, await read(id));
+  /** Where the disk has damaged what is kept, `instead` takes its place. */
+  async function open(id: string, instead?: ActionGroup): Promise<void> {
+    if (id === opened.id()) return;
+    const group = await read(id).catch((error: unknown) => {
+      const listed = store.getState().documents.find((one) => one.id === id);
+      if (asLibraryError(error).code !== 'damaged' || !instead || !listed) throw error;
+      opened.setRevision(id, listed.revision);
+      put(id, groupToText(instead));
+      return instead;
+    });
+    show(id, group);
+  }
+
+  /** Each once. */
+  function tellDamage({ setAside, changesLost }: Listing): void {
+    const damage = setAside === null ? [] : [words.library.setAside(setAside)];
+    if (changesLost) damage.push(words.library.changesLost);
+    for (const text of damage.filter((text) => !toldDamage.has(text))) {
+      toldDamage.add(text);
+      notices.tell('warning', text);
+    }
   }
 
   async function refresh(): Promise<void> {
     const keeper = await options.keeper;
     const listing = await keeper.list();
-    const { setAside } = listing;
     const documents = listedOf(listing, 'group');
-    if (setAside !== null && !hasToldSetAside) notices.tell('warning', words.library.setAside(setAside));
-    hasToldSetAside ||= setAside !== null;
+    tellDamage(listing);
     const { documents: before, listings } = store.getState();
     const shared = unchanged(before, documents);
     store.setState({ place: keeper.place, documents: shared, listings: listings + 1 });

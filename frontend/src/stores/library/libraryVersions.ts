@@ -29,7 +29,8 @@ interface LibraryVersionsOptions {
   /** Tells what failed. */
   attempt(work: Promise<void>): Promise<void>;
   read(id: string): Promise<ActionGroup>;
-  open(id: string): Promise<void>;
+  /** Where the disk has damaged what is kept, `instead` takes its place. */
+  open(id: string, instead: ActionGroup): Promise<void>;
   /** Until the keeper has every change; rejects where it does not take them. */
   settle(): Promise<void>;
   refresh(): Promise<void>;
@@ -77,7 +78,7 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
 
   async function restoreVersion(id: string, { id: version, name }: Version): Promise<void> {
     const group = groupOf(await (await options.keeper).readVersion(id, version));
-    await open(id);
+    await open(id, group);
     document.edit(
       () => words.library.steps.version(name),
       () => group,

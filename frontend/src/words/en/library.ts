@@ -16,11 +16,14 @@ const PROBLEMS: Readonly<Record<LibraryErrorCode, string>> = {
   tooLarge: 'This group is too large for the library. It stays in this browser alone; make it shorter.',
   unreachable: 'The gateway does not answer. What you write stays in this browser until it does.',
   unreadable: 'This version of Servodeck cannot read this group.',
+  damaged: 'The disk has changed what the library keeps; nothing was deleted',
   failed: 'The library cannot be used',
 };
 
-const problem = (code: LibraryErrorCode, detail: string): string =>
-  code === 'failed' ? `${PROBLEMS.failed}: ${detail}.` : PROBLEMS[code];
+const problem = (code: LibraryErrorCode, detail: string): string => {
+  if (code === 'damaged') return `${PROBLEMS.damaged}: ${detail}`;
+  return code === 'failed' ? `${PROBLEMS.failed}: ${detail}.` : PROBLEMS[code];
+};
 
 export const libraryWords = {
   title: 'Library',
@@ -88,6 +91,8 @@ export const libraryWords = {
     `${name} was changed elsewhere at the same time. Both are kept: the other one under its name, yours as “${copy}”.`,
   setAside: (file: string): string =>
     `The library’s file was damaged. It was set aside unharmed as ${file}, and a new library begun.`,
+  changesLost:
+    'The library’s journal was damaged: what was changed last before the gateway’s start may be missing.',
   problem,
 
   notImported: ({ code, at }: TextFlaw): string => `Nothing was taken from the file. ${FLAWS[code](at)}`,

@@ -15,11 +15,14 @@ const PROBLEMS: Readonly<Record<LibraryErrorCode, string>> = {
   tooLarge: '这个动作组太大，动作库放不下。它只留在本浏览器里；请把它改短。',
   unreachable: '网关没有应答。你写的内容先留在本浏览器里，等它恢复。',
   unreadable: '这个版本的 Servodeck 读不了这个动作组。',
+  damaged: '磁盘改动了动作库里保存的内容；没有删除任何东西',
   failed: '动作库无法使用',
 };
 
-const problem = (code: LibraryErrorCode, detail: string): string =>
-  code === 'failed' ? `${PROBLEMS.failed}：${detail}。` : PROBLEMS[code];
+const problem = (code: LibraryErrorCode, detail: string): string => {
+  if (code === 'damaged') return `${PROBLEMS.damaged}：${detail}`;
+  return code === 'failed' ? `${PROBLEMS.failed}：${detail}。` : PROBLEMS[code];
+};
 
 export const libraryWords: typeof english = {
   title: '动作库',
@@ -82,6 +85,7 @@ export const libraryWords: typeof english = {
   recovered: (names) => `之前没有存进动作库的修改现在已存好：${formatNames(names)}。`,
   conflict: (name, copy) => `${name}同时在别处被改过。两份都留着：别处的用原名，你的叫“${copy}”。`,
   setAside: (file) => `动作库文件已损坏。它已完好地另存为${file}，并新建了动作库。`,
+  changesLost: '动作库的日志已损坏：网关启动前最后的修改可能丢失。',
   problem,
 
   notImported: ({ code, at }) => `没有从文件里取出任何内容。${FLAWS[code](at)}`,

@@ -57,6 +57,8 @@ export interface Listing {
   readonly documents: readonly Listed<Facts>[];
   /** The name of a damaged file that the keeper found and kept; null for none. */
   readonly setAside: string | null;
+  /** The last changes before the keeper's start may be missing. */
+  readonly changesLost: boolean;
 }
 
 /** Those of one kind. */
@@ -114,6 +116,7 @@ export const LIBRARY_ERROR_CODES = [
   'busy', // another program holds the keeper's file
   'tooLarge', // more than a keeper takes
   'unreachable', // the gateway does not answer
+  'damaged', // the disk has changed it; the message says which and what is whole
   'unreadable', // this version cannot read what is kept
   'failed', // anything else; the message says what
 ] as const;
