@@ -182,6 +182,27 @@ describe('STOP', () => {
     });
   });
 
+  test('that left while the board was deaf is said once more when it hears again (S9, S53)', async () => {
+    const rig = await createRig({ profile: 'xarm', family: family('xarm') });
+    await knownAtRest(rig, 500);
+    void rig.session.run(1, 0);
+    await rig.clock.advance(300);
+    const asked = rig.session.readPositions([1, 2, 3, 4, 5, 6]);
+    await rig.clock.advance(25);
+    // It waits in the only place where a packet can, so that the stops are dropped.
+    rig.session.move([{ servo: 1, position: 510 }], 100);
+    await rig.clock.advance(25);
+    void rig.session.halt();
+    await rig.clock.advance(250);
+    expect(rig.transport.board.runningSlot()).toBe(1);
+    expect(rig.session.state.latch?.unheld?.servos).toBeNull();
+    await rig.clock.advance(600);
+    await asked.catch(() => undefined);
+    expect(rig.transport.board.runningSlot()).toBeNull();
+    expect(rig.session.state.latch).toMatchObject({ stop: 'confirmed' });
+    expect(rig.ofKind('stop')).toHaveLength(6);
+  });
+
   test('pressed several times at once takes no servo back', async () => {
     const rig = await createRig();
     await knownAtRest(rig, 500);

@@ -28,7 +28,8 @@ export interface Halt {
   stopAfterReturn(): void;
   /**
    * The board says that a group runs: behind a stop it is one that it kept while its flash worked, which drops stops (S9, S41). Or it
-   * answers for the first time since a packet was cut: the stops since then it may have taken for the rest of that.
+   * answers for the first time since a packet was cut: the stops since then it may have taken for the rest of that. Or it was deaf
+   * when they left.
    */
   again(): void;
   confirmed(): void;

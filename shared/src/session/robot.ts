@@ -71,6 +71,8 @@ export interface RobotEstimate {
   cut(): void;
   /** The board may take what is sent next for the rest of a packet that was cut. */
   maySwallow(): boolean;
+  /** It may not take up what is sent before. */
+  deafUntilMs(): number;
   /** What others, who saw it move, know of it just now. */
   placed(before: MotionBefore): void;
 }
@@ -166,6 +168,7 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     },
     cut: () => (motion = afterCutPacket(now(), family)),
     maySwallow: () => motion.maySwallow > 0,
+    deafUntilMs: () => motion.deafUntilMs,
     placed: (before) => (motion = takenOver(now(), before, clock.now(), family)),
   };
 }

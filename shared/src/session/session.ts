@@ -21,6 +21,7 @@ import { createReplies } from './replies.ts';
 import { createResync } from './resync.ts';
 import type { LinkState, Motions, SessionEvents, SessionState } from './state.ts';
 import type { SlotMemory } from './slotMemory.ts';
+import { createStopAgain } from './stopAgain.ts';
 import { createSessionStore, NOTHING_READ } from './store.ts';
 import type { HaltReason, SlotGroup, Transport } from './transport.ts';
 import { createWakefulClock } from './wakefulClock.ts';
@@ -155,6 +156,13 @@ export function createSession(options: SessionOptions): Session {
     unheldSince: (pressedMs) => driver.core.robot.unheldSince(pressedMs),
     encoded: (hold) => encodeOrRefuse(hold, driver.core.family),
   });
+  const stopAgain = createStopAgain(
+    clock,
+    () => driver.core.robot.deafUntilMs(),
+    () => {
+      if (driver.core.robot.moving()) halt.again();
+    },
+  );
   const resync = createResync(lanes);
   const identification = createIdentification({
     ...{ clock, store, lanes, replies, transport, family, identifies, isWatched },
@@ -210,7 +218,9 @@ export function createSession(options: SessionOptions): Session {
   /** Into the estimate when it has left: not before can the board act on it. */
   function take(packet: Uint8Array): void {
     const command = commandIn(packet);
-    if (command !== null) driver.applied(command);
+    if (command === null) return;
+    driver.applied(command);
+    if (command.kind === 'stop') stopAgain.stopped();
   }
 
   /** A link that stores groups says so itself: told late, its frame would pass for one that is being stored now. */
@@ -227,6 +237,7 @@ export function createSession(options: SessionOptions): Session {
     driver.groups.heard(report);
     driver.readings.heard(report);
     if (report.kind === 'runStopped') halt.confirmed();
+    stopAgain.heard();
     const hearsAgain = mightSwallow && !driver.core.robot.maySwallow();
     if (hearsAgain || report.kind === 'runAccepted' || report.kind === 'runStarted') halt.again();
     identification.heard(report, bytes);
@@ -268,6 +279,7 @@ export function createSession(options: SessionOptions): Session {
   /** The board may have moved, restarted or been changed for another before it is ready again. */
   function unlinked(next: LinkState): void {
     const packet = lanes.unfinished();
+    stopAgain.void();
     if (!link.isOpen) receiver.reset();
     driver.core.robot.forget(packet && commandIn(packet));
     // A shared link has its own way to mend the wire behind it.
