@@ -15,7 +15,7 @@ from servodeck.motion.model import (
     UnknownRun,
     running_unknown,
 )
-from servodeck.motion.tracks import LONGEST_MOVE_MS, retarget
+from servodeck.motion.tracks import LONGEST_MOVE_MS, restless_behind, retarget
 from servodeck.protocol.families import Family
 from servodeck.protocol.values import Frame, Run
 
@@ -100,6 +100,11 @@ def begin_frame(motion: Motion, run: DeadlineRun, board: KnownBoard) -> Motion:
     return replace(
         motion,
         tracks=retarget(motion.tracks, frame.targets, frame.duration_ms, run.next_at_ms, board.family),
+        restless_until_ms=restless_behind(
+            motion.restless_until_ms, frame.duration_ms, run.next_at_ms, board.family
+        )
+        if frame.targets
+        else motion.restless_until_ms,
         # The raw time, not the one the servos were given (S43).
         run=replace(run, next=run.next + 1, next_at_ms=run.next_at_ms + frame.duration_ms),
     )

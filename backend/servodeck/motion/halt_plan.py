@@ -92,14 +92,21 @@ def unheld_since(pressed_ms: float, motion: Motion, last_ms: float, board: Known
     """What may go on, now that the last packet of a STOP pressed at `pressed_ms` left at `last_ms`."""
     family, limit_ms = board.family, last_ms + HELD_WITHIN_MS
     current = advance(motion, last_ms, board)
-    restless_ms = current.restless_until_ms if current.run is None else inf
-    if restless_ms > limit_ms:
-        until_ms = min(restless_ms, max(last_ms, current.deaf_until_ms) + LONGEST_MOVE_MS)
-        servos = not_halted_by_stop(family) if hears(current, last_ms) else None
-        return Unheld(servos, until_ms - pressed_ms)
     rests_at_ms = {servo: rests_ms(track, family) for servo, track in current.tracks.items()}
     late = {servo: until_ms for servo, until_ms in rests_at_ms.items() if until_ms > limit_ms}
-    return Unheld(tuple(sorted(late)), max(late.values()) - pressed_ms) if late else None
+    unknown_ms = unknown_until_ms(current, last_ms)
+    is_unknown = unknown_ms > limit_ms
+    if not late and not is_unknown:
+        return None
+    for_ms = max([*late.values(), *([unknown_ms] if is_unknown else [])]) - pressed_ms
+    others = others_than_halted(current, last_ms, family) if is_unknown else ()
+    return Unheld(None if others is None else tuple(sorted({*others, *late})), for_ms)
+
+
+def unknown_until_ms(motion: Motion, last_ms: float) -> float:
+    """Until then servos may move that no track is known of; a group runs on only where no stop was heard."""
+    restless_ms = motion.restless_until_ms if motion.run is None else inf
+    return min(restless_ms, max(last_ms, motion.deaf_until_ms) + LONGEST_MOVE_MS)
 
 
 def rests_ms(track: Track, family: Family) -> float:
@@ -109,10 +116,12 @@ def rests_ms(track: Track, family: Family) -> float:
     return end_ms(track) + family.motion.tick_ms + family.motion.talk_ms
 
 
-def not_halted_by_stop(family: Family) -> tuple[int, ...] | None:
-    """Where stops halt some servos, only the others go on with a frame (L9)."""
+def others_than_halted(motion: Motion, last_ms: float, family: Family) -> tuple[int, ...] | None:
+    """Where a stop that was heard halts some servos, only the others go on with a frame (L9); None: any of
+    them.
+    """
     halted = family.motion.halted_by_stop
-    if not halted:
+    if not halted or not hears(motion, last_ms):
         return None
     return tuple(servo for servo in range(1, family.usual_servo_count + 1) if servo not in halted)
 
@@ -135,13 +144,14 @@ def held_at(servo: int, track: Track, at_ms: float, family: Family) -> Held | No
     leeway = leeway_of(track, at_ms, family)
     if leeway == 0:
         return Held(servo, round(track.to), is_under_way=False, way=0)
-    at, is_over = guess_of(track, at_ms), stands(track, at_ms)
+    at = guess_of(track, at_ms)
     if leeway == inf:
-        if at is None or is_over or track.start == track.to:
+        # One that is held on a guess is held again: the first hold may be lost.
+        if at is None or end_ms(track) <= at_ms:
             return None
         return Held(servo, rounded(at), is_under_way=True, way=0)
     # A stop has halted it, nobody knows where to the tick.
-    if at is None or (is_over and track.to_leeway > 0):
+    if at is None or (stands(track, at_ms) and track.to_leeway > 0):
         return None
     return held_ahead(servo, at, track.to, leeway)
 

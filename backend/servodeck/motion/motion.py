@@ -28,13 +28,13 @@ from servodeck.motion.told import after_order, after_positions, held_at, only_le
 from servodeck.motion.tracks import (
     LONGEST_MOVE_MS,
     Tracks,
-    board_duration_ms,
     end_ms,
     last_end_ms,
     leeway_of,
     lengthened,
     only,
     position_of,
+    restless_behind,
     retarget,
     standing_at,
     stands,
@@ -119,7 +119,7 @@ def restless(before: Motion, after: Motion, at_ms: float, for_ms: float = LONGES
     """Where a group nobody knows has ended, its last move may go on for that long."""
     if not isinstance(before.run, UnknownRun) or after.run is not None:
         return after
-    return replace(after, restless_until_ms=at_ms + for_ms)
+    return replace(after, restless_until_ms=max(after.restless_until_ms, at_ms + for_ms))
 
 
 def after_heard(motion: Motion, command: Command, at_ms: float, board: KnownBoard) -> Motion:
@@ -147,16 +147,8 @@ def moved(motion: Motion, move: Move, at_ms: float, board: KnownBoard) -> Motion
         board.family,
         is_sure=is_sure,
     )
-    restless_until_ms = retimed_ms(motion, move.duration_ms, at_ms, board.family)
+    restless_until_ms = restless_behind(motion.restless_until_ms, move.duration_ms, at_ms, board.family)
     return replace(motion, tracks=tracks, restless_until_ms=restless_until_ms)
-
-
-def retimed_ms(motion: Motion, requested_ms: float, at_ms: float, family: Family) -> float:
-    """Where the board re-times every servo, also what nobody knows arrives with this move (S26)."""
-    traits = family.motion
-    if traits.timing != "shared" or motion.restless_until_ms <= at_ms:
-        return motion.restless_until_ms
-    return at_ms + board_duration_ms(requested_ms, family) + traits.tick_ms + traits.talk_ms
 
 
 def with_start(motion: Motion, targets: Sequence[ServoTarget]) -> Tracks:
@@ -290,7 +282,17 @@ def after_end(motion: Motion, slot: int | None, at_ms: float, board: KnownBoard)
     # Said so late that the next one runs already.
     if isinstance(current.run, DeadlineRun) and slot is not None and slot != current.run.slot:
         return current
-    return restless(current, playback_of(board).ended(current, board), at_ms, LAST_TICKS_MS)
+    return restless(
+        current, playback_of(board).ended(current, board), at_ms, last_frame_ms(current, at_ms, board)
+    )
+
+
+def last_frame_ms(motion: Motion, at_ms: float, board: KnownBoard) -> float:
+    """Its last frame is over with it; but a move that left meanwhile has re-timed what that frame moves
+    (S26).
+    """
+    is_shared = board.family.motion.timing == "shared"
+    return LAST_TICKS_MS + (last_end_ms(motion.tracks, at_ms) - at_ms if is_shared else 0)
 
 
 def after_cut(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:

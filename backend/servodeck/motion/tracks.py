@@ -98,9 +98,23 @@ def leeway_of(track: Track, now_ms: float, family: Family) -> float:
     return way * tick + track.to_leeway + (track.start_leeway - track.to_leeway) * left
 
 
+def restless_behind(restless_until_ms: float, requested_ms: float, at_ms: float, family: Family) -> float:
+    """Where the board re-times every servo, also what nobody knows of arrives with what takes effect at
+    `at_ms` (S26).
+    """
+    traits = family.motion
+    if traits.timing != "shared" or restless_until_ms <= at_ms:
+        return restless_until_ms
+    return at_ms + board_duration_ms(requested_ms, family) + traits.tick_ms + traits.talk_ms
+
+
 def redirected(track: Track | None, to: float, at_ms: float, duration_ms: float, family: Family) -> Track:
     """Its way from `at_ms` on to `to`."""
     start = position_of(track, at_ms) if track else None
+    guess = guess_of(track, at_ms) if track else None
+    if start is None and guess is not None and abs(guess - to) <= 1:
+        # Sent to where it is guessed to be, it is held there.
+        return Track(to, to, at_ms, duration_ms, start_leeway=inf)
     carried = leeway_of(track, at_ms, family) if track and start is not None else 0
     # Positions are whole numbers to the board, wherever it cuts a way short.
     return Track(start, to, at_ms, duration_ms, start_leeway=0 if carried == 0 else carried + 1)
@@ -137,7 +151,10 @@ def retarget(
     changed = dict(tracks)
     if family.motion.timing == "shared":
         for servo, track in tracks.items():
-            changed[servo] = aimed(servo, track.to, sure=track.to_leeway != inf)
+            is_known = track.to_leeway != inf
+            # A guess that has arrived goes nowhere.
+            if is_known or end_ms(track) > at_ms:
+                changed[servo] = aimed(servo, track.to, sure=is_known)
     for target in targets:
         changed[target.servo] = aimed(target.servo, target.position, sure=is_sure)
     return changed

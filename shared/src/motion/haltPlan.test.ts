@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
 import { family, type FamilyId } from '../protocol/families.ts';
-import { haltPlan } from './haltPlan.ts';
+import { haltPlan, holdBehindStop } from './haltPlan.ts';
 import { afterCommand, UNKNOWN_MOTION, type KnownBoard, type Motion } from './motion.ts';
 
 type Targets = readonly (readonly [servo: number, position: number])[];
@@ -98,6 +98,23 @@ test('a move behind a run that may run nothing is held all the same, slowly, and
   expect(hold?.durationMs).toBe(3_000);
   expect(unheld?.servos).toBeNull();
   expect(unheld?.forMs).toBeLessThan(3_400);
+});
+
+test('a hold on a guess leaves again behind the last stop: the first may be lost', () => {
+  const board: KnownBoard = { family: family('doc'), playedFrames: () => null };
+  let motion = UNKNOWN_MOTION;
+  for (const [atMs, command] of [
+    [-1_000, move(20, [1, 1_000], [2, 1_000])],
+    [0, run(77)],
+    [100, move(10_000, [1, 2_000])],
+    [1_000, STOP],
+  ] as const)
+    motion = afterCommand(motion, command, atMs, board);
+  const hold = holdBehindStop(motion, 1_000, board);
+  expect(hold?.targets).toHaveLength(1);
+  if (hold !== null) motion = afterCommand(motion, hold, 1_030, board);
+  motion = afterCommand(motion, STOP, 1_140, board);
+  expect(holdBehindStop(motion, 1_140, board)).toEqual(hold);
 });
 
 test('a run of an erased slot runs nothing', () => {

@@ -80,23 +80,22 @@ export function unheldSince(
   const { family } = board;
   const limitMs = lastMs + HELD_WITHIN_MS;
   const current = advance(motion, lastMs, board);
-  const restlessMs = current.run === null ? current.restlessUntilMs : Infinity;
-  if (restlessMs > limitMs) {
-    const untilMs =
-      current.maySwallow > 0
-        ? restlessMs
-        : Math.min(restlessMs, Math.max(lastMs, current.deafUntilMs) + LONGEST_MOVE_MS);
-    return { servos: hears(current, lastMs) ? notHaltedByStop(family) : null, forMs: untilMs - pressedMs };
-  }
-  const late = [...current.tracks].flatMap(([servo, track]) => {
-    const untilMs = restsMs(track, family);
-    return untilMs > limitMs ? [{ servo, untilMs }] : [];
-  });
-  if (late.length === 0) return null;
-  return {
-    servos: late.map(({ servo }) => servo).sort((a, b) => a - b),
-    forMs: Math.max(...late.map(({ untilMs }) => untilMs)) - pressedMs,
-  };
+  const known = [...current.tracks].map(([servo, track]) => ({ servo, untilMs: restsMs(track, family) }));
+  const late = known.filter(({ untilMs }) => untilMs > limitMs);
+  const unknownMs = unknownUntilMs(current, lastMs);
+  const isUnknown = unknownMs > limitMs;
+  if (late.length === 0 && !isUnknown) return null;
+  const forMs = Math.max(...late.map(({ untilMs }) => untilMs), isUnknown ? unknownMs : 0) - pressedMs;
+  const others = isUnknown ? othersThanHalted(current, lastMs, family) : [];
+  if (others === null) return { servos: null, forMs };
+  const servos = new Set([...others, ...late.map(({ servo }) => servo)]);
+  return { servos: [...servos].sort((a, b) => a - b), forMs };
+}
+
+/** Until then servos may move that no track is known of; a group runs on only where no stop was heard. */
+function unknownUntilMs({ run, restlessUntilMs, deafUntilMs, maySwallow }: Motion, lastMs: number): number {
+  const restlessMs = run === null ? restlessUntilMs : Infinity;
+  return maySwallow > 0 ? restlessMs : Math.min(restlessMs, Math.max(lastMs, deafUntilMs) + LONGEST_MOVE_MS);
 }
 
 /** When the board's last tick for it is over. */
@@ -104,11 +103,12 @@ function restsMs(track: Track, { motion: { tickMs, talkMs } }: Family): number {
   return track.from === track.to && track.fromLeeway === 0 ? -Infinity : endMs(track) + tickMs + talkMs;
 }
 
-/** Where stops halt some servos, only the others go on with a frame (L9). */
-function notHaltedByStop({ motion: { haltedByStop }, usualServoCount }: Family): readonly number[] | null {
-  if (haltedByStop.length === 0) return null;
+/** Where a stop that was heard halts some servos, only the others go on with a frame (L9); null: any of them. */
+function othersThanHalted(motion: Motion, lastMs: number, family: Family): readonly number[] | null {
+  const { motion: traits, usualServoCount } = family;
+  if (traits.haltedByStop.length === 0 || !hears(motion, lastMs)) return null;
   return Array.from({ length: usualServoCount }, (_, index) => index + 1).filter(
-    (servo) => !haltedByStop.includes(servo),
+    (servo) => !traits.haltedByStop.includes(servo),
   );
 }
 
@@ -139,10 +139,10 @@ function heldAt(track: Track, atMs: number, family: Family): Omit<Held, 'servo'>
   const leeway = leewayOf(track, atMs, family);
   if (leeway === 0) return { position: track.to, isUnderWay: false, way: 0 };
   const at = guessOf(track, atMs);
-  const isOver = stands(track, atMs);
-  if (leeway === Infinity) return at === null || isOver || track.from === track.to ? null : guessHeld(at);
+  // One that is held on a guess is held again: the first hold may be lost.
+  if (leeway === Infinity) return at === null || endMs(track) <= atMs ? null : guessHeld(at);
   // A stop has halted it, nobody knows where to the tick.
-  if (at === null || (isOver && track.toLeeway > 0)) return null;
+  if (at === null || (stands(track, atMs) && track.toLeeway > 0)) return null;
   return heldAhead(at, track.to, leeway);
 }
 

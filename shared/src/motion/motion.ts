@@ -16,13 +16,13 @@ import { runningUnknown, UNKNOWN_MOTION, type KnownBoard, type Motion, type Play
 import { polled } from './polled.ts';
 import { afterOrder, afterPositions, onlyLetGo, type Reading, type Told } from './told.ts';
 import {
-  boardDurationMs,
   endMs,
   lastEndMs,
   leewayOf,
   LONGEST_MOVE_MS,
   only,
   positionOf,
+  restlessBehind,
   retarget,
   shareDone,
   standingAt,
@@ -113,7 +113,7 @@ export function afterCutPacket(motion: Motion, { resyncFiller, maxLength }: Fami
 /** Where a group nobody knows has ended, its last move may go on for that long. */
 function restless(before: Motion, after: Motion, atMs: number, forMs = LONGEST_MOVE_MS): Motion {
   if (before.run?.kind !== 'unknown' || after.run !== null) return after;
-  return { ...after, restlessUntilMs: atMs + forMs };
+  return { ...after, restlessUntilMs: Math.max(after.restlessUntilMs, atMs + forMs) };
 }
 
 function afterHeard(motion: Motion, command: Command, atMs: number, board: KnownBoard): Motion {
@@ -135,14 +135,8 @@ function moved(
   // A frame of that group may overrule it at any time.
   const isSure = motion.run?.kind !== 'unknown';
   const tracks = retarget(withStart(motion, targets), targets, durationMs, atMs, family, isSure);
-  return { ...motion, tracks, restlessUntilMs: retimedMs(motion, durationMs, atMs, family) };
-}
-
-/** Where the board re-times every servo, also what nobody knows arrives with this move (S26). */
-function retimedMs({ restlessUntilMs }: Motion, requestedMs: number, atMs: number, family: Family): number {
-  if (family.motion.timing !== 'shared' || restlessUntilMs <= atMs) return restlessUntilMs;
-  const { tickMs, talkMs } = family.motion;
-  return atMs + boardDurationMs(requestedMs, family) + tickMs + talkMs;
+  const restlessUntilMs = restlessBehind(motion.restlessUntilMs, durationMs, atMs, family);
+  return { ...motion, tracks, restlessUntilMs };
 }
 
 /** Those of the targets that stand where the board said begin there. */
@@ -246,7 +240,12 @@ export function afterEnd(motion: Motion, slot: number | null, atMs: number, boar
   const isAnother = current.run?.kind === 'deadlines' && slot !== null && slot !== current.run.slot;
   // Said so late that the next one runs already.
   if (isAnother) return current;
-  return restless(current, playbackOf(board).ended(current, board), atMs, LAST_TICKS_MS);
+  return restless(current, playbackOf(board).ended(current, board), atMs, lastFrameMs(current, atMs, board));
+}
+
+/** Its last frame is over with it; but a move that left meanwhile has re-timed what that frame moves (S26). */
+function lastFrameMs({ tracks }: Motion, atMs: number, { family: { motion } }: KnownBoard): number {
+  return LAST_TICKS_MS + (motion.timing === 'shared' ? lastEndMs(tracks, atMs) - atMs : 0);
 }
 
 /** After somebody has stopped the group, or it is taken to have ended: its frame in progress goes on (S50). */

@@ -85,6 +85,18 @@ export function leewayOf(track: Track, nowMs: number, { motion, position }: Fami
   return way * tick + toLeeway + (fromLeeway - toLeeway) * left;
 }
 
+/** Where the board re-times every servo, also what nobody knows of arrives with what takes effect at `atMs` (S26). */
+export function restlessBehind(
+  restlessUntilMs: number,
+  requestedMs: number,
+  atMs: number,
+  family: Family,
+): number {
+  const { timing, tickMs, talkMs } = family.motion;
+  if (timing !== 'shared' || restlessUntilMs <= atMs) return restlessUntilMs;
+  return atMs + boardDurationMs(requestedMs, family) + tickMs + talkMs;
+}
+
 /** Its way from `atMs` on to `to`. */
 function redirected(
   track: Track | undefined,
@@ -94,6 +106,10 @@ function redirected(
   family: Family,
 ): Track {
   const from = track ? positionOf(track, atMs) : null;
+  const guess = track ? guessOf(track, atMs) : null;
+  // Sent to where it is guessed to be, it is held there.
+  if (from === null && guess !== null && Math.abs(guess - to) <= 1)
+    return { from: to, to, startMs: atMs, durationMs, fromLeeway: Infinity, toLeeway: 0 };
   const carried = track && from !== null ? leewayOf(track, atMs, family) : 0;
   // Positions are whole numbers to the board, wherever it cuts a way short.
   const fromLeeway = carried === 0 ? 0 : carried + 1;
@@ -124,7 +140,11 @@ export function retarget(
     next.set(servo, way);
   };
   if (family.motion.timing === 'shared')
-    tracks.forEach((track, servo) => aim(servo, track.to, Number.isFinite(track.toLeeway)));
+    tracks.forEach((track, servo) => {
+      const isSure = Number.isFinite(track.toLeeway);
+      // A guess that has arrived goes nowhere.
+      if (isSure || endMs(track) > atMs) aim(servo, track.to, isSure);
+    });
   for (const { servo, position } of targets) aim(servo, position, isSure);
   return next;
 }

@@ -17,6 +17,8 @@ import { createVirtualClock } from '../simulator/virtualClock.ts';
 import { createReceiver } from './receiver.ts';
 import { createRobotEstimate, type RobotEstimate } from './robot.ts';
 import { someFrames, someStep, usualServos, STORED_SLOTS, type Step } from './stepsUnderTest.ts';
+import { FOREIGN_SLOT } from './stopHistories.ts';
+import { foreignFlash } from './stopUnderTest.ts';
 
 /** One event of a link, or the question what a STOP would do at that instant. */
 export type HaltEvent = { readonly atMs: number } & (
@@ -60,6 +62,7 @@ function someHaltStep(family: Family): fc.Arbitrary<HaltStep> {
     { weight: 8, arbitrary: someStep(family) },
     { weight: 3, arbitrary: fc.constant<HaltStep>({ kind: 'halt' }) },
     { weight: 1, arbitrary: fc.constant<HaltStep>({ kind: 'lost' }) },
+    { weight: 1, arbitrary: fc.constant<HaltStep>({ kind: 'run', slot: FOREIGN_SLOT, times: 1 }) },
   );
 }
 
@@ -70,11 +73,15 @@ export async function generateHaltHistories(): Promise<readonly HaltHistory[]> {
     const family = familyOf(profile);
     const some = fc.tuple(
       someFrames(family),
+      someFrames(family, { min: 0, max: 900 }),
       fc.array(someHaltStep(family), { minLength: 3, maxLength: 10 }),
       fc.integer({ min: 10_000, max: 10_039 }),
     );
-    for (const [frames, steps, onForMs] of fc.sample(some, { seed: FIXED_SEED, numRuns: HISTORIES_EACH }))
-      histories.push(await recorded(profile, frames, steps, onForMs));
+    for (const [frames, foreign, steps, onForMs] of fc.sample(some, {
+      seed: FIXED_SEED,
+      numRuns: HISTORIES_EACH,
+    }))
+      histories.push(await recorded(profile, frames, foreign, steps, onForMs));
   }
   return histories;
 }
@@ -82,6 +89,7 @@ export async function generateHaltHistories(): Promise<readonly HaltHistory[]> {
 async function recorded(
   profile: ProfileName,
   frames: readonly Frame[],
+  foreign: readonly Frame[],
   steps: readonly HaltStep[],
   onForMs: number,
 ): Promise<HaltHistory> {
@@ -98,7 +106,11 @@ async function recorded(
       robot.heard(report);
     },
   });
-  const board = createBoard({ clock, profile, onForMs, send: (bytes) => receiver.push(bytes, true) });
+  const flash = foreignFlash(profile, foreign);
+  const board = createBoard({
+    ...{ clock, profile, onForMs, flash },
+    send: (bytes) => receiver.push(bytes, true),
+  });
 
   function note(event: Distributed<HaltEvent>): void {
     events.push({ atMs: clock.now(), ...event });

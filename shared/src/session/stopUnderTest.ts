@@ -1,29 +1,23 @@
-// A session on a simulated board, driven through a generated history and then stopped: what STOP said and what the robot did.
-// Knows the page's verbs and the board's pulses; no estimate.
+// A session on a simulated board, driven through a history and then stopped: what STOP said, what the robot did, and what of that
+// the holds caused. Knows the page's verbs and the board's pulses; no estimate. The histories are stopHistories.ts.
 
-import fc from 'fast-check';
 import type { Unheld } from '../motion/haltPlan.ts';
-import type { Frame, ServoTarget } from '../protocol/commands.ts';
-import { family as familyOf, positionRange, type Family } from '../protocol/families.ts';
+import type { Frame } from '../protocol/commands.ts';
+import { family as familyOf } from '../protocol/families.ts';
 import { createFlashChip, type FlashChip } from '../simulator/flashChip.ts';
+import { createGroupStore, openLayout } from '../simulator/groupStore.ts';
+import { LEARM_LAYOUT } from '../simulator/learm/engine.ts';
 import type { ProfileName } from '../simulator/profiles.ts';
+import { encodeFrame } from '../simulator/storedFrame.ts';
 import { createRig, type Rig } from './rig.ts';
-
-export type StopStep =
-  | { readonly kind: 'move'; readonly targets: readonly ServoTarget[]; readonly durationMs: number }
-  | { readonly kind: 'run'; readonly slot: number; readonly times: number }
-  | { readonly kind: 'endGroup' | 'erase' | 'halt' | 'resume' | 'loss' | 'read' }
-  | { readonly kind: 'download'; readonly frames: readonly Frame[] }
-  | { readonly kind: 'wait'; readonly ms: number };
-
-export interface StopHistory {
-  readonly onForMs: number;
-  readonly hasPad: boolean;
-  /** What another program stored. */
-  readonly unknown: readonly Frame[];
-  readonly known: readonly Frame[];
-  readonly steps: readonly StopStep[];
-}
+import {
+  CUT_SLOT,
+  FOREIGN_SLOT,
+  KNOWN_SLOT,
+  SERVOS,
+  type StopHistory,
+  type StopStep,
+} from './stopHistories.ts';
 
 export interface StopOutcome {
   readonly unheld: Unheld | null;
@@ -31,92 +25,27 @@ export interface StopOutcome {
   readonly movedForMs: readonly number[];
   /** From the press to the last byte. */
   readonly sentForMs: number;
-  /** The farthest that a servo went back against its direction of travel. */
+  /** The farthest that a hold took a servo back against its direction of travel. */
   readonly backBy: number;
-  /** The longest way of a servo within one tick behind the first hold. */
+  /** The longest way of a servo within one tick under a hold, where it did not go that fast before. */
   readonly longestStep: number;
 }
 
-const KNOWN_SLOT = 5;
-const UNKNOWN_SLOT = 7;
-const EMPTY_SLOT = 77;
-const SERVOS = [1, 2, 6];
+const NO_FRAME: Frame = { durationMs: 0, targets: [] };
 const ignore = (): undefined => undefined;
 
-const someMs = fc.oneof(
-  { weight: 4, arbitrary: fc.integer({ min: 0, max: 120 }) },
-  { weight: 4, arbitrary: fc.integer({ min: 0, max: 2_500 }) },
-  { weight: 1, arbitrary: fc.integer({ min: 0, max: 9_000 }) },
-);
-
-function someTargets(family: Family): fc.Arbitrary<ServoTarget[]> {
-  return fc
-    .subarray(SERVOS, { minLength: 1 })
-    .chain((servos) =>
-      fc.tuple(
-        ...servos.map((servo) =>
-          fc.integer(positionRange(family, servo)).map((position) => ({ servo, position })),
-        ),
-      ),
-    );
-}
-
-function someFrames(family: Family): fc.Arbitrary<Frame[]> {
-  const longest = Math.min(family.durationMs.max, 6_000);
-  const durationMs = fc.oneof(
-    fc.constantFrom(0, 20, 300),
-    fc.integer({ min: 0, max: 900 }),
-    fc.integer({ min: 0, max: longest }),
-  );
-  return fc.array(fc.record({ durationMs, targets: someTargets(family) }), { minLength: 1, maxLength: 3 });
-}
-
-function someStopStep(family: Family): fc.Arbitrary<StopStep> {
-  const longest = Math.min(family.durationMs.max, 10_000);
-  const durationMs = fc.oneof(
-    fc.constantFrom(0, 20, 40),
-    fc.integer({ min: 0, max: 600 }),
-    fc.integer({ min: 0, max: longest }),
-  );
-  const only = (kind: 'endGroup' | 'erase' | 'halt' | 'resume' | 'loss' | 'read') =>
-    fc.constant<StopStep>({ kind });
-  return fc.oneof(
-    {
-      weight: 9,
-      arbitrary: fc.record({ kind: fc.constant('move' as const), targets: someTargets(family), durationMs }),
-    },
-    { weight: 8, arbitrary: fc.record({ kind: fc.constant('wait' as const), ms: someMs }) },
-    {
-      weight: 6,
-      arbitrary: fc.record({
-        kind: fc.constant('run' as const),
-        slot: fc.constantFrom(KNOWN_SLOT, UNKNOWN_SLOT, EMPTY_SLOT),
-        times: fc.integer({ min: family.runTimes.min, max: 3 }),
-      }),
-    },
-    { weight: 3, arbitrary: only('endGroup') },
-    { weight: 2, arbitrary: only('halt') },
-    { weight: 3, arbitrary: only('resume') },
-    { weight: 1, arbitrary: only('erase') },
-    { weight: 1, arbitrary: only('loss') },
-    { weight: 1, arbitrary: only('read') },
-    {
-      weight: 1,
-      arbitrary: fc.record({ kind: fc.constant('download' as const), frames: someFrames(family) }),
-    },
-  );
-}
-
-export function someStopHistory(profile: ProfileName): fc.Arbitrary<StopHistory> {
-  const family = familyOf(profile);
-  return fc.record({
-    onForMs: fc.integer({ min: 60_000, max: 60_110 }),
-    hasPad: fc.boolean(),
-    unknown: someFrames(family),
-    known: someFrames(family),
-    steps: fc.array(someStopStep(family), { minLength: 1, maxLength: 9 }),
-  });
-}
+const SAMPLE_MS = 5;
+/** Then the robot is looked at more seldom. */
+const CLOSELY_FOR_MS = 900;
+export const SELDOM_MS = 250;
+/** The longest flash work is over by then, and what it kept waiting has begun. */
+const DEAF_FOR_MS = 4_000;
+/** No move is longer. */
+const REST_MS = 36_000;
+/** A frame of the open firmware's takes as much room as that needs (S38). */
+const SERVOS_PLAYED = 8;
+const SLOW_SECTOR_MS = 400;
+const STORED_WITHIN_MS = 12_000;
 
 /** A session that fails says so in its own tests; here it only matters what the robot does afterwards. */
 function take({ session, transport, clock }: Rig, step: StopStep): Promise<void> {
@@ -148,51 +77,72 @@ function take({ session, transport, clock }: Rig, step: StopStep): Promise<void>
     case 'read':
       session.readPositions(SERVOS).catch(ignore);
       return Promise.resolve();
+    case 'release':
+      session.release(step.servos).catch(ignore);
+      return Promise.resolve();
+    case 'speed':
+      session.setSpeed(step.slot, step.percent).catch(ignore);
+      return Promise.resolve();
     case 'download':
-      session.download([{ slot: KNOWN_SLOT, frames: step.frames }]).catch(ignore);
+      session.download([{ slot: step.slot, frames: step.frames }]).catch(ignore);
+      return Promise.resolve();
+    case 'cancel':
+      session.cancelDownload().catch(ignore);
       return Promise.resolve();
     case 'loss':
       transport.unplug();
       clock.after(100, transport.plugIn);
-      return clock.advance(1_500);
+      return clock.advance(step.awayMs);
   }
 }
 
-async function stored(
-  profile: ProfileName,
-  flash: FlashChip,
-  slot: number,
-  frames: readonly Frame[],
-): Promise<void> {
-  const rig = await createRig({ profile, family: familyOf(profile), flash });
-  rig.session.download([{ slot, frames }]).catch(ignore);
-  await rig.clock.advance(4_000);
-  await rig.session.close();
+/** What another program left in flash: a group, and one whose download was cut behind its first frame (S35). */
+export function foreignFlash(profile: ProfileName, frames: readonly Frame[]): FlashChip {
+  const chip = createFlashChip();
+  if (!familyOf(profile).commands.includes('download')) return chip;
+  const layout = profile.startsWith('learm') ? LEARM_LAYOUT : openLayout(SERVOS_PLAYED);
+  const store = createGroupStore(chip, 0, layout);
+  const [first = NO_FRAME] = frames;
+  store.preload(
+    new Map([
+      [FOREIGN_SLOT, frames],
+      [CUT_SLOT, [...frames, ...frames]],
+    ]),
+  );
+  const place = { slot: CUT_SLOT, frameIndex: 0, frameCount: frames.length + 1 };
+  for (const _ of store.saveFrame(place, () => Uint8Array.from(encodeFrame(first)))) continue;
+  return chip;
 }
 
+/** On a board that has been on for a while, two servos at known places, a group stored. */
 async function prepared(profile: ProfileName, history: StopHistory): Promise<Rig> {
   const family = familyOf(profile);
-  const flash = createFlashChip();
-  const stores = family.commands.includes('download');
-  if (stores) await stored(profile, flash, UNKNOWN_SLOT, history.unknown);
-  const rig = await createRig({ profile, family, flash, onForMs: history.onForMs, hasPad: history.hasPad });
+  const rig = await createRig({
+    ...{ profile, family, flash: foreignFlash(profile, history.unknown) },
+    ...{ onForMs: history.onForMs, hasPad: history.hasPad },
+    faults: history.isSlow ? [{ name: 'slowErase', sectorMs: SLOW_SECTOR_MS }] : [],
+  });
+  const { session, clock } = rig;
   const { centre } = family;
-  rig.session.move(
+  session.move(
     SERVOS.slice(0, 2).map((servo) => ({ servo, position: centre })),
     0,
   );
-  await rig.clock.advance(2_500);
-  if (stores) rig.session.download([{ slot: KNOWN_SLOT, frames: history.known }]).catch(ignore);
-  await rig.clock.advance(stores ? 3_000 : 1);
+  await clock.advance(2_500);
+  if (!family.commands.includes('download')) return rig;
+  if (history.wasErased) session.erase().catch(ignore);
+  if (history.wasErased) await idle(rig);
+  session.download([{ slot: KNOWN_SLOT, frames: history.known }]).catch(ignore);
+  await idle(rig);
   return rig;
 }
 
-const SAMPLE_MS = 5;
-/** Then the robot is looked at more seldom. */
-const CLOSELY_FOR_MS = 900;
-const SELDOM_MS = 250;
-/** No move is longer. */
-const REST_MS = 36_000;
+async function idle({ session, clock }: Rig): Promise<void> {
+  for (let waitedMs = 0; waitedMs < STORED_WITHIN_MS; waitedMs += 50) {
+    await clock.advance(50);
+    if (session.state.activity.kind === 'idle') return;
+  }
+}
 
 export async function stopped(profile: ProfileName, history: StopHistory): Promise<StopOutcome> {
   const rig = await prepared(profile, history);
@@ -202,54 +152,103 @@ export async function stopped(profile: ProfileName, history: StopHistory): Promi
   const look = (): readonly number[] => SERVOS.map((servo) => board.pulse(servo));
 
   const pressedMs = clock.now();
-  /** Where each was under way to when the first stop came: what was on the wire had changed it before. */
-  let courses: readonly number[] | null = null;
   let sentMs = Infinity;
-  const heardBefore = rig.heard.length;
   const settled = session.halt().then(
     () => (sentMs = clock.now()),
     () => (sentMs = clock.now()),
   );
+  const holds = watchHolds(rig);
   let last = look();
   const movedForMs = SERVOS.map(() => 0);
-  const extremes = [...last];
-  let backBy = 0;
-  let longestStep = 0;
-  while (clock.now() - pressedMs < REST_MS) {
-    await clock.advance(clock.now() - pressedMs < CLOSELY_FOR_MS ? SAMPLE_MS : SELDOM_MS);
-    const atMs = clock.now();
+  const isOver = (): boolean =>
+    clock.now() - pressedMs > DEAF_FOR_MS &&
+    board.runningSlot() === null &&
+    SERVOS.every((servo) => board.pulse(servo) === board.target(servo));
+  while (clock.now() - pressedMs < REST_MS && !isOver()) {
+    const isClose = clock.now() - pressedMs < CLOSELY_FOR_MS;
+    await clock.advance(isClose ? SAMPLE_MS : SELDOM_MS);
     const pulses = look();
-    const heard = rig.heard.slice(heardBefore);
-    const stopAt = heard.findIndex(({ command }) => command.kind === 'stop');
-    if (courses === null && stopAt >= 0) {
-      courses = SERVOS.map((servo) => Math.sign(board.target(servo) - board.pulse(servo)));
-      extremes.splice(0, SERVOS.length, ...pulses);
-    }
-    const hold = stopAt < 0 ? undefined : heard.slice(stopAt).find(({ command }) => command.kind === 'move');
-    const holdMs = hold?.atMs ?? Infinity;
-    for (const [index, pulse] of pulses.entries()) {
-      const course = courses?.[index] ?? 0;
-      const before = last[index] ?? pulse;
-      if (pulse === before) continue;
-      movedForMs[index] = atMs - pressedMs;
-      if (atMs > holdMs + 45 && atMs - pressedMs < CLOSELY_FOR_MS)
-        longestStep = Math.max(longestStep, Math.abs(pulse - before));
-      const extreme = extremes[index] ?? pulse;
-      if (course !== 0) backBy = Math.max(backBy, (extreme - pulse) * course);
-      extremes[index] = course > 0 ? Math.max(extreme, pulse) : Math.min(extreme, pulse);
-    }
+    for (const [index, pulse] of pulses.entries())
+      if (pulse !== last[index]) movedForMs[index] = clock.now() - pressedMs;
+    if (isClose) holds.look();
     last = pulses;
   }
   await settled;
   const { latch } = session.state;
   board.powerOff();
   return {
-    unheld: latch?.unheld ?? null,
-    movedForMs,
-    sentForMs: sentMs - pressedMs,
-    backBy,
-    longestStep,
+    ...{ unheld: latch?.unheld ?? null, movedForMs, sentForMs: sentMs - pressedMs },
+    ...{ backBy: holds.backBy(), longestStep: holds.longestStep() },
   };
 }
 
-export const SERVOS_UNDER_TEST: readonly number[] = SERVOS;
+interface Watched {
+  pulse: number;
+  target: number;
+  /** How far it went in a tick before the hold. */
+  stepBefore: number;
+  /** Which way it went when the hold was taken up, and the farthest that it came under the hold. */
+  course: number;
+  extreme: number;
+  isUnderHold: boolean;
+}
+
+/** Behind its last byte a hold is taken up by then, and the first tick of it is over. */
+const TAKEN_UP_MS = 45;
+
+/**
+ * What a servo does is caused by a hold from when the board takes the hold up until it takes up anything else: its own next frame,
+ * or what waited in its mailbox.
+ */
+function watchHolds({ heard, session, transport: { board }, clock }: Rig) {
+  const isShared = session.state.family.motion.timing === 'shared';
+  const from = heard.length;
+  const servos: Watched[] = SERVOS.map((servo) => {
+    const pulse = board.pulse(servo);
+    return {
+      ...{ pulse, target: board.target(servo), stepBefore: 0 },
+      ...{ course: 0, extreme: pulse, isUnderHold: false },
+    };
+  });
+  let backBy = 0;
+  let longestStep = 0;
+
+  function latestHold() {
+    const since = heard.slice(from);
+    const stopAt = since.findIndex(({ command }) => command.kind === 'stop');
+    const held =
+      stopAt < 0 ? undefined : since.slice(stopAt).findLast(({ command }) => command.kind === 'move');
+    return held?.command.kind === 'move' ? { atMs: held.atMs, targets: held.command.targets } : null;
+  }
+
+  function take(seen: Watched, isUnderHold: boolean): void {
+    seen.isUnderHold = isUnderHold;
+    seen.course = Math.sign(seen.target - seen.pulse);
+    seen.extreme = seen.pulse;
+  }
+
+  function look(): void {
+    const hold = latestHold();
+    const isTakenUp = hold !== null && clock.now() > hold.atMs + TAKEN_UP_MS && board.runningSlot() === null;
+    for (const [index, seen] of servos.entries()) {
+      const servo = SERVOS[index] ?? 0;
+      const pulse = board.pulse(servo);
+      const target = board.target(servo);
+      const step = Math.abs(pulse - seen.pulse);
+      const wanted = hold?.targets.find((one) => one.servo === servo)?.position;
+      if (target !== seen.target) take(seen, wanted === target);
+      else if (isTakenUp && !seen.isUnderHold && (wanted === undefined ? isShared : wanted === target))
+        take(seen, true);
+      else if (seen.isUnderHold) {
+        // A way in whole numbers takes one more now and then.
+        if (step > seen.stepBefore + 1) longestStep = Math.max(longestStep, step);
+        backBy = Math.max(backBy, (seen.extreme - pulse) * seen.course);
+      } else if (step > 0) seen.stepBefore = step;
+      seen.extreme = seen.course > 0 ? Math.max(seen.extreme, pulse) : Math.min(seen.extreme, pulse);
+      seen.pulse = pulse;
+      seen.target = target;
+    }
+  }
+
+  return { look, backBy: () => backBy, longestStep: () => longestStep };
+}

@@ -15,7 +15,7 @@ import type { LearmTraits } from './traits.ts';
 import { createTicker, LEARM_TICK_MS } from './ticker.ts';
 
 /** 21 bytes a frame, 8 KiB a group, 255 groups (L12). */
-const LAYOUT = { frameBytes: 21, groupBytes: 8192, groupCount: 255 };
+export const LEARM_LAYOUT = { frameBytes: 21, groupBytes: 8192, groupCount: 255 };
 /** The key K1 goes round; only in the second one the line is the USB's (L2). */
 const MODES = ['app', 'pc', 'ps2', 'offline'] as const;
 const FIRST_LINE_MS = 500;
@@ -43,7 +43,7 @@ export function createLearmEngine(traits: LearmTraits, parts: EngineParts): Engi
     startOf: (servo) => traits.resetPose[servo - 1] ?? null,
     broadcast: null,
   });
-  const store = createGroupStore(parts.chip, sectorMs, LAYOUT);
+  const store = createGroupStore(parts.chip, sectorMs, LEARM_LAYOUT);
 
   function storedFrame(slot: number, frameIndex: number): Frame | null {
     return decodeFrame(store.readFrame(slot, frameIndex), LEARM_SERVOS.length);
@@ -102,7 +102,7 @@ export function createLearmEngine(traits: LearmTraits, parts: EngineParts): Engi
     pressMode: () => void (mode = (mode + 1) % MODES.length),
     pulse: servos.pulse,
     target: servos.target,
-    frameCount: (slot) => (slot < LAYOUT.groupCount ? store.frameCount(slot) : 0),
+    frameCount: (slot) => (slot < LEARM_LAYOUT.groupCount ? store.frameCount(slot) : 0),
     storedFrame,
     runningSlot: runner.runningSlot,
   };

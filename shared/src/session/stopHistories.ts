@@ -1,0 +1,118 @@
+// What may happen to a robot before somebody presses STOP, generated: every verb of the page in any order, on boards with every kind
+// of slot. Knows verbs and families; no session and no board.
+
+import fc from 'fast-check';
+import type { Frame, ServoTarget } from '../protocol/commands.ts';
+import { family as familyOf, positionRange, type Family } from '../protocol/families.ts';
+import type { ProfileName } from '../simulator/profiles.ts';
+
+type Bare = 'endGroup' | 'erase' | 'cancel' | 'halt' | 'resume' | 'read';
+
+export type StopStep =
+  | { readonly kind: 'move'; readonly targets: readonly ServoTarget[]; readonly durationMs: number }
+  | { readonly kind: 'run'; readonly slot: number; readonly times: number }
+  | { readonly kind: Bare }
+  | { readonly kind: 'release'; readonly servos: readonly number[] }
+  | { readonly kind: 'speed'; readonly slot: number; readonly percent: number }
+  | { readonly kind: 'download'; readonly slot: number; readonly frames: readonly Frame[] }
+  | { readonly kind: 'loss'; readonly awayMs: number }
+  | { readonly kind: 'wait'; readonly ms: number };
+
+export interface StopHistory {
+  readonly onForMs: number;
+  readonly hasPad: boolean;
+  /** Flash work takes as long as it can: the board is deaf for up to 2 s. */
+  readonly isSlow: boolean;
+  /** The session has erased all slots before it stored the group it knows. */
+  readonly wasErased: boolean;
+  /** What another program stored. */
+  readonly unknown: readonly Frame[];
+  readonly known: readonly Frame[];
+  readonly steps: readonly StopStep[];
+}
+
+export const SERVOS: readonly number[] = [1, 2, 6];
+export const KNOWN_SLOT = 5;
+/** Another program's: a group, and half of one. */
+export const FOREIGN_SLOT = 7;
+export const CUT_SLOT = 9;
+const EMPTY_SLOT = 77;
+/** What the simulated boards without download hold from the start. */
+const PRELOADED_SLOTS = [1, 2, 8];
+
+const someMs = fc.oneof(
+  { weight: 8, arbitrary: fc.integer({ min: 0, max: 120 }) },
+  { weight: 8, arbitrary: fc.integer({ min: 0, max: 2_500 }) },
+  { weight: 2, arbitrary: fc.integer({ min: 0, max: 9_000 }) },
+  // Any move is over then, and flash may be written.
+  { weight: 1, arbitrary: fc.integer({ min: 10_000, max: 13_000 }) },
+);
+
+function someTargets(family: Family): fc.Arbitrary<ServoTarget[]> {
+  const somewhere = (servo: number) =>
+    fc.integer(positionRange(family, servo)).map((position) => ({ servo, position }));
+  return fc.subarray([...SERVOS], { minLength: 1 }).chain((servos) => fc.tuple(...servos.map(somewhere)));
+}
+
+function someFrames(family: Family): fc.Arbitrary<Frame[]> {
+  const longest = Math.min(family.durationMs.max, 6_000);
+  const durationMs = fc.oneof(
+    fc.constantFrom(0, 20, 300),
+    fc.integer({ min: 0, max: 900 }),
+    fc.integer({ min: 0, max: longest }),
+  );
+  return fc.array(fc.record({ durationMs, targets: someTargets(family) }), { minLength: 1, maxLength: 3 });
+}
+
+function someStopStep(family: Family): fc.Arbitrary<StopStep> {
+  const stores = family.commands.includes('download');
+  const longest = Math.min(family.durationMs.max, 10_000);
+  const durationMs = fc.oneof(
+    fc.constantFrom(0, 20, 40),
+    fc.integer({ min: 0, max: 600 }),
+    fc.integer({ min: 0, max: longest }),
+  );
+  const bare = (weight: number, kind: Bare) => ({ weight, arbitrary: fc.constant<StopStep>({ kind }) });
+  const some = <K extends Exclude<StopStep['kind'], Bare>>(
+    weight: number,
+    kind: K,
+    fields: fc.Arbitrary<Omit<Extract<StopStep, { kind: K }>, 'kind'>>,
+  ) => ({ weight, arbitrary: fields.map((values) => ({ kind, ...values }) as unknown as StopStep) });
+  const slot = stores
+    ? fc.constantFrom(KNOWN_SLOT, FOREIGN_SLOT, CUT_SLOT, EMPTY_SLOT)
+    : fc.constantFrom(...PRELOADED_SLOTS, EMPTY_SLOT);
+  const times = fc.integer({ min: family.runTimes.min, max: 3 });
+  return fc.oneof(
+    some(18, 'move', fc.record({ targets: someTargets(family), durationMs })),
+    some(16, 'wait', fc.record({ ms: someMs })),
+    some(12, 'run', fc.record({ slot, times })),
+    bare(6, 'endGroup'),
+    bare(4, 'halt'),
+    bare(6, 'resume'),
+    bare(3, 'erase'),
+    bare(2, 'read'),
+    bare(1, 'cancel'),
+    some(2, 'loss', fc.record({ awayMs: fc.constantFrom(50, 120, 400, 1_500) })),
+    some(1, 'release', fc.record({ servos: fc.subarray([...SERVOS], { minLength: 1 }) })),
+    some(1, 'speed', fc.record({ slot, percent: fc.integer({ min: 1, max: 300 }) })),
+    some(
+      3,
+      'download',
+      fc.record({ slot: fc.constantFrom(KNOWN_SLOT, CUT_SLOT), frames: someFrames(family) }),
+    ),
+  );
+}
+
+export function someStopHistory(profile: ProfileName): fc.Arbitrary<StopHistory> {
+  const family = familyOf(profile);
+  const rarely = fc.integer({ min: 0, max: 5 }).map((die) => die === 0);
+  return fc.record({
+    onForMs: fc.integer({ min: 60_000, max: 60_110 }),
+    hasPad: fc.boolean(),
+    isSlow: rarely,
+    wasErased: rarely,
+    unknown: someFrames(family),
+    known: someFrames(family),
+    steps: fc.array(someStopStep(family), { minLength: 1, maxLength: 9 }),
+  });
+}
