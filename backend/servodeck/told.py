@@ -85,11 +85,12 @@ class ServoWay(Message):
 
 class MotionTold(Message):
     """Where packets have taken the servos since the port opened; of one that is not named nobody knows the
-    place. `runSlot`: the group that may run.
+    place. `runSlot`: the group that may run. `released`: they have no torque, so hands may have turned them.
     """
 
     servos: list[ServoWay]
     run_slot: int | None
+    released: list[int]
 
 
 JobStatus = Literal["running", "done", "failed", "cancelled"]

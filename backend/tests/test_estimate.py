@@ -119,6 +119,17 @@ def test_whoever_comes_is_told_each_way_and_since_when() -> None:
     assert told_ways(motion, 60.0) == [(1, 1000, 2000, 59_000, 1000), (2, None, 500, 58_500, 1500)]
 
 
+def test_whoever_comes_is_told_which_servos_hands_may_turn() -> None:
+    motion = told((0.0, move(0, s1=500, s2=600)), (1.0, Release((1,))), family="bus-ctrl")
+    motion.heard(Positions((ServoTarget(1, 400),)), 2.0)
+    assert motion.told(2.0).released == [1]
+    motion.left(RUN, 3.0)
+    assert motion.told(3.0).released == [1]
+    motion.left(STOP, 4.0)
+    motion.left(encode(move(1500, s1=500), DOC), 5.0)
+    assert motion.told(60.0).released == []
+
+
 def test_while_a_group_may_run_no_place_is_told_but_that_it_may() -> None:
     motion = running((0.0, Run(8, 1)))
     assert (told_ways(motion, 1.0), motion.told(1.0).run_slot) == ([], 8)

@@ -68,7 +68,7 @@ async function onlooker(browser: Browser, page: Dashboard['page']): Promise<Dash
   return other;
 }
 
-test('somebody who takes over ends it: nothing moves, and both are told that the servos are released', async ({
+test('somebody who takes over ends it: nothing moves, the teacher is told, and a servo that was let go goes gently', async ({
   teaching: dashboard,
   arm,
   browser,
@@ -82,4 +82,11 @@ test('somebody who takes over ends it: nothing moves, and both are told that the
   arm.turn(2, 555);
   expect(arm.pulse(2)).toBe(555);
   expect(ofKind(await arm.bus(), 'move')).toEqual([]);
+
+  // A servo that hands may have turned since goes gently wherever it is sent.
+  await other.slider(2).press('ArrowRight');
+  await poll(async () => ofKind(await arm.bus(), 'move')).not.toEqual([]);
+  const [move] = ofKind(await arm.bus(), 'move');
+  expect(move?.targets.map(({ servo }) => servo)).toEqual([2]);
+  expect(move?.durationMs).toBeGreaterThanOrEqual(1500);
 });

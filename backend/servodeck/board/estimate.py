@@ -25,7 +25,7 @@ from servodeck.motion.motion import (
     remaining_ms,
     target_of,
 )
-from servodeck.motion.told import held_at
+from servodeck.motion.told import held_at, only_let_go
 from servodeck.motion.tracks import LONGEST_MOVE_MS
 from servodeck.protocol.families import Family
 from servodeck.protocol.packets import parse_command
@@ -181,8 +181,9 @@ class Estimate:
     def told(self, now: float) -> MotionTold:
         """As whoever comes now is told of it."""
         self._advance(now)
+        released = list(only_let_go(self._motion.told))
         if self._run:
-            return MotionTold(servos=[], run_slot=self._run.slot)
+            return MotionTold(servos=[], run_slot=self._run.slot, released=released)
         ways = [
             ServoWay(
                 servo=servo,
@@ -194,7 +195,7 @@ class Estimate:
             for servo, track in self._motion.tracks.items()
             if track.to_leeway < inf
         ]
-        return MotionTold(servos=ways, run_slot=None)
+        return MotionTold(servos=ways, run_slot=None, released=released)
 
     def _forget(self, at_ms: float) -> None:
         self._memory.forget_speeds()

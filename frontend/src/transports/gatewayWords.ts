@@ -28,9 +28,9 @@ export function isQuestion(packet: Uint8Array): boolean {
   return command !== null && isHarmless(command);
 }
 
-export function motionBefore({ servos, runSlot }: MotionTold): MotionBefore {
+export function motionBefore({ servos, runSlot, released }: MotionTold): MotionBefore {
   const ways = servos.map(({ start, target, ...way }) => ({ ...way, from: start, to: target }));
-  return { ways, runSlot };
+  return { ways, runSlot, released };
 }
 
 export function portError(port: PortState | null): LinkError {

@@ -285,11 +285,12 @@ export interface JobState {
 }
 /**
  * Where packets have taken the servos since the port opened; of one that is not named nobody knows the
- * place. `runSlot`: the group that may run.
+ * place. `runSlot`: the group that may run. `released`: they have no torque, so hands may have turned them.
  */
 export interface MotionTold {
   servos: ServoWay[];
   runSlot: number | null;
+  released: number[];
 }
 /**
  * A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`

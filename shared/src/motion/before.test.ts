@@ -2,7 +2,17 @@ import { expect, test } from 'vitest';
 import { family } from '../protocol/families.ts';
 import { takenOver, type MotionBefore, type WayBefore } from './before.ts';
 import { UNKNOWN_MOTION } from './model.ts';
-import { afterCommand, gentleMs, positionAt, targetOf, type KnownBoard, type Motion } from './motion.ts';
+import {
+  afterCommand,
+  afterReport,
+  gentleMs,
+  positionAt,
+  readingOf,
+  targetOf,
+  type KnownBoard,
+  type Motion,
+} from './motion.ts';
+import type { Report } from '../protocol/reports.ts';
 
 const DOC: KnownBoard = { family: family('doc'), playedFrames: () => null };
 const NOW_MS = 10_000;
@@ -10,8 +20,18 @@ const NOW_MS = 10_000;
 const WAY: WayBefore = { servo: 3, from: 1_000, to: 2_000, begunMsAgo: 400, durationMs: 1_000 };
 
 function came(ways: readonly WayBefore[], runSlot: MotionBefore['runSlot'] = null): Motion {
-  return takenOver(UNKNOWN_MOTION, { ways, runSlot }, NOW_MS, DOC.family);
+  return takenOver(UNKNOWN_MOTION, { ways, runSlot, released: [5] }, NOW_MS, DOC.family);
 }
+
+test.each([null, 8])(
+  'a servo without torque is known from a reading alone, and as one that hands may turn',
+  (runSlot) => {
+    const nowRead: Report = { kind: 'positions', positions: [{ servo: 5, position: 400 }] };
+    const stopped = afterCommand(came([], runSlot), { kind: 'stop' }, NOW_MS + 100, DOC);
+    const motion = afterReport(stopped, nowRead, NOW_MS + 60_000, DOC);
+    expect(readingOf(motion, 5)).toEqual({ position: 400, isReleased: true });
+  },
+);
 
 test('a way goes on from where it is', () => {
   const motion = came([WAY]);

@@ -3,6 +3,7 @@
 
 import type { Family } from '../protocol/families.ts';
 import { runningUnknown, type Motion } from './model.ts';
+import { afterOrder } from './told.ts';
 import { boardDurationMs, type Track } from './tracks.ts';
 
 /** Begun so long ago (below 0: not yet); `from` is null where nobody knows where it began. */
@@ -14,17 +15,19 @@ export interface WayBefore {
   readonly durationMs: number;
 }
 
-/** `runSlot`: the group that may run, whose frames nobody told. */
+/** `runSlot`: the group that may run, whose frames nobody told. `released`: without torque, hands may have turned them. */
 export interface MotionBefore {
   readonly ways: readonly WayBefore[];
   readonly runSlot: number | null;
+  readonly released: readonly number[];
 }
 
 /** In place of what was believed of the servos. */
 export function takenOver(motion: Motion, before: MotionBefore, nowMs: number, family: Family): Motion {
-  if (before.runSlot !== null) return runningUnknown(motion, before.runSlot);
+  const told = afterOrder(motion.told, { kind: 'release', servos: before.released }, true);
+  if (before.runSlot !== null) return runningUnknown({ ...motion, told }, before.runSlot);
   const tracks = before.ways.map((way) => [way.servo, trackOf(way, nowMs, family)] as const);
-  return { ...motion, tracks: new Map(tracks), run: null };
+  return { ...motion, told, tracks: new Map(tracks), run: null };
 }
 
 function trackOf({ from, to, begunMsAgo, durationMs }: WayBefore, nowMs: number, family: Family): Track {

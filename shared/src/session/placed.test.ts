@@ -14,6 +14,7 @@ import type { Transport, TransportEvents } from './transport.ts';
 const BEFORE: MotionBefore = {
   ways: [{ servo: 1, from: 1_000, to: 2_000, begunMsAgo: 60_000, durationMs: 500 }],
   runSlot: null,
+  released: [],
 };
 
 async function joined(before: MotionBefore, knownBoard: BoardId = 'doc') {
@@ -66,7 +67,7 @@ test('a servo that others moved is known as soon as it is ready, and its first m
 });
 
 test('while a group of others may run nothing may begin that needs a robot at rest', async () => {
-  const { session } = await joined({ ways: [], runSlot: 4 });
+  const { session } = await joined({ ...BEFORE, ways: [], runSlot: 4 });
   await expect(
     session.download([{ slot: 3, frames: [{ durationMs: 100, targets: [] }] }]),
   ).rejects.toMatchObject({
