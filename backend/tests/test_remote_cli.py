@@ -148,9 +148,31 @@ def test_an_end_is_waited_for_as_long_as_the_group_takes_or_half_a_minute() -> N
 
 
 @pytest.mark.exhaustive
-def test_an_endless_run_says_so_and_begins_only_where_its_watch_has_an_end(served: Served) -> None:
-    refused = run("run", "8", "--times", "0", "--url", served.url)
-    assert (refused.exit_code, "until somebody stops it" in refused.stderr) == (USAGE, True)
+def test_an_endless_run_says_so_and_is_watched_over_until_ctrl_c_ends_it(served: Served) -> None:
+    with begin(served, "run", "8", "--times", "0") as watching:
+        assert watching.stdout
+        assert watching.stderr
+        assert watching.stdout.readline() == "Slot 8: silent.\n"
+        assert watching.stderr.readline().startswith("Slot 8 repeats until it is stopped")
+        with pytest.raises(subprocess.TimeoutExpired):
+            watching.wait(2.5)  # longer than the gateway waits for somebody who does not beat
+        assert "running  slot 8, endless times" in run("status", "--url", served.url).stdout
+        watching.send_signal(signal.SIGINT)
+        assert watching.wait(5) == INTERRUPTED
+        assert served.read_until_stops(3) == ENDLESS + STOP * 3
+
+
+@pytest.mark.exhaustive
+def test_an_endless_run_is_stopped_where_its_command_is_killed(served: Served) -> None:
+    with begin(served, "run", "8", "--times", "0") as watching:
+        assert watching.stdout
+        watching.stdout.readline()
+        watching.kill()
+        assert served.read_until_stops(3) == ENDLESS + STOP * 3
+
+
+@pytest.mark.exhaustive
+def test_an_endless_run_ends_after_its_timeout(served: Served) -> None:
     ended = run("run", "8", "--times", "0", "--timeout", "1", "--url", served.url)
     assert (ended.exit_code, ended.stdout.splitlines()[1:]) == (0, ["Ended after 1 s."])
     assert served.read_until_stops(3) == ENDLESS + STOP * 3
@@ -221,7 +243,9 @@ def test_what_cannot_be_is_told_with_a_code_of_its_own(arguments: list[str], cod
 
 def begin(served: Served, *arguments: str) -> subprocess.Popen[str]:
     command = [sys.executable, "-m", "servodeck", *arguments, "--url", served.url]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=variables())
+    return subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=variables()
+    )
 
 
 def variables(**more: str) -> dict[str, str]:

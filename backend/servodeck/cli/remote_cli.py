@@ -3,8 +3,10 @@
 Parses and prints; what may be done the gateway decides.
 """
 
+import sys
 import time
 from collections.abc import Callable
+from math import inf
 from typing import Annotated, Any
 
 import typer
@@ -106,20 +108,24 @@ def run(
             "--timeout",
             metavar="SECONDS",
             min=0,
-            help="End it where it has not ended by then. Left out: what the group takes, or "
-            f"{UNKNOWN_END_S:.0f} where nobody knows that.",
+            help="End it where it has not ended by then. Left out: what the group takes, "
+            f"{UNKNOWN_END_S:.0f} where nobody knows that, no limit with --times 0.",
         ),
     ] = None,
     take: Take = False,
     as_json: AsJson = False,
 ) -> None:
     """Run a group of the board and watch over it: Ctrl-C ends it."""
-    judge_watch(slot, times, go_on, timeout_s)
+    if go_on is not None and timeout_s is not None:
+        fail("--continue returns at once: there is nothing that --timeout could end.", USAGE)
     body = {"times": times, "take": take, "continueForMs": None if go_on is None else go_on * 1000}
     answer = asked(remote, "POST", f"/api/slots/{slot}/run", body)
     show(answer, as_json, lambda begun: f"Slot {slot}: {begun['outcome']}.")
     if go_on is not None:
         return
+    if times == 0 and timeout_s is None:
+        print(endless(slot), file=sys.stderr, flush=True)
+        timeout_s = inf
     limit_s = watch(remote, timeout_s)
     if limit_s is not None and times == 0:
         print(f"Ended after {limit_s:g} s.")
@@ -127,16 +133,11 @@ def run(
         fail(unheard_end(slot, limit_s), TIMED_OUT)
 
 
-def judge_watch(slot: int, times: int, go_on: int | None, timeout_s: float | None) -> None:
-    """Ends the program before anything moves where the watch would have no end, or none is wanted."""
-    if go_on is not None and timeout_s is not None:
-        fail("--continue returns at once: there is nothing that --timeout could end.", USAGE)
-    if times == 0 and go_on is None and timeout_s is None:
-        fail(
-            f"--times 0 repeats slot {slot} until somebody stops it, and it is stopped where nobody watches: "
-            "say with --timeout for how many seconds this command does.",
-            USAGE,
-        )
+def endless(slot: int) -> str:
+    return (
+        f"Slot {slot} repeats until it is stopped, and this command watches over it: Ctrl-C ends both. "
+        "--timeout SECONDS ends them by itself; --continue SECONDS returns at once."
+    )
 
 
 def watch(remote: Remote, limit_s: float | None) -> float | None:
