@@ -35,6 +35,16 @@ test('the arm is posed by hand, captured while it is read, and holds at the end'
   await expect(dashboard.button('Teach')).toBeEnabled();
 });
 
+test('on a phone it is said in sight, wherever one has scrolled to', async ({ page, dashboard }) => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  await dashboard.button('Teach').click();
+  await page.getByRole('button', { name: 'Release and teach' }).click();
+  await expect(dashboard.status).toHaveText('Teaching: keep holding');
+  await expect(dashboard.status).toBeInViewport({ ratio: 1 });
+  await dashboard.button('Hold and end teaching').click();
+  await expect(dashboard.status).not.toContainText('Teaching');
+});
+
 test('Esc ends it and moves nothing', async ({ page, robot, dashboard }) => {
   await dashboard.button('Teach').click();
   await page.getByRole('button', { name: 'Release and teach' }).click();

@@ -204,6 +204,8 @@ test.describe('on a board that counts in steps', () => {
     const question = page.getByText('Made for another board. Convert?');
     await expect(question).toBeVisible();
     await expect(dashboard.button('Play')).toBeDisabled();
+    await expect(dashboard.boardBar).toContainText('For another board');
+    await expect(dashboard.boardBar, 'what the slot holds').toContainText('Unknown');
     await expect(key('Gripper, 0.50 s, 700 µs, linear')).toBeVisible();
     await dashboard.button('Convert').click();
     await expect(question).toBeHidden();

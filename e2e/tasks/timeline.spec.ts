@@ -338,6 +338,30 @@ test('the wheel zooms where the pointer is, and all of it fits again', async ({ 
   await expect(timeline.key('Gripper, 0.50 s, 1000 µs, linear')).toBeVisible();
 });
 
+test('the key under the cursor is named for ears while it is there, and its row where it is out of sight', async ({
+  page,
+  dashboard,
+}) => {
+  const timeline = timelineOf(page);
+  const first = timeline.key('Gripper, 0.50 s, 1000 µs, linear');
+  const named = (): Promise<string | null> =>
+    timeline.grid.evaluate((grid) => {
+      const id = grid.getAttribute('aria-activedescendant');
+      return id === null ? null : (document.getElementById(id)?.role ?? 'nothing that is there');
+    });
+  await timeline.click('Gripper, 0.50 s, 1000 µs, linear');
+  expect(await named()).toBe('gridcell');
+  await page.mouse.move(0, 0);
+  const last = await timeline.middleOf(timeline.key('Gripper, 1.50 s, 1400 µs, linear'));
+  await page.mouse.move(last.x, last.y);
+  await page.mouse.wheel(0, -600);
+  await expect(first).toBeHidden();
+  expect(await named()).toBe('row');
+  await dashboard.button('Fit all').click();
+  await expect(first).toBeVisible();
+  expect(await named()).toBe('gridcell');
+});
+
 test('positions are read and typed in degrees where the page is', async ({ page, dashboard }) => {
   await page.getByRole('group', { name: 'Positions in' }).getByRole('radio', { name: '°' }).check();
   const timeline = timelineOf(page);

@@ -69,13 +69,15 @@ function AtAGlance() {
   const held = useHeldName()(slot) ?? '';
   const trigger = slotTrigger(id, slot);
   const { frames, report } = useCompiled((state) => state.latest);
-  const fits = obstacles(report, 'board').length === 0;
+  const isOfOther = boardUnit !== unit;
+  const fits = !isOfOther && obstacles(report, 'board').length === 0;
   if (frames.length === 0) return <p className={styles.hint}>{words.board.nothingToDownload}</p>;
-  if (boardUnit !== unit) return <p className={styles.hint}>{words.actions.otherUnit(unit)}</p>;
   return (
     <span className={styles.glance} aria-hidden="true">
       <Chip truth={FATE_TRUTH[fate]}>{words.slots.inBar(fate, held)}</Chip>
-      <Chip truth={fits ? 'confirmed' : 'danger'}>{fits ? words.compile.fits : words.compile.fitsNot}</Chip>
+      <Chip truth={fits ? 'confirmed' : 'danger'}>
+        {isOfOther ? words.compile.ofOther : fits ? words.compile.fits : words.compile.fitsNot}
+      </Chip>
       {trigger !== null && <Chip truth="warning">{words.slots.triggerInBar(trigger)}</Chip>}
     </span>
   );

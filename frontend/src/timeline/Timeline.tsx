@@ -31,6 +31,7 @@ import { topOfRows } from './sizes.ts';
 import { StatusText, type Said } from './StatusText.tsx';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
+import { useActiveCell } from './useActiveCell.ts';
 import { useRows } from './useRows.ts';
 import { PART } from '../ui/useParts.ts';
 import styles from './Timeline.module.css';
@@ -50,7 +51,6 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
   const rows = useRows();
   const columns = useDocument(({ present }) => present.frames.length);
   const isTall = useTimeline((state) => state.isTall);
-  const active = useTimeline(({ cursor }) => cellId(id, cursor.row, cursor.frameId));
   const sizes = sizesNow({ isTall });
   const totalPx = topOfRows(sizes) + heightOf(placedRows(rows.slice(1), sizes));
   const openMenu = useCallback((kind: OpenMenu['kind'], anchor: Element | null) => {
@@ -78,6 +78,8 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
     observer.observe(lane);
     return () => observer.disconnect();
   }, [stores]);
+
+  useActiveCell(grid, id);
 
   useEffect(() => keepInStep(stores), [stores]);
 
@@ -111,9 +113,11 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
     event.preventDefault();
   }
 
-  const cellAtCursor = (): Element | null =>
-    window.document.getElementById(active) ??
-    window.document.getElementById(cellId(id, stores.timeline.getState().cursor.row, null));
+  const cellAtCursor = (): Element | null => {
+    const { row, frameId } = stores.timeline.getState().cursor;
+    const there = (one: string): Element | null => window.document.getElementById(one);
+    return there(cellId(id, row, frameId)) ?? there(cellId(id, row, null));
+  };
 
   function put(event: ClipboardEvent, clip: ReturnType<typeof copy>): void {
     if (clip === null) return;
@@ -158,7 +162,6 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
               aria-rowcount={rows.length}
               aria-colcount={columns}
               aria-multiselectable="true"
-              aria-activedescendant={active}
               onKeyDown={key}
               onCopy={(event) => put(event, copy(deskOf(stores)))}
               onCut={(event) => put(event, cut(deskOf(stores)))}

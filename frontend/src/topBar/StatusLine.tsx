@@ -2,7 +2,7 @@
 // what the board does. Changes are read out.
 
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
-import { useDevice, useDocument, useSnapshot, useStores } from '../stores/stores.ts';
+import { useDevice, useDocument, useIsTeaching, useSnapshot, useStores } from '../stores/stores.ts';
 import { mayResume } from '#shared/session/lease.ts';
 import type { LinkErrorCode } from '#shared/session/linkError.ts';
 import type { Activity, Latch, LinkState } from '#shared/session/state.ts';
@@ -27,6 +27,7 @@ export function StatusLine({ className, onMoveHere }: StatusLineProps) {
   const latch = useSnapshot((snapshot) => snapshot.latch);
   const activity = useSnapshot((snapshot) => snapshot.activity);
   const played = usePlayed();
+  const isTeaching = useIsTeaching();
   const isDown = link.status === 'lost' || link.status === 'refused';
   const isCalm = link.status === 'ready' && latch === null;
   const isMoving = useDevice((device) => device.isMoving) && activity.kind === 'idle';
@@ -48,6 +49,8 @@ export function StatusLine({ className, onMoveHere }: StatusLineProps) {
         <Said truth="unknown" text={words.identity.asking} />
       ) : latch !== null ? (
         <Latched latch={latch} />
+      ) : isTeaching ? (
+        <Said truth="warning" text={words.teach.status} />
       ) : (
         <Said
           truth={isMoving ? 'estimated' : activityTruth(activity)}

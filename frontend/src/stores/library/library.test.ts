@@ -146,6 +146,31 @@ describe('keeping', () => {
     expect(page.told()).toEqual([]);
   });
 
+  test('what has no room here while the keeper is away is told until either has it', async () => {
+    const { flaky, state } = unreliable(createMemoryKeeper());
+    const { visit } = createPlace(flaky);
+    const page = visit();
+    page.full.add('servodeck.unkept');
+    page.capture(1500);
+    await page.later();
+    expect(page.told(), 'the library has it').toEqual([]);
+    state.isAway = true;
+    page.capture(1600);
+    await page.later();
+    expect(page.told()).toEqual([words.library.problem('unreachable', ''), words.library.notHeldHere]);
+    page.full.clear();
+    page.capture(1700);
+    await page.later();
+    expect(page.told()).toEqual([words.library.problem('unreachable', '')]);
+    page.full.add('servodeck.unkept');
+    page.capture(1800);
+    await page.later();
+    expect(page.told()).toContain(words.library.notHeldHere);
+    state.isAway = false;
+    await page.later();
+    expect(page.told()).toEqual([]);
+  });
+
   test('until the place of the library is known everything waits here, and both sides of a conflict are kept', async () => {
     const keeper = createMemoryKeeper();
     const { visit, clock } = createPlace(keeper);

@@ -88,7 +88,10 @@ export interface LibraryOptions {
 
 export function createLibrary(options: LibraryOptions): Library {
   const { document, storage, notices, robots, view, epochMs, newId } = options;
-  const outbox = createOutbox(storage);
+  const outbox = createOutbox(storage, (isWritten) => {
+    isHeldHere = isWritten;
+    tellHeld();
+  });
   const opened = createOpenDocument(document, storage, newId);
   const store = createStore<LibraryState>(() => ({
     ...{ place: null, documents: [], listings: 0, openId: opened.id(), isKept: true },
@@ -103,6 +106,9 @@ export function createLibrary(options: LibraryOptions): Library {
   let isFound = true;
   /** The library did not take the last group in time: nobody waits for it until it has everything. */
   let isBehind = false;
+  /** This browser's storage took the last change of what waits. */
+  let isHeldHere = true;
+  let isKeeperAway = false;
 
   const shelving = createShelving({
     ...{ keeper: options.keeper, outbox, clock: options.clock },
@@ -111,17 +117,28 @@ export function createLibrary(options: LibraryOptions): Library {
       opened.setRevision(id, revision);
       tellKept();
       if (outbox.entries().length > 0) return;
-      isBehind = false;
+      isBehind = isKeeperAway = false;
+      tellHeld();
       for (const code of WAITING) notices.takeBack(words.library.problem(code, ''));
     },
     onConflict: keepBoth,
-    onFailure: tell,
+    onFailure(error) {
+      tell(error);
+      isKeeperAway = true;
+      tellHeld();
+    },
   });
 
   function factsOfText(text: string): GroupFacts | null {
     const read = groupFromText(text);
     if ('problem' in read) return null;
     return factsOf(read.value, { updatedAtMs: epochMs(), robot: robots.current().robot.name });
+  }
+
+  /** A change that is nowhere but in this page: for a moment always, but not for as long as the library is away. */
+  function tellHeld(): void {
+    if (isHeldHere || !isKeeperAway) notices.takeBack(words.library.notHeldHere);
+    else notices.tell('warning', words.library.notHeldHere);
   }
 
   function tell(error: unknown): void {

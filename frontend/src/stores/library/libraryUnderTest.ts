@@ -17,9 +17,14 @@ export function createVisit(
   clock: VirtualClock,
   texts = new Map<string, string>(),
 ) {
+  /** The browser's storage has no room for these. */
+  const full = new Set<string>();
   const storage = {
     getItem: (key: string) => texts.get(key) ?? null,
-    setItem: (key: string, text: string) => void texts.set(key, text),
+    setItem(key: string, text: string): void {
+      if (full.has(key)) throw new DOMException('full', 'QuotaExceededError');
+      texts.set(key, text);
+    },
   };
   const notices = createNotices(clock);
   const document = createDocument(storage, notices, clock);
@@ -37,7 +42,7 @@ export function createVisit(
       .map(({ facts }) => facts.name)
       .sort();
   return {
-    ...{ texts, document, library, names, view, notices },
+    ...{ texts, full, document, library, names, view, notices },
     told: () => notices.store.getState().map(({ text }) => text),
     act: () => notices.store.getState().at(-1)?.action?.act(),
     group: () => document.store.getState().present,

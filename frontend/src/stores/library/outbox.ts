@@ -24,7 +24,11 @@ const headSchema = z.array(z.object({ id: z.string(), revision }));
 const earlierSchema = z.record(z.string(), z.object({ text: z.string(), revision }));
 type Unkept = ReadonlyMap<string, Stored>;
 
-export function createOutbox(storage: TextStorage): Outbox {
+/** `onWritten`: whether the storage took the last change. */
+export function createOutbox(
+  storage: TextStorage,
+  onWritten: (isWritten: boolean) => void = () => undefined,
+): Outbox {
   const own = new Map(load(storage));
 
   /** Other tabs' texts stay as they are there. */
@@ -35,8 +39,10 @@ export function createOutbox(storage: TextStorage): Outbox {
       if (now === undefined) unkept.delete(id);
       else unkept.set(id, now);
       storage.setItem(KEY, written(unkept));
+      onWritten(true);
     } catch {
-      // The document has told the person that this browser stores nothing.
+      // What is gone from here may stay there: it is sent once more in the next visit, and nothing is lost.
+      onWritten(own.size === 0);
     }
   }
 

@@ -58,6 +58,7 @@ export const compileWords = {
   shifted: (ms: number): string => `Keys moved by up to ${formatMs(ms)}: the board counts ticks`,
   fits: 'Fits',
   fitsNot: 'Does not fit',
+  ofOther: 'For another board',
   stale: 'Being worked out',
   empty: 'Nothing to store yet.',
   problems: 'What does not fit',

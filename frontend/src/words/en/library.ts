@@ -36,6 +36,8 @@ export const libraryWords = {
   looking:
     'Waiting for the gateway’s word on where the library is. Until then each change is kept in this browser.',
   waiting: 'Not all changes are in the library yet.',
+  notHeldHere:
+    'This browser has no room for changes that wait for the library. Keep the page open until the library has them.',
   empty: 'No groups in the library yet',
   emptyHint:
     'Close this and capture a frame: the group goes into the library by itself, with every change. Or import a file.',

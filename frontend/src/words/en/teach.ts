@@ -10,6 +10,7 @@ export const teachWords = {
   confirm: 'Release and teach',
   end: 'Hold and end teaching',
   on: 'Teaching: turn the servos by hand, capture, keep holding.',
+  status: 'Teaching: keep holding',
   staysReleased: 'Teaching has ended. The servos were not told to hold: keep the arm in your hand.',
   notHeld: (names: readonly string[]): string =>
     `Not held, because it was not read or stands beyond its limits: ${formatNames(names)}. It stays released.`,

@@ -56,6 +56,7 @@ export const compileWords: typeof english = {
   shifted: (ms) => `关键帧最多移动${formatMs(ms)}：控制板按节拍计时`,
   fits: '放得下',
   fitsNot: '放不下',
+  ofOther: '为别的控制板制作',
   stale: '正在计算',
   empty: '还没有可存储的内容。',
   problems: '哪里放不下',

@@ -34,6 +34,7 @@ export const libraryWords: typeof english = {
   },
   looking: '正在等网关说明库在哪里。在此之前，每次改动都保存在这个浏览器里。',
   waiting: '还有修改没有存进动作库。',
+  notHeldHere: '浏览器没有空间保存等待存入动作库的修改。在动作库收到之前，请不要关闭页面。',
   empty: '动作库里还没有动作组',
   emptyHint: '关闭这里并记录一帧：动作组和每次修改都会自动存进动作库。也可以导入文件。',
   nothingFound: '没有这样的动作组。',

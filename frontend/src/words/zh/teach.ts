@@ -11,6 +11,7 @@ export const teachWords: typeof english = {
   confirm: '卸力并示教',
   end: '保持并结束示教',
   on: '正在示教：用手转动舵机并采集，请一直扶住手臂。',
+  status: '示教中：请扶住',
   staysReleased: '示教已结束，没有命令舵机保持：请扶住手臂。',
   notHeld: (names) => `${formatNames(names)}没有保持：没有读到位置，或者超出了限位，仍处于卸力状态。`,
 };

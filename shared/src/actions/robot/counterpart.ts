@@ -1,5 +1,6 @@
 // The same robot and the same group as they would count in the other unit, by the rescale that others use between pulse widths and steps
-// (boards.md chapter 7): steps = (µs − 500) ÷ 2. For drawing what was made for another board, and for converting it. Pure.
+// (boards.md chapter 7): steps = (µs − 500) ÷ 2. For drawing what was made for another board, and for converting it, so that a pose
+// looks alike before and after. A group holds no ranges of the robot it was made for, so angles would have no beginning. Pure.
 
 import { FAMILIES, type Family } from '../../protocol/families.ts';
 import { MOST_ERROR_UNITS, type ActionGroup } from '../group/group.ts';
