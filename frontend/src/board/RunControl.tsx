@@ -5,23 +5,29 @@ import { motionHindrance } from '../stores/device/readiness.ts';
 import { useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
+import { useFates } from '../slots/useFates.ts';
 import { useRunSettings } from './useRunSettings.ts';
 
 export function RunControl() {
-  const { device, view } = useStores();
+  const { device, view, notices } = useStores();
   const { slot, times } = useRunSettings();
+  const isEmpty = useFates()(slot) === 'empty';
   const isPlaying = useSnapshot(({ activity }) => activity.kind === 'playing');
   const isReady = useSnapshot((snapshot) => snapshot.link.status === 'ready');
   const mayRun = useSnapshot(
     (snapshot) => motionHindrance(snapshot) === null && !snapshot.brokenSlots.includes(slot),
   );
+  const run = (): void => {
+    runAsChosen({ device, view }, slot, times);
+    if (isEmpty) notices.tell('info', words.board.runsNothing(slot));
+  };
   return (
     <>
       <Button
         icon="play"
         hint={words.board.runHint(slot, times)}
         isDisabled={!mayRun || isPlaying}
-        onPress={() => runAsChosen({ device, view }, slot, times)}
+        onPress={run}
       >
         {words.board.run}
       </Button>

@@ -67,6 +67,17 @@ test('a group without a slot gets the one that has it, else a free one that no p
   expect(slot()).toBe(22);
 });
 
+test('an erase takes the group off the board, not its slot from the group', async () => {
+  const { open, slot, slots, draw } = await openDesk();
+  slots.download([{ slot: 30, name: 'wave', documentId: 'wave', frames: FRAMES }]);
+  await draw(2000);
+  open('wave');
+  slots.erase();
+  await draw(5000);
+  expect(slots.store.getState().book.isEmptied).toBe(true);
+  expect(slot()).toBe(30);
+});
+
 test('what others have stored is not free', async () => {
   const { sharedSlots, othersStore } = createSharedSlots({ 21: storedGroup({ version: 'of Bert' }) });
   const { slot } = await openDesk(new Map(), { sharedSlots });

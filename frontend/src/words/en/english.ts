@@ -253,6 +253,8 @@ export const english = {
     goOnUnit: 'min',
     goOnMinutes: 'Minutes at most',
     run: 'Run',
+    runsNothing: (slot: number): string =>
+      `Slot ${formatWhole(slot)} is empty, as far as is known here: nothing runs. Download a group to it first.`,
     runHint: (slot: number, times: number): string => `Slot ${formatWhole(slot)}, ${timesWords(times)}`,
     stopGroup: 'End group',
     stopGroupHint: 'Ends the group after its frame in progress. Not an emergency stop.',

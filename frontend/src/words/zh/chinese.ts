@@ -239,6 +239,8 @@ export const chinese: Words = {
     goOnUnit: '分钟',
     goOnMinutes: '最长分钟数',
     run: '运行',
+    runsNothing: (slot) =>
+      `就目前所知，槽位${formatWhole(slot)}是空的，什么也不会运行。请先把动作组下载到这里。`,
     runHint: (slot, times) => `槽位${formatWhole(slot)}，${timesWords(times)}`,
     stopGroup: '结束动作组',
     stopGroupHint: '做完当前帧后结束动作组。这不是急停。',

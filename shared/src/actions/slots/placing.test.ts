@@ -9,16 +9,18 @@ const record = (slot: number, documentId: string, storedAtMs = 0): SlotRecord =>
   ...{ slot, documentId, storedAtMs, name: documentId, fingerprint: '', frames: [] },
 });
 const knownOf = (change: Partial<KnownSlots>): KnownSlots => ({
-  ...{ book: { stored: [] }, versions: {}, broken: [], range: FAMILIES.doc.slot },
+  ...{ book: { stored: [], erased: [] }, versions: {}, broken: [], range: FAMILIES.doc.slot },
   ...change,
 });
 
 test('a group has the slot it names, else the one that got it last, from here or from others', () => {
   const stored = [record(3, 'wave', 10), record(40, 'wave', 20), record(50, 'bow', 30)];
-  const known = knownOf({ book: { stored }, versions: { 60: { version: '', documentId: 'nod' } } });
+  const erased = [record(3, 'nod', 40), record(70, 'wave', 50), record(8, 'gone', 10)];
+  const known = knownOf({ book: { stored, erased }, versions: { 60: { version: '', documentId: 'nod' } } });
   expect(ownSlot('wave', { slot: 7 }, known)).toBe(7);
   expect(ownSlot('wave', { slot: null }, known)).toBe(40);
   expect(ownSlot('nod', { slot: null }, known)).toBe(60);
+  expect(ownSlot('gone', { slot: null }, known), 'it can be restored there').toBe(8);
   expect(ownSlot('new', { slot: null }, known)).toBe(null);
   expect(ownSlot('wave', { slot: 255 }, knownOf({ range: FAMILIES['learm-esp32'].slot }))).toBe(null);
 });
@@ -29,7 +31,7 @@ test('what is proposed holds nothing that is known, breaks nothing off, and is p
   fc.assert(
     fc.property(someSlots, someSlots, someSlots, someSlots, someFamily, (own, others, broken, taken, id) => {
       const known = knownOf({
-        book: { stored: own.map((slot) => record(slot, 'wave')) },
+        book: { stored: own.map((slot) => record(slot, 'wave')), erased: [] },
         versions: Object.fromEntries(others.map((slot) => [slot, { version: 'a', documentId: null }])),
         ...{ broken, range: FAMILIES[id].slot },
       });
@@ -49,6 +51,6 @@ test('what is proposed holds nothing that is known, breaks nothing off, and is p
 
 test('where no slot is free, the first one that no pad plays is named: what it holds is asked about', () => {
   const stored = Array.from({ length: 256 }, (_, slot) => record(slot, 'wave'));
-  expect(slotFor(null, knownOf({ book: { stored } }))).toBe(21);
-  expect(slotFor(5, knownOf({ book: { stored } }))).toBe(5);
+  expect(slotFor(null, knownOf({ book: { stored, erased: [] } }))).toBe(21);
+  expect(slotFor(5, knownOf({ book: { stored, erased: [] } }))).toBe(5);
 });

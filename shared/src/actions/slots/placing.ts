@@ -7,7 +7,7 @@ import type { ActionGroup } from '../group/group.ts';
 import type { SlotBook, VersionsTold } from './slotBook.ts';
 
 export interface KnownSlots {
-  readonly book: Pick<SlotBook, 'stored'>;
+  readonly book: Pick<SlotBook, 'stored' | 'erased'>;
   /** What others stored, as a shared link has it. */
   readonly versions: VersionsTold;
   /** They hold half a group, which somebody may want to download again. */
@@ -15,18 +15,20 @@ export interface KnownSlots {
   readonly range: Range;
 }
 
-/** The one that the group names, else the one that got it last; null where the board has no such slot, or there is none. */
+/** The one that the group names, else the one that got it last, be it erased since; null where the board has no such slot, or there is none. */
 export function ownSlot(
   documentId: string,
   { slot }: Pick<ActionGroup, 'slot'>,
   { book, versions, range }: KnownSlots,
 ): number | null {
-  const latest = book.stored
-    .filter((record) => record.documentId === documentId)
-    .toSorted((one, other) => other.storedAtMs - one.storedAtMs)
-    .at(0)?.slot;
+  const latestOf = (records: SlotBook['stored']): number | undefined =>
+    records
+      .filter((record) => record.documentId === documentId)
+      .toSorted((one, other) => other.storedAtMs - one.storedAtMs)
+      .at(0)?.slot;
   const byOthers = Object.keys(versions).find((key) => versions[Number(key)]?.documentId === documentId);
-  const own = slot ?? latest ?? (byOthers === undefined ? null : Number(byOthers));
+  const there = latestOf(book.stored) ?? (byOthers === undefined ? undefined : Number(byOthers));
+  const own = slot ?? there ?? latestOf(book.erased) ?? null;
   return own !== null && own >= range.min && own <= range.max ? own : null;
 }
 
