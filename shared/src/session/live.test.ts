@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { wireMs } from '../protocol/packet.ts';
+import { LinkError } from './linkError.ts';
 import { createRig, firstMovesMs } from './rig.ts';
 import { RANGE_MS } from './timings.ts';
 
@@ -194,6 +195,18 @@ describe('playing from the page', () => {
     expect(lateFrames).toBeGreaterThan(0);
     expect(latestMs).toBeGreaterThan(200);
     expect(skippedFrames).toBe(0);
+  });
+
+  test('a frame that the link refuses is counted as left out, and the others are played', async () => {
+    const { clock, session, transport, ofKind } = await createRig();
+    const { send } = transport;
+    let sent = 0;
+    transport.send = (packet) =>
+      ++sent === 2 ? Promise.reject(new LinkError('expired', 'too late')) : send(packet);
+    const done = session.play(frames);
+    await clock.advance(4_000);
+    expect((await done).skippedFrames).toBe(1);
+    expect(ofKind('move').map(({ targets }) => targets[0]?.position)).toEqual([1_000, 1_500]);
   });
 
   test('is ended by STOP', async () => {

@@ -15,6 +15,8 @@ export interface Live {
   /** Each pass but the first begins with frame `loopFrom`. */
   play(frames: readonly Frame[], times: number, loopFrom: number): Promise<Played>;
   stopPlaying(): void;
+  /** A move did not leave. */
+  moveFailed(): void;
   /** Whether there was something to drop. */
   drop(): boolean;
 }
@@ -66,6 +68,7 @@ export function createLive(core: Core, moves: MoveBuffer, turns: Turns): Live {
     move,
     play: playFrames,
     stopPlaying: () => playing?.stop(),
+    moveFailed: () => playing?.refused(),
     drop() {
       const wasBusy = moves.servos().length > 0 || playing !== null;
       moves.clear();

@@ -27,13 +27,15 @@ export interface Played {
   readonly lateFrames: number;
   /** The latest of them by so much. */
   readonly latestMs: number;
-  /** Frames that had not left when the next one took their place. */
+  /** Frames that had not left when the next one took their place, or that the link refused. */
   readonly skippedFrames: number;
 }
 
 export interface Playing {
   /** Resolves when the last frame has ended or `stop` was called. Rejects with what `move` threw. */
   readonly done: Promise<Played>;
+  /** A frame did not leave. */
+  refused(): void;
   stop(): void;
 }
 
@@ -64,6 +66,10 @@ export function play(options: PlayerOptions): Playing {
   const frameAfter = (count: number): number =>
     count < frames.length ? count : loopFrom + ((count - frames.length) % (frames.length - loopFrom));
 
+  function skip(): void {
+    played = { ...played, skippedFrames: played.skippedFrames + 1 };
+  }
+
   /** False: it is looked again. */
   function mayBegin(dueMs: number): boolean {
     const lateMs = clock.now() - dueMs;
@@ -72,7 +78,7 @@ export function play(options: PlayerOptions): Playing {
       cancelTimer = clock.after(LOOK_MS, beginNext);
       return false;
     }
-    if (waits) played = { ...played, skippedFrames: played.skippedFrames + 1 };
+    if (waits) skip();
     if (lateMs >= LATE_MS)
       played = {
         ...played,
@@ -107,6 +113,7 @@ export function play(options: PlayerOptions): Playing {
   beginNext();
   return {
     done,
+    refused: skip,
     stop() {
       cancelTimer();
       finish(played);

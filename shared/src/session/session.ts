@@ -142,7 +142,10 @@ export function createSession(options: SessionOptions): Session {
     takeMove: () => driver.takeMove(),
     leaving: note,
     sent: take,
-    moveFailed: (error) => store.emit('problem', error),
+    moveFailed(error) {
+      driver.live.moveFailed();
+      store.emit('problem', error);
+    },
   });
 
   let driver: Driver = driverFor(family);
