@@ -157,7 +157,18 @@ module.exports = {
       { path: '^e2e/' },
       { path: '^(frontend|bench|backend)/' },
     ),
-    forbid('nothing-imports-end-to-end', 'Tests are leaves.', { pathNot: '^e2e/' }, { path: '^e2e/' }),
+    forbid(
+      'nothing-imports-end-to-end',
+      'Tests are leaves. Component tests share the words, the board and its log.',
+      { pathNot: '^(e2e|frontend/tests)/' },
+      { path: '^e2e/' },
+    ),
+    forbid(
+      'nothing-imports-component-tests',
+      'Tests are leaves.',
+      { pathNot: '^frontend/tests/' },
+      { path: '^frontend/tests/' },
+    ),
     forbid('nothing-imports-tests', 'Tests are leaves.', {}, { path: '[.]test[.]tsx?$' }),
     forbid(
       'rigs-are-for-tests',

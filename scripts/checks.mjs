@@ -90,17 +90,23 @@ function tried(amount) {
   return { env, limitMs: 60 * 60_000 };
 }
 
+/** @param {'unit' | 'components'} project @returns {Pick<Task, 'command' | 'tests'>} */
+function vitest(project) {
+  const reporters = ['--reporter=dot', '--reporter=junit', `--outputFile.junit=${reportOf(project)}`];
+  return {
+    command: node('vitest/vitest.mjs', 'run', '--project', project, ...reporters),
+    tests: () => testsOf(project),
+  };
+}
+
 /** @param {Amount} amount @returns {Task} */
 function unit(amount) {
-  return {
-    name: 'unit and property',
-    command: node(
-      'vitest/vitest.mjs',
-      ...['run', '--reporter=dot', '--reporter=junit', `--outputFile.junit=${reportOf('vitest')}`],
-    ),
-    ...tried(amount),
-    tests: () => testsOf('vitest'),
-  };
+  return { name: 'unit and property', ...vitest('unit'), ...tried(amount) };
+}
+
+/** The page in a browser, in virtual time. @param {Amount} amount @returns {Task} */
+function components(amount) {
+  return { name: 'components', ...vitest('components'), ...tried(amount) };
 }
 
 /** Two at least: some tests wait. */
@@ -162,6 +168,7 @@ export async function test(amount) {
     runTasks([unit(amount), gateway(amount), ...still, unused, wheel, locks]),
     browserForTests(),
   ]);
+  const panels = await runTasks([components(amount)]);
   const journeys = await runTasks([endToEnd()]);
-  return conclude([...built, ...checked, ...journeys], { slowest: amount !== 'usual' });
+  return conclude([...built, ...checked, ...panels, ...journeys], { slowest: amount !== 'usual' });
 }

@@ -161,19 +161,6 @@ for (const colorScheme of ['light', 'dark'] as const) {
 }
 
 for (const viewport of SIZES) {
-  test(`${viewport.width} px: the battery settings are accessible and fit`, async ({ page, servers }) => {
-    await page.setViewportSize(viewport);
-    const dashboard = dashboardOf(page);
-    await page.goto((await servers.files()).url);
-    await expect(dashboard.link).toContainText('Ready');
-    if (viewport.width < 700) await page.getByRole('tab', { name: 'Board' }).click();
-    await dashboard.button('Battery settings').click();
-    await page.getByRole('radio', { name: 'Go to rest and stop' }).check();
-    await expectSound({ page, isDark: false }, 'battery settings');
-  });
-}
-
-for (const viewport of SIZES) {
   test(`${viewport.width} px: files are accessible and fit`, async ({ page, servers }) => {
     await page.setViewportSize(viewport);
     const dashboard = dashboardOf(page);

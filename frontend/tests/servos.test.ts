@@ -2,10 +2,10 @@
 
 import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
 import { robotToText } from '#shared/actions/robot/robotText.ts';
-import { lastTarget, ofKind } from '../fixtures/bus.ts';
-import { expect, poll, test } from '../fixtures/test.ts';
+import { lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
+import { expect, poll, test } from './harness/test.ts';
 
-test('servos selected together turn together, the other way when mirrored @everyWay', async ({
+test('servos selected together turn together, the other way when mirrored', async ({
   dashboard,
   robot,
   page,
@@ -164,7 +164,7 @@ test.describe('with thirty-two servos', () => {
 });
 
 test.describe('on a tablet', () => {
-  test.use({ viewport: { width: 820, height: 1180 } });
+  test.override({ viewport: { width: 820, height: 1180 } });
 
   test('thumbs are drawn again where the list comes back into sight', async ({ dashboard, page }) => {
     await dashboard.type(dashboard.target(1), 1700);

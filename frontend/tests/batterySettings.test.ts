@@ -1,0 +1,21 @@
+// The battery's settings are accessible and fit.
+
+import { dashboardOf, expect, test } from './harness/test.ts';
+import { expectSound, looks } from './harness/sound.ts';
+
+for (const viewport of looks([
+  { width: 390, height: 844 },
+  { width: 820, height: 1180 },
+  { width: 1440, height: 900 },
+])) {
+  test(`${viewport.width} px: the battery settings are accessible and fit`, async ({ page, url }) => {
+    await page.setViewportSize(viewport);
+    const dashboard = dashboardOf(page);
+    await page.goto(url);
+    await expect(dashboard.link).toContainText('Ready');
+    if (viewport.width < 700) await page.getByRole('tab', { name: 'Board' }).click();
+    await dashboard.button('Battery settings').click();
+    await page.getByRole('radio', { name: 'Go to rest and stop' }).check();
+    await expectSound('battery settings');
+  });
+}

@@ -1,0 +1,91 @@
+// What only the browser's driver can do for a test, in Node: real input, and what the system asks for. Coordinates are of the
+// whole window.
+
+import type { BrowserCommand } from 'vitest/node';
+
+export type Act =
+  | readonly ['move', number, number, number?]
+  | readonly ['down' | 'up', number?]
+  | readonly ['wheel', number, number]
+  | readonly ['keyDown' | 'keyUp' | 'press' | 'type' | 'insertText', string]
+  | readonly ['touch', Touch, readonly { x: number; y: number; id: number }[]];
+
+export type Touch = 'touchStart' | 'touchMove' | 'touchEnd';
+
+export interface Media {
+  readonly media?: 'screen' | 'print' | null;
+  readonly colorScheme?: 'light' | 'dark' | null;
+  readonly reducedMotion?: 'reduce' | 'no-preference' | null;
+  readonly forcedColors?: 'active' | 'none' | null;
+  readonly contrast?: 'more' | 'no-preference' | null;
+}
+
+export interface Screen {
+  readonly hasTouch: boolean;
+  readonly deviceScaleFactor: number;
+}
+
+type Context = Parameters<BrowserCommand>[0];
+
+/** Several at once: each call costs as much as ten acts. */
+const act: BrowserCommand<[acts: readonly Act[]]> = async (context, acts) => {
+  for (const one of acts) await perform(context, one);
+};
+
+async function perform({ page, provider, sessionId }: Context, one: Act): Promise<void> {
+  const { mouse, keyboard } = page;
+  switch (one[0]) {
+    case 'move':
+      return mouse.move(one[1], one[2], { steps: one[3] ?? 1 });
+    case 'down':
+      return mouse.down({ clickCount: one[1] ?? 1 });
+    case 'up':
+      return mouse.up({ clickCount: one[1] ?? 1 });
+    case 'wheel':
+      return mouse.wheel(one[1], one[2]);
+    case 'keyDown':
+      return keyboard.down(one[1]);
+    case 'keyUp':
+      return keyboard.up(one[1]);
+    case 'press':
+      return keyboard.press(one[1]);
+    case 'type':
+      return keyboard.type(one[1]);
+    case 'insertText':
+      return keyboard.insertText(one[1]);
+    case 'touch': {
+      const devtools = await provider.getCDPSession?.(sessionId);
+      await devtools?.send('Input.dispatchTouchEvent', { type: one[1], touchPoints: [...one[2]] });
+    }
+  }
+}
+
+const emulateMedia: BrowserCommand<[media: Media]> = ({ page }, media) => page.emulateMedia(media);
+
+const emulateScreen: BrowserCommand<[screen: Screen]> = async ({ provider, sessionId }, screen) => {
+  const devtools = await provider.getCDPSession?.(sessionId);
+  await devtools?.send('Emulation.setTouchEmulationEnabled', { enabled: screen.hasTouch, maxTouchPoints: 2 });
+  if (screen.deviceScaleFactor === 1) await devtools?.send('Emulation.clearDeviceMetricsOverride');
+  else
+    await devtools?.send('Emulation.setDeviceMetricsOverride', {
+      ...{ width: 0, height: 0, mobile: false },
+      deviceScaleFactor: screen.deviceScaleFactor,
+    });
+};
+
+/** The picture of a part of the window, as base64. */
+const picture: BrowserCommand<[clip: { x: number; y: number; width: number; height: number }]> = async (
+  { page },
+  clip,
+) => (await page.screenshot({ clip })).toString('base64');
+
+export const commands = { act, emulateMedia, emulateScreen, picture };
+
+declare module 'vitest/browser' {
+  interface BrowserCommands {
+    act(acts: readonly Act[]): Promise<void>;
+    emulateMedia(media: Media): Promise<void>;
+    emulateScreen(screen: Screen): Promise<void>;
+    picture(clip: { x: number; y: number; width: number; height: number }): Promise<string>;
+  }
+}

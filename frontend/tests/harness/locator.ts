@@ -1,0 +1,272 @@
+// Finds what a person finds, by role and name, and acts on it: as much of Playwright's Locator as component tests use, so that
+// a test reads the same here and end to end. Each act waits, in the page's time, until its target is there and can be met.
+
+import {
+  getByLabelSelector,
+  getByRoleSelector,
+  getByTextSelector,
+  selectorEngine,
+} from '@vitest/browser/locators';
+import { commands } from 'vitest/browser';
+import { act, clickAt, tapAt, type Point } from './hands.ts';
+import { during, eventually, realFrame } from './time.ts';
+
+type Modifier = 'Control' | 'Shift' | 'Alt' | 'Meta' | 'ControlOrMeta';
+interface TextOptions {
+  readonly exact?: boolean;
+}
+type RoleOptions = Parameters<typeof getByRoleSelector>[1];
+interface ClickOptions {
+  readonly modifiers?: readonly Modifier[];
+  readonly position?: Point;
+  readonly button?: 'left';
+  readonly timeout?: number;
+}
+
+export class Locator {
+  readonly selector: string;
+
+  constructor(selector: string) {
+    this.selector = selector;
+  }
+
+  // Looking.
+
+  elements(): HTMLElement[] {
+    return this.selector === ''
+      ? [document.documentElement]
+      : (selectorEngine.querySelectorAll(
+          selectorEngine.parseSelector(this.selector),
+          document,
+        ) as HTMLElement[]);
+  }
+
+  /** The only one. Throws where there is none, or several. */
+  element(): HTMLElement {
+    const [found, ...others] = this.elements();
+    if (found === undefined) throw new Error(`nothing is there: ${this.selector}`);
+    if (others.length > 0) {
+      const seen = [found, ...others].map((one) => one.outerHTML.slice(0, 120));
+      throw new Error(`several are there: ${this.selector}\n${seen.join('\n')}`);
+    }
+    return found;
+  }
+
+  #within(selector: string): Locator {
+    return new Locator(this.selector === '' ? selector : `${this.selector} >> ${selector}`);
+  }
+
+  getByRole = (role: string, options?: RoleOptions) => this.#within(getByRoleSelector(role, options ?? {}));
+  getByText = (text: string | RegExp, options?: TextOptions) =>
+    this.#within(getByTextSelector(text, options));
+  getByLabel = (text: string | RegExp, options?: TextOptions) =>
+    this.#within(getByLabelSelector(text, options));
+  locator = (css: string) => this.#within(css);
+  nth = (index: number) => this.#within(`nth=${index}`);
+  first = () => this.nth(0);
+  last = () => this.nth(-1);
+  and = (other: Locator) => this.#within(`internal:and=${JSON.stringify(other.selector)}`);
+  or = (other: Locator) => this.#within(`internal:or=${JSON.stringify(other.selector)}`);
+
+  filter({ has, hasNot, hasText }: { has?: Locator; hasNot?: Locator; hasText?: string | RegExp }): Locator {
+    const conditions = [
+      ...(has ? [`internal:has=${JSON.stringify(has.selector)}`] : []),
+      ...(hasNot ? [`internal:has-not=${JSON.stringify(hasNot.selector)}`] : []),
+      ...(hasText === undefined ? [] : [getByTextSelector(hasText).replace(':text=', ':has-text=')]),
+    ];
+    return this.#within(conditions.join(' >> '));
+  }
+
+  count = () => Promise.resolve(this.elements().length);
+  all = () => Promise.resolve(this.elements().map((_, index) => this.nth(index)));
+  isVisible = () => Promise.resolve(this.elements().some(isVisible));
+  allTextContents = () => Promise.resolve(this.elements().map(({ textContent }) => textContent));
+
+  #read<T>(read: (element: HTMLElement) => T | Promise<T>): Promise<T> {
+    return eventually(() => this.element()).then(read);
+  }
+
+  textContent = () => this.#read((element) => element.textContent);
+  innerText = () => this.#read((element) => element.innerText);
+  inputValue = () => this.#read((element) => (element as HTMLInputElement).value);
+  getAttribute = (name: string) => this.#read((element) => element.getAttribute(name));
+  isChecked = () => this.#read(isChecked);
+  isEnabled = () => this.#read((element) => !isDisabled(element));
+
+  boundingBox = () =>
+    this.#read((element) => {
+      const { x, y, width, height } = element.getBoundingClientRect();
+      return { x, y, width, height };
+    });
+
+  evaluate = <T, A>(read: (element: HTMLInputElement, argument: A) => T, argument?: A): Promise<Awaited<T>> =>
+    this.#read((element) => during(Promise.resolve(read(element as HTMLInputElement, argument as A))));
+
+  evaluateAll = <T>(read: (elements: HTMLElement[]) => T) => Promise.resolve(read(this.elements()));
+
+  evaluateHandle = async <T, A>(read: (element: HTMLInputElement, argument: A) => T, argument?: A) =>
+    handleOf(await this.evaluate(read, argument));
+
+  screenshot = () =>
+    this.#read(async (element) => {
+      element.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+      await realFrame();
+      const { x, y, width, height } = element.getBoundingClientRect();
+      const frame = window.frameElement?.getBoundingClientRect() ?? { x: 0, y: 0 };
+      const base64 = await commands.picture({ x: x + frame.x, y: y + frame.y, width, height });
+      return { equals: (other: { readonly base64: string }) => other.base64 === base64, base64 };
+    });
+
+  // Acting.
+
+  /** Where a press meets it: scrolled into sight, with nothing before it. */
+  #place({ position, timeout }: Pick<ClickOptions, 'position' | 'timeout'> = {}): Promise<Point> {
+    return eventually(async () => {
+      const element = this.element();
+      if (!isVisible(element)) throw new Error(`not to be seen: ${this.selector}`);
+      if (isInactive(element)) throw new Error(`disabled: ${this.selector}`);
+      const at = pointOf(element, position);
+      if (at !== null) return at;
+      element.scrollIntoView({ block: 'center', inline: 'center', behavior: 'instant' });
+      await realFrame();
+      const scrolled = pointOf(element, position);
+      if (scrolled !== null) return scrolled;
+      throw new Error(`something else is before it: ${this.selector}`);
+    }, timeout);
+  }
+
+  async click(options: ClickOptions = {}): Promise<void> {
+    const at = await this.#place(options);
+    const held = (options.modifiers ?? []).map((key) => (key === 'ControlOrMeta' ? 'Control' : key));
+    if (held.length > 0) await act(...held.map((key) => ['keyDown', key] as const));
+    await clickAt(at);
+    if (held.length > 0) await act(...held.map((key) => ['keyUp', key] as const));
+  }
+
+  dblclick = async (options?: ClickOptions) => clickAt(await this.#place(options), 2);
+  tap = async () => tapAt(await this.#place());
+
+  async hover(options?: ClickOptions): Promise<void> {
+    const { x, y } = await this.#place(options);
+    await act(['move', x, y]);
+  }
+
+  async #setChecked(wanted: boolean): Promise<void> {
+    if ((await this.isChecked()) === wanted) return;
+    await this.click();
+    await eventually(() => {
+      if (isChecked(this.element()) !== wanted)
+        throw new Error(`a click did not change it: ${this.selector}`);
+    });
+  }
+
+  check = () => this.#setChecked(true);
+  uncheck = () => this.#setChecked(false);
+
+  focus = () =>
+    this.#read(async (element) => {
+      element.focus();
+      await act();
+    });
+  blur = () =>
+    this.#read(async (element) => {
+      element.blur();
+      await act();
+    });
+
+  async press(key: string): Promise<void> {
+    await this.#read((element) => element.focus());
+    await act(['press', key]);
+  }
+
+  async fill(text: string): Promise<void> {
+    await eventually(() => {
+      const field = this.element() as HTMLInputElement;
+      if (!isVisible(field) || isInactive(field) || field.readOnly)
+        throw new Error(`nothing can be written here: ${this.selector}`);
+      field.focus();
+      field.select();
+    });
+    await act(text === '' ? ['press', 'Delete'] : ['insertText', text]);
+  }
+
+  clear = () => this.fill('');
+
+  async pressSequentially(text: string): Promise<void> {
+    await this.focus();
+    await act(['type', text]);
+  }
+
+  async selectOption(label: string): Promise<void> {
+    const option = await eventually(() => {
+      const { options } = this.element() as HTMLSelectElement;
+      const found = [...options].find((one) => one.value === label || one.label === label);
+      if (found === undefined) throw new Error(`no option ${label}: ${this.selector}`);
+      return found;
+    });
+    const select = this.element() as HTMLSelectElement;
+    select.focus();
+    option.selected = true;
+    select.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+    select.dispatchEvent(new Event('change', { bubbles: true }));
+    await act();
+  }
+
+  scrollIntoViewIfNeeded = () =>
+    this.#read(async (element) => {
+      const { left, top, right, bottom } = element.getBoundingClientRect();
+      if (left >= 0 && top >= 0 && right <= innerWidth && bottom <= innerHeight && pointOf(element) !== null)
+        return;
+      element.scrollIntoView({ block: 'center', inline: 'center', behavior: 'instant' });
+      await realFrame();
+    });
+
+  dispatchEvent = (type: string) =>
+    this.#read(async (element) => {
+      const make = type === 'click' ? MouseEvent : Event;
+      element.dispatchEvent(new make(type, { bubbles: true, cancelable: true, composed: true }));
+      await act();
+    });
+
+  waitFor = ({ state = 'visible' }: { state?: 'visible' | 'hidden' } = {}) =>
+    eventually(() => {
+      if (this.elements().some(isVisible) !== (state === 'visible'))
+        throw new Error(`not ${state}: ${this.selector}`);
+    });
+}
+
+export function handleOf<T>(value: T) {
+  return {
+    evaluate: <R, A>(read: (value: T, argument: A) => R, argument?: A) =>
+      Promise.resolve(read(value, argument as A)),
+    jsonValue: () => Promise.resolve(structuredClone(value)),
+  };
+}
+
+export function isVisible(element: Element): boolean {
+  const { width, height } = element.getBoundingClientRect();
+  return element.checkVisibility({ visibilityProperty: true }) && width > 0 && height > 0;
+}
+
+export function isChecked(element: Element): boolean {
+  return element instanceof HTMLInputElement ? element.checked : element.ariaChecked === 'true';
+}
+
+/** Said to be so, though it may still be met. */
+export function isDisabled(element: Element): boolean {
+  return isInactive(element) || element.closest('[aria-disabled="true"]') !== null;
+}
+
+const isInactive = (element: Element): boolean => element.matches(':disabled');
+
+/** null where something else would be met there. */
+function pointOf(element: HTMLElement, position?: Point): Point | null {
+  const [box] = [...element.getClientRects()].filter(({ width, height }) => width > 0 && height > 0);
+  if (box === undefined) return null;
+  const x = position === undefined ? box.x + box.width / 2 : box.x + position.x;
+  const y = position === undefined ? box.y + box.height / 2 : box.y + position.y;
+  const met = document.elementFromPoint(x, y);
+  const label =
+    element.closest('label') ?? ('labels' in element ? (element as HTMLInputElement).labels?.[0] : null);
+  return met !== null && (element.contains(met) || label?.contains(met)) ? { x, y } : null;
+}

@@ -1,0 +1,201 @@
+// The page in this window: opened, reloaded and left as a browser does it, without a gateway. Knows how the entry puts it
+// together, and no panel.
+
+import { createElement, StrictMode, type ReactNode } from 'react';
+import { createRoot, type Root } from 'react-dom/client';
+import { commands, page as tester } from 'vitest/browser';
+import { App } from '../../src/App.tsx';
+import { arrive } from '../../src/connect/arrival.ts';
+import { openPage } from '../../src/connect/page.ts';
+import { Gallery } from '../../src/gallery/Gallery.tsx';
+import { preferredLanguage, speak } from '../../src/words/words.ts';
+import type { Media, Screen } from './commands.ts';
+import { watchFiles } from './files.ts';
+import { act, keyboard, mouse, touch } from './hands.ts';
+import { handleOf, Locator } from './locator.ts';
+import { advance, during, endTimers, eventually, FRAME_MS, realFrame } from './time.ts';
+import '../../src/ui/fonts.css';
+import '../../src/ui/tokens.css';
+import '../../src/ui/base.css';
+
+const HOME = '/';
+const OPENING_MS = 3 * FRAME_MS;
+
+/** Where files come from in these tests. */
+export const ADDRESS = location.origin;
+
+let root: Root | null = null;
+let shown = HOME;
+/** Of the page's own code, on what outlives it here. */
+let listening: (() => void)[] = [];
+let workers: Worker[] = [];
+
+/** Files only: no gateway answers. */
+const fetchFiles = window.fetch.bind(window);
+window.fetch = (input, init) => {
+  const { pathname } = new URL(input instanceof Request ? input.url : input, location.href);
+  return pathname.startsWith('/api/')
+    ? Promise.resolve(new Response('no such file', { status: 404 }))
+    : fetchFiles(input, init);
+};
+
+window.Worker = class extends Worker {
+  constructor(...options: ConstructorParameters<typeof Worker>) {
+    super(...options);
+    workers.push(this);
+  }
+};
+
+/** What is listened to while a page is being put together ends with it; a browser sees to that at a reload. */
+async function noteListeners<T>(open: () => Promise<T>): Promise<T> {
+  const places: readonly EventTarget[] = [window, document];
+  const add = EventTarget.prototype.addEventListener;
+  for (const place of places)
+    place.addEventListener = (...options: Parameters<typeof add>) => {
+      add.apply(place, options);
+      listening.push(() => place.removeEventListener(options[0], options[1], options[2]));
+    };
+  try {
+    return await open();
+  } finally {
+    for (const place of places) Reflect.deleteProperty(place, 'addEventListener');
+  }
+}
+
+async function show(address: string): Promise<void> {
+  const { pathname, search } = new URL(address, location.href);
+  shown = address;
+  const element = document.createElement('div');
+  element.id = 'page';
+  document.body.append(element);
+  window.focus();
+  let content: ReactNode;
+  if (pathname.endsWith('gallery.html')) {
+    history.replaceState(null, '', search);
+    await speak(preferredLanguage([new URLSearchParams(search).get('language') ?? 'en']));
+    content = createElement(Gallery);
+  } else {
+    const page = await noteListeners(async () => openPage(await arrive(window)));
+    content = createElement(StrictMode, null, createElement(App, { page }));
+  }
+  root = createRoot(element);
+  root.render(content);
+  await advance(OPENING_MS);
+}
+
+const tested = location.search;
+
+/** As a browser leaves a page: it hears of it, and then nothing of it is left but what it stored. */
+async function leave(): Promise<void> {
+  if (root === null) return;
+  window.dispatchEvent(new PageTransitionEvent('pagehide'));
+  root.unmount();
+  root = null;
+  // A browser takes them back at once.
+  await eventually(async () => {
+    const { held = [] } = await navigator.locks.query();
+    if (held.length > 0) throw new Error('the page holds on to its port');
+  });
+  for (const forget of listening) forget();
+  for (const worker of workers) worker.terminate();
+  [listening, workers] = [[], []];
+  endTimers();
+  document.body.replaceChildren();
+  document.title = '';
+  for (const name of Object.keys(document.documentElement.dataset))
+    Reflect.deleteProperty(document.documentElement.dataset, name);
+  history.replaceState(null, '', tested);
+}
+
+async function forgetAll(): Promise<void> {
+  localStorage.clear();
+  sessionStorage.clear();
+  for (const { name = '' } of await indexedDB.databases())
+    await new Promise<void>((resolve) => {
+      const asked = indexedDB.deleteDatabase(name);
+      for (const event of ['success', 'error', 'blocked']) asked.addEventListener(event, () => resolve());
+    });
+}
+
+export interface Look extends Media {
+  readonly viewport: { readonly width: number; readonly height: number };
+  readonly screen: Screen;
+}
+
+const same = (one: unknown, other: unknown): boolean => JSON.stringify(one) === JSON.stringify(other);
+const USUAL_MEDIA: Media = {
+  ...{ media: null, colorScheme: 'light', reducedMotion: 'reduce', forcedColors: 'none' },
+  contrast: 'no-preference',
+};
+let media: Media = USUAL_MEDIA;
+let screen: Screen = { hasTouch: false, deviceScaleFactor: 1 };
+let viewport = { width: 0, height: 0 };
+
+export function createPage() {
+  const files = watchFiles();
+  const everything = new Locator('');
+  const scripts: (() => void)[] = [];
+
+  async function emulateMedia(wanted: Media): Promise<void> {
+    const next = { ...media, ...wanted };
+    if (same(next, media)) return;
+    media = next;
+    await commands.emulateMedia(media);
+    await realFrame();
+  }
+
+  async function setViewportSize(size: { readonly width: number; readonly height: number }): Promise<void> {
+    if (same(size, viewport)) return;
+    viewport = { ...size };
+    await tester.viewport(size.width, size.height);
+    await realFrame();
+    await advance(OPENING_MS);
+  }
+
+  async function goto(address: string): Promise<void> {
+    await leave();
+    for (const run of scripts) run();
+    await show(address);
+  }
+
+  return {
+    ...{ goto, emulateMedia, setViewportSize, mouse, keyboard, touch },
+    getByRole: everything.getByRole,
+    getByText: everything.getByText,
+    getByLabel: everything.getByLabel,
+    locator: everything.locator,
+    reload: () => goto(shown),
+    viewportSize: () => viewport,
+    evaluate: async <T, A>(run: (argument: A) => T, argument?: A): Promise<Awaited<T>> => {
+      const result = await during(Promise.resolve(run(argument as A)));
+      await advance(FRAME_MS);
+      return result;
+    },
+    evaluateHandle: async <T, A>(run: (argument: A) => T, argument?: A) => handleOf(await run(argument as A)),
+    /** Runs at each opening, before the page. */
+    addInitScript<A>(run: (argument: A) => void, argument?: A): Promise<void> {
+      scripts.push(() => run(argument as A));
+      return Promise.resolve();
+    },
+    waitForFunction: <A>(holds: (argument: A) => unknown, argument?: A) =>
+      eventually(async () => {
+        if (!(await holds(argument as A))) throw new Error('it does not hold');
+      }),
+    waitForEvent: files.next,
+    title: () => Promise.resolve(document.title),
+
+    async begin({ viewport: size, screen: wanted, ...looks }: Look): Promise<void> {
+      await emulateMedia({ ...USUAL_MEDIA, ...looks });
+      if (!same(wanted, screen)) await commands.emulateScreen((screen = wanted));
+      await setViewportSize(size);
+      await forgetAll();
+    },
+    async end(): Promise<void> {
+      await leave();
+      files.end();
+      await act(['move', 0, 0]);
+    },
+  };
+}
+
+export type Page = ReturnType<typeof createPage>;

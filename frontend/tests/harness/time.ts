@@ -1,0 +1,140 @@
+// The window's time under test: timers, frames and dates of the page go by a virtual clock that only tests move. Imported
+// before the page's code, so that no library keeps the browser's own.
+
+import type { Clock } from '#shared/clock.ts';
+import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+
+export const FRAME_MS = 16;
+/** A weekday at noon, the same for every test. */
+const STARTED_AT_EPOCH_MS = Date.UTC(2026, 0, 14, 12);
+
+const real = {
+  now: performance.now.bind(performance),
+  setTimeout: window.setTimeout.bind(window),
+  frame: window.requestAnimationFrame.bind(window),
+};
+const clock = createVirtualClock();
+/** The page's own timers: they end with it, what is outside of it goes on. */
+const timers = new Map<number, () => void>();
+let lastTimer = 0;
+
+/** For what is outside of the page, like its robot. */
+export const worldClock: Clock = clock;
+
+/** On the tests' wall clock, where the window's time begins. */
+export const timeOriginMs = STARTED_AT_EPOCH_MS;
+
+function after(delayMs: number, run: () => void): number {
+  const id = (lastTimer += 1);
+  const cancel = clock.after(delayMs, () => {
+    timers.delete(id);
+    run();
+  });
+  timers.set(id, cancel);
+  return id;
+}
+
+function cancel(id: number | undefined): void {
+  timers.get(id ?? 0)?.();
+  timers.delete(id ?? 0);
+}
+
+function every(delayMs: number, run: () => void, id = (lastTimer += 1)): number {
+  const next = clock.after(Math.max(1, delayMs), () => {
+    every(delayMs, run, id);
+    run();
+  });
+  timers.set(id, next);
+  return id;
+}
+
+/** Forgets all timers of a page that is left. */
+export function endTimers(): void {
+  for (const cancelOne of timers.values()) cancelOne();
+  timers.clear();
+}
+
+type Run = (...args: unknown[]) => void;
+
+function virtualDate(): DateConstructor {
+  const now = (): number => STARTED_AT_EPOCH_MS + clock.now();
+  return new Proxy(Date, {
+    construct: (target, args: unknown[], wanted) =>
+      Reflect.construct(target, args.length === 0 ? [now()] : args, wanted) as Date,
+    apply: () => new Date(now()).toString(),
+    get: (target, name, receiver) =>
+      name === 'now' ? now : (Reflect.get(target, name, receiver) as unknown),
+  });
+}
+
+Object.assign(window, {
+  setTimeout: (run: Run, delayMs = 0, ...args: unknown[]) => after(delayMs, () => run(...args)),
+  clearTimeout: cancel,
+  setInterval: (run: Run, delayMs = 0, ...args: unknown[]) => every(delayMs, () => run(...args)),
+  clearInterval: cancel,
+  requestAnimationFrame: (draw: FrameRequestCallback) =>
+    after(FRAME_MS - (clock.now() % FRAME_MS), () => draw(clock.now())),
+  cancelAnimationFrame: cancel,
+  Date: virtualDate(),
+});
+performance.now = clock.now;
+
+const channel = new MessageChannel();
+const turns: (() => void)[] = [];
+channel.port1.onmessage = () => turns.shift()?.();
+
+/** One turn of the browser's own loop: React draws, and messages of workers and databases arrive. */
+export function turn(): Promise<void> {
+  return new Promise((resolve) => {
+    turns.push(resolve);
+    channel.port2.postMessage(null);
+  });
+}
+
+/** Time passes frame by frame, and the page is drawn in each. */
+export async function advance(ms: number): Promise<void> {
+  for (let left = ms; left > 0; left -= FRAME_MS) {
+    await clock.advance(Math.min(FRAME_MS, left));
+    await turn();
+  }
+}
+
+/** What no clock moves: layout that is observed, workers, the browser's database. */
+export const realMoment = (ms = 4): Promise<void> => new Promise((resolve) => real.setTimeout(resolve, ms));
+
+/** Until the browser has drawn, and observers of sizes and sight have been told. */
+export const realFrame = (): Promise<void> =>
+  new Promise((resolve) => real.frame(() => real.setTimeout(resolve, 0)));
+
+const USUAL_WITHIN_MS = 5000;
+/** Work beside the page takes real time. */
+const REAL_WITHIN_MS = 2000;
+
+/** Lets time pass until `check` throws no more; rejects with what it threw last. */
+export async function eventually<T>(check: () => T | Promise<T>, withinMs = USUAL_WITHIN_MS): Promise<T> {
+  const begunMs = real.now();
+  for (let passedMs = 0, tries = 0; ; tries += 1) {
+    try {
+      return await check();
+    } catch (error) {
+      if (passedMs >= withinMs && real.now() - begunMs >= REAL_WITHIN_MS) throw error;
+    }
+    const stepMs = passedMs < 10 * FRAME_MS || passedMs >= withinMs ? FRAME_MS : 3 * FRAME_MS;
+    await advance(stepMs);
+    passedMs += stepMs;
+    if (passedMs >= withinMs || tries % 8 === 7) await realMoment();
+  }
+}
+
+/** Lets time pass while something else needs it. */
+export async function during<T>(work: Promise<T>): Promise<T> {
+  const state = { isDone: false };
+  const ended = (): void => void (state.isDone = true);
+  work.then(ended, ended);
+  await turn();
+  while (!state.isDone) {
+    await advance(FRAME_MS);
+    await realMoment(0);
+  }
+  return work;
+}
