@@ -1,4 +1,5 @@
-// `npm run build`: the page into the Python package, the gallery of its states beside it, the simulated board as one file for Node.
+// `npm run build`: the page into the Python package, the gallery of its states beside it, the simulated board as one file for Node, and
+// as another one in virtual time for the gateway's tests.
 
 import { build } from 'vite';
 import { buildInputs, buildStamp } from './setup.mjs';
@@ -17,25 +18,31 @@ function buildGallery() {
   return build({ configFile: at('vite.config.ts'), logLevel, build: { outDir, rolldownOptions } });
 }
 
-function buildSimulator() {
+/** @param {string} entry @param {string} name */
+function buildForNode(entry, name) {
   return build({
     configFile: false,
     root: at(''),
     logLevel,
     build: {
-      ssr: 'shared/src/simulator/process.ts',
+      ssr: entry,
       outDir: 'build',
       // Stamps and reports live there too.
       emptyOutDir: false,
       target: 'node20',
-      rolldownOptions: { output: { entryFileNames: 'simulator.mjs' } },
+      rolldownOptions: { output: { entryFileNames: name } },
     },
   });
 }
 
 await main(async () => {
   const inputs = buildInputs(); // before: what changes meanwhile is not in the build
-  await Promise.all([buildPage(), buildGallery(), buildSimulator()]);
+  await Promise.all([
+    buildPage(),
+    buildGallery(),
+    buildForNode('shared/src/simulator/process.ts', 'simulator.mjs'),
+    buildForNode('shared/src/session/lockstepUnderTest.ts', 'lockstep.mjs'),
+  ]);
   writeStamp(buildStamp, inputs);
   return 0;
 });

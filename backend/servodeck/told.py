@@ -139,11 +139,11 @@ class RobotTold(Message):
 
 class UnheldServos(Message):
     """What may go on in spite of a STOP: these servos, `null` where nobody knows which, for so long at most
-    from its press.
+    from its press; `null` where a group may run that heard no stop.
     """
 
     servos: list[int] | None
-    for_ms: int
+    for_ms: int | None
 
 
 StopFor = Literal["person", "battery"]

@@ -27,7 +27,7 @@ class Notes:
     def port_opened(self, wire: Wire) -> None:
         self.happened.append("opened")
 
-    def port_lost(self) -> None:
+    def port_lost(self, unfinished: bytes | None) -> None:
         self.happened.append("lost")
 
     def port_changed(self) -> None:

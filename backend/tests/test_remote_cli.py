@@ -82,6 +82,10 @@ def test_a_bare_stop_does_not_wait_for_the_rest_of_the_command_line(served: Serv
             {"servos": [1, 3], "forMs": 900},
             "Stopped, but servos 1, 3 cannot be held: they may move for up to 0.9 s.",
         ),
+        (
+            {"servos": None, "forMs": None},
+            "Stopped, but the board may not have heard it. Switch the robot off if it moves.",
+        ),
     ],
 )
 def test_a_stop_says_what_it_cannot_hold_and_how_long_that_may_move(

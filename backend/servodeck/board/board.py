@@ -17,6 +17,7 @@ from servodeck.board.estimate import Estimate
 from servodeck.board.hold import hold_packet, untraced
 from servodeck.board.jobs import Jobs
 from servodeck.board.parts import Part
+from servodeck.board.resync import filler_for
 from servodeck.board.slot_memory import SlotMemory
 from servodeck.board.stop_again import StopAgain
 from servodeck.board.unattended import Unattended
@@ -53,8 +54,11 @@ class BoardEvents(Protocol):
 
     def received(self, event: DecoderEvent) -> None: ...
 
-    def run_told(self) -> None:
-        """The board says that a group runs."""
+    def may_have_missed_stops(self) -> None:
+        """The board says that a group runs: behind a stop it is one that it kept while its flash worked,
+        which drops stops (S9, S41). Or it answers for the first time since a packet was cut: the stops since
+        then it may have taken for the rest of that.
+        """
 
     def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
         """That packet moves, ends or stores something, and its last bit leaves then."""
@@ -83,6 +87,8 @@ class Board:
         self._page_hold: Move | None = None
         self._page_hold_of: Owner = None
         self._silence = Silence()
+        self._cut: tuple[str, bytes] | None = None
+        """The packet that a loss has cut on its way to the board at that place, until filler has ended it."""
         self._stop_again = StopAgain(now, lambda: self._motion.deaf_until_s, self._stop_unheard)
         self.unattended = Unattended(now, events.time_alone_over, events.board_changed)
         self.halts = 0
@@ -185,18 +191,22 @@ class Board:
     def port_opened(self, wire: Wire) -> None:
         metrics.port_openings.inc()
         self._events.port_opened()
-        self._forget_motion()
+        self._lose_motion()
+        self._motion.opened(self._now())
         wire.send(STOP_PACKET, self, urgent=True)
 
-    def port_lost(self) -> None:
+    def port_lost(self, unfinished: bytes | None) -> None:
         metrics.port_losses.inc()
         self._events.port_lost()
         self.jobs.end(PortLostError("The serial port went away before all of it was stored."))
-        self._forget_motion()
+        is_filler = unfinished is not None and unfinished == self._filler()
+        if not is_filler:
+            self._cut = (self.link.place, unfinished) if unfinished else None
+        self._lose_motion(None if is_filler else unfinished)
 
     def port_changed(self) -> None:
         if self.link.state.status != "open":
-            self._forget_motion()  # also what left with the last breath of the port
+            self._lose_motion()  # also what left with the last breath of the port
         self._events.board_changed()
 
     # What a download tells
@@ -226,19 +236,41 @@ class Board:
         return hold_packet(self.motion.hold(self._now()), self._page_hold, self.family)
 
     def _forget_motion(self) -> None:
-        """Whoever had the port before may have set something in motion."""
+        """It may be another board, and whoever had the port before may have set something in motion."""
         self._motion = Estimate(self.family)
         self._motion.opened(self._now())
+        self._lose_motion()
+
+    def _lose_motion(self, cut: bytes | None = None) -> None:
+        self._motion.lost(self._now(), cut)
         self._silence = Silence()
         self._stop_again.void()
         self.unattended.follow(None)
 
+    def _filler(self) -> bytes | None:
+        """What ends the packet that was cut, where this board bears it."""
+        place, packet = self._cut or ("", None)
+        filler = self.family.resync_filler
+        return (
+            filler_for(packet, filler) if packet and filler is not None and place == self.link.place else None
+        )
+
     def _make_wire(self, port: OpenPort) -> Wire:
         gap_s = self.family.service_gap_ms / 1000
         inbox = Inbox(self._take)
-        return Wire(port, gap_s=gap_s, now=self._now, received=inbox.push, leaving=self._leaving)
+        return Wire(
+            port,
+            gap_s=gap_s,
+            now=self._now,
+            received=inbox.push,
+            leaving=self._leaving,
+            first=self._filler(),
+        )
 
     def _leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
+        command = parse_command(packet)
+        if command is None:  # filler
+            return
         self.motion.left(packet, at_s)
         if is_harmless(packet) and packet[COMMAND_AT] != STOP:
             self._silence.asked(packet[COMMAND_AT], at_s)
@@ -247,7 +279,7 @@ class Board:
         elif not (is_harmless(packet) or self.link.wire().is_halting):
             self._stop_again.void()
         self.unattended.follow(self.motion.run)
-        self.jobs.left(parse_command(packet), at_s, self.link.place)
+        self.jobs.left(command, at_s, self.link.place)
         is_told = packet[COMMAND_AT] == STOP or not is_harmless(packet)
         if is_told and owner is not self:  # its own stop at the opening ends nothing that anybody began
             self._events.leaving(owner, packet, at_s)
@@ -261,6 +293,7 @@ class Board:
         with contextlib.suppress(GatewayError):
             self.link.wire().answered(event.packet.command)
         report = parse_report(event.packet, self.family)
+        may_have_swallowed = self.motion.may_swallow
         self.motion.heard(report, self._now())
         self._stop_again.heard()
         self._silence.heard(event.packet.command)  # behind it: what was forgotten in the silence stays so
@@ -268,8 +301,9 @@ class Board:
         self.battery.heard(report)
         self.jobs.heard(report, self.link.place)
         self.answers.heard(report, self._now())
-        if isinstance(report, RunAccepted | RunStarted):
-            self._events.run_told()
+        hears_again = may_have_swallowed and not self.motion.may_swallow
+        if hears_again or isinstance(report, RunAccepted | RunStarted):
+            self._events.may_have_missed_stops()
 
 
 def is_no_stop(job: Job) -> bool:

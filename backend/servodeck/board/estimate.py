@@ -15,8 +15,10 @@ from servodeck.motion.motion import (
     advance,
     after_command,
     after_cut,
+    after_cut_packet,
     after_end,
     after_report,
+    either_of,
     forgotten,
     gentle_ms,
     hears,
@@ -116,15 +118,28 @@ class Estimate:
         if motion.tracks or any(held_at(motion.told, servo) is not None for servo in motion.told):
             self._forget(self._advance(now))
 
-    def lost(self, now: float) -> None:
-        """The link is gone: what the board does and holds nobody knows."""
+    def lost(self, now: float, cut: bytes | None = None) -> None:
+        """The link is gone: what the board does and holds nobody knows. The packet that was `cut` may have
+        arrived or not, and where nothing ends it the board takes what comes next for its rest.
+        """
         self._memory.clear()
-        self._forget(self._advance(now))
+        at_ms = self._advance(now)
+        command = parse_command(cut) if cut else None
+        arrived = after_command(self._motion, command, at_ms, self) if command else self._motion
+        self._forget(at_ms)
+        self._motion = either_of(self._motion, forgotten(arrived, at_ms, self))
+        if cut:
+            self._motion = after_cut_packet(self._motion, self.family)
 
     def opened(self, now: float) -> None:
         """Whoever had the port before may have set something in motion."""
         self.lost(now)
         self._motion = replace(self._motion, restless_until_ms=self._advance(now) + LONGEST_MOVE_MS)
+
+    @property
+    def may_swallow(self) -> bool:
+        """The board may take what is sent next for the rest of a packet that was cut."""
+        return self._motion.may_swallow > 0
 
     @property
     def deaf_until_s(self) -> float:

@@ -15,6 +15,8 @@ def stopped_words(stopped: dict[str, Any]) -> str:
 def held_words(unheld: dict[str, Any] | None) -> str:
     if unheld is None:
         return "Stopped."
+    if unheld["forMs"] is None:
+        return "Stopped, but the board may not have heard it. Switch the robot off if it moves."
     for_s = math.ceil(unheld["forMs"] / 100) / 10
     if unheld["servos"] is None:
         return f"Stopped, but a frame in progress cannot be held: servos may move for up to {for_s} s."

@@ -107,7 +107,9 @@ class Control:
         if unheld is None:
             return None
         servos = None if unheld.servos is None else list(unheld.servos)
-        return UnheldServos(servos=servos, for_ms=math.ceil(unheld.for_ms))
+        return UnheldServos(
+            servos=servos, for_ms=None if unheld.for_ms == math.inf else math.ceil(unheld.for_ms)
+        )
 
     # What clients ask
 
@@ -282,8 +284,7 @@ class Control:
         text = event.bytes.hex()
         self._telling.everybody(ReceivedMessage(packet=text) if is_packet else NoiseMessage(bytes=text))
 
-    def run_told(self) -> None:
-        """Behind a stop it is one that the board kept while its flash worked, however long that took."""
+    def may_have_missed_stops(self) -> None:
         if self.latch:
             self.board.halt_again()
 

@@ -68,6 +68,10 @@ class Watch:
             self._control.board.halt(None, reason)
 
     def _stop_for_nobody(self) -> None:
-        """STOP because nobody watches over what moves: whoever goes on has to look first."""
+        """STOP because nobody watches over what moves: whoever goes on has to look first. Not twice: a second
+        hold would end later than was said of the first.
+        """
+        if self._control.latch:
+            return
         with contextlib.suppress(GatewayError):
             self._control.stop(None, Cause("silence"))

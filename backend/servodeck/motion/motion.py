@@ -39,6 +39,7 @@ from servodeck.motion.tracks import (
     standing_at,
     stands,
 )
+from servodeck.protocol.decoder import HEADER
 from servodeck.protocol.families import Family
 from servodeck.protocol.values import (
     AllPositions,
@@ -84,6 +85,8 @@ ANSWERS: dict[type[Command], type[Report]] = {
 DEAFENING = frozenset(ANSWERS) - {ReadBattery, Run}
 # A group tells its end when the time of its last frame is over; a frame of no time still takes a tick (S43).
 LAST_TICKS_MS = 100
+# What LEN does not count, and the whole of a packet without parameters.
+HEAD_BYTES, SHORTEST_PACKET_BYTES = 2, 4
 # The worst of them: four sectors and the count table (S33, S34), with a margin.
 LONGEST_DEAFNESS_MS = 2_500
 
@@ -100,8 +103,10 @@ def advance(motion: Motion, now_ms: float, board: KnownBoard) -> Motion:
 
 
 def hears(motion: Motion, at_ms: float) -> bool:
-    """False where the board may be too busy to take up what it is told."""
-    return at_ms >= motion.deaf_until_ms
+    """False where the board may be too busy to take up what it is told, or takes it for the rest of a cut
+    packet.
+    """
+    return at_ms >= motion.deaf_until_ms and motion.may_swallow == 0
 
 
 def after_command(motion: Motion, command: Command, at_ms: float, board: KnownBoard) -> Motion:
@@ -111,8 +116,32 @@ def after_command(motion: Motion, command: Command, at_ms: float, board: KnownBo
     if is_heard:
         after = restless(current, after_heard(current, command, at_ms, board), at_ms)
     else:
-        after = after_unheard(current, command, at_ms, board)
+        after = maybe_swallowed(after_unheard(current, command, at_ms, board), at_ms)
     return replace(after, told=after_order(after.told, command, is_heard=is_heard))
+
+
+def maybe_swallowed(motion: Motion, at_ms: float) -> Motion:
+    """What it completes then may move any servo to anywhere."""
+    if motion.may_swallow == 0:
+        return motion
+    return replace(
+        motion,
+        tracks={},
+        told=only_let_go(motion.told),
+        may_swallow=motion.may_swallow - 1,
+        restless_until_ms=max(at_ms, motion.deaf_until_ms) + LONGEST_MOVE_MS,
+    )
+
+
+def after_cut_packet(motion: Motion, family: Family) -> Motion:
+    """After one of our packets was cut. Where no filler ends it (S7) the board waits for its rest, and takes
+    what comes next for that.
+    """
+    if family.resync_filler is not None:
+        return motion
+    # Cut in its head, it gets the first header of the next one for its LEN.
+    longest_bytes = max(HEADER, family.max_length) + HEAD_BYTES
+    return replace(motion, may_swallow=math.ceil(longest_bytes / SHORTEST_PACKET_BYTES))
 
 
 def restless(before: Motion, after: Motion, at_ms: float, for_ms: float = LONGEST_MOVE_MS) -> Motion:
@@ -257,10 +286,11 @@ def after_answer(motion: Motion, report: type[Report], at_ms: float, board: Know
         return motion
     index = motion.answers_owed.index(report)
     owed = motion.answers_owed[:index] + motion.answers_owed[index + 1 :]
+    # It took up what was asked behind the cut packet, so that one is over.
     if owed:
-        return replace(motion, answers_owed=owed)
+        return replace(motion, answers_owed=owed, may_swallow=0)
     deaf_until_ms = at_ms + board.family.service_gap_ms if motion.may_hold_packet else -inf
-    return replace(motion, answers_owed=(), deaf_until_ms=deaf_until_ms, may_hold_packet=False)
+    return replace(motion, answers_owed=(), deaf_until_ms=deaf_until_ms, may_hold_packet=False, may_swallow=0)
 
 
 def after_start(motion: Motion, report: RunStarted, at_ms: float, board: KnownBoard) -> Motion:
@@ -321,8 +351,19 @@ def forgotten(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
         told=only_let_go(motion.told),
         run=UnknownRun(None, until_ms=latest_end_ms(motion, board)) if motion.run else None,
         deaf_until_ms=motion.deaf_until_ms,
+        may_swallow=motion.may_swallow,
         restless_until_ms=max(motion.restless_until_ms, at_ms + still_ms),
         skips_first="maybe",
+    )
+
+
+def either_of(one: Motion, other: Motion) -> Motion:
+    """Of two forgotten motions nobody knows which it was."""
+    return replace(
+        one,
+        run=one.run or other.run,
+        deaf_until_ms=max(one.deaf_until_ms, other.deaf_until_ms),
+        restless_until_ms=max(one.restless_until_ms, other.restless_until_ms),
     )
 
 

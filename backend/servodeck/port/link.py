@@ -39,8 +39,8 @@ class LinkEvents(Protocol):
     def port_opened(self, wire: Wire) -> None:
         """Before anything else is sent on that wire."""
 
-    def port_lost(self) -> None:
-        """It was open and is gone, unasked."""
+    def port_lost(self, unfinished: bytes | None) -> None:
+        """It was open and is gone, unasked; that packet was on its way."""
 
     def port_changed(self) -> None:
         """`state` is another one now."""
@@ -128,18 +128,18 @@ class Link:
     async def _serve(self, whereabouts: Whereabouts, first: asyncio.Future[None], back_off: BackOff) -> None:
         """One life of the port; ends by the PortError that ended it, or cancelled."""
         port = await self._open(whereabouts)
-        opened_at = self._now()
+        opened_at, wire = self._now(), self._make_wire(port)
         try:
-            self._wire = self._make_wire(port)
-            self._events.port_opened(self._wire)
+            self._wire = wire
+            self._events.port_opened(wire)
             self._show(PortState(device=whereabouts.path, status="open"))
             settle(first)
-            await self._wire.run()
+            await wire.run()
         except PortError as error:
             self._wire = None
             if self._now() - opened_at >= STEADY_S:
                 back_off.next_s = FIRST_RETRY_S
-            self._events.port_lost()
+            self._events.port_lost(wire.unfinished)
             # Before closing, which may take a while.
             self._show_lost(whereabouts.path, error, back_off)
             whereabouts.note_others(await self._ports.list_usb())

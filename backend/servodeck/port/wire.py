@@ -84,8 +84,13 @@ class Wire:
         now: Callable[[], float],
         received: Callable[[bytes], None],
         leaving: Callable[[Owner, bytes, float], None] = lambda _owner, _packet, _at_s: None,
+        first: bytes | None = None,
     ) -> None:
-        """`leaving` hears whose packet begins to leave and when it will have."""
+        """`leaving` hears whose packet begins to leave and when it will have. `first` leaves before all
+        else.
+        """
+        self.unfinished: bytes | None = first
+        """What has not left for sure, if the port were lost now."""
         self._port = port
         self._gap_s = max(gap_s, STOP_GAP_S)
         self._now = now
@@ -187,6 +192,9 @@ class Wire:
             self._end(ClosedError("The port was closed."))
 
     async def _send_all(self) -> None:
+        if self.unfinished:
+            await self._until_free()
+            await self._put(self.unfinished, None)
         while True:
             await self._work.wait()
             await self._until_free()  # choose only then: a stop may have come meanwhile
@@ -227,6 +235,7 @@ class Wire:
         settle(job.left)
 
     async def _put(self, packet: bytes, owner: Owner) -> None:
+        self.unfinished = packet
         self._port.write(packet)
         self._last_command = packet[COMMAND_AT]
         metrics.sent.labels(metrics.name_of(self._last_command)).inc()
@@ -234,6 +243,7 @@ class Wire:
         self._free_at = self._left_at + self._gap_s
         self._leaving(owner, packet, self._left_at)
         await self._until(self._left_at)
+        self.unfinished = None
 
     async def _until_free(self) -> None:
         while (left_s := self._free_at - self._now()) > CLOCK_GRAIN_S:

@@ -79,6 +79,8 @@ class Family:
     run_reports_name_slot: bool
     # What an empty packet 7 says: opposite things per family.
     empty_seven: Literal["runFinished", "runStopped", "unknown"]
+    # What ends a packet that was cut, on a board that bears it; None: nothing may be sent for that.
+    resync_filler: int | None
     # Pause after the last byte has left the wire.
     service_gap_ms: int
     motion: MotionTraits
@@ -114,6 +116,7 @@ DOC = Family(
     answers=("run", "erase", "readBattery", "download"),
     run_reports_name_slot=False,
     empty_seven="runFinished",
+    resync_filler=0xFD,
     service_gap_ms=10,
     motion=replace(OPEN_FIRMWARE, talk_ms=20),
 )
@@ -158,6 +161,7 @@ BUS_CTRL = Family(
     answers=("readBattery", "readPositions"),
     run_reports_name_slot=True,
     empty_seven="runStopped",
+    resync_filler=None,
     service_gap_ms=10,
     motion=replace(SHARED_TIME, talk_ms=7.3, timing="perServo"),
 )
@@ -220,6 +224,7 @@ LEARM_ESP32 = Family(
     answers=("erase", "download", "readVersion", "readAllPositions", "readOffsets"),
     run_reports_name_slot=False,
     empty_seven="unknown",
+    resync_filler=None,
     service_gap_ms=10,
     motion=MotionTraits(
         tick_ms=10, talk_ms=0, timing="perServo", groups="polled", halted_by_stop=(1, 2, 3, 4, 5)
@@ -248,6 +253,7 @@ UNKNOWN = replace(
     commands=("stop", "readBattery", "readVersion", "readPositions"),
     answers=("readBattery", "readVersion", "readPositions"),
     empty_seven="unknown",
+    resync_filler=None,
     motion=OPEN_FIRMWARE,
 )
 

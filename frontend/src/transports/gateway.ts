@@ -100,7 +100,7 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
         refused(message.id, refusal(message.code, message.detail));
         break;
       case 'halted':
-        events?.halted?.(message.unheld);
+        events?.halted?.(message.unheld && { ...message.unheld, forMs: message.unheld.forMs ?? Infinity });
         settleAll(halting, (waiter) => waiter.resolve());
         break;
     }

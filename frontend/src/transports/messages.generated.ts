@@ -387,11 +387,11 @@ export interface HaltedMessage {
 }
 /**
  * What may go on in spite of a STOP: these servos, `null` where nobody knows which, for so long at most
- * from its press.
+ * from its press; `null` where a group may run that heard no stop.
  */
 export interface UnheldServos {
   servos: number[] | null;
-  forMs: number;
+  forMs: number | null;
 }
 /**
  * Motion is allowed again, by somebody else's word.

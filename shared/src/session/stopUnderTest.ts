@@ -4,6 +4,7 @@
 import type { Unheld } from '../motion/haltPlan.ts';
 import type { Frame } from '../protocol/commands.ts';
 import { family as familyOf } from '../protocol/families.ts';
+import type { Fault } from '../simulator/faults.ts';
 import { createFlashChip, type FlashChip } from '../simulator/flashChip.ts';
 import { createGroupStore, openLayout } from '../simulator/groupStore.ts';
 import { LEARM_LAYOUT } from '../simulator/learm/engine.ts';
@@ -44,7 +45,8 @@ const DEAF_FOR_MS = 4_000;
 const REST_MS = 36_000;
 /** A frame of the open firmware's takes as much room as that needs (S38). */
 const SERVOS_PLAYED = 8;
-const SLOW_SECTOR_MS = 400;
+/** Flash work takes as long as it can. */
+export const SLOW_FLASH: readonly Fault[] = [{ name: 'slowErase', sectorMs: 400 }];
 const STORED_WITHIN_MS = 12_000;
 
 /** A session that fails says so in its own tests; here it only matters what the robot does afterwards. */
@@ -120,7 +122,7 @@ async function prepared(profile: ProfileName, history: StopHistory): Promise<Rig
   const rig = await createRig({
     ...{ profile, family, flash: foreignFlash(profile, history.unknown) },
     ...{ onForMs: history.onForMs, hasPad: history.hasPad },
-    faults: history.isSlow ? [{ name: 'slowErase', sectorMs: SLOW_SECTOR_MS }] : [],
+    faults: history.isSlow ? SLOW_FLASH : [],
   });
   const { session, clock } = rig;
   const { centre } = family;

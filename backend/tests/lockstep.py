@@ -1,0 +1,134 @@
+"""The simulated board itself behind the gateway's port, both in virtual time: bytes in at a time, bytes out
+at theirs, and when each servo's pulse changed last. Board: shared/src/session/lockstepUnderTest.ts.
+
+Bytes go to the board's process when it may answer, and not before: most histories need few round trips.
+"""
+
+import asyncio
+import json
+import shutil
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from servodeck.errors import PortMissingError
+from servodeck.port.ports import OpenPort
+from servodeck.port.whereabouts import UsbDevice
+from servodeck.protocol.decoder import COMMAND_AT
+from tests.fake_port import FakePort
+from tests.virtual_time import VirtualTimeLoop, at, now
+
+ENTRY = Path(__file__).parents[2] / "build" / "lockstep.mjs"
+NODE = shutil.which("node")
+SERVOS = (1, 2, 6)
+# Longer than any answer takes (S33, S34).
+ANSWERS_WITHIN_S = 4.0
+STOP, MOVE = 7, 3
+
+History = dict[str, Any]
+
+
+class Simulator:
+    """The process: one board at a time."""
+
+    def __init__(self) -> None:
+        assert NODE
+        self._process = subprocess.Popen(
+            [NODE, str(ENTRY)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1
+        )
+
+    def ask(self, **request: Any) -> Any:
+        assert self._process.stdin
+        assert self._process.stdout
+        self._process.stdin.write(json.dumps(request) + "\n")
+        return json.loads(self._process.stdout.readline())
+
+    def draw(self, board: str, seed: int, count: int) -> list[History]:
+        drawn: list[History] = self.ask(draw=board, seed=seed, count=count)
+        return drawn
+
+    def end(self) -> None:
+        self._process.kill()
+        self._process.communicate()
+
+
+class SteppedBoard:
+    """It follows the clock of the running loop."""
+
+    def __init__(self, simulator: Simulator, board: str, history: History) -> None:
+        self._simulator = simulator
+        simulator.ask(start=board, history=history)
+        self._happened: list[tuple[float, str]] = []
+        self._talks_until_s = 0.0
+        self._is_running = False
+        self._port: BoardPort | None = None
+        self.is_plugged = True
+        self.last_byte_s = 0.0
+        self.moved_s: Sequence[float] = [0.0 for _ in SERVOS]
+        loop = asyncio.get_running_loop()
+        assert isinstance(loop, VirtualTimeLoop)
+        loop.jumping.goes_to = self._follow
+
+    # As ports of the gateway
+
+    async def open(self, device: str) -> FakePort:
+        if not self.is_plugged:
+            raise PortMissingError(f"There is no {device}.")
+        self._port = BoardPort(self)
+        return self._port
+
+    async def close(self, port: OpenPort) -> None:
+        port.close()
+
+    async def list_usb(self) -> list[UsbDevice]:
+        return []
+
+    # What happens to it
+
+    def take(self, data: bytes) -> None:
+        self._note(data.hex())
+        if data[COMMAND_AT] not in (STOP, MOVE):
+            self._talks_until_s = now() + ANSWERS_WITHIN_S
+
+    def lose(self, for_s: float) -> None:
+        if not (self._port and self.is_plugged):
+            return
+        self.is_plugged = False
+        self._note("unplug")
+        if self._port.is_open:
+            self._port.unplug()
+        at(now() + for_s, self._plug_in)
+
+    def run_on(self, until_s: float) -> float:
+        """Until then, or until it says something; returns when."""
+        until_ms = until_s * 1000
+        answer = self._simulator.ask(untilMs=until_ms, happened=self._happened)
+        assert "early" not in answer, answer
+        self._happened = []
+        self._is_running = answer["isRunning"]
+        self.moved_s = [moved_ms / 1000 for moved_ms in answer["movedMs"]]
+        if answer["said"] and self._port and self._port.is_open:
+            self._port.say(bytes.fromhex(answer["said"]))
+        return until_s if answer["atMs"] == until_ms else float(answer["atMs"]) / 1000
+
+    def _plug_in(self) -> None:
+        self.is_plugged = True
+        self._note("plugIn")
+
+    def _note(self, what: str) -> None:
+        self._happened.append((now() * 1000, what))
+
+    def _follow(self, at_s: float) -> float:
+        may_talk = self._is_running or now() < self._talks_until_s
+        return self.run_on(at_s) if may_talk else at_s
+
+
+class BoardPort(FakePort):
+    def __init__(self, board: SteppedBoard) -> None:
+        super().__init__()
+        self._board = board
+
+    def write(self, data: bytes) -> None:
+        super().write(data)
+        self._board.take(data)

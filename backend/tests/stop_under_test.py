@@ -1,0 +1,283 @@
+"""A gateway on the simulated board itself, driven through a generated history and then stopped at one of its
+doors: what STOP said and what the robot did. Twin of shared/src/session/stopUnderTest.ts, from which the
+histories come.
+"""
+
+import asyncio
+import contextlib
+from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from math import inf
+from typing import Any
+
+from fastapi import FastAPI
+
+from servodeck.access.guard import Guard
+from servodeck.board.parts import Group, made_of, packets_of
+from servodeck.callers import Caller
+from servodeck.driving.control import SOMEBODY, Control
+from servodeck.driving.latch import Cause
+from servodeck.errors import GatewayError
+from servodeck.messages import StopMessage
+from servodeck.port.wire import Left, Owner
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.limits import PacketError
+from servodeck.protocol.packets import encode
+from servodeck.protocol.values import (
+    Command,
+    Erase,
+    Frame,
+    Move,
+    ReadPositions,
+    Release,
+    Run,
+    ServoTarget,
+    SetSpeed,
+    Stop,
+)
+from servodeck.run.app import create_app
+from servodeck.told import UnheldServos
+from servodeck.web.clients import take
+from tests.client import Client
+from tests.fake_port import FakePorts
+from tests.lockstep import SERVOS, History, Simulator, SteppedBoard
+from tests.running import DEVICE, NO_LIBRARY, client_of, entrance_to
+from tests.test_download import ended
+from tests.virtual_time import VirtualTimeLoop, at, now
+
+Step = dict[str, Any]
+
+OLGA = Caller("olga", "Olga", "owner")
+GUEST = Caller("guest", "Bert", "viewer")
+PASSER_BY = Caller("link", "Stop link", "stopper")
+KNOWN_SLOT = 5
+# Whoever had the port before may have set something in motion: all of that has ended.
+OPENED_LONG_AGO_S = 31.0
+STOP_REPEATS_S = (0.07, 0.14)
+LOST_FOR_S = 0.1
+ERASED_WITHIN_S = 3.0
+HELD_WITHIN_S = 0.150
+# The gateway may have something to say once more, as long as the board was deaf.
+SETTLES_S = 4.0
+# No move is longer.
+REST_S = 36.0
+GRAIN_S = 1e-4
+
+
+@dataclass
+class Said:
+    """What one STOP said; times since the test began."""
+
+    pressed_s: float
+    left_s: float
+    unheld: UnheldServos | None
+
+
+@dataclass
+class Outcome:
+    said: list[Said]
+    moved_s: Sequence[float]
+
+    @property
+    def moved_on(self) -> bool:
+        """In spite of STOP."""
+        return max(self.moved_s) > self.said[0].left_s + HELD_WITHIN_S
+
+    def broken(self) -> list[str]:
+        """Servos that moved longer than STOP said."""
+        return [
+            f"servo {servo} moved for {1000 * (moved_s - said.pressed_s):.1f} ms, limit "
+            f"{1000 * (limit_s - said.pressed_s):.1f}: {said.unheld}"
+            for said in self.said
+            for servo, moved_s in zip(SERVOS, self.moved_s, strict=True)
+            if moved_s > (limit_s := said_of(said, servo)) + GRAIN_S
+        ]
+
+
+def said_of(said: Said, servo: int) -> float:
+    held_s = said.left_s + HELD_WITHIN_S
+    unheld = said.unheld
+    if unheld is None or (unheld.servos is not None and servo not in unheld.servos):
+        return held_s
+    return inf if unheld.for_ms is None else max(held_s, said.pressed_s + unheld.for_ms / 1000)
+
+
+class Watched(Control):
+    """Notes each STOP."""
+
+    def __init__(self, board: SteppedBoard, family: str) -> None:
+        super().__init__(board, now, family)
+        self.said: list[Said] = []
+        self.pressed_s: list[float] = []
+
+    def stop(self, hold: bytes | None, cause: Cause = SOMEBODY, owner: Owner = None) -> Left:
+        self.pressed_s.append(now())
+        return super().stop(hold, cause, owner)
+
+    def _halted(self, left: Left) -> None:
+        super()._halted(left)
+        if not left.cancelled() and left.exception() is None:
+            self.said.append(Said(self._pressed_s, now(), self.unheld))
+
+
+@cache
+def the_app() -> Guard:
+    """Making one takes longer than a history."""
+    guard = create_app(Control(FakePorts(), now, "doc"), NO_LIBRARY, entrance_to(now=now))
+    assert isinstance(guard, Guard)
+    return guard
+
+
+async def press_over_http(here: "Driven") -> None:
+    app = the_app()
+    assert isinstance(app.app, FastAPI)
+    app.app.state.control = here.control
+    async with client_of(app) as client:
+        answer = await client.post("/api/stop")
+    assert answer.status_code in (200, 503), answer.text
+
+
+def pressed_on_a_page(caller: Caller) -> Callable[["Driven"], Awaitable[None]]:
+    async def press(here: "Driven") -> None:
+        take(StopMessage(type="stop", hold=None), Client(here.control, caller), here.control)
+
+    return press
+
+
+async def press_by_the_driver(here: "Driven") -> None:
+    take(StopMessage(type="stop", hold=None), here.page, here.control)
+
+
+async def fall_silent(here: "Driven") -> None:
+    here.page.beats = False
+
+
+async def leave(here: "Driven") -> None:
+    here.control.leave(here.page)
+
+
+DOORS: dict[str, Callable[["Driven"], Awaitable[None]]] = {
+    "driver": press_by_the_driver,
+    "viewer": pressed_on_a_page(GUEST),
+    "stop-only link": pressed_on_a_page(PASSER_BY),
+    "HTTP": press_over_http,
+    # There it comes only where something moves as far as the gateway knows.
+    "silent driver": fall_silent,
+    "driver gone": leave,
+}
+
+
+class Driven:
+    def __init__(self, board: SteppedBoard, family: str) -> None:
+        self.family = FAMILIES[family]
+        self.board = board
+        self.control = Watched(board, family)
+        self.page: Client
+
+    def send(self, command: Command) -> None:
+        with contextlib.suppress(GatewayError, PacketError):
+            self.page.send(encode(command, self.family)).add_done_callback(taken)
+
+    def download(self, slot: int, frames: Sequence[Frame]) -> None:
+        group = Group(slot, "", frames)
+        with contextlib.suppress(GatewayError, PacketError):
+            part = made_of(group, list(packets_of(group, self.family.id)), self.family.id)
+            self.control.download([part], "Olga", lambda: None)
+
+    async def take(self, step: Step) -> None:
+        kind = step["kind"]
+        if make := COMMANDS.get(kind):
+            self.send(make(step))
+        elif act := ACTS.get(kind):
+            with contextlib.suppress(GatewayError, PacketError):
+                act(self, step)
+        # What was lost is away for that long, and something.
+        pause_ms = step["ms"] if kind == "wait" else step.get("awayMs", 1500) if kind == "loss" else 0
+        await asyncio.sleep(pause_ms / 1000)
+
+    def end_group(self) -> None:
+        self.send(Stop())
+        for after_s in STOP_REPEATS_S:
+            at(now() + after_s, lambda: self.send(Stop()))
+
+    def cancel(self) -> None:
+        if job := self.control.board.jobs.latest:
+            self.control.board.jobs.cancel(job.id)
+
+    async def stored(self) -> None:
+        if job := self.control.board.jobs.latest:
+            await ended(self.control, job)
+
+    async def prepare(self, history: History) -> None:
+        await self.control.use_port(DEVICE)
+        await asyncio.sleep(OPENED_LONG_AGO_S)
+        self.page = Client(self.control, OLGA)
+        centre = (self.family.position.min + self.family.position.max) // 2
+        self.send(Move(1500, tuple(ServoTarget(servo, centre) for servo in SERVOS[:2])))
+        await asyncio.sleep(2.5)
+        if "download" in self.family.commands:
+            if history.get("wasErased"):
+                self.send(Erase())
+                await asyncio.sleep(ERASED_WITHIN_S)
+            self.download(KNOWN_SLOT, frames_of(history["known"]))
+            await self.stored()
+
+
+COMMANDS: dict[str, Callable[[Step], Command]] = {
+    "move": lambda step: Move(step["durationMs"], targets_of(step)),
+    "run": lambda step: Run(step["slot"], step["times"]),
+    "erase": lambda _step: Erase(),
+    "read": lambda _step: ReadPositions(SERVOS),
+    "release": lambda step: Release(tuple(step["servos"])),
+    "speed": lambda step: SetSpeed(step["slot"], step["percent"]),
+}
+ACTS: dict[str, Callable[[Driven, Step], None]] = {
+    "endGroup": lambda here, _step: here.end_group(),
+    "halt": lambda here, _step: here.control.stop(None).add_done_callback(taken),
+    "resume": lambda here, _step: here.control.resume(OLGA),
+    "download": lambda here, step: here.download(step.get("slot", KNOWN_SLOT), frames_of(step["frames"])),
+    "cancel": lambda here, _step: here.cancel(),
+    "loss": lambda here, _step: here.board.lose(LOST_FOR_S),
+}
+
+
+def taken(left: Left) -> None:
+    if not left.cancelled():
+        left.exception()
+
+
+def targets_of(shape: dict[str, Any]) -> tuple[ServoTarget, ...]:
+    return tuple(ServoTarget(target["servo"], target["position"]) for target in shape["targets"])
+
+
+def frames_of(shapes: Sequence[dict[str, Any]]) -> list[Frame]:
+    return [Frame(shape["durationMs"], targets_of(shape)) for shape in shapes]
+
+
+async def outcome_of(simulator: Simulator, family: str, history: History, door: str) -> Outcome:
+    board = SteppedBoard(simulator, family, history)
+    here = Driven(board, family)
+    control = here.control
+    await here.prepare(history)
+    for step in history["steps"]:
+        await here.take(step)
+    pressed_before = len(control.pressed_s)
+    with contextlib.suppress(GatewayError):
+        await DOORS[door](here)
+    await asyncio.sleep(SETTLES_S)
+    until_s = now() + REST_S
+    while (at_s := board.run_on(until_s)) < until_s:
+        await asyncio.sleep(at_s - now())
+        await asyncio.sleep(SETTLES_S)
+    # Pressed again while it stops it joins the STOP under way.
+    pressed_s = min(control.pressed_s[pressed_before:], default=inf)
+    said = [one for one in control.said if one.left_s >= pressed_s]
+    outcome = Outcome(said, board.moved_s)
+    await control.board.link.close()
+    return outcome
+
+
+def stopped(simulator: Simulator, family: str, history: History, door: str) -> Outcome:
+    with asyncio.Runner(loop_factory=VirtualTimeLoop) as runner:
+        return runner.run(outcome_of(simulator, family, history, door))

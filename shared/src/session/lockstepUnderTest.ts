@@ -1,0 +1,130 @@
+// A simulated board in virtual time behind a line of JSON on stdio, for tests of the gateway: a time in, what the board said until then
+// out, and when each pulse changed last. Also draws the histories, so that both languages try the same ones. No session.
+
+import { createInterface } from 'node:readline';
+import fc from 'fast-check';
+import type { Clock } from '../clock.ts';
+import { fromHex, toHex } from '../protocol/hex.ts';
+import { createBoard, type Board } from '../simulator/board.ts';
+import { isProfileName, type ProfileName } from '../simulator/profiles.ts';
+import { SERVOS, someStopHistory, type StopHistory } from './stopHistories.ts';
+import { foreignFlash, SLOW_FLASH } from './stopUnderTest.ts';
+
+type Happening = readonly [atMs: number, what: 'unplug' | 'plugIn' | (string & {})];
+
+type Request =
+  | { readonly draw: string; readonly seed: number; readonly count: number }
+  | { readonly start: string; readonly history: StopHistory }
+  /** Until then, or until it says something. */
+  | { readonly untilMs: number; readonly happened: readonly Happening[] };
+
+interface SteppedClock extends Clock {
+  /** Fires what is due until then; earlier where `isEnough` says so. */
+  advanceTo(untilMs: number, isEnough?: () => boolean): void;
+}
+
+/** Nothing of a board is a promise, so its time need not wait for any. */
+function createSteppedClock(): SteppedClock {
+  let timers: readonly { readonly dueMs: number; readonly run: () => void }[] = [];
+  let nowMs = 0;
+  return {
+    now: () => nowMs,
+    after(delayMs, run) {
+      const timer = { dueMs: nowMs + Math.max(0, delayMs), run };
+      timers = [...timers, timer];
+      return () => (timers = timers.filter((other) => other !== timer));
+    },
+    advanceTo(untilMs, isEnough = () => false) {
+      while (!isEnough()) {
+        const next = timers.find(({ dueMs }) => timers.every((other) => dueMs <= other.dueMs));
+        if (next === undefined || next.dueMs > untilMs) {
+          nowMs = untilMs;
+          return;
+        }
+        timers = timers.filter((timer) => timer !== next);
+        nowMs = next.dueMs;
+        next.run();
+      }
+    },
+  };
+}
+
+interface Bench {
+  readonly clock: SteppedClock;
+  readonly board: Board;
+  said: string;
+  /** As they were looked at last, and when each changed last. */
+  pulses: readonly number[];
+  readonly movedMs: number[];
+}
+
+function createBench(profile: ProfileName, { onForMs, hasPad, isSlow, unknown }: StopHistory): Bench {
+  const flash = foreignFlash(profile, unknown);
+  const faults = isSlow ? SLOW_FLASH : [];
+  const clock = createSteppedClock();
+  const send = (bytes: Uint8Array): void => void (bench.said += toHex(bytes));
+  const board = createBoard({ clock, profile, flash, faults, onForMs, hasPad, send });
+  const bench: Bench = {
+    clock,
+    board,
+    said: '',
+    pulses: look(board),
+    movedMs: SERVOS.map(() => 0),
+  };
+  return bench;
+}
+
+function look(board: Board): readonly number[] {
+  return SERVOS.map(board.pulse);
+}
+
+function advance(bench: Bench, untilMs: number): void {
+  bench.clock.advanceTo(untilMs, () => {
+    const pulses = look(bench.board);
+    pulses.forEach((pulse, index) => {
+      if (pulse !== bench.pulses[index]) bench.movedMs[index] = bench.clock.now();
+    });
+    bench.pulses = pulses;
+    return bench.said !== '';
+  });
+}
+
+function happen({ board }: Bench, what: Happening[1]): void {
+  if (what === 'unplug') board.unplug();
+  else if (what === 'plugIn') board.plugIn();
+  else board.receive(fromHex(what));
+}
+
+let bench: Bench | null = null;
+
+function answer(request: Request): unknown {
+  if ('draw' in request) {
+    const some = someStopHistory(profileName(request.draw));
+    return fc.sample(some, { seed: request.seed, numRuns: request.count });
+  }
+  if ('start' in request) {
+    bench?.board.powerOff();
+    bench = createBench(profileName(request.start), request.history);
+    return {};
+  }
+  if (bench === null) throw new RangeError('no board was started');
+  for (const [atMs, what] of request.happened) {
+    advance(bench, atMs);
+    // Whoever asks was sure that the board is silent until then.
+    if (bench.clock.now() < atMs) return { early: bench.said, atMs: bench.clock.now() };
+    happen(bench, what);
+  }
+  advance(bench, request.untilMs);
+  const { clock, board, said, movedMs } = bench;
+  bench.said = '';
+  return { atMs: clock.now(), said, isRunning: board.runningSlot() !== null, movedMs };
+}
+
+function profileName(text: string): ProfileName {
+  if (isProfileName(text)) return text;
+  throw new RangeError(`no board is called "${text}"`);
+}
+
+createInterface({ input: process.stdin }).on('line', (line) => {
+  process.stdout.write(`${JSON.stringify(answer(JSON.parse(line) as Request))}\n`);
+});
