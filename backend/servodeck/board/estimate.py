@@ -14,10 +14,7 @@ from servodeck.motion.model import UNKNOWN_MOTION, UnknownRun
 from servodeck.motion.motion import (
     advance,
     after_command,
-    after_cut,
     after_cut_packet,
-    after_end,
-    after_report,
     either_of,
     forgotten,
     gentle_ms,
@@ -27,6 +24,7 @@ from servodeck.motion.motion import (
     remaining_ms,
     target_of,
 )
+from servodeck.motion.reports import after_cut, after_end, after_report
 from servodeck.motion.told import held_at, only_let_go
 from servodeck.motion.tracks import LONGEST_MOVE_MS
 from servodeck.protocol.families import Family

@@ -6,8 +6,6 @@ import { haltPlan } from './haltPlan.ts';
 import {
   advance,
   afterCommand,
-  afterEnd,
-  afterReport,
   forgotten,
   leewayAt,
   passMs,
@@ -17,6 +15,7 @@ import {
   type KnownBoard,
   type Motion,
 } from './motion.ts';
+import { afterEnd, afterReport } from './reports.ts';
 
 type Groups = Readonly<Record<number, readonly Frame[]>>;
 

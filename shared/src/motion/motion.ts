@@ -8,13 +8,13 @@
 // xArm are closed: their model is the simulated board's, a careful guess.
 
 import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
-import type { Report, ReportKind } from '../protocol/reports.ts';
+import type { ReportKind } from '../protocol/reports.ts';
 import type { Family } from '../protocol/families.ts';
 import { HEADER } from '../protocol/packet.ts';
 import { deadlines } from './deadlines.ts';
 import { runningUnknown, UNKNOWN_MOTION, type KnownBoard, type Motion, type Playback } from './model.ts';
 import { polled } from './polled.ts';
-import { afterOrder, afterPositions, onlyLetGo, type Reading, type Told } from './told.ts';
+import { afterOrder, onlyLetGo, type Reading, type Told } from './told.ts';
 import {
   endMs,
   lastEndMs,
@@ -55,9 +55,9 @@ const ANSWERS: Readonly<Partial<Record<Command['kind'], ReportKind>>> = {
   run: 'runAccepted',
 };
 /** The worst of them: four sectors and the count table (S33, S34), with a margin. */
-const LONGEST_DEAFNESS_MS = 2_500;
+export const LONGEST_DEAFNESS_MS = 2_500;
 /** A group tells its end when the time of its last frame is over; a frame of no time still takes a tick (S43). */
-const LAST_TICKS_MS = 100;
+export const LAST_TICKS_MS = 100;
 /** What LEN does not count, and the whole of a packet without parameters. */
 const HEAD_BYTES = 2;
 const SHORTEST_PACKET_BYTES = 4;
@@ -67,7 +67,7 @@ function answersTo(kind: Command['kind']): readonly ReportKind[] {
   return answer === undefined ? [] : [answer];
 }
 
-function playbackOf({ family }: KnownBoard): Playback {
+export function playbackOf({ family }: KnownBoard): Playback {
   return PLAYBACKS[family.motion.groups];
 }
 
@@ -111,7 +111,7 @@ export function afterCutPacket(motion: Motion, { resyncFiller, maxLength }: Fami
 }
 
 /** Where a group nobody knows has ended, its last move may go on for that long. */
-function restless(before: Motion, after: Motion, atMs: number, forMs = LONGEST_MOVE_MS): Motion {
+export function restless(before: Motion, after: Motion, atMs: number, forMs = LONGEST_MOVE_MS): Motion {
   if (before.run?.kind !== 'unknown' || after.run !== null) return after;
   return { ...after, restlessUntilMs: Math.max(after.restlessUntilMs, atMs + forMs) };
 }
@@ -191,67 +191,6 @@ function afterUnheard(motion: Motion, command: Command, atMs: number, { family }
   const tracks = only(motion.tracks, (track, servo) => isAtRest(track, servo) && !freed.includes(servo));
   const restlessUntilMs = moves ? deafUntilMs + LONGEST_MOVE_MS : motion.restlessUntilMs;
   return { ...later, tracks, restlessUntilMs };
-}
-
-/** After the board said so at `atMs`; the end of a group is `afterEnd`. */
-export function afterReport(motion: Motion, report: Report, atMs: number, board: KnownBoard): Motion {
-  const current = advance(motion, atMs, board);
-  if (report.kind === 'runStarted') return afterStart(current, report.slot);
-  const answered = afterAnswer(current, report.kind, atMs, board);
-  const isWord = report.kind === 'positions' || report.kind === 'allPositions';
-  return isWord ? afterWord(answered, report.positions, atMs) : answered;
-}
-
-/** It read them a while ago: what may have moved meanwhile it may have read on its way. */
-function afterWord(motion: Motion, positions: readonly ServoTarget[], atMs: number): Motion {
-  if (motion.run !== null) return motion;
-  const isRestless = atMs < motion.restlessUntilMs + LONGEST_DEAFNESS_MS;
-  const standing = positions.filter(({ servo }) => {
-    // Without torque it is on no way.
-    if (isRestless) return motion.told.get(servo)?.isReleased ?? false;
-    const track = motion.tracks.get(servo);
-    return track === undefined || stands(track, atMs);
-  });
-  return { ...motion, told: afterPositions(motion.told, standing) };
-}
-
-/** What came while it was deaf it takes up only now: until that is done the next packet may be dropped (S9), or it is deaf again. */
-function afterAnswer(motion: Motion, kind: ReportKind, atMs: number, { family }: KnownBoard): Motion {
-  const index = motion.answersOwed.indexOf(kind);
-  if (index < 0) return motion;
-  const answersOwed = motion.answersOwed.toSpliced(index, 1);
-  // It took up what was asked behind the cut packet, so that one is over.
-  const answered = { ...motion, answersOwed, maySwallow: 0 };
-  if (answersOwed.length > 0) return answered;
-  const deafUntilMs = motion.mayHoldPacket ? atMs + family.serviceGapMs : -Infinity;
-  return { ...answered, deafUntilMs, mayHoldPacket: false };
-}
-
-/** By our own command a moment ago; or somebody started it at the board, and how long ago nobody can tell to the tick. */
-function afterStart(motion: Motion, slot: number): Motion {
-  const { run } = motion;
-  const isOurs = run?.kind === 'deadlines' && run.slot === slot && run.next <= 1 && run.loopsDone === 0;
-  return isOurs ? motion : runningUnknown(motion, slot);
-}
-
-/** After a group has ended by itself, its last frame with it: the one in `slot`, or null where nobody says which. */
-export function afterEnd(motion: Motion, slot: number | null, atMs: number, board: KnownBoard): Motion {
-  const current = advance(motion, atMs, board);
-  const isAnother = current.run?.kind === 'deadlines' && slot !== null && slot !== current.run.slot;
-  // Said so late that the next one runs already.
-  if (isAnother) return current;
-  return restless(current, playbackOf(board).ended(current, board), atMs, lastFrameMs(current, atMs, board));
-}
-
-/** Its last frame is over with it; but a move that left meanwhile has re-timed what that frame moves (S26). */
-function lastFrameMs({ tracks }: Motion, atMs: number, { family: { motion } }: KnownBoard): number {
-  return LAST_TICKS_MS + (motion.timing === 'shared' ? lastEndMs(tracks, atMs) - atMs : 0);
-}
-
-/** After somebody has stopped the group, or it is taken to have ended: its frame in progress goes on (S50). */
-export function afterCut(motion: Motion, atMs: number, board: KnownBoard): Motion {
-  const current = advance(motion, atMs, board);
-  return restless(current, { ...current, run: null }, atMs);
 }
 
 /** How long one pass of a group takes at most. */

@@ -4,9 +4,6 @@
 import {
   advance,
   afterCommand,
-  afterCut,
-  afterEnd,
-  afterReport,
   forgotten,
   hears,
   leewayAt,
@@ -15,6 +12,7 @@ import {
   UNKNOWN_MOTION,
   type KnownBoard,
 } from '../motion/motion.ts';
+import { afterCut, afterEnd, afterReport } from '../motion/reports.ts';
 import type { Command, Frame } from '../protocol/commands.ts';
 import { encodeCommand } from '../protocol/encode.ts';
 import { FAMILIES, type Family } from '../protocol/families.ts';

@@ -18,7 +18,7 @@ function written(histories: readonly HaltHistory[]): string {
 
 test('the file is what the generator gives', async () => {
   await expect(written(await generateHaltHistories())).toMatchFileSnapshot(FILE.pathname);
-});
+}, 60_000);
 
 test('the estimate says to each halt what the file says', () => {
   const histories = JSON.parse(readFileSync(FILE, 'utf8')) as readonly HaltHistory[];

@@ -17,7 +17,7 @@ import { createVirtualClock } from '../simulator/virtualClock.ts';
 import { createReceiver } from './receiver.ts';
 import { createRobotEstimate, type RobotEstimate } from './robot.ts';
 import { someFrames, someStep, usualServos, STORED_SLOTS, type Step } from './stepsUnderTest.ts';
-import { FOREIGN_SLOT } from './stopHistories.ts';
+import { FOREIGN_SLOT } from './historiesUnderTest.ts';
 import { foreignFlash } from './stopUnderTest.ts';
 
 /** One event of a link, or the question what a STOP would do at that instant. */

@@ -7,10 +7,7 @@ import { haltPlan, holdBehindStop, unheldSince, type HaltPlan, type Unheld } fro
 import {
   advance,
   afterCommand,
-  afterCut,
   afterCutPacket,
-  afterEnd,
-  afterReport,
   eitherOf,
   farthestFrom,
   forgotten,
@@ -26,6 +23,7 @@ import {
   type KnownBoard,
   type Motion,
 } from '../motion/motion.ts';
+import { afterCut, afterEnd, afterReport } from '../motion/reports.ts';
 import type { Command, Frame } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
 import { wireMs } from '../protocol/packet.ts';

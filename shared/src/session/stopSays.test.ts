@@ -5,7 +5,7 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { SIMULATED } from './estimateUnderTest.ts';
 import { TIMES } from './faults/amount.ts';
-import { SERVOS, someStopHistory, type StopHistory } from './stopHistories.ts';
+import { SERVOS, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
 import { SELDOM_MS, stopped, type StopOutcome } from './stopUnderTest.ts';
 
 const HELD_WITHIN_MS = 150;

@@ -1,5 +1,5 @@
 // A session on a simulated board, driven through a history and then stopped: what STOP said, what the robot did, and what of that
-// the holds caused. Knows the page's verbs and the board's pulses; no estimate. The histories are stopHistories.ts.
+// the holds caused. Knows the page's verbs and the board's pulses; no estimate. The histories are historiesUnderTest.ts.
 
 import type { Unheld } from '../motion/haltPlan.ts';
 import type { Frame } from '../protocol/commands.ts';
@@ -18,7 +18,7 @@ import {
   SERVOS,
   type StopHistory,
   type StopStep,
-} from './stopHistories.ts';
+} from './historiesUnderTest.ts';
 
 export interface StopOutcome {
   readonly unheld: Unheld | null;
