@@ -108,6 +108,9 @@ class SteppedBoard:
         self._happened = []
         self._is_running = answer["isRunning"]
         self.moved_s = [moved_ms / 1000 for moved_ms in answer["movedMs"]]
+        if answer["said"]:
+            # That was one byte, and what is behind it may belong to the same report.
+            self._talks_until_s = max(self._talks_until_s, answer["atMs"] / 1000 + ANSWERS_WITHIN_S)
         if answer["said"] and self._port and self._port.is_open:
             self._port.say(bytes.fromhex(answer["said"]))
         return until_s if answer["atMs"] == until_ms else float(answer["atMs"]) / 1000
