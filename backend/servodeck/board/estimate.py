@@ -160,6 +160,11 @@ class Estimate:
         left_ms = max(0.0, end_ms - now_ms)
         return None if left_ms > LONGEST_TOLD_MS else left_ms / 1000
 
+    def moves_for_s(self, now: float) -> float:
+        """At most, as far as the moves go that it knows; a group is another matter."""
+        now_ms = self._advance(now)
+        return max(0.0, remaining_ms(self._motion, now_ms), self._unheard_until_ms - now_ms) / 1000
+
     def is_moving(self, now: float) -> bool:
         """A move is under way; a group is another matter, and what it moves."""
         now_ms = self._advance(now)

@@ -17,6 +17,7 @@ from servodeck.access.gate import (
 )
 from servodeck.access.hub import AGAINST_THE_RULES, Hub, Seat
 from servodeck.board.board import Board
+from servodeck.board.estimate import Estimate
 from servodeck.board.parts import Part, judge_parts
 from servodeck.board.recalled_board import RecalledBoard
 from servodeck.board.robot import RobotLimits
@@ -238,7 +239,7 @@ class Control:
         judge_latch(parts[0].packets[0], self.latch)
         board.jobs.judge_idle()
         if board.may_move() or not wire.is_clear_of(lambda packet: not is_harmless(packet)):
-            raise MovingError("The robot is moving, or a group may still run: wait, or stop it first.")
+            raise MovingError(still_moving(board.motion, self.now()))
         claim()
         return board.jobs.begin(parts, by, board.link.place, wire)
 
@@ -318,6 +319,20 @@ class Control:
         if not left.cancelled() and left.exception() is None:
             self._unheld = self.board.unheld_since(self._pressed_s)
             self._telling.everybody(HaltedMessage(unheld=self.unheld))
+
+
+def still_moving(motion: Estimate, now: float) -> str:
+    if motion.group_may_run(now):
+        return end_of_group(motion.group_ends_in_s(now))
+    if left_s := math.ceil(motion.moves_for_s(now) * 10) / 10:
+        return f"The robot moves for up to {left_s:.1f} s more: wait that long."
+    return "The robot is about to move: wait for its end."
+
+
+def end_of_group(ends_in_s: float | None) -> str:
+    if ends_in_s is None:
+        return "A group may be running, and only its board knows its end: stop it, or let go of the lease."
+    return f"A group runs for up to {ends_in_s:.1f} s more: wait, or let go of the lease to end it."
 
 
 def is_run(job: Job) -> bool:

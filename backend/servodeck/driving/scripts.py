@@ -15,7 +15,7 @@ from servodeck.access.gate import judge_known, judge_latch
 from servodeck.access.hub import Seat
 from servodeck.board.parts import Part
 from servodeck.callers import Caller, as_script
-from servodeck.driving.control import Control
+from servodeck.driving.control import Control, end_of_group
 from servodeck.driving.script_moves import packet_of, plan_move
 from servodeck.driving.script_seat import ScriptSeat
 from servodeck.errors import (
@@ -80,12 +80,6 @@ class Turn:
     def _judge(self) -> None:
         if self._mark != self._present():
             raise CancelledError("Stopped, or taken over, before all of it had left.")
-
-
-def end_of_group(ends_in_s: float | None) -> str:
-    if ends_in_s is None:
-        return "A group may be running, and only its board knows its end: stop it, or let go of the lease."
-    return f"A group runs for up to {ends_in_s:.1f} s more: wait, or let go of the lease to end it."
 
 
 class Scripts:
