@@ -7,7 +7,7 @@ import type { Clock } from '../clock.ts';
 import { fromHex, toHex } from '../protocol/hex.ts';
 import { createBoard, type Board } from '../simulator/board.ts';
 import { isProfileName, type ProfileName } from '../simulator/profiles.ts';
-import { SERVOS, someStopHistory, type StopHistory } from './stopHistories.ts';
+import { SERVOS, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
 import { foreignFlash, SLOW_FLASH } from './stopUnderTest.ts';
 
 type Happening = readonly [atMs: number, what: 'unplug' | 'plugIn' | (string & {})];
