@@ -27,10 +27,29 @@ function compressed(): Plugin {
   };
 }
 
+/** What the entry leads to without a dynamic import; parts that come later share much of it, and would cut it into dozens. */
+const firstLoad = new Set<string>();
+
+function readsFirstLoad(): Plugin {
+  return {
+    name: 'first-load',
+    apply: 'build',
+    buildEnd() {
+      const walk = (id: string): void => {
+        if (firstLoad.has(id)) return;
+        firstLoad.add(id);
+        this.getModuleInfo(id)?.importedIds.forEach(walk);
+      };
+      firstLoad.clear();
+      for (const id of this.getModuleIds()) if (this.getModuleInfo(id)?.isEntry === true) walk(id);
+    },
+  };
+}
+
 export default defineConfig({
   root: 'frontend',
   base: './',
-  plugins: [react(), compressed()],
+  plugins: [react(), readsFirstLoad(), compressed()],
   server: {
     host: '127.0.0.1',
     proxy: { '/api': proxy, '/ws': { ...proxy, ws: true } },
@@ -41,10 +60,19 @@ export default defineConfig({
     target: 'es2022',
     modulePreload: { polyfill: false },
     assetsInlineLimit: 0,
+    // One style sheet from the start: parts that come later change the look of nothing that is there.
+    cssCodeSplit: false,
     reportCompressedSize: false,
     rolldownOptions: {
-      // The packages change less often than the page: a browser keeps them. SQLite is fetched only when it is wanted.
-      output: { codeSplitting: { groups: [{ name: 'packages', test: /node_modules(?!.*sql[.]js)/ }] } },
+      output: {
+        codeSplitting: {
+          groups: [
+            // Changes less often than the page: a browser keeps it.
+            { name: 'react', test: /node_modules.(react|react-dom|scheduler)[/\\]/, priority: 2 },
+            { name: 'page', test: (id) => firstLoad.has(id), priority: 1 },
+          ],
+        },
+      },
     },
   },
 });

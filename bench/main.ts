@@ -17,6 +17,7 @@ import { measureLanes } from './lanes.ts';
 import { measureLibrary } from './library.ts';
 import { missed } from './limits.ts';
 import { measureNetwork } from './network.ts';
+import { measurePageLoad } from './pageLoad.ts';
 import { measurePageSize } from './pageSize.ts';
 import { measureRelay } from './relay.ts';
 import { measureStart } from './start.ts';
@@ -46,6 +47,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   library: measureLibrary,
   start: measureStart,
   page: measurePageSize,
+  load: measurePageLoad,
 };
 
 const USAGE = `npm run bench [-- [--only GROUP,GROUP…] [--json FILE]]

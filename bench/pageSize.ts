@@ -1,22 +1,27 @@
-// How much JavaScript a browser fetches before the dashboard is there: what index.html names, compressed as for the wire.
+// How much JavaScript there is, compressed as for the wire: what a browser fetches before the dashboard is there, which is what
+// index.html names, and all that may come later.
 
-import { readFileSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
 import { at } from '../scripts/steps.mjs';
 import type { Figure } from './figure.ts';
 
 const STATIC = 'backend/servodeck/static';
-/** What the page may grow to; React with a library's accessible dialog, tabs and slider alone is 109 KiB. */
-const LIMIT_KIB = 200;
+/** What the first load is to come down to; React with a library's accessible dialog, tabs and slider alone is 109 KiB. */
+const LIMIT_KIB = 180;
 
 export function measurePageSize(): Figure[] {
-  const scripts = scriptsOf(readFileSync(at(`${STATIC}/index.html`), 'utf8'));
-  const bytes = scripts.reduce((sum, script) => sum + compressedBytes(script), 0);
-  const note = `${scripts.length} script${scripts.length === 1 ? '' : 's'}, gzip level 9; React and basic widgets alone: 109`;
+  const first = scriptsOf(readFileSync(at(`${STATIC}/index.html`), 'utf8'));
+  const all = readdirSync(at(`${STATIC}/assets`)).filter((name) => name.endsWith('.js'));
   return [
     {
-      ...{ key: 'page.jsGzKiB', value: bytes / 1_024, unit: 'KiB', note },
-      against: { what: 'limit', value: LIMIT_KIB },
+      ...{ key: 'page.firstLoadJsGzKiB', value: compressedKiB(first), unit: 'KiB' },
+      note: `before the dashboard is there, ${first.length} scripts, gzip level 9; React and basic widgets alone: 109`,
+      limit: { atMost: LIMIT_KIB },
+    },
+    {
+      ...{ key: 'page.jsGzKiB', value: compressedKiB(all.map((name) => `assets/${name}`)), unit: 'KiB' },
+      note: `all ${all.length} scripts: with what comes when it is asked for, workers and the other language`,
     },
   ];
 }
@@ -28,6 +33,8 @@ function scriptsOf(html: string): readonly string[] {
   return [...new Set(named.map(([, address = '']) => address))];
 }
 
-function compressedBytes(address: string): number {
-  return gzipSync(readFileSync(at(`${STATIC}/${address}`)), { level: 9 }).length;
+function compressedKiB(addresses: readonly string[]): number {
+  const bytesOf = (address: string): number =>
+    gzipSync(readFileSync(at(`${STATIC}/${address}`)), { level: 9 }).length;
+  return addresses.reduce((sum, address) => sum + bytesOf(address), 0) / 1_024;
 }

@@ -14,7 +14,7 @@ import { BoardPanel } from './board/BoardPanel.tsx';
 import { ConnectDialog } from './connect/ConnectDialog.tsx';
 import type { Page } from './connect/page.ts';
 import { LogDrawer } from './console/LogDrawer.tsx';
-import { LogPanel } from './console/LogPanel.tsx';
+import { LogPanel } from './console/LaterLogPanel.tsx';
 import { Messages } from './console/Messages.tsx';
 import { FilesDesk } from './files/FilesArea.tsx';
 import { LibraryDialog } from './library/LibraryDialog.tsx';
@@ -22,8 +22,6 @@ import { PeopleDialog } from './people/PeopleDialog.tsx';
 import { TakeThat } from './record/TakeThat.tsx';
 import { RobotDialog } from './robots/RobotDialog.tsx';
 import { Authoring } from './authoring/Authoring.tsx';
-import { ButtonsPage } from './macros/ButtonsPage.tsx';
-import { Kiosk } from './macros/Kiosk.tsx';
 import { ReplaceQuestion } from './slots/ReplaceQuestion.tsx';
 import { LivePanel } from './servos/LivePanel.tsx';
 import { StopButton } from './stop/StopButton.tsx';
@@ -33,6 +31,7 @@ import type { Tab as TabName, Theme } from './stores/view.ts';
 import { TopBar } from './topBar/TopBar.tsx';
 import { Hints } from './ui/Hints.tsx';
 import { Icon, type IconName } from './ui/Icon.tsx';
+import { fetchRest, laterComponent } from './ui/later.tsx';
 import { useEachFrame } from './ui/useEachFrame.ts';
 import { useFocusKept } from './ui/useFocusKept.ts';
 import { useLayout } from './ui/useLayout.ts';
@@ -41,6 +40,12 @@ import { useParts } from './ui/useParts.ts';
 import { useSpokenLocale } from './ui/useSpokenLocale.ts';
 import { words } from './words/words.ts';
 import styles from './App.module.css';
+
+const ButtonsPage = laterComponent(
+  async () => (await import('./macros/ButtonsPage.tsx')).ButtonsPage,
+  '100%',
+);
+const Kiosk = laterComponent(async () => (await import('./macros/Kiosk.tsx')).Kiosk, '100%');
 
 export function App({ page }: { readonly page: Page }) {
   const locale = useSpokenLocale();
@@ -87,6 +92,7 @@ function Unseen() {
   useFocusKept();
   useNoPasteByMouse();
   useParts();
+  useEffect(() => void fetchRest(whenIdle), []);
   useEachFrame(() => {
     device.refresh(motionsInFrame(device));
     pad.frame();
@@ -94,6 +100,17 @@ function Unseen() {
   });
   return null;
 }
+
+const REST_MS = 400;
+
+/** Not every browser says when it has nothing to do. */
+const whenIdle = (): Promise<void> =>
+  new Promise((resolve) => {
+    setTimeout(
+      () => ('requestIdleCallback' in window ? requestIdleCallback(() => resolve()) : resolve()),
+      REST_MS,
+    );
+  });
 
 /** What the undo keys are about: what is written on now. */
 function useWritten(): Pick<Undoable<unknown>, 'undo' | 'redo'> | null {

@@ -6,7 +6,6 @@ import { App } from './App.tsx';
 import { arrive, deviceName } from './connect/arrival.ts';
 import { openPage } from './connect/page.ts';
 import { pair, sayName, stopRobot } from './connect/peopleApi.ts';
-import { Guest, Outside } from './people/Outside.tsx';
 import { preferredLanguage, speak } from './words/words.ts';
 import './ui/fonts.css';
 import './ui/tokens.css';
@@ -25,6 +24,7 @@ const isOutside = role === undefined || role === 'stopper';
 if (isOutside || entered !== null) await speak(preferredLanguage(navigator.languages));
 
 if (isOutside) {
+  const { Outside } = await import('./people/Outside.tsx');
   show(
     <Outside
       mayStop={role === 'stopper'}
@@ -41,6 +41,7 @@ if (isOutside) {
 } else if (entered === null) {
   show(<App page={await openPage(arrival)} />);
 } else {
+  const { Guest } = await import('./people/Outside.tsx');
   show(
     <Guest
       suggested={entered.name}

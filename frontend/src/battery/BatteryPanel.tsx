@@ -7,14 +7,16 @@ import { canReadBattery } from '../stores/battery/batteryPoll.ts';
 import { useBattery, useDevice, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
+import { laterComponent } from '../ui/later.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { useNow } from '../ui/useNow.ts';
 import { words } from '../words/words.ts';
-import { BatteryPlot } from './BatteryPlot.tsx';
 import { BatterySettings } from './BatterySettings.tsx';
 import { lastMv, levelWord, LEVEL_TRUTH, voltsText } from './readings.ts';
 import { VoltMeter } from './VoltMeter.tsx';
 import styles from './BatteryPanel.module.css';
+
+const BatteryPlot = laterComponent(async () => (await import('./BatteryPlot.tsx')).BatteryPlot, '112px');
 
 export function BatteryPanel() {
   const { battery: kind } = useRobot();

@@ -14,7 +14,6 @@ import type { TextStorage } from '../stores/textStorage.ts';
 import type { Notices } from '../stores/notices.ts';
 import type { You } from '../stores/people/people.generated.ts';
 import { createGatewayTransport } from '../transports/gateway.ts';
-import { createSimulatedTransport } from '../transports/simulated.ts';
 import {
   choosePort,
   createWebSerialTransport,
@@ -62,7 +61,7 @@ export interface Connector {
   start(): Promise<void>;
   /** Looks again for the gateway, its ports and the ports granted here. */
   look(): Promise<void>;
-  simulate(board: FamilyId): void;
+  simulate(board: FamilyId): Promise<void>;
   setReconnects(reconnects: boolean): void;
   useGateway(): void;
   /** Has the gateway open that port first. Rejects with a LinkError. */
@@ -181,12 +180,12 @@ export function createConnector(options: ConnectorOptions): Connector {
     const { gateway, granted, reconnects } = store.getState();
     const [port] = granted;
     if (last?.kind === 'simulated' || (gateway === 'absent' && last === null)) {
-      await connect(simulated());
+      await connect(await simulated());
       if (last === null) greet();
     } else if (!reconnects) return;
     else if (last?.kind === 'webSerial' && port !== undefined) await connect(openSerial(port.port));
     else if (typeof gateway === 'object') await connect(gatewayTransport());
-    else await connect(simulated());
+    else await connect(await simulated());
     if (gateway === 'absent') void offerLateGateway();
   }
 
@@ -203,7 +202,10 @@ export function createConnector(options: ConnectorOptions): Connector {
   const gatewayTransport = (): Transport =>
     createGatewayTransport(gatewayUrl(), { mayDrive: role !== 'viewer' });
 
-  const simulated = (): Transport => createSimulatedTransport(simulatedAs(store.getState().board));
+  async function simulated(): Promise<Transport> {
+    const { createSimulatedTransport } = await import('../transports/simulated.ts');
+    return createSimulatedTransport(simulatedAs(store.getState().board));
+  }
 
   /** Until a way is chosen the simulated arm rises, so that the page is alive; no real robot ever moves by itself. */
   function greet(): void {
@@ -222,9 +224,9 @@ export function createConnector(options: ConnectorOptions): Connector {
       rememberReconnects(storage, reconnects);
       device.setAutoReconnect(reconnects);
     },
-    simulate(board) {
+    async simulate(board) {
       store.setState({ board });
-      chosen(simulated());
+      chosen(await simulated());
     },
     useGateway: () => chosen(gatewayTransport()),
     async useGatewayPort(path) {

@@ -7,7 +7,7 @@ import { Icon } from '../ui/Icon.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
 import { words } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
-import { LogPanel } from './LogPanel.tsx';
+import { LogPanel } from './LaterLogPanel.tsx';
 import { createStrip } from './strip.ts';
 import { READABLE_MS } from '../ui/useFollow.ts';
 import { PART } from '../ui/useParts.ts';

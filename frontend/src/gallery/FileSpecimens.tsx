@@ -4,7 +4,7 @@ import type { Reading } from '#shared/actions/files/reading.ts';
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
-import { FilesContent } from '../files/FilesDialog.tsx';
+import { FilesContent } from '../files/FilesContent.tsx';
 import { firstAnswers } from '../files/answers.ts';
 import { createOpenedFiles, type OpenedFile, type OpenedFiles } from '../files/openedFiles.ts';
 import type { Stores } from '../stores/stores.ts';

@@ -6,7 +6,7 @@ import { EMPTY_SLOT_BOOK, withStored } from '#shared/actions/slots/slotBook.ts';
 import { BoardPanel } from '../board/BoardPanel.tsx';
 import { PlayBar } from '../play/PlayBar.tsx';
 import { ReplaceContent } from '../slots/ReplaceQuestion.tsx';
-import { SlotBoard } from '../slots/SlotsControl.tsx';
+import { SlotBoard } from '../slots/SlotBoard.tsx';
 import { editServoView, type Stores } from '../stores/stores.ts';
 import { standing, type Exhibit } from './exhibit.ts';
 

@@ -2,8 +2,10 @@
 
 import { useStores, useView } from '../stores/stores.ts';
 import { Dialog } from '../ui/Dialog.tsx';
+import { laterComponent } from '../ui/later.tsx';
 import { words } from '../words/words.ts';
-import { LibraryView } from './LibraryView.tsx';
+
+const LibraryView = laterComponent(async () => (await import('./LibraryView.tsx')).LibraryView, '60vh');
 
 export function LibraryDialog() {
   const { view } = useStores();

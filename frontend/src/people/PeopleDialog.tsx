@@ -8,9 +8,11 @@ import type { Me } from '../stores/people/people.generated.ts';
 import { useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
+import { laterComponent } from '../ui/later.tsx';
 import { words } from '../words/words.ts';
-import { OwnView } from './OwnView.tsx';
-import { PeopleView } from './PeopleView.tsx';
+
+const OwnView = laterComponent(async () => (await import('./OwnView.tsx')).OwnView, '40vh');
+const PeopleView = laterComponent(async () => (await import('./PeopleView.tsx')).PeopleView, '40vh');
 
 const LOOK_EACH_MS = 1500;
 

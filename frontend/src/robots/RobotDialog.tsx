@@ -1,15 +1,13 @@
 // Everything about robots in one dialog: the list of them, the description of the one at hand, its calibration. Ctrl+Z here
 // is the robots' own, not that of the frames behind the dialog.
 
-import type { ReactNode } from 'react';
+import type { ComponentType } from 'react';
 import { undoActionOf } from '../actions/useUndoKeys.ts';
-import { CalibrationWizard } from '../calibration/CalibrationWizard.tsx';
 import { useStores, useView } from '../stores/stores.ts';
 import type { ViewState } from '../stores/view.ts';
 import { Dialog } from '../ui/Dialog.tsx';
+import { laterComponent } from '../ui/later.tsx';
 import { words } from '../words/words.ts';
-import { RobotEditor } from './RobotEditor.tsx';
-import { RobotList } from './RobotList.tsx';
 import styles from './RobotDialog.module.css';
 
 type RobotView = NonNullable<ViewState['robotView']>;
@@ -17,6 +15,7 @@ type RobotView = NonNullable<ViewState['robotView']>;
 export function RobotDialog() {
   const { view, robots } = useStores();
   const open = useView((state) => state.robotView);
+  const Content = open === null ? null : CONTENT[open];
   return (
     <Dialog
       full={open === 'edit'}
@@ -36,14 +35,17 @@ export function RobotDialog() {
           robots[action]();
         }}
       >
-        {open !== null && CONTENT[open]}
+        {Content !== null && <Content />}
       </div>
     </Dialog>
   );
 }
 
-const CONTENT: Readonly<Record<RobotView, ReactNode>> = {
-  list: <RobotList />,
-  edit: <RobotEditor />,
-  calibrate: <CalibrationWizard />,
+const CONTENT: Readonly<Record<RobotView, ComponentType>> = {
+  list: laterComponent(async () => (await import('./RobotList.tsx')).RobotList, '50vh'),
+  edit: laterComponent(async () => (await import('./RobotEditor.tsx')).RobotEditor, '50vh'),
+  calibrate: laterComponent(
+    async () => (await import('../calibration/CalibrationWizard.tsx')).CalibrationWizard,
+    '50vh',
+  ),
 };

@@ -344,6 +344,12 @@ export const english = {
   refused: (name: string, value: number, min: number, max: number): string =>
     `${name}: ${formatWhole(value)} is out of range; it takes ${formatWhole(min)} to ${formatWhole(max)}.`,
   dismiss: 'Dismiss',
+  later: {
+    missing: 'This part of the page did not come.',
+    missingHint:
+      'Driving and STOP go on without it, and what you wrote is saved. Is the gateway still running? After an update of it, load the page again.',
+    again: 'Try again',
+  },
   moreNotices: (count: number): string => `${formatWhole(count)} more`,
 };
 

@@ -323,5 +323,10 @@ export const chinese: Words = {
   refused: (name, value, min, max) =>
     `${name}：${formatWhole(value)}超出范围，应在${formatWhole(min)}到${formatWhole(max)}之间。`,
   dismiss: '关闭',
+  later: {
+    missing: '页面的这一部分没有加载成功。',
+    missingHint: '驱动和急停照常可用，写好的内容已经保存。网关还在运行吗？网关更新后，请重新加载页面。',
+    again: '重试',
+  },
   moreNotices: (count) => `另有${formatWhole(count)}条`,
 };

@@ -1,0 +1,66 @@
+// How long a visitor with an empty cache waits on a slow laptop and a modest network: until something is painted, and until the
+// first slider takes a hand. The board is known from a visit before.
+
+import type { Page } from '@playwright/test';
+import type { Figure } from './figure.ts';
+import { mainThreadOf } from './mainThread.ts';
+import { openDashboard, withBoard, withPage } from './station.ts';
+import { median } from './statistics.ts';
+
+const SLOWER = 4;
+const BITS_PER_S = 10_000_000;
+const LATENCY_MS = 40;
+const REPEATS = 5;
+const USABLE_LIMIT_MS = 1500;
+
+interface Load {
+  readonly paintMs: number;
+  readonly usableMs: number;
+}
+
+export function measurePageLoad(): Promise<Figure[]> {
+  return withBoard([], (board) =>
+    withPage(board.device, async (page, url) => {
+      await openDashboard(page, url);
+      const thread = await mainThreadOf(page);
+      const tools = await page.context().newCDPSession(page);
+      await tools.send('Network.enable');
+      await tools.send('Network.setCacheDisabled', { cacheDisabled: true });
+      const bytesPerS = BITS_PER_S / 8;
+      await tools.send('Network.emulateNetworkConditions', {
+        ...{ offline: false, latency: LATENCY_MS },
+        ...{ downloadThroughput: bytesPerS, uploadThroughput: bytesPerS },
+      });
+      await thread.slowDown(SLOWER);
+      const loads: Load[] = [];
+      for (let repeat = 0; repeat < REPEATS; repeat += 1) loads.push(await loadTimes(page, url));
+      const about = `empty cache, processor ${SLOWER} times slower, 10 Mbit/s and ${LATENCY_MS} ms; a median of ${REPEATS}`;
+      return [
+        {
+          ...{ key: 'page.paintMs', value: median(loads.map(({ paintMs }) => paintMs)), unit: 'ms' },
+          note: `until something is painted: ${about}`,
+        },
+        {
+          ...{ key: 'page.usableMs', value: median(loads.map(({ usableMs }) => usableMs)), unit: 'ms' },
+          ...{ limit: { atMost: USABLE_LIMIT_MS }, note: `until the first slider takes a hand: ${about}` },
+        },
+      ];
+    }),
+  );
+}
+
+async function loadTimes(page: Page, url: string): Promise<Load> {
+  await page.goto('about:blank');
+  await page.goto(url, { waitUntil: 'commit' });
+  return page.evaluate(
+    () =>
+      new Promise<Load>((resolve) => {
+        requestAnimationFrame(function look() {
+          const slider = document.querySelector('input[type=range]:enabled');
+          if (slider === null) return void requestAnimationFrame(look);
+          const [paint] = performance.getEntriesByName('first-contentful-paint');
+          resolve({ paintMs: paint?.startTime ?? NaN, usableMs: performance.now() });
+        });
+      }),
+  );
+}

@@ -1,0 +1,101 @@
+// What stands in the dialog about files: what was opened, each with what it holds or what is wrong with it, and saving the group at hand.
+
+import { useCallback } from 'react';
+import { FileTrigger } from 'react-aria-components/FileTrigger';
+import { useStore } from 'zustand';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { useKnownFamily } from '../stores/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../words/words.ts';
+import { readyGroups, type ReadyGroup } from './answers.ts';
+import { FileProgress } from './FileProgress.tsx';
+import { OpenedFileItem } from './OpenedFileItem.tsx';
+import { SaveAs } from './SaveAs.tsx';
+import type { OpenedFiles } from './openedFiles.ts';
+import styles from './FilesContent.module.css';
+
+export interface FilesContentProps {
+  readonly files: OpenedFiles;
+  onTake(group: ActionGroup): void;
+  onTakeAll(ready: readonly ReadyGroup[]): void;
+}
+
+export function FilesContent({ files, onTake, onTakeAll }: FilesContentProps) {
+  const list = useStore(files.store, (state) => state.list);
+  const take = useCallback(
+    (id: number, group: ActionGroup) => {
+      files.drop(id);
+      onTake(group);
+    },
+    [files, onTake],
+  );
+  return (
+    <>
+      <section className={styles.part}>
+        <h3 className={styles.heading}>{words.files.open}</h3>
+        <div className={styles.choose}>
+          <FileTrigger allowsMultiple onSelect={(chosen) => files.open([...(chosen ?? [])])}>
+            <Button icon="upload">{words.files.choose}</Button>
+          </FileTrigger>
+          <span className={styles.dim}>{words.files.hint}</span>
+        </div>
+        <Reading files={files} />
+        <TakeAll files={files} onTakeAll={onTakeAll} />
+        <ul className={styles.list} aria-label={words.files.list} aria-live="polite">
+          {list.map((file) => (
+            <OpenedFileItem key={file.id} file={file} files={files} onTake={take} />
+          ))}
+        </ul>
+      </section>
+      <section className={styles.part}>
+        <h3 className={styles.heading}>{words.files.save}</h3>
+        <SaveAs />
+      </section>
+    </>
+  );
+}
+
+function Reading({ files }: Pick<FilesContentProps, 'files'>) {
+  const reading = useStore(files.store, (state) => state.reading);
+  const unread = useStore(files.store, (state) => state.unread);
+  return (
+    <>
+      {reading !== null && (
+        <FileProgress
+          label={words.files.reading}
+          progress={reading}
+          text={words.files.readSoFar(reading.done, reading.total)}
+          onCancel={files.cancelReading}
+        />
+      )}
+      <div aria-live="polite">{unread > 0 && <p className={styles.dim}>{words.files.unread(unread)}</p>}</div>
+    </>
+  );
+}
+
+/** Whoever has a folder of groups takes them in one go. Files that still ask something stay in the list. */
+function TakeAll({ files, onTakeAll }: Pick<FilesContentProps, 'files' | 'onTakeAll'>) {
+  const unit = useKnownFamily().unit;
+  const list = useStore(files.store, (state) => state.list);
+  const taking = useStore(files.store, (state) => state.taking);
+  if (taking !== null)
+    return (
+      <FileProgress
+        label={words.files.taking}
+        progress={taking}
+        text={words.files.takenSoFar(taking.done, taking.total)}
+        onCancel={files.cancelTaking}
+      />
+    );
+  const ready = readyGroups(list, unit);
+  const [first] = ready;
+  if (first === undefined || ready.length < 2) return null;
+  return (
+    <div className={styles.all}>
+      <Button icon="library" onPress={() => onTakeAll(ready)}>
+        {words.files.takeAll(ready.length)}
+      </Button>
+      <span className={styles.dim}>{words.files.takeAllHint(first.group.name)}</span>
+    </div>
+  );
+}

@@ -1,0 +1,76 @@
+// Parts of the page that its first load leaves out: fetched when they are first wanted, all others once the page is at rest, so that
+// nothing is missing when the gateway goes. STOP, the sliders and the way to connect are no such parts.
+
+import { useEffect, type ComponentType } from 'react';
+import { createStore, useStore, type StoreApi } from 'zustand';
+import { words } from '../words/words.ts';
+import { Button } from './Button.tsx';
+import { EmptyState } from './EmptyState.tsx';
+import styles from './later.module.css';
+
+interface Fetched<Part> {
+  readonly part: Part | null;
+  readonly isMissing: boolean;
+}
+
+export interface Later<Part> {
+  readonly store: StoreApi<Fetched<Part>>;
+  /** Once; again after it failed. Never rejects: `isMissing` says so. */
+  fetch(): Promise<void>;
+}
+
+const all: Later<unknown>[] = [];
+
+export function later<Part>(load: () => Promise<Part>): Later<Part> {
+  const store = createStore<Fetched<Part>>(() => ({ part: null, isMissing: false }));
+  let under: Promise<void> | null = null;
+  async function fetchNow(): Promise<void> {
+    try {
+      store.setState({ part: await load(), isMissing: false });
+    } catch {
+      store.setState({ isMissing: true });
+      under = null;
+    }
+  }
+  const made = { store, fetch: () => (under ??= fetchNow()) };
+  all.push(made);
+  return made;
+}
+
+/** One after the other, each when the browser has nothing else to do. */
+export async function fetchRest(whenIdle: () => Promise<void>): Promise<void> {
+  for (const part of all) {
+    await whenIdle();
+    await part.fetch();
+  }
+}
+
+/** null until it is there. */
+export function usePart<Part>(part: Later<Part>): Fetched<Part> {
+  useEffect(() => void part.fetch(), [part]);
+  return useStore(part.store);
+}
+
+/** A component; until it is there its place is as high as `room`, a length of CSS. */
+export function laterComponent<Props extends object>(
+  load: () => Promise<ComponentType<Props>>,
+  room: string,
+): ComponentType<Props> {
+  const made = later(load);
+  return function LaterComponent(props) {
+    const { part: Part, isMissing } = usePart(made);
+    if (Part !== null) return <Part {...props} />;
+    return <div style={{ minHeight: room }}>{isMissing && <Missing part={made} />}</div>;
+  };
+}
+
+export function Missing({ part }: { readonly part: Pick<Later<unknown>, 'fetch'> }) {
+  return (
+    <EmptyState
+      className={styles.missing}
+      title={words.later.missing}
+      hint={words.later.missingHint}
+      action={<Button onPress={() => void part.fetch()}>{words.later.again}</Button>}
+    />
+  );
+}
