@@ -9,6 +9,7 @@ import json
 import shutil
 import subprocess
 from collections.abc import Sequence
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,7 @@ NODE = shutil.which("node")
 SERVOS = (1, 2, 6)
 # Longer than any answer takes (S33, S34).
 ANSWERS_WITHIN_S = 4.0
-STOP, MOVE = 7, 3
+STOP, MOVE, RUN = 7, 3, 6
 
 History = dict[str, Any]
 
@@ -89,7 +90,9 @@ class SteppedBoard:
     def take(self, data: bytes) -> None:
         self._note(data.hex())
         if data[COMMAND_AT] not in (STOP, MOVE):
-            self._talks_until_s = now() + ANSWERS_WITHIN_S
+            # A run may be told of at any time from then on.
+            lasts_s = inf if data[COMMAND_AT] == RUN else ANSWERS_WITHIN_S
+            self._talks_until_s = max(self._talks_until_s, now() + lasts_s)
 
     def lose(self, for_s: float) -> None:
         if not (self._port and self.is_plugged):
