@@ -57,6 +57,7 @@ export default defineConfig({
             enabled: true,
             headless: true,
             screenshotFailures: false,
+            viewport: { width: 1440, height: 900 },
             provider: playwright({
               launchOptions: executablePath === null ? {} : { executablePath },
               // Room for the largest window of a test.

@@ -12,6 +12,7 @@ interface FileChooser {
 
 interface Download {
   suggestedFilename(): string;
+  text(): Promise<string>;
   content(): Promise<Uint8Array>;
 }
 
@@ -52,7 +53,8 @@ export function watchFiles() {
       const { download: name, href } = target;
       // At once: the page takes the address back.
       const content = fetch(href).then(async (answer) => new Uint8Array(await answer.arrayBuffer()));
-      waiting.download.shift()?.({ suggestedFilename: () => name, content: () => content });
+      const text = async (): Promise<string> => new TextDecoder().decode(await content);
+      waiting.download.shift()?.({ suggestedFilename: () => name, content: () => content, text });
     }
   }
 

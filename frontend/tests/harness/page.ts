@@ -108,6 +108,8 @@ async function leave(): Promise<void> {
 }
 
 async function forgetAll(): Promise<void> {
+  // What the last test plugged in.
+  for (const name of ['getGamepads', 'serial']) Reflect.deleteProperty(navigator, name);
   localStorage.clear();
   sessionStorage.clear();
   for (const { name = '' } of await indexedDB.databases())
@@ -129,7 +131,6 @@ const USUAL_MEDIA: Media = {
 };
 let media: Media = USUAL_MEDIA;
 let screen: Screen = { hasTouch: false, deviceScaleFactor: 1 };
-let viewport = { width: 0, height: 0 };
 
 export function createPage() {
   const files = watchFiles();
@@ -145,8 +146,7 @@ export function createPage() {
   }
 
   async function setViewportSize(size: { readonly width: number; readonly height: number }): Promise<void> {
-    if (same(size, viewport)) return;
-    viewport = { ...size };
+    if (size.width === innerWidth && size.height === innerHeight) return;
     await tester.viewport(size.width, size.height);
     await realFrame();
     await advance(OPENING_MS);
@@ -165,7 +165,7 @@ export function createPage() {
     getByLabel: everything.getByLabel,
     locator: everything.locator,
     reload: () => goto(shown),
-    viewportSize: () => viewport,
+    viewportSize: () => ({ width: innerWidth, height: innerHeight }),
     evaluate: async <T, A>(run: (argument: A) => T, argument?: A): Promise<Awaited<T>> => {
       const result = await during(Promise.resolve(run(argument as A)));
       await advance(FRAME_MS);
@@ -182,7 +182,7 @@ export function createPage() {
         if (!(await holds(argument as A))) throw new Error('it does not hold');
       }),
     waitForEvent: files.next,
-    title: () => Promise.resolve(document.title),
+    title: () => Promise.resolve(document.title.replaceAll(/\s+/g, ' ')),
 
     async begin({ viewport: size, screen: wanted, ...looks }: Look): Promise<void> {
       await emulateMedia({ ...USUAL_MEDIA, ...looks });

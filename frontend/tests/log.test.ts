@@ -1,11 +1,10 @@
 // Under the hood: the packet log says in words and bytes what went over the link, is saved as a file, and sends by hand what
 // the board may get.
 
-import { readFileSync } from 'node:fs';
-import type { Page } from '@playwright/test';
-import { lastTarget } from '../fixtures/bus.ts';
-import type { Dashboard } from '../fixtures/dashboard.ts';
-import { expect, poll, test } from '../fixtures/test.ts';
+import type { Page } from './harness/page.ts';
+import { lastTarget } from '../../e2e/fixtures/bus.ts';
+import { expect, poll, test, type Dashboard } from './harness/test.ts';
+import { advance } from './harness/time.ts';
 
 test('the log shows packets in words and in bytes, both ways, and can be thinned out', async ({
   dashboard,
@@ -40,7 +39,7 @@ test('the log is saved as text that a person can read', async ({ dashboard, robo
   await dashboard.button('Save log').click();
   const file = await download;
   expect(file.suggestedFilename()).toMatch(/^servodeck-doc-\d{4}-\d\d-\d\dT\d{4}\.txt$/u);
-  const text = readFileSync(await file.path(), 'utf8');
+  const text = await file.text();
   expect(text).toMatch(/^servodeck-log: 1\nboard: doc\nport: .+\n/u);
   expect(text).toMatch(/^\d+\.\d{3} {2}= {2}opened {2}# Link ready$/mu);
   expect(text).toMatch(/^\d+\.\d{3} {2}> {2}55 55 08 03 01 D0 07 01 D0 07 {2}# Move 1 → 2000 in 2000 ms$/mu);
@@ -57,6 +56,8 @@ test('the folded log says a stop before anything that follows it', async ({ dash
     return texts;
   });
   await dashboard.drag(2, 0.3);
+  // It is on its way.
+  await advance(300);
   await dashboard.stop.click();
   await expect(dashboard.resume).toBeVisible();
   await expect(dashboard.estimate(2)).toBeVisible();

@@ -1,10 +1,10 @@
 // Driving by pad and keys: only when switched on, only while held, and STOP is in the hand. What the board heard is the judge.
 
-import type { Page } from '@playwright/test';
-import { lastTarget, ofKind, type Bus } from '../fixtures/bus.ts';
-import { READY, type Dashboard } from '../fixtures/dashboard.ts';
-import { plugInPad, type SyntheticPad } from '../fixtures/padInPage.ts';
-import { expect, poll, test as base } from '../fixtures/test.ts';
+import type { Page } from './harness/page.ts';
+import { lastTarget, ofKind, type Bus } from '../../e2e/fixtures/bus.ts';
+import { READY } from '../../e2e/fixtures/dashboard.ts';
+import { plugInPad, type SyntheticPad } from '../../e2e/fixtures/padInPage.ts';
+import { expect, poll, test, type Dashboard } from './harness/test.ts';
 
 /** Numbers of the standard pad, as the ready mapping uses them. */
 const STOP = 1;
@@ -12,8 +12,9 @@ const LEFT_BUTTON = 2;
 const RIGHT_TRIGGER = 7;
 
 /** Plugged in before the page opens. */
-const test = base.extend<{ readonly pad: SyntheticPad }>({
-  pad: [async ({ page }, use) => use(await plugInPad(page)), { auto: true }],
+let pad: SyntheticPad;
+test.beforeEach(async ({ page }) => {
+  pad = await plugInPad(page as unknown as Parameters<typeof plugInPad>[0]);
 });
 
 const driveSwitch = (page: Page) => page.getByRole('switch', { name: 'Drive' });
@@ -48,11 +49,10 @@ async function expectRest(bus: Bus): Promise<void> {
   }).toBeGreaterThan(OLDEST_MOVE_MS);
 }
 
-test('a pad moves nothing before it is switched on, then while it is held, and stops @everyWay', async ({
+test('a pad moves nothing before it is switched on, then while it is held, and stops', async ({
   dashboard,
   robot,
   page,
-  pad,
 }) => {
   await pad.hold(RIGHT_TRIGGER);
   await dashboard.type(dashboard.target(1), 1500);
@@ -84,7 +84,7 @@ test('a pad moves nothing before it is switched on, then while it is held, and s
   expect(ofKind(await robot.bus(), 'move')).toHaveLength(before);
 });
 
-test('a held key turns its servo; leaving the window ends it though the key is never let go @everyWay', async ({
+test('a held key turns its servo; leaving the window ends it though the key is never let go', async ({
   dashboard,
   robot,
   page,
@@ -104,7 +104,6 @@ test('a held key turns its servo; leaving the window ends it though the key is n
 test('the curve shows where a stick is and what comes of it, without driving', async ({
   dashboard,
   page,
-  pad,
 }) => {
   await expect(dashboard.link).toHaveText(READY);
   await page.getByRole('radio', { name: 'Keys and pad' }).check();
@@ -118,7 +117,7 @@ test('the curve shows where a stick is and what comes of it, without driving', a
   await expect.poll(at).toBe('40px -40px');
 });
 
-test('T keeps what the pad has just done, also while it drives', async ({ dashboard, robot, page, pad }) => {
+test('T keeps what the pad has just done, also while it drives', async ({ dashboard, robot, page }) => {
   await startDriving(dashboard);
   await pad.hold(RIGHT_TRIGGER);
   await poll(() => lastTarget(robot.bus, 1)).toBeGreaterThan(1700);
@@ -128,7 +127,7 @@ test('T keeps what the pad has just done, also while it drives', async ({ dashbo
   await expect(dialog).toContainText(/positions become \d+ keys/);
 });
 
-test('servos that nobody knows are asked for and go home slowly', async ({ dashboard, robot, page, pad }) => {
+test('servos that nobody knows are asked for and go home slowly', async ({ dashboard, robot, page }) => {
   await switchOn(page);
   await pad.hold(RIGHT_TRIGGER);
   await expect(dashboard.notices).toContainText('Gripper stays: nobody knows where it is.');
@@ -143,7 +142,6 @@ test('servos that nobody knows are asked for and go home slowly', async ({ dashb
 test('an input is bound by pressing it, says what it conflicts with, and is kept', async ({
   dashboard,
   page,
-  pad,
 }) => {
   await page.getByRole('radio', { name: 'Keys and pad' }).check();
   await dashboard.button('Add a key or stick').click();
@@ -164,12 +162,7 @@ test('an input is bound by pressing it, says what it conflicts with, and is kept
   await expect(conflicts).toBeVisible();
 });
 
-test('a button of the pad goes to a pose in the time that was chosen', async ({
-  dashboard,
-  robot,
-  page,
-  pad,
-}) => {
+test('a button of the pad goes to a pose in the time that was chosen', async ({ dashboard, robot, page }) => {
   await page.getByRole('radio', { name: 'Keys and pad' }).check();
   await dashboard.button('Add a key or stick').click();
   await pad.hold(LEFT_BUTTON);
@@ -189,7 +182,7 @@ test('a button of the pad goes to a pose in the time that was chosen', async ({
   expect(first?.durationMs).toBe(2500);
 });
 
-test('pulling the pad while it is held ends the motion', async ({ dashboard, robot, page, pad }) => {
+test('pulling the pad while it is held ends the motion', async ({ dashboard, robot, page }) => {
   await startDriving(dashboard);
   await pad.hold(RIGHT_TRIGGER);
   await poll(() => lastTarget(robot.bus, 1)).toBeGreaterThan(1600);
