@@ -55,11 +55,13 @@ async function loadTimes(page: Page, url: string): Promise<Load> {
   return page.evaluate(
     () =>
       new Promise<Load>((resolve) => {
+        let usableMs: number | null = null;
         requestAnimationFrame(function look() {
-          const slider = document.querySelector('input[type=range]:enabled');
-          if (slider === null) return void requestAnimationFrame(look);
+          if (document.querySelector('input[type=range]:enabled') !== null) usableMs ??= performance.now();
+          // The slider may be in the very first frame, which is painted behind this.
           const [paint] = performance.getEntriesByName('first-contentful-paint');
-          resolve({ paintMs: paint?.startTime ?? NaN, usableMs: performance.now() });
+          if (usableMs === null || paint === undefined) return void requestAnimationFrame(look);
+          resolve({ paintMs: paint.startTime, usableMs });
         });
       }),
   );
