@@ -57,9 +57,10 @@ export function isEnding() {
   return ending;
 }
 
+/** The last started first, for they need the ones before them: a gateway stops the robot on its board before it goes. */
 export async function endChildren() {
   ending = true;
-  await Promise.all([...living].map(endChild));
+  for (const child of [...living].reverse()) await endChild(child);
 }
 
 /**
