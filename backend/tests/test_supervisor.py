@@ -130,6 +130,7 @@ def test_the_unit_waits_long_enough_and_gives_only_what_is_needed() -> None:
     assert settings["Type"] == ["notify"]
     assert float(settings["WatchdogSec"][0]) > 4 * BEAT_S
     assert float(settings["TimeoutStopSec"][0]) > END_S
+    assert int(settings["Nice"][0]) < 0
     assert settings["DynamicUser"] == ["yes"]
     assert settings["CapabilityBoundingSet"] == [""]
     assert all(device.endswith(" rw") and "tty" in device for device in settings["DeviceAllow"])
