@@ -6,6 +6,7 @@ import { existsSync } from 'node:fs';
 import { family } from '#shared/protocol/families.ts';
 import { python } from '../scripts/python.mjs';
 import { mustRun } from '../scripts/steps.mjs';
+import { amount } from './amounts.ts';
 import { packetsInto, type BusPacket } from './busPackets.ts';
 import type { Figure } from './figure.ts';
 import { stopFigures, stopTimes } from './presses.ts';
@@ -15,9 +16,9 @@ import { percentile } from './statistics.ts';
 /** With the driver and whoever presses STOP all 216 seats. */
 const READERS = 194;
 const NON_READERS = 20;
-const SECONDS = 30;
-const SECONDS_ALONE = 10;
-const PRESSES = 60;
+const SECONDS = amount(12, 3);
+const SECONDS_ALONE = amount(6, 2);
+const PRESSES = amount(30, 4);
 /** safety.md section 5: F11 with everybody reading, F10 with some who do not. */
 const AGE_LIMIT_MS = 150;
 const GROWTH_LIMIT_MIB = 20;

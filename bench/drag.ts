@@ -18,13 +18,14 @@ import { createSession } from '#shared/session/session.ts';
 import type { BusLogEntry } from '#shared/simulator/busLog.ts';
 import { createSimulatedTransport } from '#shared/simulator/transport.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { amount } from './amounts.ts';
 import { packetsInto } from './busPackets.ts';
 import type { Figure, Rival } from './figure.ts';
 import { realClock } from './realClock.ts';
 import { percentile } from './statistics.ts';
 
 const SERVO_COUNTS = [6, 16, 32];
-const DRAG_MS = 7_900;
+const DRAG_MS = amount(7_900, 1_500);
 const FRAME_MS = 1_000 / 60;
 /** The page takes no more than that, see useRawDrag.ts. */
 const QUICK_POINTER_MS = 4;

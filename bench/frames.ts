@@ -6,12 +6,13 @@
 import type { Page } from '@playwright/test';
 import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
 import { robotToText } from '#shared/actions/robot/robotText.ts';
+import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { mainThreadOf, type MainThread } from './mainThread.ts';
 import { openDashboard, withBoard, withPage } from './station.ts';
 
 export const SLOWER = 4;
-const MEASURE_MS = 4_000;
+const MEASURE_MS = amount(4_000, 1_000);
 const FRAMES_PER_SECOND = 60;
 export const DUE = (MEASURE_MS / 1_000) * FRAMES_PER_SECOND;
 /** Longer than it is looked at: each servo is under way all the time. */

@@ -6,6 +6,7 @@ import type { Page } from '@playwright/test';
 import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { groupToText } from '#shared/actions/group/groupText.ts';
+import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { drawing, DUE, ROBOTS, SLOWER, type Drawing } from './frames.ts';
 import { mainThreadOf, type MainThread } from './mainThread.ts';
@@ -14,7 +15,7 @@ import { median } from './statistics.ts';
 
 const FRAMES = 255;
 const SERVOS = 32;
-const REPEATS = 15;
+const REPEATS = amount(15, 3);
 const REST_MS = 300;
 const MOUNT_LIMIT_MS = 50;
 const EDIT_LIMIT_MS = 2;

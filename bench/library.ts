@@ -6,6 +6,7 @@ import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { groupToText } from '#shared/actions/group/groupText.ts';
 import { factsOf } from '#shared/actions/library/facts.ts';
+import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { mainThreadOf, type MainThread } from './mainThread.ts';
 import { openDashboard, withBoard, withPage } from './station.ts';
@@ -14,7 +15,7 @@ import { median } from './statistics.ts';
 const GROUPS = 504;
 const SERVOS = 16;
 const FRAMES = 56;
-const REPEATS = 9;
+const REPEATS = amount(5, 1);
 const REST_MS = 400;
 const OPEN_LIMIT_MS = 150;
 

@@ -16,6 +16,7 @@ import { createSession, type Session } from '#shared/session/session.ts';
 import { createGatewayTransport } from '../frontend/src/transports/gateway.ts';
 import { python } from '../scripts/python.mjs';
 import { mustRun } from '../scripts/steps.mjs';
+import { amount } from './amounts.ts';
 import { packetsInto, type BusPacket } from './busPackets.ts';
 import { withEcho } from './echo.ts';
 import type { Figure } from './figure.ts';
@@ -26,11 +27,11 @@ import { median, percentile } from './statistics.ts';
 
 const DELAYS_MS = [0, 5, 20, 50];
 const SERVO_COUNTS = [6, 32];
-const DRAG_MS = 6_000;
+const DRAG_MS = amount(3_000, 500);
 /** The page takes no more than that, see useRawDrag.ts. */
 const POINTER_MS = 4;
 const SHARE_LIMIT = 0.95;
-const ECHOES = 40;
+const ECHOES = amount(40, 5);
 const family = familyOf('doc');
 /** Event k says 500 + k: each value names the event it came from. */
 const FIRST_POSITION = family.position.min;

@@ -10,14 +10,15 @@ import { encodeCommand, encodeReport } from '#shared/protocol/encode.ts';
 import { family } from '#shared/protocol/families.ts';
 import { python } from '../scripts/python.mjs';
 import { mustRun } from '../scripts/steps.mjs';
+import { amount } from './amounts.ts';
 import { withEcho } from './echo.ts';
 import type { Figure } from './figure.ts';
 import { withBoard, withPage } from './station.ts';
 import { percentile } from './statistics.ts';
 
-const TRIPS = 400;
+const TRIPS = amount(200, 40);
 /** Thrown away: caches and compilers warm up, on both sides alike. */
-const WARM_UP_TRIPS = 50;
+const WARM_UP_TRIPS = amount(30, 5);
 /** No question waits for its turn: longer than the gateway leaves between two packets, and it takes 30 messages a second. */
 const PAUSE_MS = 45;
 

@@ -6,12 +6,13 @@ import { freePort } from '../scripts/address.mjs';
 import { endChild, startChild } from '../scripts/children.mjs';
 import { python } from '../scripts/python.mjs';
 import { SetupProblem } from '../scripts/steps.mjs';
+import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { temporaryFolder, withBoard } from './station.ts';
 import { median } from './statistics.ts';
 
-const STARTS = 5;
-const IDLE_MS = 60_000;
+const STARTS = amount(7, 1);
+const IDLE_MS = amount(10_000, 1_000);
 const POLL_MS = 2;
 const READY_MS = 15_000;
 const HOST = '127.0.0.1';

@@ -4,6 +4,7 @@
 import { once } from 'node:events';
 import { createServer, type AddressInfo, type Socket } from 'node:net';
 import { family } from '#shared/protocol/families.ts';
+import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { stopFigures, type StopTimes } from './presses.ts';
 import { withPresser, type Presser } from './presser.ts';
@@ -16,8 +17,8 @@ const STEADY_MS = 5_100;
 const PRESS_WITHIN_MS = 400;
 const SEQUENCE_MS = 300;
 /** Each takes five seconds and next to nothing of the processor. */
-const ROBOTS = 8;
-const PRESSES_EACH = 25;
+const ROBOTS = amount(8, 4);
+const PRESSES_EACH = amount(5, 1);
 const STOP = Buffer.from([0x55, 0x55, 0x02, 0x07]);
 
 interface Port {

@@ -6,13 +6,14 @@ import { python } from '../scripts/python.mjs';
 import { endChild, startChild } from '../scripts/children.mjs';
 import { SetupProblem } from '../scripts/steps.mjs';
 import { family } from '#shared/protocol/families.ts';
+import { amount } from './amounts.ts';
 import { packetsInto } from './busPackets.ts';
 import type { Figure } from './figure.ts';
 import { stopFigures, stopTimes, type StopTimes } from './presses.ts';
 import { withPresser, type Presser } from './presser.ts';
 import { withBoard, withGateway } from './station.ts';
 
-const PRESSES = 200;
+const PRESSES = amount(80, 5);
 const STOPS_PER_PRESS = 3;
 const SLOT = 8;
 /** A download that was stopped has the next one wait 2.5 s; several robots at once take the time of one. */

@@ -11,13 +11,14 @@ import { deleteTime, insertTime, reverse, stretch } from '#shared/actions/group/
 import { tracksOf, type KeyRef } from '#shared/actions/group/tracks.ts';
 import { family } from '#shared/protocol/families.ts';
 import { createRandom } from '#shared/simulator/random.ts';
+import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { median } from './statistics.ts';
 
 const FRAMES = 255;
 const SERVOS = 32;
 const SEED = 255;
-const RUNS = 31;
+const RUNS = amount(31, 3);
 const EDIT_LIMIT_MS = 2;
 
 type Edit = (group: ActionGroup) => ActionGroup;
