@@ -4,7 +4,6 @@ import { takenOver, type MotionBefore, type WayBefore } from './before.ts';
 import { UNKNOWN_MOTION } from './model.ts';
 import {
   afterCommand,
-  afterReport,
   gentleMs,
   positionAt,
   readingOf,
@@ -12,6 +11,7 @@ import {
   type KnownBoard,
   type Motion,
 } from './motion.ts';
+import { afterReport } from './reports.ts';
 import type { Report } from '../protocol/reports.ts';
 
 const DOC: KnownBoard = { family: family('doc'), playedFrames: () => null };
