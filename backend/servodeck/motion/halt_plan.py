@@ -176,12 +176,13 @@ def hold_ms(motion: Motion, held: list[Held], at_ms: float, family: Family) -> i
         family.shortest_move_ms,
         FIRST_MOVE_MS * way / (family.position.max - family.position.min),
         UNKNOWN_FRAME_MS if is_guess else 0,
-        unknown_ms(motion, at_ms) if family.motion.timing == "shared" else 0,
+        unknown_ms(motion, at_ms, family.motion.tick_ms) if family.motion.timing == "shared" else 0,
     )
     return math.ceil(needs_ms / family.motion.tick_ms) * family.motion.tick_ms
 
 
-def unknown_ms(motion: Motion, at_ms: float) -> float:
-    """How long what nobody can hold still needs, or is given."""
-    ends_ms = [end_ms(track) - at_ms for track in motion.tracks.values() if guess_of(track, at_ms) is None]
-    return max([min(UNKNOWN_FRAME_MS, motion.restless_until_ms - at_ms), *ends_ms])
+def unknown_ms(motion: Motion, at_ms: float, tick_ms: float) -> float:
+    """How long what nobody can hold still needs, a begun tick with it, or is given."""
+    unknown = [track for track in motion.tracks.values() if guess_of(track, at_ms) is None]
+    needs_ms = [end_ms(track) - at_ms + tick_ms for track in unknown]
+    return max([min(UNKNOWN_FRAME_MS, motion.restless_until_ms - at_ms), *needs_ms])

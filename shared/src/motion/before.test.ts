@@ -13,6 +13,7 @@ import {
 } from './motion.ts';
 import { afterReport } from './reports.ts';
 import type { Report } from '../protocol/reports.ts';
+import { afterReport } from './reports.ts';
 
 const DOC: KnownBoard = { family: family('doc'), playedFrames: () => null };
 const NOW_MS = 10_000;

@@ -167,13 +167,14 @@ function holdMs(motion: Motion, held: readonly Held[], atMs: number, family: Fam
     shortestMoveMs,
     (FIRST_MOVE_MS * way) / (position.max - position.min),
     isGuess ? UNKNOWN_FRAME_MS : 0,
-    traits.timing === 'shared' ? unknownMs(motion, atMs) : 0,
+    traits.timing === 'shared' ? unknownMs(motion, atMs, traits.tickMs) : 0,
   );
   return Math.ceil(needsMs / traits.tickMs) * traits.tickMs;
 }
 
-/** How long what nobody can hold still needs, or is given. */
-function unknownMs({ tracks, restlessUntilMs }: Motion, atMs: number): number {
+/** How long what nobody can hold still needs, a begun tick with it, or is given. */
+function unknownMs({ tracks, restlessUntilMs }: Motion, atMs: number, tickMs: number): number {
   const ends = [...tracks.values()].filter((track) => guessOf(track, atMs) === null).map(endMs);
-  return Math.max(Math.min(UNKNOWN_FRAME_MS, restlessUntilMs - atMs), ...ends.map((end) => end - atMs));
+  const needMs = ends.map((end) => end - atMs + tickMs);
+  return Math.max(Math.min(UNKNOWN_FRAME_MS, restlessUntilMs - atMs), ...needMs);
 }

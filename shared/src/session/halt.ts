@@ -123,6 +123,7 @@ export function createHalt(options: HaltOptions): Halt {
 
   /** Behind its last packet more is known of what goes on than at the press; undefined where that is said elsewhere. */
   async function send(sequence: () => Promise<Unheld | null | undefined>): Promise<void> {
+    const pressedMs = clock.now();
     const sending = sequence();
     underWay = sending.then(
       () => undefined,
@@ -132,7 +133,8 @@ export function createHalt(options: HaltOptions): Halt {
       const unheld = await sending;
       note('sent', unheld);
     } catch (error) {
-      note('failed');
+      // What was planned to hold the robot did not leave.
+      note('failed', options.unheldSince(pressedMs));
       throw error;
     }
   }

@@ -56,7 +56,40 @@ describe.each(SIMULATED)('$profile', ({ profile }) => {
 
 const PLAIN = { hasPad: true, isSlow: false, wasErased: false };
 
-const FOUND: readonly { readonly name: string; readonly profile: 'doc'; readonly history: StopHistory }[] = [
+const FOUND: readonly {
+  readonly name: string;
+  readonly profile: 'doc' | 'learm-esp32';
+  readonly history: StopHistory;
+}[] = [
+  {
+    name: 'a STOP that does not leave holds nothing',
+    profile: 'learm-esp32',
+    history: {
+      ...{ onForMs: 60_002, hasPad: false, isSlow: true, wasErased: false },
+      unknown: [{ durationMs: 295, targets: [{ servo: 2, position: 1271 }] }],
+      known: [{ durationMs: 300, targets: [{ servo: 1, position: 697 }] }],
+      steps: [
+        { kind: 'wait', ms: 58 },
+        {
+          kind: 'move',
+          durationMs: 52,
+          targets: [
+            { servo: 2, position: 659 },
+            { servo: 6, position: 1722 },
+          ],
+        },
+        { kind: 'run', slot: 77, times: 2 },
+        {
+          kind: 'download',
+          slot: 9,
+          frames: [{ durationMs: 3001, targets: [{ servo: 2, position: 1606 }] }],
+        },
+        { kind: 'halt' },
+        { kind: 'wait', ms: 1259 },
+        { kind: 'loss', awayMs: 50 },
+      ],
+    },
+  },
   {
     name: 'a group that has ended was re-timed by a move that left before',
     profile: 'doc',

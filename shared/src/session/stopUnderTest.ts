@@ -155,10 +155,8 @@ export async function stopped(profile: ProfileName, history: StopHistory): Promi
 
   const pressedMs = clock.now();
   let sentMs = Infinity;
-  const settled = session.halt().then(
-    () => (sentMs = clock.now()),
-    () => (sentMs = clock.now()),
-  );
+  // Where the link is away, the session stops the board as soon as it is back.
+  const settled = session.halt().then(() => (sentMs = clock.now()), ignore);
   const holds = watchHolds(rig);
   let last = look();
   const movedForMs = SERVOS.map(() => 0);
@@ -177,6 +175,7 @@ export async function stopped(profile: ProfileName, history: StopHistory): Promi
   }
   await settled;
   const { latch } = session.state;
+  if (sentMs === Infinity) sentMs = rig.heard.at(-1)?.atMs ?? pressedMs;
   board.powerOff();
   return {
     ...{ unheld: latch?.unheld ?? null, movedForMs, sentForMs: sentMs - pressedMs },
