@@ -3,7 +3,7 @@ import { fetchRest, later } from './later.tsx';
 
 test('a part is fetched once, however many want it', async () => {
   let count = 0;
-  const part = later(async () => `part ${(count += 1)}`);
+  const part = later(() => Promise.resolve(`part ${(count += 1)}`));
   expect(part.store.getState()).toEqual({ part: null, isMissing: false });
   await Promise.all([part.fetch(), part.fetch()]);
   await part.fetch();
