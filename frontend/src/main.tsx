@@ -16,39 +16,44 @@ if (element === null) throw new Error('index.html has no #page');
 const root = createRoot(element);
 const show = (content: ReactNode): void => root.render(<StrictMode>{content}</StrictMode>);
 
-const arrival = await arrive(window);
-const { me, entered } = arrival;
-const role = me === null ? 'owner' : me.you?.role;
-const suggested = deviceName(navigator.userAgent);
-const isOutside = role === undefined || role === 'stopper';
-if (isOutside || entered !== null) await speak(preferredLanguage(navigator.languages));
+/** No await of the module itself: parts that are fetched import from it, and would wait for each other. */
+async function start(): Promise<void> {
+  const arrival = await arrive(window);
+  const { me, entered } = arrival;
+  const role = me === null ? 'owner' : me.you?.role;
+  const suggested = deviceName(navigator.userAgent);
+  const isOutside = role === undefined || role === 'stopper';
+  if (isOutside || entered !== null) await speak(preferredLanguage(navigator.languages));
 
-if (isOutside) {
-  const { Outside } = await import('./people/Outside.tsx');
-  show(
-    <Outside
-      mayStop={role === 'stopper'}
-      overheard={me?.overheard ?? false}
-      suggested={suggested}
-      problem={arrival.problem}
-      pair={async (wish) => {
-        await pair(wish);
-        location.reload();
-      }}
-      stop={stopRobot}
-    />,
-  );
-} else if (entered === null) {
-  show(<App page={await openPage(arrival)} />);
-} else {
-  const { Guest } = await import('./people/Outside.tsx');
-  show(
-    <Guest
-      suggested={entered.name}
-      enter={async (name) => {
-        const you = name === entered.name ? entered : await sayName(name);
-        show(<App page={await openPage({ ...arrival, me: me && { ...me, you } })} />);
-      }}
-    />,
-  );
+  if (isOutside) {
+    const { Outside } = await import('./people/Outside.tsx');
+    show(
+      <Outside
+        mayStop={role === 'stopper'}
+        overheard={me?.overheard ?? false}
+        suggested={suggested}
+        problem={arrival.problem}
+        pair={async (wish) => {
+          await pair(wish);
+          location.reload();
+        }}
+        stop={stopRobot}
+      />,
+    );
+  } else if (entered === null) {
+    show(<App page={await openPage(arrival)} />);
+  } else {
+    const { Guest } = await import('./people/Outside.tsx');
+    show(
+      <Guest
+        suggested={entered.name}
+        enter={async (name) => {
+          const you = name === entered.name ? entered : await sayName(name);
+          show(<App page={await openPage({ ...arrival, me: me && { ...me, you } })} />);
+        }}
+      />,
+    );
+  }
 }
+
+void start();
