@@ -13,7 +13,6 @@ import {
 } from './motion.ts';
 import { afterReport } from './reports.ts';
 import type { Report } from '../protocol/reports.ts';
-import { afterReport } from './reports.ts';
 
 const DOC: KnownBoard = { family: family('doc'), playedFrames: () => null };
 const NOW_MS = 10_000;
