@@ -11,9 +11,9 @@ import { DocumentThumb } from './DocumentThumb.tsx';
 import styles from './Library.module.css';
 
 export interface DocumentCardProps {
-  /** Where its height stands for that of its row: with the row's index. */
+  /** Where its height stands for that of its row. */
   readonly ref?: Ref<HTMLLIElement>;
-  readonly row?: number;
+  readonly row: number;
   /** In the whole list of `count`, from 1: not all of them are drawn. */
   readonly place: number;
   readonly count: number;

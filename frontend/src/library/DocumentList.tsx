@@ -49,7 +49,8 @@ function Cards({ documents, nowMs, onDone }: DocumentListProps) {
         ...(rows[index] ?? []).map((document, column) => (
           <DocumentCard
             key={document.id}
-            {...(column === 0 && { ref: measure, row: index })}
+            {...(column === 0 && { ref: measure })}
+            row={index}
             place={(places.get(document.id) ?? 0) + 1}
             count={documents.length}
             document={document}

@@ -19,7 +19,7 @@ export interface VisibleRow {
 export interface VisibleRows {
   readonly rows: readonly VisibleRow[];
   readonly roomBehindPx: number;
-  /** For one card of each row, which carries `data-index`. */
+  /** For one card of each row. All carry `data-index`: in a list of other width another one is first. */
   measure(card: Element | null): void;
 }
 
