@@ -2,30 +2,44 @@
 // under the finger, and keeps the focus of the keys, that makes it.
 
 import { FilesArea } from '../files/FilesArea.tsx';
+import type { ViewState } from '../stores/view.ts';
 import { useView } from '../stores/stores.ts';
-import { later, Missing, usePart } from '../ui/later.tsx';
+import { later, Missing, usePart, type Later } from '../ui/later.tsx';
 import { Panel, type PanelParts } from '../ui/Panel.tsx';
 import { words } from '../words/words.ts';
 import { AuthoringTabs } from './AuthoringTabs.tsx';
 import styles from './Authoring.module.css';
 
-const PARTS = {
-  group: later(async () => (await import('../actions/ActionsPanel.tsx')).actionsParts),
-  poses: later(async () => (await import('../poses/PosesPanel.tsx')).posesParts),
-  pad: later(async () => (await import('../pad/PadPanel.tsx')).padParts),
-} as const;
+type Name = ViewState['authoring'];
+
+const PARTS: Readonly<Record<Name, ComingParts>> = {
+  group: coming('group', async () => (await import('../actions/ActionsPanel.tsx')).actionsParts),
+  poses: coming('poses', async () => (await import('../poses/PosesPanel.tsx')).posesParts),
+  pad: coming('pad', async () => (await import('../pad/PadPanel.tsx')).padParts),
+};
+
+interface ComingParts {
+  readonly whole: Later<PanelParts>;
+  /** What stands there until it has come. */
+  readonly until: PanelParts;
+}
+
+function coming(name: Name, load: () => Promise<PanelParts>): ComingParts {
+  const whole = later(load);
+  return {
+    whole,
+    until: {
+      title: () => words.authoring[name],
+      Tools: () => null,
+      Content: () => usePart(whole).isMissing && <Missing part={whole} />,
+      className: styles.coming,
+    },
+  };
+}
 
 export function Authoring() {
-  const authoring = useView((state) => state.authoring);
-  const { part, isMissing } = usePart(PARTS[authoring]);
-  if (part !== null) return <AuthoringPanel {...part} />;
-  return (
-    <FilesArea>
-      <Panel title={words.authoring[authoring]} tabs={<AuthoringTabs />} className={styles.coming}>
-        {isMissing && <Missing part={PARTS[authoring]} />}
-      </Panel>
-    </FilesArea>
-  );
+  const { whole, until } = PARTS[useView((state) => state.authoring)];
+  return <AuthoringPanel {...(usePart(whole).part ?? until)} />;
 }
 
 export function AuthoringPanel({ title, Note, Tools, Content, className }: PanelParts) {

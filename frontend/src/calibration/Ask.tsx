@@ -7,7 +7,7 @@ import styles from './CalibrationWizard.module.css';
 export function Ask({ children }: { readonly children: ReactNode }) {
   const asked = useRef<HTMLParagraphElement>(null);
   useLayoutEffect(() => {
-    if (document.activeElement === document.body) asked.current?.focus();
+    if (document.activeElement?.contains(asked.current)) asked.current?.focus();
   }, []);
   return (
     <p ref={asked} className={styles.ask} tabIndex={-1}>
