@@ -5,7 +5,6 @@ page's affair (shared/src/protocol); the gateway only has to judge what goes on 
 both codecs to each other.
 """
 
-from functools import lru_cache
 from typing import Literal, assert_never
 
 from servodeck.protocol.decoder import (
@@ -124,12 +123,8 @@ def whole_packet(packet: bytes) -> Packet | None:
     return Packet(packet[3], packet[4:]) if packet[2] + 2 == len(packet) else None
 
 
-@lru_cache(maxsize=64)
 def parse_command(packet: bytes) -> Command | None:
-    """The command, or None where the bytes are not exactly a known one in shape. Judges no limits.
-
-    Remembered, because several parts ask about each packet on its way, and a move of 32 servos takes a while.
-    """
+    """The command, or None where the bytes are not exactly a known one in shape. Judges no limits."""
     whole = whole_packet(packet)
     if whole is None:
         return None
