@@ -37,8 +37,9 @@ export function freshBrowser(): { readonly browser: FakeBrowser } {
     vi.stubGlobal('document', { visibilityState: 'visible' });
   });
   afterEach(() => {
-    vi.useRealTimers();
+    // In this order: what hid the tabs was put over the timers of the test.
     vi.unstubAllGlobals();
+    vi.useRealTimers();
   });
   return {
     get browser() {
