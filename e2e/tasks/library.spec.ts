@@ -96,7 +96,7 @@ test('of many groups those in sight are drawn, wherever the list is, and keys le
   });
   const cards = library.list.getByRole('listitem');
   const named = library.list.getByRole('button', { name: /^Open / });
-  await expect(cards.first()).toHaveAttribute('aria-setsize', /^10\d$/);
+  await expect(cards.first()).toHaveAttribute('aria-setsize', /^[1-9]\d\d$/);
   const count = Number(await cards.first().getAttribute('aria-setsize'));
   expect((await library.names()).length).toBeLessThan(50);
   const [first] = await library.names();
