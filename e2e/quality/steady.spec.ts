@@ -57,6 +57,8 @@ for (const viewport of SIZES) {
       await expect(dashboard.link).toHaveText(/Simulated/);
       await expect(dashboard.estimate(6)).toBeVisible();
       await expect(dashboard.status).toContainText('Idle');
+      // What the first load leaves out has come.
+      await page.waitForLoadState('networkidle');
 
       await expectSteady('a message', async () => {
         await dashboard.type(dashboard.target(1), 9999);
@@ -69,6 +71,7 @@ for (const viewport of SIZES) {
       await dashboard.button('Unbind all').click();
       await tab('Actions');
       await page.getByRole('radio', { name: 'Keys and pad' }).check();
+      await expect(page.getByRole('switch', { name: 'Drive', exact: true })).toBeVisible();
       await expectSteady('a pad is gone', async () => {
         await page.evaluate(() => void (window.padInPage.isPlugged = false));
         await expect(page.getByText('No pad seen')).toBeVisible();
