@@ -43,10 +43,10 @@ export function at(relative) {
 /**
  * Runs a program to its end and collects what it printed.
  * @param {string} command @param {readonly string[]} args
- * @param {{env?: NodeJS.ProcessEnv, shell?: boolean, limitMs?: number}} [options]
+ * @param {{env?: NodeJS.ProcessEnv, shell?: boolean}} [options]
  * @returns {Promise<{code: number, output: string}>} code 127 when the program could not be started
  */
-export function run(command, args, { env = {}, shell = false, limitMs } = {}) {
+export function run(command, args, { env = {}, shell = false } = {}) {
   return new Promise((resolve) => {
     const child = spawn(command, args, {
       cwd: root,
@@ -57,18 +57,12 @@ export function run(command, args, { env = {}, shell = false, limitMs } = {}) {
     });
     running.add(child);
     let output = '';
-    const limit = limitMs && setTimeout(() => giveUp(limitMs), limitMs);
-    function giveUp(/** @type {number} */ afterMs) {
-      output += `\nNot done after ${afterMs / 1000} s; ended.\n`;
-      endGroup(child);
-    }
     const collect = (/** @type {Buffer} */ bytes) => (output += bytes.toString());
     child.stdout.on('data', collect);
     child.stderr.on('data', collect);
     child.on('error', (error) => resolve({ code: 127, output: error.message }));
     child.on('close', (code) => {
       running.delete(child);
-      clearTimeout(limit);
       resolve({ code: code ?? 1, output });
     });
   });
