@@ -1,74 +1,15 @@
-// Unit and property tests, beside the code they prove, and component tests: the page in a browser, in virtual time. Journeys
-// through the whole product are in e2e/.
+// Unit and property tests, beside the code they prove.
 
-import { resolve } from 'node:path';
-import { playwright } from '@vitest/browser-playwright';
 import { defineConfig } from 'vitest/config';
-import { commands } from './frontend/tests/harness/commands.ts';
-import { findBrowser } from './scripts/browser.mjs';
-
-const executablePath = findBrowser();
 
 export default defineConfig({
   test: {
     restoreMocks: true,
     expect: { requireAssertions: true },
-    projects: [
-      {
-        extends: true,
-        test: {
-          name: 'unit',
-          include: ['shared/src/**/*.test.ts', 'frontend/src/**/*.test.{ts,tsx}', 'bench/**/*.test.ts'],
-          setupFiles: ['vitest.setup.ts'],
-          environment: 'node',
-          // A worker of its own for each of 200 files would cost more than the tests.
-          isolate: false,
-        },
-      },
-      {
-        extends: true,
-        // React as it ships: its development build draws four times slower.
-        define: { 'process.env.NODE_ENV': '"production"' },
-        oxc: { jsx: { runtime: 'automatic', development: false } },
-        // The words of end-to-end tests are shared; what they expect is waited for in the page's time.
-        resolve: {
-          alias: [
-            {
-              find: /^@playwright\/test$|^[.]\/test[.]ts$/,
-              replacement: resolve(import.meta.dirname, 'frontend/tests/harness/expect.ts'),
-            },
-          ],
-        },
-        optimizeDeps: {
-          include: ['axe-core'],
-          rolldownOptions: { transform: { define: { 'process.env.NODE_ENV': '"production"' } } },
-        },
-        publicDir: 'frontend/public',
-        test: {
-          name: 'components',
-          include: ['frontend/tests/**/*.test.{ts,tsx}'],
-          setupFiles: ['frontend/tests/harness/setup.ts'],
-          // Ends what hangs: nothing here waits for a real clock.
-          testTimeout: 60_000,
-          maxWorkers: 2,
-          // One window for all files of a worker: each test opens the page anew, and its modules are read once.
-          isolate: false,
-          browser: {
-            enabled: true,
-            headless: true,
-            screenshotFailures: false,
-            viewport: { width: 1440, height: 900 },
-            provider: playwright({
-              launchOptions: executablePath === null ? {} : { executablePath },
-              // Room for the largest window of a test.
-              contextOptions: { locale: 'en-GB', viewport: { width: 1920, height: 1200 } },
-            }),
-            commands,
-            instances: [{ browser: 'chromium' }],
-          },
-          provide: { isExhaustive: process.env.EXHAUSTIVE === '1' },
-        },
-      },
-    ],
+    include: ['shared/src/**/*.test.ts', 'frontend/src/**/*.test.{ts,tsx}', 'bench/**/*.test.ts'],
+    setupFiles: ['vitest.setup.ts'],
+    environment: 'node',
+    // A worker of its own for each of 200 files would cost more than the tests.
+    isolate: false,
   },
 });

@@ -90,23 +90,23 @@ function tried(amount) {
   return { env, limitMs: 60 * 60_000 };
 }
 
-/** @param {'unit' | 'components'} project @returns {Pick<Task, 'command' | 'tests'>} */
-function vitest(project) {
-  const reporters = ['--reporter=dot', '--reporter=junit', `--outputFile.junit=${reportOf(project)}`];
+/** @param {'unit' | 'components'} name @param {string} config @returns {Pick<Task, 'command' | 'tests'>} */
+function vitest(name, config) {
+  const reporters = ['--reporter=dot', '--reporter=junit', `--outputFile.junit=${reportOf(name)}`];
   return {
-    command: node('vitest/vitest.mjs', 'run', '--project', project, ...reporters),
-    tests: () => testsOf(project),
+    command: node('vitest/vitest.mjs', 'run', '--config', config, ...reporters),
+    tests: () => testsOf(name),
   };
 }
 
 /** @param {Amount} amount @returns {Task} */
 function unit(amount) {
-  return { name: 'unit and property', ...vitest('unit'), ...tried(amount) };
+  return { name: 'unit and property', ...vitest('unit', 'vitest.config.ts'), ...tried(amount) };
 }
 
 /** The page in a browser, in virtual time. @param {Amount} amount @returns {Task} */
 function components(amount) {
-  return { name: 'components', ...vitest('components'), ...tried(amount) };
+  return { name: 'components', ...vitest('components', 'vitest.components.config.ts'), ...tried(amount) };
 }
 
 /** Two at least: some tests wait. */
