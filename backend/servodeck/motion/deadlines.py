@@ -15,7 +15,7 @@ from servodeck.motion.model import (
     UnknownRun,
     running_unknown,
 )
-from servodeck.motion.tracks import LONGEST_MOVE_MS, restless_behind, retarget
+from servodeck.motion.tracks import LONGEST_MOVE_MS, contested, order_at, restless_behind, retarget
 from servodeck.protocol.families import Family
 from servodeck.protocol.values import Frame, Run
 
@@ -96,13 +96,14 @@ def begin_frame(motion: Motion, run: DeadlineRun, board: KnownBoard) -> Motion:
         return running_unknown(motion, run.slot, run.ends_to_hear, run.next_at_ms + longest)
     if run.next >= len(frames):
         return replace(motion, run=None)
-    frame = frames[run.next]
+    frame, family = frames[run.next], board.family
+    last_frame = order_at(frame.targets, frame.duration_ms, run.next_at_ms, family)
+    tracks = retarget(motion.tracks, frame.targets, frame.duration_ms, run.next_at_ms, family)
     return replace(
         motion,
-        tracks=retarget(motion.tracks, frame.targets, frame.duration_ms, run.next_at_ms, board.family),
-        restless_until_ms=restless_behind(
-            motion.restless_until_ms, frame.duration_ms, run.next_at_ms, board.family
-        )
+        last_frame=last_frame,
+        tracks=contested(tracks, last_frame, motion.last_move, family),
+        restless_until_ms=restless_behind(motion.restless_until_ms, frame.duration_ms, run.next_at_ms, family)
         if frame.targets
         else motion.restless_until_ms,
         # The raw time, not the one the servos were given (S43).

@@ -9,7 +9,7 @@ from math import inf
 from typing import Literal, Protocol
 
 from servodeck.motion.told import Told, only_let_go
-from servodeck.motion.tracks import Tracks, doubted
+from servodeck.motion.tracks import Order, Tracks, doubted
 from servodeck.protocol.families import Family
 from servodeck.protocol.values import Frame, Report, Run
 
@@ -65,6 +65,8 @@ class Motion:
     told: Told = field(default_factory=dict)
     """Of servos without a track."""
     run: AnyRun | None = None
+    last_move: Order | None = None
+    last_frame: Order | None = None
     untold_end_ms: float = -inf
     """When a group ended by our clock that the board has not told the end of yet."""
     deaf_until_ms: float = -inf

@@ -28,11 +28,13 @@ from servodeck.motion.told import after_order, held_at, only_let_go
 from servodeck.motion.tracks import (
     LONGEST_MOVE_MS,
     Tracks,
+    contested,
     end_ms,
     last_end_ms,
     leeway_of,
     lengthened,
     only,
+    order_at,
     position_of,
     restless_behind,
     retarget,
@@ -165,6 +167,7 @@ def after_heard(motion: Motion, command: Command, at_ms: float, board: KnownBoar
 
 
 def moved(motion: Motion, move: Move, at_ms: float, board: KnownBoard) -> Motion:
+    last_move = order_at(move.targets, move.duration_ms, at_ms, board.family)
     # A frame of that group may overrule it at any time.
     is_sure = not isinstance(motion.run, UnknownRun)
     tracks = retarget(
@@ -176,7 +179,12 @@ def moved(motion: Motion, move: Move, at_ms: float, board: KnownBoard) -> Motion
         is_sure=is_sure,
     )
     restless_until_ms = restless_behind(motion.restless_until_ms, move.duration_ms, at_ms, board.family)
-    return replace(motion, tracks=tracks, restless_until_ms=restless_until_ms)
+    return replace(
+        motion,
+        last_move=last_move,
+        tracks=contested(tracks, last_move, motion.last_frame, board.family),
+        restless_until_ms=restless_until_ms,
+    )
 
 
 def with_start(motion: Motion, targets: Sequence[ServoTarget]) -> Tracks:

@@ -108,6 +108,37 @@ def restless_behind(restless_until_ms: float, requested_ms: float, at_ms: float,
     return at_ms + board_duration_ms(requested_ms, family) + traits.tick_ms + traits.talk_ms
 
 
+@dataclass(frozen=True, slots=True)
+class Order:
+    """The targets of a move or of a frame, and when they take effect and arrive."""
+
+    targets: Sequence[ServoTarget]
+    at_ms: float
+    end_ms: float
+
+
+def order_at(targets: Sequence[ServoTarget], requested_ms: float, at_ms: float, family: Family) -> Order:
+    return Order(targets, at_ms, at_ms + board_duration_ms(requested_ms, family))
+
+
+def contested(tracks: Tracks, one: Order | None, other: Order | None, family: Family) -> Tracks:
+    """After a move and a frame so close that the board may have taken either first: which of two targets a
+    servo has got, nobody knows.
+    """
+    if one is None or other is None:
+        return tracks
+    if abs(one.at_ms - other.at_ms) > family.motion.tick_ms + family.motion.talk_ms:
+        return tracks
+    wanted = {target.servo: target.position for target in other.targets}
+    changed = dict(tracks)
+    for target in one.targets:
+        track = tracks.get(target.servo)
+        if track is not None and wanted.get(target.servo, target.position) != target.position:
+            duration_ms = max(one.end_ms, other.end_ms) - track.start_ms
+            changed[target.servo] = Track(None, track.to, track.start_ms, duration_ms, inf, inf)
+    return changed
+
+
 def redirected(track: Track | None, to: float, at_ms: float, duration_ms: float, family: Family) -> Track:
     """Its way from `at_ms` on to `to`."""
     start = position_of(track, at_ms) if track else None

@@ -11,7 +11,7 @@ import {
   type Playback,
   type RunRequest,
 } from './model.ts';
-import { restlessBehind, retarget } from './tracks.ts';
+import { contested, orderAt, restlessBehind, retarget } from './tracks.ts';
 
 /** Group 0 takes the place of any other (S47). */
 const PREEMPTIVE_SLOT = 0;
@@ -82,15 +82,20 @@ function beginFrame(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion
   if (frames === null) return runningUnknown(motion, run.slot, run.endsToHear);
   const frame = frames[run.next];
   if (frame === undefined) return { ...motion, run: null };
-  const isPause = frame.targets.length === 0;
+  const { family } = board;
+  const { targets, durationMs } = frame;
+  const lastFrame = orderAt(targets, durationMs, run.nextAtMs, family);
+  const tracks = retarget(motion.tracks, targets, durationMs, run.nextAtMs, family);
+  const isPause = targets.length === 0;
   return {
     ...motion,
-    tracks: retarget(motion.tracks, frame.targets, frame.durationMs, run.nextAtMs, board.family),
+    lastFrame,
+    tracks: contested(tracks, lastFrame, motion.lastMove, family),
     restlessUntilMs: isPause
       ? motion.restlessUntilMs
-      : restlessBehind(motion.restlessUntilMs, frame.durationMs, run.nextAtMs, board.family),
+      : restlessBehind(motion.restlessUntilMs, durationMs, run.nextAtMs, family),
     // The raw time, not the one the servos were given (S43).
-    run: { ...run, next: run.next + 1, nextAtMs: run.nextAtMs + frame.durationMs },
+    run: { ...run, next: run.next + 1, nextAtMs: run.nextAtMs + durationMs },
   };
 }
 

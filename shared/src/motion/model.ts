@@ -5,7 +5,7 @@ import type { Frame } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
 import type { ReportKind } from '../protocol/reports.ts';
 import { onlyLetGo, type Told } from './told.ts';
-import { doubted, type Tracks } from './tracks.ts';
+import { doubted, type Order, type Tracks } from './tracks.ts';
 
 /** A group that may move anything at any time: its frames are not ours, or its time cannot be computed. */
 interface UnknownRun {
@@ -45,6 +45,8 @@ export interface Motion {
   /** Of servos at rest, with a track or without. */
   readonly told: Told;
   readonly run: UnknownRun | DeadlineRun | PolledRun | null;
+  readonly lastMove: Order | null;
+  readonly lastFrame: Order | null;
   /** When a group ended by our clock that the board has not told the end of yet; -Infinity for none. */
   readonly untoldEndMs: number;
   /** Until then the board may be busy with flash or servos, its servos frozen, packets waiting or dropped (S9, S41). */
@@ -92,6 +94,8 @@ export const UNKNOWN_MOTION: Motion = {
   tracks: new Map(),
   told: new Map(),
   run: null,
+  lastMove: null,
+  lastFrame: null,
   untoldEndMs: -Infinity,
   deafUntilMs: -Infinity,
   answersOwed: [],

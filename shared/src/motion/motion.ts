@@ -16,11 +16,13 @@ import { runningUnknown, UNKNOWN_MOTION, type KnownBoard, type Motion, type Play
 import { polled } from './polled.ts';
 import { afterOrder, onlyLetGo, type Reading, type Told } from './told.ts';
 import {
+  contested,
   endMs,
   lastEndMs,
   leewayOf,
   LONGEST_MOVE_MS,
   only,
+  orderAt,
   positionOf,
   restlessBehind,
   retarget,
@@ -132,11 +134,17 @@ function moved(
   atMs: number,
   { family }: KnownBoard,
 ): Motion {
+  const lastMove = orderAt(targets, durationMs, atMs, family);
   // A frame of that group may overrule it at any time.
   const isSure = motion.run?.kind !== 'unknown';
   const tracks = retarget(withStart(motion, targets), targets, durationMs, atMs, family, isSure);
   const restlessUntilMs = restlessBehind(motion.restlessUntilMs, durationMs, atMs, family);
-  return { ...motion, tracks, restlessUntilMs };
+  return {
+    ...motion,
+    lastMove,
+    tracks: contested(tracks, lastMove, motion.lastFrame, family),
+    restlessUntilMs,
+  };
 }
 
 /** Those of the targets that stand where the board said begin there. */

@@ -97,6 +97,42 @@ export function restlessBehind(
   return atMs + boardDurationMs(requestedMs, family) + tickMs + talkMs;
 }
 
+/** The targets of a move or of a frame, and when they take effect and arrive. */
+export interface Order {
+  readonly targets: readonly ServoTarget[];
+  readonly atMs: number;
+  readonly endMs: number;
+}
+
+export function orderAt(
+  targets: readonly ServoTarget[],
+  requestedMs: number,
+  atMs: number,
+  family: Family,
+): Order {
+  return { targets, atMs, endMs: atMs + boardDurationMs(requestedMs, family) };
+}
+
+/** After a move and a frame so close that the board may have taken either first: which of two targets a servo has got, nobody knows. */
+export function contested(
+  tracks: Tracks,
+  one: Order | null,
+  other: Order | null,
+  { motion }: Family,
+): Tracks {
+  if (one === null || other === null) return tracks;
+  if (Math.abs(one.atMs - other.atMs) > motion.tickMs + motion.talkMs) return tracks;
+  const wanted = new Map(other.targets.map(({ servo, position }) => [servo, position]));
+  const next = new Map(tracks);
+  for (const { servo, position } of one.targets) {
+    const track = tracks.get(servo);
+    if (track === undefined || (wanted.get(servo) ?? position) === position) continue;
+    const durationMs = Math.max(one.endMs, other.endMs) - track.startMs;
+    next.set(servo, { ...track, from: null, durationMs, fromLeeway: Infinity, toLeeway: Infinity });
+  }
+  return next;
+}
+
 /** Its way from `atMs` on to `to`. */
 function redirected(
   track: Track | undefined,

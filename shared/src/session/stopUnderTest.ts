@@ -26,8 +26,8 @@ export interface StopOutcome {
   readonly movedForMs: readonly number[];
   /** From the press to the last byte. */
   readonly sentForMs: number;
-  /** The farthest that a hold took a servo back against its direction of travel. */
-  readonly backBy: number;
+  /** Of each servo, the farthest that a hold took it back against its direction of travel. */
+  readonly backBy: readonly number[];
   /** The longest way of a servo within one tick under a hold, where it did not go that fast before. */
   readonly longestStep: number;
 }
@@ -179,7 +179,7 @@ export async function stopped(profile: ProfileName, history: StopHistory): Promi
   board.powerOff();
   return {
     ...{ unheld: latch?.unheld ?? null, movedForMs, sentForMs: sentMs - pressedMs },
-    ...{ backBy: holds.backBy(), longestStep: holds.longestStep() },
+    ...{ backBy: holds.backBy, longestStep: holds.longestStep() },
   };
 }
 
@@ -211,7 +211,7 @@ function watchHolds({ heard, session, transport: { board }, clock }: Rig) {
       ...{ course: 0, extreme: pulse, isUnderHold: false },
     };
   });
-  let backBy = 0;
+  const backBy = SERVOS.map(() => 0);
   let longestStep = 0;
 
   function latestHold() {
@@ -243,7 +243,7 @@ function watchHolds({ heard, session, transport: { board }, clock }: Rig) {
       else if (seen.isUnderHold) {
         // A way in whole numbers takes one more now and then.
         if (step > seen.stepBefore + 1) longestStep = Math.max(longestStep, step);
-        backBy = Math.max(backBy, (seen.extreme - pulse) * seen.course);
+        backBy[index] = Math.max(backBy[index] ?? 0, (seen.extreme - pulse) * seen.course);
       } else if (step > 0) seen.stepBefore = step;
       seen.extreme = seen.course > 0 ? Math.max(seen.extreme, pulse) : Math.min(seen.extreme, pulse);
       seen.pulse = pulse;
@@ -251,5 +251,5 @@ function watchHolds({ heard, session, transport: { board }, clock }: Rig) {
     }
   }
 
-  return { look, backBy: () => backBy, longestStep: () => longestStep };
+  return { look, backBy, longestStep: () => longestStep };
 }
