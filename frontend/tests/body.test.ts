@@ -4,7 +4,7 @@
 import type { Page } from './harness/page.ts';
 import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
 import { robotToText } from '#shared/actions/robot/robotText.ts';
-import { lastTarget } from '../../e2e/fixtures/bus.ts';
+import { lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
 import { expect, poll, test } from './harness/test.ts';
 
 const HUMANOID = readyRobot('humanoid16', 'doc', {
@@ -131,5 +131,39 @@ test.describe('of a humanoid on a phone', () => {
     expect(await overhang()).toBe(0);
     await page.getByRole('radio', { name: 'Body' }).check();
     expect(await overhang()).toBe(0);
+  });
+
+  test('servos below each other fill the screen, which scrolls as one', async ({ dashboard }) => {
+    await dashboard.slider(12).scrollIntoViewIfNeeded();
+    await dashboard.slider(9).scrollIntoViewIfNeeded();
+    for (const servo of [9, 10, 11]) await expect(dashboard.slider(servo)).toBeInViewport();
+  });
+});
+
+test.describe('with a finger', () => {
+  test.override({ screen: { hasTouch: true }, viewport: { width: 390, height: 844 } });
+
+  test('a touch beside the thumb and a swipe over a slider move nothing', async ({
+    dashboard,
+    robot,
+    page: { touchscreen },
+  }) => {
+    const slider = dashboard.slider(2);
+    await slider.scrollIntoViewIfNeeded();
+    const box = await slider.boundingBox();
+    await touchscreen.tap(box.x + box.width * 0.9, box.y + box.height / 2);
+    await expect(slider).toHaveValue('1500');
+
+    const swipe = async (byX: number, byY: number): Promise<void> => {
+      const { x, y, width, height } = await slider.boundingBox();
+      const from = { x: x + width / 2, y: y + height / 2 };
+      await touchscreen.swipe(from, { x: from.x + byX, y: from.y + byY });
+    };
+    await swipe(4, -120);
+    expect((await slider.boundingBox()).y).toBeLessThan(box.y - 40);
+    await expect(slider).toHaveValue('1500');
+    expect(ofKind(await robot.bus(), 'move')).toEqual([]);
+    await swipe(80, 2);
+    await poll(() => lastTarget(robot.bus, 2)).toBeGreaterThan(1600);
   });
 });

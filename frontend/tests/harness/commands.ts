@@ -26,13 +26,24 @@ export interface Screen {
 }
 
 type Context = Parameters<BrowserCommand>[0];
+type Page = Context['page'];
+type Devtools = Awaited<ReturnType<ReturnType<Page['context']>['newCDPSession']>>;
+
+const opened = new WeakMap<Page, Promise<Devtools>>();
+
+/** One for each window: a finger is known only to the session in which it came down. */
+function devtoolsOf(page: Page): Promise<Devtools> {
+  const devtools = opened.get(page) ?? page.context().newCDPSession(page);
+  opened.set(page, devtools);
+  return devtools;
+}
 
 /** Several at once: each call costs as much as ten acts. */
 const act: BrowserCommand<[acts: readonly Act[]]> = async (context, acts) => {
   for (const one of acts) await perform(context, one);
 };
 
-async function perform({ page, provider, sessionId }: Context, one: Act): Promise<void> {
+async function perform({ page }: Context, one: Act): Promise<void> {
   const { mouse, keyboard } = page;
   switch (one[0]) {
     case 'move':
@@ -54,20 +65,20 @@ async function perform({ page, provider, sessionId }: Context, one: Act): Promis
     case 'insertText':
       return keyboard.insertText(one[1]);
     case 'touch': {
-      const devtools = await provider.getCDPSession?.(sessionId);
-      await devtools?.send('Input.dispatchTouchEvent', { type: one[1], touchPoints: [...one[2]] });
+      const devtools = await devtoolsOf(page);
+      await devtools.send('Input.dispatchTouchEvent', { type: one[1], touchPoints: [...one[2]] });
     }
   }
 }
 
 const emulateMedia: BrowserCommand<[media: Media]> = ({ page }, media) => page.emulateMedia(media);
 
-const emulateScreen: BrowserCommand<[screen: Screen]> = async ({ provider, sessionId }, screen) => {
-  const devtools = await provider.getCDPSession?.(sessionId);
-  await devtools?.send('Emulation.setTouchEmulationEnabled', { enabled: screen.hasTouch, maxTouchPoints: 2 });
-  if (screen.deviceScaleFactor === 1) await devtools?.send('Emulation.clearDeviceMetricsOverride');
+const emulateScreen: BrowserCommand<[screen: Screen]> = async ({ page }, screen) => {
+  const devtools = await devtoolsOf(page);
+  await devtools.send('Emulation.setTouchEmulationEnabled', { enabled: screen.hasTouch, maxTouchPoints: 2 });
+  if (screen.deviceScaleFactor === 1) await devtools.send('Emulation.clearDeviceMetricsOverride');
   else
-    await devtools?.send('Emulation.setDeviceMetricsOverride', {
+    await devtools.send('Emulation.setDeviceMetricsOverride', {
       ...{ width: 0, height: 0, mobile: false },
       deviceScaleFactor: screen.deviceScaleFactor,
     });

@@ -3,7 +3,7 @@
 
 import { commands } from 'vitest/browser';
 import type { Act, Touch } from './commands.ts';
-import { advance, FRAME_MS } from './time.ts';
+import { advance, FRAME_MS, realFrame, realMoment } from './time.ts';
 
 export interface Point {
   readonly x: number;
@@ -53,11 +53,32 @@ export const keyboard = {
   insertText: (text: string) => act(['insertText', text]),
 };
 
-/** Fingers of a screen: they scroll, rest and come in twos. */
-export async function touch(type: Touch, ...points: readonly Point[]): Promise<void> {
-  await act(['touch', type, points.map((point, id) => ({ ...point, id }))]);
+/** A finger scrolls, and what it tapped is pressed, when the browser draws next. */
+async function actByTouch(...acts: readonly Act[]): Promise<void> {
+  await commands.act(acts.map(inWindow));
+  await realFrame();
+  await advance(FRAME_MS);
 }
 
-export async function tapAt(point: Point): Promise<void> {
-  await act(['touch', 'touchStart', [{ ...point, id: 0 }]], ['touch', 'touchEnd', []]);
-}
+/** For a browser a finger that has not moved for so long throws nothing when it is lifted. */
+const RESTS_MS = 60;
+
+const SWIPE_STEPS = 8;
+const fingers = (...points: readonly Point[]) => points.map((point, id) => ({ ...point, id }));
+
+export const touchscreen = {
+  touch: (type: Touch, ...points: readonly Point[]) => actByTouch(['touch', type, fingers(...points)]),
+  tap: (x: number, y: number) =>
+    actByTouch(['touch', 'touchStart', fingers({ x, y })], ['touch', 'touchEnd', []]),
+  /** One finger from here to there, in steps that a browser takes for a drag; what it scrolled does not run on. */
+  async swipe(from: Point, to: Point): Promise<void> {
+    const moves = Array.from({ length: SWIPE_STEPS }, (_, index): Act => {
+      const share = (index + 1) / SWIPE_STEPS;
+      const at = { x: from.x + (to.x - from.x) * share, y: from.y + (to.y - from.y) * share };
+      return ['touch', 'touchMove', fingers(at)];
+    });
+    await actByTouch(['touch', 'touchStart', fingers(from)], ...moves);
+    await realMoment(RESTS_MS);
+    await actByTouch(['touch', 'touchEnd', []]);
+  },
+};

@@ -8,7 +8,7 @@ import {
   selectorEngine,
 } from '@vitest/browser/locators';
 import { commands } from 'vitest/browser';
-import { act, clickAt, tapAt, type Point } from './hands.ts';
+import { act, clickAt, touchscreen, type Point } from './hands.ts';
 import { during, eventually, realFrame } from './time.ts';
 
 type Modifier = 'Control' | 'Shift' | 'Alt' | 'Meta' | 'ControlOrMeta';
@@ -144,7 +144,10 @@ export class Locator {
   }
 
   dblclick = async (options?: ClickOptions) => clickAt(await this.#place(options), 2);
-  tap = async () => tapAt(await this.#place());
+  async tap(): Promise<void> {
+    const { x, y } = await this.#place();
+    await touchscreen.tap(x, y);
+  }
 
   async hover(options?: ClickOptions): Promise<void> {
     const { x, y } = await this.#place(options);
@@ -212,12 +215,10 @@ export class Locator {
     await act();
   }
 
+  /** As the browser's driver does it, by a way of Chromium's own. */
   scrollIntoViewIfNeeded = () =>
     this.#read(async (element) => {
-      const { left, top, right, bottom } = element.getBoundingClientRect();
-      if (left >= 0 && top >= 0 && right <= innerWidth && bottom <= innerHeight && pointOf(element) !== null)
-        return;
-      element.scrollIntoView({ block: 'center', inline: 'center', behavior: 'instant' });
+      (element as HTMLElement & { scrollIntoViewIfNeeded(): void }).scrollIntoViewIfNeeded();
       await realFrame();
     });
 

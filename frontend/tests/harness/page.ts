@@ -11,7 +11,7 @@ import { Gallery } from '../../src/gallery/Gallery.tsx';
 import { preferredLanguage, speak } from '../../src/words/words.ts';
 import type { Media, Screen } from './commands.ts';
 import { watchFiles } from './files.ts';
-import { act, keyboard, mouse, touch } from './hands.ts';
+import { act, keyboard, mouse, touchscreen } from './hands.ts';
 import { handleOf, Locator } from './locator.ts';
 import { advance, during, endTimers, eventually, FRAME_MS, realFrame } from './time.ts';
 import '../../src/ui/fonts.css';
@@ -159,7 +159,7 @@ export function createPage() {
   }
 
   return {
-    ...{ goto, emulateMedia, setViewportSize, mouse, keyboard, touch },
+    ...{ goto, emulateMedia, setViewportSize, mouse, keyboard, touchscreen },
     getByRole: everything.getByRole,
     getByText: everything.getByText,
     getByLabel: everything.getByLabel,
