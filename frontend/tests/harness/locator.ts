@@ -120,11 +120,14 @@ export class Locator {
   // Acting.
 
   /** Where a press meets it: scrolled into sight, with nothing before it. */
-  #place({ position, timeout }: Pick<ClickOptions, 'position' | 'timeout'> = {}): Promise<Point> {
+  #place(
+    { position, timeout }: Pick<ClickOptions, 'position' | 'timeout'> = {},
+    isRefused: (element: Element) => boolean = isDisabled,
+  ): Promise<Point> {
     return eventually(async () => {
       const element = this.element();
       if (!isVisible(element)) throw new Error(`not to be seen: ${this.selector}`);
-      if (isInactive(element)) throw new Error(`disabled: ${this.selector}`);
+      if (isRefused(element)) throw new Error(`disabled: ${this.selector}`);
       const at = pointOf(element, position);
       if (at !== null) return at;
       element.scrollIntoView({ block: 'center', inline: 'center', behavior: 'instant' });
@@ -150,7 +153,7 @@ export class Locator {
   }
 
   async hover(options?: ClickOptions): Promise<void> {
-    const { x, y } = await this.#place(options);
+    const { x, y } = await this.#place(options, () => false);
     await act(['move', x, y]);
   }
 
@@ -183,13 +186,16 @@ export class Locator {
   }
 
   async fill(text: string): Promise<void> {
-    await eventually(() => {
+    const type = await eventually(() => {
       const field = this.element() as HTMLInputElement;
       if (!isVisible(field) || isInactive(field) || field.readOnly)
         throw new Error(`nothing can be written here: ${this.selector}`);
       field.focus();
-      field.select();
+      if (field.type === 'range') slide(field, text);
+      else field.select();
+      return field.type;
     });
+    if (type === 'range') return act();
     await act(text === '' ? ['press', 'Delete'] : ['insertText', text]);
   }
 
@@ -222,10 +228,11 @@ export class Locator {
       await realFrame();
     });
 
-  dispatchEvent = (type: string) =>
+  dispatchEvent = (type: string, { dataTransfer }: { readonly dataTransfer?: DataTransfer } = {}) =>
     this.#read(async (element) => {
-      const make = type === 'click' ? MouseEvent : Event;
-      element.dispatchEvent(new make(type, { bubbles: true, cancelable: true, composed: true }));
+      const usual = { bubbles: true, cancelable: true, composed: true };
+      if (dataTransfer) element.dispatchEvent(new DragEvent(type, { ...usual, dataTransfer }));
+      else element.dispatchEvent(new (type === 'click' ? MouseEvent : Event)(type, usual));
       await act();
     });
 
@@ -259,6 +266,12 @@ export function isDisabled(element: Element): boolean {
 }
 
 const isInactive = (element: Element): boolean => element.matches(':disabled');
+
+/** At once, as by a hand that lets go there. React listens to the element's own setter. */
+function slide(field: HTMLInputElement, value: string): void {
+  Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value')?.set?.call(field, value);
+  for (const event of ['input', 'change']) field.dispatchEvent(new Event(event, { bubbles: true }));
+}
 
 /** null where something else would be met there. */
 function pointOf(element: HTMLElement, position?: Point): Point | null {
