@@ -162,8 +162,8 @@ class Deadlines:
         return motion
 
     def stop(self, motion: Motion, _at_ms: float, _board: KnownBoard) -> Motion:
-        """The frame in progress goes on to its end (S50)."""
-        return replace(motion, run=None)
+        """The frame in progress goes on to its end (S50), and none begins behind it."""
+        return replace(motion, run=None, last_frame=None)
 
     def interrupt(self, motion: Motion, _at_ms: float) -> Motion:
         return motion

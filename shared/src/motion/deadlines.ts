@@ -153,8 +153,8 @@ function ended(motion: Motion, board: KnownBoard): Motion {
 export const deadlines: Playback = {
   request,
   advance,
-  // The frame in progress goes on to its end (S50).
-  stop: (motion) => ({ ...motion, run: null }),
+  // The frame in progress goes on to its end (S50), and none begins behind it.
+  stop: (motion) => ({ ...motion, run: null, lastFrame: null }),
   interrupt: (motion) => motion,
   ended,
   passMs: (frames) => frames.reduce((sum, { durationMs }) => sum + durationMs, 0),
