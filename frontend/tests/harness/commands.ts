@@ -5,11 +5,13 @@ import type { BrowserCommand } from 'vitest/node';
 
 export type Act =
   | readonly ['move', number, number, number?]
-  | readonly ['down' | 'up', number?]
+  | readonly ['down' | 'up', number?, MouseButton?]
   | readonly ['wheel', number, number]
   | readonly ['keyDown' | 'keyUp' | 'press' | 'type' | 'insertText', string]
+  | readonly ['leaveClipboard']
   | readonly ['touch', Touch, readonly { x: number; y: number; id: number }[]];
 
+export type MouseButton = 'left' | 'middle' | 'right';
 export type Touch = 'touchStart' | 'touchMove' | 'touchEnd';
 
 export interface Media {
@@ -43,15 +45,30 @@ const act: BrowserCommand<[acts: readonly Act[]]> = async (context, acts) => {
   for (const one of acts) await perform(context, one);
 };
 
-async function perform({ page }: Context, one: Act): Promise<void> {
+/** All windows of the browser have one: the window that copied has it to itself until its page ends. */
+const clipboard = { owner: '', waiting: [] as (() => void)[] };
+
+async function takeClipboard(owner: string): Promise<void> {
+  while (clipboard.owner !== '' && clipboard.owner !== owner)
+    await new Promise<void>((resolve) => clipboard.waiting.push(resolve));
+  clipboard.owner = owner;
+}
+
+function leaveClipboard(owner: string): void {
+  if (clipboard.owner !== owner) return;
+  clipboard.owner = '';
+  for (const resolve of clipboard.waiting.splice(0)) resolve();
+}
+
+async function perform({ page, sessionId }: Context, one: Act): Promise<void> {
   const { mouse, keyboard } = page;
   switch (one[0]) {
     case 'move':
       return mouse.move(one[1], one[2], { steps: one[3] ?? 1 });
     case 'down':
-      return mouse.down({ clickCount: one[1] ?? 1 });
+      return mouse.down({ clickCount: one[1] ?? 1, button: one[2] ?? 'left' });
     case 'up':
-      return mouse.up({ clickCount: one[1] ?? 1 });
+      return mouse.up({ clickCount: one[1] ?? 1, button: one[2] ?? 'left' });
     case 'wheel':
       return mouse.wheel(one[1], one[2]);
     case 'keyDown':
@@ -59,6 +76,7 @@ async function perform({ page }: Context, one: Act): Promise<void> {
     case 'keyUp':
       return keyboard.up(one[1]);
     case 'press':
+      if (/\+[cx]$/i.test(one[1])) await takeClipboard(sessionId);
       return keyboard.press(one[1]);
     case 'type':
       return keyboard.type(one[1]);
@@ -67,7 +85,10 @@ async function perform({ page }: Context, one: Act): Promise<void> {
     case 'touch': {
       const devtools = await devtoolsOf(page);
       await devtools.send('Input.dispatchTouchEvent', { type: one[1], touchPoints: [...one[2]] });
+      return;
     }
+    case 'leaveClipboard':
+      leaveClipboard(sessionId);
   }
 }
 

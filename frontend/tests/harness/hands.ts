@@ -2,7 +2,7 @@
 // page, not what stands there.
 
 import { commands } from 'vitest/browser';
-import type { Act, Touch } from './commands.ts';
+import type { Act, MouseButton, Touch } from './commands.ts';
 import { advance, FRAME_MS, realFrame, realMoment } from './time.ts';
 
 export interface Point {
@@ -28,20 +28,24 @@ export async function act(...acts: readonly Act[]): Promise<void> {
   await advance(FRAME_MS);
 }
 
-export async function clickAt({ x, y }: Point, times = 1): Promise<void> {
+interface Press {
+  readonly button?: MouseButton;
+}
+
+export async function clickAt({ x, y }: Point, times = 1, { button = 'left' }: Press = {}): Promise<void> {
   const presses = Array.from({ length: times }, (_, index): Act[] => [
-    ['down', index + 1],
-    ['up', index + 1],
+    ['down', index + 1, button],
+    ['up', index + 1, button],
   ]);
   await act(['move', x, y], ...presses.flat());
 }
 
 export const mouse = {
   move: (x: number, y: number, { steps = 1 }: { steps?: number } = {}) => act(['move', x, y, steps]),
-  down: () => act(['down']),
-  up: () => act(['up']),
+  down: ({ button = 'left' }: Press = {}) => act(['down', 1, button]),
+  up: ({ button = 'left' }: Press = {}) => act(['up', 1, button]),
   wheel: (byX: number, byY: number) => act(['wheel', byX, byY]),
-  click: (x: number, y: number) => clickAt({ x, y }),
+  click: (x: number, y: number, press?: Press) => clickAt({ x, y }, 1, press),
   dblclick: (x: number, y: number) => clickAt({ x, y }, 2),
 };
 

@@ -8,6 +8,7 @@ import {
   selectorEngine,
 } from '@vitest/browser/locators';
 import { commands } from 'vitest/browser';
+import type { MouseButton } from './commands.ts';
 import { act, clickAt, touchscreen, type Point } from './hands.ts';
 import { during, eventually, realFrame } from './time.ts';
 
@@ -19,9 +20,16 @@ type RoleOptions = Parameters<typeof getByRoleSelector>[1];
 interface ClickOptions {
   readonly modifiers?: readonly Modifier[];
   readonly position?: Point;
-  readonly button?: 'left';
+  readonly button?: MouseButton;
   readonly timeout?: number;
 }
+
+const styleOf = window.getComputedStyle.bind(window);
+/** Vitest reads content before or after an element into its name also where CSS hides it; a browser does not. */
+window.getComputedStyle = (element, pseudo) => {
+  const style = styleOf(element, pseudo);
+  return Boolean(pseudo) && style.visibility === 'hidden' ? styleOf(element) : style;
+};
 
 export class Locator {
   readonly selector: string;
@@ -142,7 +150,7 @@ export class Locator {
     const at = await this.#place(options);
     const held = (options.modifiers ?? []).map((key) => (key === 'ControlOrMeta' ? 'Control' : key));
     if (held.length > 0) await act(...held.map((key) => ['keyDown', key] as const));
-    await clickAt(at);
+    await clickAt(at, 1, options);
     if (held.length > 0) await act(...held.map((key) => ['keyUp', key] as const));
   }
 

@@ -193,7 +193,7 @@ export function createPage() {
     async end(): Promise<void> {
       await leave();
       files.end();
-      await act(['move', 0, 0]);
+      await act(['move', 0, 0], ['leaveClipboard']);
     },
   };
 }

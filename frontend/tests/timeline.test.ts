@@ -1,10 +1,11 @@
 // Working on keys over time: by mouse, by keyboard alone, by touch.
 
-import { ofKind } from '../fixtures/bus.ts';
-import { dashboardOf } from '../fixtures/dashboard.ts';
-import { fingersOf } from '../fixtures/fingers.ts';
-import { expect, test } from '../fixtures/test.ts';
-import { keepGroup, timelineOf } from '../fixtures/timeline.ts';
+import { ofKind } from '../../e2e/fixtures/bus.ts';
+import * as e2e from '../../e2e/fixtures/timeline.ts';
+import { expect, here, test } from './harness/test.ts';
+
+const keepGroup = here(e2e.keepGroup);
+const timelineOf = here(e2e.timelineOf);
 
 /** Of the lanes, where the ruler and the heads of the frames are. */
 const RULER_Y = 11;
@@ -14,13 +15,23 @@ test.beforeEach(async ({ page }) => {
   await keepGroup(page);
 });
 
-test('on a usual laptop its tools stand in one row', async ({ dashboard, page }) => {
-  await expect(dashboard.link).toBeVisible();
+test('on a usual laptop its tools stand in one row, and six rows need no scroll bar', async ({
+  dashboard,
+  page,
+}) => {
   await page.setViewportSize({ width: 1366, height: 768 });
-  const { tools } = timelineOf(page);
-  const first = (await tools.getByRole('combobox', { name: 'Easing' }).boundingBox())!;
-  const last = (await tools.getByRole('button', { name: 'Tall rows' }).boundingBox())!;
+  const { grid, tools } = timelineOf(page);
+  const first = await tools.getByRole('combobox', { name: 'Easing' }).boundingBox();
+  const last = await tools.getByRole('button', { name: 'Tall rows' }).boundingBox();
   expect(Math.abs(first.y - last.y)).toBeLessThan(8);
+  await page.setViewportSize({ width: 1000, height: 1000 });
+  await expect(dashboard.frames).toHaveCount(3);
+  const hiddenPx = await grid.evaluate((lanes) => {
+    let area: Element | null = lanes;
+    while (area !== null && getComputedStyle(area).overflowY !== 'auto') area = area.parentElement;
+    return area === null ? NaN : area.scrollHeight - area.clientHeight;
+  });
+  expect(hiddenPx).toBe(0);
 });
 
 test('a key is dragged in time and value, in one step, and moves no robot', async ({
@@ -177,17 +188,6 @@ test('a field that is left without a number typed in it does nothing', async ({ 
   await expect(timeline.key('Elbow, 2.00 s, 1500 µs, linear')).toBeVisible();
 });
 
-test('six rows need no scroll bar', async ({ page, dashboard }) => {
-  await page.setViewportSize({ width: 1000, height: 1000 });
-  await expect(dashboard.frames).toHaveCount(3);
-  const hiddenPx = await timelineOf(page).grid.evaluate((grid) => {
-    let area: Element | null = grid;
-    while (area !== null && getComputedStyle(area).overflowY !== 'auto') area = area.parentElement;
-    return area === null ? NaN : area.scrollHeight - area.clientHeight;
-  });
-  expect(hiddenPx).toBe(0);
-});
-
 test('everything is done by keyboard alone', async ({ page, dashboard }) => {
   const timeline = timelineOf(page);
   const { keyboard } = page;
@@ -259,7 +259,7 @@ test('a second press in the same place asks for a marker’s text, and for a fra
   const first = await timeline.middleOf(timeline.key('All servos, frame 1, 0.50 s, 2 keys'));
   const second = await timeline.middleOf(timeline.key('All servos, frame 2, 1.00 s, 2 keys'));
   const beginX = 2 * first.x - second.x;
-  const top = (await timeline.grid.boundingBox())!.y;
+  const top = (await timeline.grid.boundingBox()).y;
   await page.mouse.dblclick(beginX, top + RULER_Y);
   const text = page.getByRole('textbox', { name: 'Text of the marker' });
   await expect(text).toHaveValue('Bow');
@@ -279,7 +279,7 @@ test('the menu on a frame is about its keys', async ({ page, dashboard }) => {
   await expect(dashboard.frames).toHaveCount(3);
   const timeline = timelineOf(page);
   const second = await timeline.middleOf(timeline.key('All servos, frame 2, 1.00 s, 2 keys'));
-  const top = (await timeline.grid.boundingBox())!.y;
+  const top = (await timeline.grid.boundingBox()).y;
   await page.mouse.click(second.x - 30, top + HEADS_Y, { button: 'right' });
   await page.getByRole('menuitem', { name: 'Delete keys' }).click();
   await expect(timeline.key('Gripper, 1.00 s, 1200 µs, linear')).toBeHidden();
@@ -295,7 +295,7 @@ test('a box that is drawn past the lowest row in sight goes on through the rows'
   await timeline.tools.getByRole('button', { name: 'Tall rows' }).click();
   const first = await timeline.middleOf(timeline.key('Gripper, 0.50 s, 1000 µs, linear'));
   const last = await timeline.middleOf(timeline.key('Gripper, 1.50 s, 1400 µs, linear'));
-  const { y, height } = (await timeline.grid.boundingBox())!;
+  const { y, height } = await timeline.grid.boundingBox();
   await page.mouse.move(first.x - 20, last.y - 12);
   await page.mouse.down();
   await page.mouse.move(last.x + 20, y + height + 20, { steps: 4 });
@@ -325,7 +325,7 @@ test('the wheel zooms where the pointer is, and all of it fits again', async ({ 
   expect((await timeline.middleOf(timeline.key(name))).x).toBeCloseTo(before.x, -1);
 
   // Dragged past the end of the lanes it takes them along.
-  const lanes = (await timeline.grid.boundingBox())!;
+  const lanes = await timeline.grid.boundingBox();
   await page.mouse.down();
   await page.mouse.move(lanes.x + lanes.width - 2, before.y, { steps: 4 });
   const seen = await timeline.minimap.getAttribute('aria-valuetext');
@@ -441,25 +441,23 @@ test('Space plays the group while the timeline has the focus', async ({ page, da
 });
 
 test.describe('with fingers', () => {
-  test.use({ hasTouch: true, viewport: { width: 390, height: 844 } });
+  test.override({ screen: { hasTouch: true }, viewport: { width: 390, height: 844 } });
 
-  test('a finger that rests opens the menu, two fingers zoom', async ({ page, robot }) => {
-    await robot.open(page);
-    await expect(dashboardOf(page).link).toContainText('Ready');
+  test('a finger that rests opens the menu, two fingers zoom', async ({ dashboard: { page } }) => {
     await page.getByRole('tab', { name: 'Actions' }).click();
     const timeline = timelineOf(page);
     await expect(timeline.region).toContainText('Rest a finger for more');
     const name = 'Gripper, 1.00 s, 1200 µs, linear';
     await timeline.key(name).scrollIntoViewIfNeeded();
     const at = await timeline.middleOf(timeline.key(name));
-    const { touch } = await fingersOf(page);
+    const { touch } = page.touchscreen;
     await touch('touchStart', at, { x: at.x + 40, y: at.y });
     await touch('touchMove', { x: at.x - 40, y: at.y }, { x: at.x + 120, y: at.y });
     await touch('touchEnd');
     await expect(timeline.key('Gripper, 1.50 s, 1400 µs, linear')).toBeHidden();
     await page.getByRole('button', { name: 'Fit all' }).tap();
     await expect(timeline.key('Gripper, 1.50 s, 1400 µs, linear')).toBeVisible();
-    await touch('touchStart', at);
+    await touch('touchStart', await timeline.middleOf(timeline.key(name)));
     await expect(timeline.region).toContainText('Lift for the menu');
     await touch('touchEnd');
     await page.getByRole('menuitem', { name: 'Delete keys' }).tap();
@@ -472,9 +470,7 @@ test.describe('with fingers', () => {
     await expect(timeline.selected).toHaveCount(2);
   });
 
-  test('arrows below the lanes nudge what is selected in time and value', async ({ page, robot }) => {
-    await robot.open(page);
-    await expect(dashboardOf(page).link).toContainText('Ready');
+  test('arrows below the lanes nudge what is selected in time and value', async ({ dashboard: { page } }) => {
     await page.getByRole('tab', { name: 'Actions' }).click();
     const timeline = timelineOf(page);
     const arrow = (name: string) =>
@@ -482,7 +478,7 @@ test.describe('with fingers', () => {
     await expect(arrow('Later by 20 ms')).toBeDisabled();
     const key = timeline.key('Gripper, 1.00 s, 1200 µs, linear');
     await key.scrollIntoViewIfNeeded();
-    const { touch } = await fingersOf(page);
+    const { touch } = page.touchscreen;
     await touch('touchStart', await timeline.middleOf(key));
     await touch('touchEnd');
     await arrow('Later by 20 ms').tap();
