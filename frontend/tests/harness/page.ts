@@ -8,6 +8,7 @@ import { App } from '../../src/App.tsx';
 import { arrive } from '../../src/connect/arrival.ts';
 import { openPage } from '../../src/connect/page.ts';
 import { Gallery } from '../../src/gallery/Gallery.tsx';
+import { fetchRest } from '../../src/ui/later.tsx';
 import { preferredLanguage, speak } from '../../src/words/words.ts';
 import type { Media, Screen } from './commands.ts';
 import { watchFiles } from './files.ts';
@@ -69,6 +70,8 @@ async function show(address: string): Promise<void> {
   element.id = 'page';
   document.body.append(element);
   window.focus();
+  // Fetching takes real time; how a page looks meanwhile is for end-to-end tests.
+  await fetchRest(() => Promise.resolve());
   let content: ReactNode;
   if (pathname.endsWith('gallery.html')) {
     history.replaceState(null, '', search);

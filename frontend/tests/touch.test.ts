@@ -1,28 +1,21 @@
 // The main job with fingers alone, on a phone: nothing moves that a scroll brushes, and STOP is under the thumb at all times.
 
-import type { Locator, Page } from '@playwright/test';
-import { dashboardOf } from '../fixtures/dashboard.ts';
-import { fingersOf, type Point } from '../fixtures/fingers.ts';
-import { walkGallery } from '../fixtures/gallery.ts';
-import { robotDialogOf } from '../fixtures/robotDialog.ts';
-import { expect, poll, test } from '../fixtures/test.ts';
+import * as gallery from '../../e2e/fixtures/gallery.ts';
+import * as dialogs from '../../e2e/fixtures/robotDialog.ts';
+import type { Point } from './harness/hands.ts';
+import type { Locator } from './harness/locator.ts';
+import type { Page } from './harness/page.ts';
+import { dashboardOf, expect, here, test } from './harness/test.ts';
+import { advance } from './harness/time.ts';
 
-test.use({ hasTouch: true, isMobile: true, viewport: { width: 390, height: 844 } });
+const robotDialogOf = here(dialogs.robotDialogOf);
+const walkGallery = here(gallery.walkGallery);
+
+test.override({ screen: { hasTouch: true }, viewport: { width: 390, height: 844 } });
 
 async function middleOf(place: Locator): Promise<Point> {
-  const box = (await place.boundingBox())!;
+  const box = await place.boundingBox();
   return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
-}
-
-/** Where it stays: a list that was swiped runs on for a while. */
-async function restingMiddleOf(place: Locator): Promise<Point> {
-  let at = await middleOf(place);
-  await poll(async () => {
-    const before = at;
-    at = await middleOf(place);
-    return before.y - at.y;
-  }).toBe(0);
-  return at;
 }
 
 /** Whatever is open: a finger where STOP is drawn meets STOP. */
@@ -37,39 +30,37 @@ async function expectStopInReach(page: Page, state: string): Promise<void> {
   await expect.configure({ soft: true }).poll(meetsStop, { message: state }).toBe(true);
 }
 
-test('a scroll over the sliders moves no servo, a drag of a thumb does', async ({ page, servers }) => {
+test('a scroll over the sliders moves no servo, a drag of a thumb does', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.link).toHaveText(/Ready/);
   await expect(dashboard.estimate(6)).toHaveText('≈ 1500', { timeout: 15_000 });
-  const { swipe } = await fingersOf(page);
+  const { swipe } = page.touchscreen;
   await dashboard.slider(4).scrollIntoViewIfNeeded();
   const before = await dashboard.target(4).inputValue();
-  const thumb = await restingMiddleOf(dashboard.slider(4));
+  const thumb = await middleOf(dashboard.slider(4));
   await swipe(thumb, { x: thumb.x + 20, y: thumb.y - 160 });
-  await expect(async () => {
-    expect((await middleOf(dashboard.slider(4))).y).toBeLessThan(thumb.y - 40);
-  }).toPass();
+  expect((await middleOf(dashboard.slider(4))).y).toBeLessThan(thumb.y - 40);
   await expect(dashboard.target(4)).toHaveValue(before);
 
   // The scroll has left it in sight.
   await dashboard.type(dashboard.target(5), 1500);
   await expect(dashboard.estimate(5)).toHaveText('≈ 1500');
   await dashboard.slider(5).scrollIntoViewIfNeeded();
-  const at = await restingMiddleOf(dashboard.slider(5));
+  const at = await middleOf(dashboard.slider(5));
   await swipe({ x: at.x - 90, y: at.y }, { x: at.x - 150, y: at.y });
   await expect(dashboard.target(5)).toHaveValue('1500');
-  const track = (await dashboard.slider(5).boundingBox())!;
+  const track = await dashboard.slider(5).boundingBox();
   await swipe(at, { x: at.x + 80, y: at.y });
   // As far as the finger went, less the thumb that stays whole at both ends.
   const target = async (): Promise<number> => Number(await dashboard.target(5).inputValue());
-  await poll(target).toBeGreaterThanOrEqual(1500 + (80 / track.width) * 2000);
+  await expect.poll(target).toBeGreaterThanOrEqual(1500 + (80 / track.width) * 2000);
   expect(await target()).toBeLessThan(1500 + (95 / track.width) * 2000);
 });
 
-test('what has the focus stands below the picture that stays in sight', async ({ page, servers }) => {
+test('what has the focus stands below the picture that stays in sight', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.link).toHaveText(/Ready/);
   await dashboard.slider(6).focus();
   for (const servo of [5, 4, 3, 2, 1]) {
@@ -85,12 +76,12 @@ test('what has the focus stands below the picture that stays in sight', async ({
 
 test('what a finger holds is named, also where the picture that stays in sight was above it', async ({
   page,
-  servers,
+  url,
 }) => {
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.estimate(6)).toHaveText('≈ 1500', { timeout: 15_000 });
-  const { touch } = await fingersOf(page);
+  const { touch } = page.touchscreen;
   await dashboard.type(dashboard.target(4), 1500);
   await expect(dashboard.estimate(4)).toHaveText('≈ 1500');
   const name = dashboard.servoName(4);
@@ -108,7 +99,7 @@ test('what a finger holds is named, also where the picture that stays in sight w
       scroller?.scrollBy(0, 12);
     });
   expect(await isSeen()).toBe(false);
-  const from = await restingMiddleOf(dashboard.slider(4));
+  const from = await middleOf(dashboard.slider(4));
   await touch('touchStart', from);
   for (let x = 6; x <= 48; x += 6) await touch('touchMove', { x: from.x + x, y: from.y });
   await expect(dashboard.target(4)).not.toHaveValue('1500');
@@ -134,13 +125,13 @@ const largestPicture = (page: Page): Promise<number> =>
   });
 
 test.describe('on a screen of fine pixels', () => {
-  test.use({ deviceScaleFactor: 2 });
+  test.override({ screen: { hasTouch: true, deviceScaleFactor: 2 } });
 
   test('from one step of the calibration to the next what is pressed stays in place and in sight', async ({
     page,
-    servers,
+    url,
   }) => {
-    const robots = await startCalibration(page, (await servers.files()).url);
+    const robots = await startCalibration(page, url);
     const { y } = await middleOf(robots.creep('lower'));
     for (const servo of ['Gripper', 'Wrist', 'Base']) {
       await robots.button(new RegExp(`^${servo}, `)).tap();
@@ -155,13 +146,12 @@ test.describe('on a screen of fine pixels', () => {
   });
 });
 
-test('two quick taps answer one question of the calibration', async ({ page, servers }) => {
-  const robots = await startCalibration(page, (await servers.files()).url);
-  const { touch } = await fingersOf(page);
+test('two quick taps answer one question of the calibration', async ({ page, url }) => {
+  const robots = await startCalibration(page, url);
+  const { touch } = page.touchscreen;
   const at = await middleOf(robots.button(/^Keep 500/));
   // As long as a person takes to read what is asked.
-  const askedMs = await page.evaluate(() => performance.now());
-  await page.waitForFunction((sinceMs) => performance.now() > sinceMs + 600, askedMs);
+  await advance(600);
   for (let taps = 0; taps < 2; taps += 1) {
     await touch('touchStart', at);
     await touch('touchEnd');
@@ -170,11 +160,10 @@ test('two quick taps answer one question of the calibration', async ({ page, ser
   await expect(robots.button('Highest')).toHaveAttribute('aria-current', 'step');
 });
 
-test('the main job needs nothing but fingers', async ({ page, servers }) => {
-  test.slow();
+test('the main job needs nothing but fingers', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
   const tab = (name: string) => page.getByRole('tab', { name });
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.link).toHaveText(/Ready/);
   await expect(dashboard.estimate(6)).toHaveText('≈ 1500', { timeout: 15_000 });
   await expectStopInReach(page, 'live');
@@ -257,21 +246,17 @@ function otherBars(page: Page): Promise<readonly number[]> {
 
 test('in every state what is pressed is large enough for a finger, and the bar is as high', async ({
   page,
-  servers,
+  url,
 }) => {
-  test.slow();
-  await walkGallery({ page, url: (await servers.files()).url }, async (state) => {
+  await walkGallery({ page, url }, async (state) => {
     expect.soft(await tooSmall(page), state).toEqual([]);
     expect.soft(await otherBars(page), `${state}: below the bar something jumps`).toEqual([]);
   });
 });
 
-test('on a large touch screen rows of the timeline stay in sight, and Play does', async ({
-  page,
-  servers,
-}) => {
+test('on a large touch screen rows of the timeline stay in sight, and Play does', async ({ page, url }) => {
   await page.setViewportSize({ width: 1366, height: 820 });
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   for (const part of [
     page.getByRole('rowheader', { name: 'Gripper' }),
     dashboardOf(page).button('Play'),
@@ -289,9 +274,8 @@ const cutIn = (place: Locator): Promise<string[]> =>
       .map((part) => part.textContent),
   );
 
-test('on a tablet held upright the bar holds all that is in it', async ({ page, servers }) => {
+test('on a tablet held upright the bar holds all that is in it', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
-  const { url } = await servers.files();
   for (const width of [700, 768, 820]) {
     await page.setViewportSize({ width, height: 1180 });
     await page.goto(url);
