@@ -11,7 +11,7 @@ import {
   type Playback,
   type RunRequest,
 } from './model.ts';
-import { contested, orderAt, restlessBehind, retarget } from './tracks.ts';
+import { contested, orderAt, retarget, unrestBehind } from './tracks.ts';
 
 /** Group 0 takes the place of any other (S47). */
 const PREEMPTIVE_SLOT = 0;
@@ -91,9 +91,7 @@ function beginFrame(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion
     ...motion,
     lastFrame,
     tracks: contested(tracks, lastFrame, motion.lastMove, family),
-    restlessUntilMs: isPause
-      ? motion.restlessUntilMs
-      : restlessBehind(motion.restlessUntilMs, durationMs, run.nextAtMs, family),
+    ...(isPause ? {} : unrestBehind(motion, durationMs, run.nextAtMs, family)),
     // The raw time, not the one the servos were given (S43).
     run: { ...run, next: run.next + 1, nextAtMs: run.nextAtMs + durationMs },
   };

@@ -93,8 +93,9 @@ export function unheldSince(
 }
 
 /** Until then servos may move that no track is known of; a group runs on only where no stop was heard. */
-function unknownUntilMs({ run, restlessUntilMs, deafUntilMs, maySwallow }: Motion, lastMs: number): number {
-  const restlessMs = run === null ? restlessUntilMs : Infinity;
+function unknownUntilMs(motion: Motion, lastMs: number): number {
+  const { run, restlessUntilMs, inheritedUntilMs, deafUntilMs, maySwallow } = motion;
+  const restlessMs = run === null ? Math.max(restlessUntilMs, inheritedUntilMs) : Infinity;
   return maySwallow > 0 ? restlessMs : Math.min(restlessMs, Math.max(lastMs, deafUntilMs) + LONGEST_MOVE_MS);
 }
 

@@ -59,6 +59,8 @@ export interface Motion {
   readonly maySwallow: number;
   /** Until then a servo we know nothing of may still be on its way. */
   readonly restlessUntilMs: number;
+  /** Until then what others set in motion before the link was opened may go on. Only STOP speaks of it. */
+  readonly inheritedUntilMs: number;
   /** The next run skips its first frame (L11). */
   readonly skipsFirst: 'no' | 'maybe' | 'yes';
 }
@@ -102,6 +104,7 @@ export const UNKNOWN_MOTION: Motion = {
   mayHoldPacket: false,
   maySwallow: 0,
   restlessUntilMs: -Infinity,
+  inheritedUntilMs: -Infinity,
   skipsFirst: 'no',
 };
 

@@ -24,13 +24,13 @@ import {
   only,
   orderAt,
   positionOf,
-  restlessBehind,
   retarget,
   shareDone,
   standingAt,
   stands,
   type Track,
   type Tracks,
+  unrestBehind,
 } from './tracks.ts';
 
 export { UNKNOWN_MOTION, type KnownBoard, type Motion };
@@ -138,12 +138,11 @@ function moved(
   // A frame of that group may overrule it at any time.
   const isSure = motion.run?.kind !== 'unknown';
   const tracks = retarget(withStart(motion, targets), targets, durationMs, atMs, family, isSure);
-  const restlessUntilMs = restlessBehind(motion.restlessUntilMs, durationMs, atMs, family);
   return {
     ...motion,
     lastMove,
     tracks: contested(tracks, lastMove, motion.lastFrame, family),
-    restlessUntilMs,
+    ...unrestBehind(motion, durationMs, atMs, family),
   };
 }
 
@@ -208,19 +207,25 @@ export function passMs(frames: readonly Frame[], board: KnownBoard): number {
 
 /** Nothing is known any more: the robot may have been moved or the board restarted. A group that ran may run on. */
 export function forgotten(motion: Motion, atMs: number): Motion {
-  const { deafUntilMs, told, run, tracks, maySwallow, restlessUntilMs } = motion;
+  const { deafUntilMs, told, run, tracks, maySwallow, restlessUntilMs, inheritedUntilMs } = motion;
   return {
     ...UNKNOWN_MOTION,
     told: onlyLetGo(told),
     run: run && { kind: 'unknown', slot: null, endsToHear: 1 },
     deafUntilMs,
     maySwallow,
+    inheritedUntilMs,
     restlessUntilMs: Math.max(
       restlessUntilMs,
       run === null ? lastEndMs(tracks, atMs) + LAST_TICKS_MS : atMs + LONGEST_MOVE_MS,
     ),
     skipsFirst: 'maybe',
   };
+}
+
+/** Whoever had the link before it was opened at `atMs` may have set something in motion. */
+export function inherited(motion: Motion, atMs: number): Motion {
+  return { ...motion, inheritedUntilMs: atMs + LONGEST_MOVE_MS };
 }
 
 /** Of two forgotten motions nobody knows which it was. */
@@ -230,6 +235,7 @@ export function eitherOf(one: Motion, other: Motion): Motion {
     run: one.run ?? other.run,
     deafUntilMs: Math.max(one.deafUntilMs, other.deafUntilMs),
     restlessUntilMs: Math.max(one.restlessUntilMs, other.restlessUntilMs),
+    inheritedUntilMs: Math.max(one.inheritedUntilMs, other.inheritedUntilMs),
   };
 }
 

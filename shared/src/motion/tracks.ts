@@ -85,16 +85,22 @@ export function leewayOf(track: Track, nowMs: number, { motion, position }: Fami
   return way * tick + toLeeway + (fromLeeway - toLeeway) * left;
 }
 
+interface Unrest {
+  readonly restlessUntilMs: number;
+  readonly inheritedUntilMs: number;
+}
+
 /** Where the board re-times every servo, also what nobody knows of arrives with what takes effect at `atMs` (S26). */
-export function restlessBehind(
-  restlessUntilMs: number,
+export function unrestBehind(
+  { restlessUntilMs, inheritedUntilMs }: Unrest,
   requestedMs: number,
   atMs: number,
   family: Family,
-): number {
+): Unrest {
   const { timing, tickMs, talkMs } = family.motion;
-  if (timing !== 'shared' || restlessUntilMs <= atMs) return restlessUntilMs;
-  return atMs + boardDurationMs(requestedMs, family) + tickMs + talkMs;
+  const arrivedMs = atMs + boardDurationMs(requestedMs, family) + tickMs + talkMs;
+  const until = (untilMs: number): number => (timing !== 'shared' || untilMs <= atMs ? untilMs : arrivedMs);
+  return { restlessUntilMs: until(restlessUntilMs), inheritedUntilMs: until(inheritedUntilMs) };
 }
 
 /** The targets of a move or of a frame, and when they take effect and arrive. */

@@ -1,9 +1,13 @@
 import { describe, expect, test } from 'vitest';
 import type { Frame } from '../protocol/commands.ts';
 import { family } from '../protocol/families.ts';
+import { encodeCommand } from '../protocol/encode.ts';
 import { wireMs } from '../protocol/packet.ts';
 import { createFlashChip } from '../simulator/flashChip.ts';
+import { createSimulatedTransport } from '../simulator/transport.ts';
+import { createVirtualClock } from '../simulator/virtualClock.ts';
 import { createRig, type Rig } from './rig.ts';
+import { createSession } from './session.ts';
 
 async function knownAtRest(rig: Rig, position = 1_000): Promise<void> {
   rig.session.move([{ servo: 1, position }], 0);
@@ -58,6 +62,34 @@ describe('STOP', () => {
     expect(rig.session.state.latch, 'pressed once more').toMatchObject({ unheld: { servos: null } });
     await rig.clock.advance(3_000);
     expect(rig.transport.board.pulse(1)).toBe(2_000);
+  });
+
+  test('says that what others set in motion before the link was opened may go on', async () => {
+    const clock = createVirtualClock();
+    const simulated = createSimulatedTransport(clock, { onForMs: 60_000 });
+    simulated.board.receive(
+      encodeCommand(
+        { kind: 'move', durationMs: 6_000, targets: [{ servo: 3, position: 2_000 }] },
+        family('doc'),
+      ),
+    );
+    await clock.advance(500);
+    const session = createSession({
+      ...{ clock, family: family('doc') },
+      transport: { ...simulated, isSimulated: false },
+    });
+    await session.open();
+    expect(session.state.link.status).toBe('ready');
+    void session.halt();
+    expect(session.state.latch?.unheld).toMatchObject({ servos: null });
+    expect(session.state.latch?.unheld?.forMs).toBeGreaterThan(5_500);
+    await clock.advance(5_500);
+    expect(simulated.board.pulse(3)).toBe(2_000);
+
+    await clock.advance(25_000);
+    void session.halt();
+    expect(session.state.latch, 'no move is that long').toMatchObject({ unheld: null });
+    await clock.advance(500);
   });
 
   /** A session on a board where another one has stored `frames` in slot 7. */

@@ -110,6 +110,8 @@ export function createSession(options: SessionOptions): Session {
   const clock = createWakefulClock(options.clock, overslept);
   const store = createSessionStore(family);
   const replies = createReplies(clock);
+  /** The link was opened and not only mended. */
+  let isNew = false;
   /** Until it is known which board moves so. */
   let before: MotionBefore | null = null;
 
@@ -259,6 +261,7 @@ export function createSession(options: SessionOptions): Session {
       return;
     }
     resync.send();
+    isNew = !line.isReturn;
     if (line.isReturn) halt.stopAfterReturn();
     identification.begin();
   }
@@ -277,6 +280,9 @@ export function createSession(options: SessionOptions): Session {
   function becomesReady(): void {
     driver.groups.linked();
     if (before !== null) driver.core.robot.placed(before);
+    // A shared link says itself what may go on, and a board of the page's own is as new as its link.
+    if (isNew && transport.halt === undefined && !transport.isSimulated) driver.core.robot.opened();
+    isNew = false;
   }
 
   /** The board may have moved, restarted or been changed for another before it is ready again. */
