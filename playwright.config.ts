@@ -49,11 +49,7 @@ export default defineConfig<object, { way: Way }>({
     screenshot: 'only-on-failure',
     launchOptions: {
       ...(executablePath === null ? {} : { executablePath }),
-      args: [
-        `--disable-features=${unwantedFeatures.join(',')}`,
-        // Off on Linux, where the browser then complains of a policy that names it.
-        '--enable-features=WebBluetooth',
-      ],
+      args: [`--disable-features=${unwantedFeatures.join(',')}`],
     },
   },
 });

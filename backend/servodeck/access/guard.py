@@ -43,7 +43,8 @@ FIXED_HEADERS = {
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
-    "Permissions-Policy": "serial=(self), hid=(self), bluetooth=(self)",
+    # Web Bluetooth is left to the own origin by default; a browser without it warns of its name at each load.
+    "Permissions-Policy": "serial=(self), hid=(self)",
 }
 
 
