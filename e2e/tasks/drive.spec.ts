@@ -3,10 +3,17 @@
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
-test('connecting asks nothing of the board that moves it', async ({ dashboard, robot }) => {
+test('connecting asks nothing of the board that moves it; the battery is read, also when wanted', async ({
+  dashboard,
+  robot,
+}) => {
   await expect(dashboard.battery).toContainText('7.50 V');
+  await expect(dashboard.battery).toContainText(/\d sec\. ago/);
   const kinds = (await robot.bus()).map(({ command }) => command.kind);
   expect(kinds.filter((kind) => kind !== 'stop' && kind !== 'readBattery')).toEqual([]);
+  const asked = ofKind(await robot.bus(), 'readBattery').length;
+  await dashboard.battery.getByRole('button', { name: 'Refresh' }).click();
+  await poll(async () => ofKind(await robot.bus(), 'readBattery').length).toBeGreaterThan(asked);
 });
 
 test('a slider stepped by key moves the servo, slowly at first, and the estimate follows @everyWay', async ({
