@@ -1,15 +1,17 @@
 // Nothing that can be pressed moves by itself: what comes and goes has a place of its own.
 
-import type { Page } from '@playwright/test';
-import { dashboardOf } from '../fixtures/dashboard.ts';
-import { plugInPad } from '../fixtures/padInPage.ts';
-import { expect, test } from '../fixtures/test.ts';
+import * as pad from '../../e2e/fixtures/padInPage.ts';
+import { isExhaustive } from './harness/sound.ts';
+import type { Page } from './harness/page.ts';
+import { dashboardOf, expect, here, test } from './harness/test.ts';
 
-const SIZES = [
-  { width: 390, height: 844 },
-  { width: 820, height: 1180 },
-  { width: 1440, height: 900 },
-];
+const plugInPad = here(pad.plugInPad);
+
+const PHONE = { width: 390, height: 844 };
+const TABLET = { width: 820, height: 1180 };
+const DESK = { width: 1440, height: 900 };
+/** The one with tabs and the one without; the tablet's is between them. */
+const SIZES = isExhaustive ? [PHONE, TABLET, DESK] : [PHONE, DESK];
 
 /** Where each control below the top bar begins, a figure where it ends, by name and kind. */
 function placesOf(page: Page): Promise<Readonly<Record<string, string>>> {
@@ -42,9 +44,9 @@ async function movedBy(page: Page, act: () => Promise<unknown>): Promise<readonl
 
 for (const viewport of SIZES) {
   test.describe(`at ${viewport.width} pixels`, () => {
-    test.use({ viewport });
+    test.override({ viewport });
 
-    test('nothing moves below what comes, goes or becomes known', async ({ page, servers }) => {
+    test('nothing moves below what comes, goes or becomes known', async ({ page, url }) => {
       await plugInPad(page);
       const dashboard = dashboardOf(page);
       const tab = async (name: string): Promise<void> => {
@@ -53,12 +55,10 @@ for (const viewport of SIZES) {
       };
       const expectSteady = async (what: string, act: () => Promise<unknown>): Promise<void> =>
         expect.soft(await movedBy(page, act), what).toEqual([]);
-      await page.goto((await servers.files()).url);
+      await page.goto(url);
       await expect(dashboard.link).toHaveText(/Simulated/);
       await expect(dashboard.estimate(6)).toBeVisible();
       await expect(dashboard.status).toContainText('Idle');
-      // What the first load leaves out has come.
-      await page.waitForLoadState('networkidle');
 
       await expectSteady('a message', async () => {
         await dashboard.type(dashboard.target(1), 9999);
@@ -101,7 +101,7 @@ for (const viewport of SIZES) {
       await tab('Actions');
       await page.getByRole('radio', { name: 'Action group' }).check();
       const capture = dashboard.button('Capture frame');
-      const placeOf = async (): Promise<number> => Math.round((await capture.boundingBox())?.y ?? 0);
+      const placeOf = async (): Promise<number> => Math.round((await capture.boundingBox()).y);
       await capture.scrollIntoViewIfNeeded();
       const before = await placeOf();
       await capture.click();

@@ -1,15 +1,23 @@
-// Teaching by hand over Web Serial: an xArm whose released servos are turned in the page's own board.
+// Teaching by hand: an xArm whose released servos are turned.
 
-import { ofKind } from '../fixtures/bus.ts';
-import { expect, poll, test } from '../fixtures/test.ts';
+import { ofKind } from '../../e2e/fixtures/bus.ts';
+import { READY } from '../../e2e/fixtures/dashboard.ts';
+import { dashboardOf, expect, poll, test } from './harness/test.ts';
 
-test.use({ boardSettings: { board: 'xarm' } });
+test.override({ boardSettings: { board: 'xarm' } });
 
 test('the arm is posed by hand, captured while it is read, and holds at the end', async ({
   page,
   robot,
-  dashboard,
+  url,
 }) => {
+  // Chosen anew: nothing has been asked of it that tells where a servo is.
+  const dashboard = dashboardOf(page);
+  await page.goto(url);
+  await dashboard.button('Connect').click();
+  await dashboard.button('Choose a port').click();
+  await dashboard.takeFor('xArm').click();
+  await expect(dashboard.link).toHaveText(READY);
   await expect(page.getByText('Move a servo or read positions first.').first()).toBeVisible();
   await dashboard.button('Teach').click();
   const warning = page.getByRole('alertdialog', { name: 'Teach by hand?' });
@@ -18,10 +26,10 @@ test('the arm is posed by hand, captured while it is read, and holds at the end'
   await expect(dashboard.target(3)).toHaveValue('400');
   await expect(page.getByText('Teaching: turn the servos by hand')).toBeVisible();
 
-  await page.evaluate(() => window.portInPage.turn(3, 620));
+  robot.turn(3, 620);
   await expect(dashboard.target(3)).toHaveValue('620');
   await dashboard.button('Capture frame').click();
-  await page.evaluate(() => window.portInPage.turn(3, 300));
+  robot.turn(3, 300);
   await expect(dashboard.target(3)).toHaveValue('300');
   await dashboard.button('Capture frame').click();
   await expect(dashboard.frame(2)).toBeVisible();
