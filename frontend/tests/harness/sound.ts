@@ -16,7 +16,8 @@ declare module 'vitest' {
 export const isExhaustive = inject('isExhaustive');
 
 /** One of a list, or all of it where every look is looked at. */
-export const looks = <T>(all: readonly [T, ...T[]]): readonly T[] => (isExhaustive ? all : all.slice(0, 1));
+export const looks = <const All extends readonly unknown[]>(all: All): readonly All[number][] =>
+  isExhaustive ? all : all.slice(0, 1);
 
 export async function expectSound(state: string, { isDark = false } = {}): Promise<void> {
   const { violations } = await during(

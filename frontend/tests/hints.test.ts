@@ -1,13 +1,13 @@
 // What a control is for shows where the pointer rests and where the keyboard is, and is gone as soon as anything is done.
 
-import type { Locator, Page } from '@playwright/test';
-import { dashboardOf } from '../fixtures/dashboard.ts';
-import { expect, test } from '../fixtures/test.ts';
+import type { Locator } from './harness/locator.ts';
+import type { Page } from './harness/page.ts';
+import { dashboardOf, expect, test } from './harness/test.ts';
 
 const hintIn = (page: Page): Locator => page.getByRole('tooltip');
 
-test('a hint shows where the pointer rests, follows it, and goes with a press', async ({ page, servers }) => {
-  await page.goto((await servers.files()).url);
+test('a hint shows where the pointer rests, follows it, and goes with a press', async ({ page, url }) => {
+  await page.goto(url);
   const { bar, link } = dashboardOf(page);
   await expect(link).toHaveText(/Simulated/);
   const appearance = bar.getByRole('button', { name: /^Appearance/ });
@@ -24,8 +24,8 @@ test('a hint shows where the pointer rests, follows it, and goes with a press', 
   await expect(hintIn(page)).toBeHidden();
 });
 
-test('a hint shows at what the keyboard leads to, and goes with the next key', async ({ page, servers }) => {
-  await page.goto((await servers.files()).url);
+test('a hint shows at what the keyboard leads to, and goes with the next key', async ({ page, url }) => {
+  await page.goto(url);
   const { bar, link } = dashboardOf(page);
   await expect(link).toHaveText(/Simulated/);
   const appearance = bar.getByRole('button', { name: /^Appearance/ });

@@ -1,9 +1,8 @@
 // A message has room of its own: whatever could be pressed before it came can be pressed beside it. A hint has not, so it lets
 // everything through and never lies over STOP.
 
-import type { Page } from '@playwright/test';
-import { dashboardOf } from '../fixtures/dashboard.ts';
-import { expect, poll, test } from '../fixtures/test.ts';
+import type { Page } from './harness/page.ts';
+import { dashboardOf, expect, poll, test } from './harness/test.ts';
 
 const SIZES = [
   { width: 390, height: 844 },
@@ -28,10 +27,10 @@ function coveredBy(page: Page): Promise<readonly string[]> {
 }
 
 for (const size of SIZES) {
-  test(`messages cover no control at ${size.width} pixels`, async ({ page, servers }) => {
+  test(`messages cover no control at ${size.width} pixels`, async ({ page, url }) => {
     await page.setViewportSize(size);
     const dashboard = dashboardOf(page);
-    await page.goto((await servers.files()).url);
+    await page.goto(url);
     await expect(dashboard.link).toHaveText(/Simulated/);
     await dashboard.type(dashboard.target(1), 9999);
     await expect(dashboard.notices).toContainText('Gripper: 9999 is out of range; it takes 500 to 2500.');
@@ -58,29 +57,33 @@ function coveredStop(page: Page): Promise<readonly string[]> {
   });
 }
 
-test('no hint lies over Stop or takes a press', async ({ page, servers }) => {
-  await page.goto((await servers.files()).url);
+test('no hint lies over Stop or takes a press', async ({ page, url }) => {
+  await page.goto(url);
   const dashboard = dashboardOf(page);
   await expect(dashboard.link).toHaveText(/Simulated/);
   const appearance = dashboard.bar.getByRole('button', { name: /^Appearance/ });
   // As wide as any: where it hangs is the library's, whom it covers is ours.
-  await page.addStyleTag({ content: '[role="tooltip"] { width: 280px; height: 60px; }' });
+  await page.evaluate(() => {
+    const style = document.createElement('style');
+    style.textContent = '[role="tooltip"] { width: 280px; height: 60px; }';
+    document.body.append(style);
+  });
   await page.mouse.move(600, 400);
   await appearance.hover();
   const hint = page.getByRole('tooltip');
   await expect(hint).toBeVisible();
-  await expect(async () => {
-    const [box, stop] = [(await hint.boundingBox())!, (await dashboard.stop.boundingBox())!];
-    expect(box.x + box.width).toBeGreaterThan(stop.x);
-    expect(box.y).toBeLessThan(stop.y + stop.height);
-  }).toPass();
+  const liesOver = async (): Promise<boolean> => {
+    const [box, stop] = [await hint.boundingBox(), await dashboard.stop.boundingBox()];
+    return box.x + box.width > stop.x && box.y < stop.y + stop.height;
+  };
+  await expect.poll(liesOver).toBe(true);
   expect(await coveredStop(page)).toEqual([]);
   await expect(hint).toHaveCSS('pointer-events', 'none');
 });
 
-test('whoever dismisses a message by key is back where they came from', async ({ page, servers }) => {
+test('whoever dismisses a message by key is back where they came from', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.link).toHaveText(/Simulated/);
   await dashboard.type(dashboard.target(1), 9999);
   await page.keyboard.press('Shift+Tab');

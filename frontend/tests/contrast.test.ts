@@ -1,9 +1,9 @@
 // For whoever needs other colours or a still page: with the system's high contrast what has the focus is still to be seen, and
 // nothing moves by itself where that is not wanted.
 
-import type { Page } from '@playwright/test';
-import { dashboardOf } from '../fixtures/dashboard.ts';
-import { expect, poll, test } from '../fixtures/test.ts';
+import type { Page } from './harness/page.ts';
+import { looks } from './harness/sound.ts';
+import { dashboardOf, expect, poll, test } from './harness/test.ts';
 
 /** As many stops as a person tries; the page has a few dozen. */
 const STOPS = 45;
@@ -23,13 +23,12 @@ function focusUnseen(page: Page): Promise<string | null> {
   });
 }
 
-for (const forcedColors of ['none', 'active'] as const) {
+for (const forcedColors of looks(['none', 'active'])) {
   test.describe(`forced colours: ${forcedColors}`, () => {
-    test.use({ contextOptions: { forcedColors } });
+    test.override({ media: { forcedColors } });
 
-    test('whatever has the focus says so', async ({ page, servers }) => {
-      test.slow();
-      await page.goto((await servers.files()).url);
+    test('whatever has the focus says so', async ({ page, url }) => {
+      await page.goto(url);
       await expect(dashboardOf(page).link).toHaveText(/Ready/);
       for (let stop = 0; stop < STOPS; stop += 1) {
         await page.keyboard.press('Tab');
@@ -46,12 +45,12 @@ const inksOf = (page: Page) =>
     body: getComputedStyle(document.body).color,
   }));
 
-for (const colorScheme of ['dark', 'light'] as const) {
+for (const colorScheme of looks(['dark', 'light'])) {
   test.describe(`more contrast in ${colorScheme}`, () => {
-    test.use({ colorScheme, contextOptions: { contrast: 'more' } });
+    test.override({ media: { colorScheme, contrast: 'more' } });
 
-    test('what is said beside is as dark as the rest', async ({ page, servers }) => {
-      await page.goto((await servers.files()).url);
+    test('what is said beside is as dark as the rest', async ({ page, url }) => {
+      await page.goto(url);
       const { hint, body } = await inksOf(page);
       expect(hint).toBe(body);
     });
@@ -59,10 +58,10 @@ for (const colorScheme of ['dark', 'light'] as const) {
 }
 
 test.describe('in dark', () => {
-  test.use({ colorScheme: 'dark' });
+  test.override({ media: { colorScheme: 'dark' } });
 
-  test('paper is light, where the page is dark by choice too', async ({ page, servers }) => {
-    await page.goto((await servers.files()).url);
+  test('paper is light, where the page is dark by choice too', async ({ page, url }) => {
+    await page.goto(url);
     const inDark = await inksOf(page);
     await page.emulateMedia({ media: 'print' });
     const onPaper = await inksOf(page);
@@ -73,10 +72,10 @@ test.describe('in dark', () => {
 });
 
 test.describe('where nothing is to move by itself', () => {
-  test.use({ contextOptions: { reducedMotion: 'reduce' } });
+  test.override({ media: { reducedMotion: 'reduce' } });
 
-  test('nothing fades, slides or grows', async ({ page, servers }) => {
-    await page.goto((await servers.files()).url);
+  test('nothing fades, slides or grows', async ({ page, url }) => {
+    await page.goto(url);
     await expect(dashboardOf(page).link).toHaveText(/Ready/);
     const restless = await page.evaluate(() =>
       [...document.querySelectorAll('*')]
