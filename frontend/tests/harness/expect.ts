@@ -27,6 +27,11 @@ function placed(place: Locator, isNot: boolean, message: string | undefined, ver
       if (verify === compare) throw error;
       await check(verify as typeof compare);
     });
+  const fitting = (judge: typeof compare, fits: boolean, actual: unknown, wanted: unknown, what: string) => {
+    if (isNot) judge(fits, what).toBe(false);
+    // Shows where they differ.
+    else judge(fits ? wanted : actual, what).toEqual(wanted);
+  };
   const state = (name: string, read: (element: HTMLElement) => boolean) => (options?: Waiting) =>
     wait((judge) => judge(read(place.element()), `${label} ${name}`).toBe(!isNot), options);
   const said =
@@ -34,8 +39,7 @@ function placed(place: Locator, isNot: boolean, message: string | undefined, ver
     (wanted: Text, options?: Waiting) =>
       wait((judge) => {
         const actual = plain(read(place.element()));
-        const is = fits(actual, wanted);
-        judge(is === !isNot ? wanted : actual, `${label} ${name}: ${actual}`).toEqual(wanted);
+        fitting(judge, fits(actual, wanted), actual, wanted, `${label} ${name}: ${actual}`);
       }, options);
   const matched =
     (name: 'toHaveAccessibleName' | 'toHaveAccessibleDescription') => (wanted: Text, options?: Waiting) =>
@@ -47,7 +51,7 @@ function placed(place: Locator, isNot: boolean, message: string | undefined, ver
     wait((judge) => {
       const actual = place.elements().map(({ textContent }) => plain(textContent));
       const is = actual.length === wanted.length && actual.every((text, at) => fits(text, wanted[at] ?? ''));
-      judge(is === !isNot ? wanted : actual, label).toEqual(wanted);
+      fitting(judge, is, actual, wanted, label);
     }, options);
 
   return {
