@@ -1,10 +1,8 @@
-// The board's own memory: download a group to a slot, run it there, end it, erase all.
+// The board's own memory over each way. Replacing, ending, cancelling and erasing are in frontend/tests/.
 
-import { kindsAfter, ofKind } from '../fixtures/bus.ts';
+import { ofKind } from '../fixtures/bus.ts';
 import { captureGroup, downloadGroup } from '../fixtures/group.ts';
-import { libraryOf } from '../fixtures/library.ts';
-import { noteAttribute, noteTexts } from '../fixtures/notes.ts';
-import { SLOW_FLASH } from '../fixtures/robot.ts';
+import { noteTexts } from '../fixtures/notes.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 test('a group goes to slot 5, runs there twice and ends by itself @everyWay', async ({
@@ -31,115 +29,4 @@ test('a group goes to slot 5, runs there twice and ends by itself @everyWay', as
   await dashboard.button('Show the log').click();
   await expect(dashboard.log).toContainText('Group finished by itself');
   await expect(dashboard.status).toHaveText('Idle');
-});
-
-test('a group runs until it is ended after its frame in progress, one at a time', async ({
-  dashboard,
-  robot,
-}) => {
-  await captureGroup(dashboard, [1000, 1600], 200);
-  await downloadGroup(dashboard, 1, 1600);
-  await dashboard.untilStopped.check();
-  await expect(dashboard.times).toBeDisabled();
-  await dashboard.button('Run').click();
-  await expect(dashboard.status).toHaveText('Running slot 1, until stopped: received by the board');
-  expect(ofKind(await robot.bus(), 'run')).toEqual([{ kind: 'run', slot: 1, times: 0 }]);
-
-  const beforeSecond = (await robot.bus()).length;
-  await dashboard.button('Run').click();
-  await poll(() => kindsAfter(robot.bus, beforeSecond)).toEqual(['stop', 'stop', 'stop', 'run']);
-  await expect(dashboard.status).toContainText('received by the board');
-
-  const beforeEnd = (await robot.bus()).length;
-  await dashboard.button('End group').click();
-  await expect(dashboard.status).toHaveText('Idle');
-  // Half a second behind a run, and never among its stops, the page asks for the battery.
-  const kinds = async () => (await kindsAfter(robot.bus, beforeEnd)).join(' ');
-  await poll(kinds).toMatch(/^stop stop stop( readBattery)*$/);
-  await expect(dashboard.resume).toBeHidden();
-});
-
-test('a group without a slot of its own gets a free one, and another group is replaced only after a question', async ({
-  dashboard,
-  robot,
-  page,
-}) => {
-  const library = libraryOf(page);
-  const question = page.getByRole('alertdialog', { name: 'Slot 2 holds another group' });
-  const stored = async () => ofKind(await robot.bus(), 'download').map(({ slot }) => slot);
-  await captureGroup(dashboard, [1000], 200);
-  await library.call('Bow in two');
-  await downloadGroup(dashboard, 2, 1000);
-  await library.show();
-  await library.button('New group').click();
-  await captureGroup(dashboard, [1300], 200);
-  await library.call('Wave in none');
-  await expect(dashboard.slot).toHaveValue('21');
-  await expect(dashboard.estimate(1)).toHaveText('≈ 1300');
-
-  await dashboard.type(dashboard.slot, 2);
-  await expect(dashboard.boardBar).toContainText('Holds “Bow in two”');
-  await dashboard.button('Download').click();
-  await expect(question).toContainText('“Wave in none” takes the place of “Bow in two”');
-  await question.getByRole('button', { name: 'Leave it as it is' }).click();
-  await expect(question).toBeHidden();
-  expect(await stored()).toEqual([2]);
-  await dashboard.button('Download').click();
-  await question.getByRole('button', { name: 'Use slot 21' }).click();
-  await expect(dashboard.notices).toContainText('Slot 21 is downloaded.');
-  await expect(dashboard.slot).toHaveValue('21');
-  expect(await stored()).toEqual([2, 21]);
-
-  await library.show();
-  await library.open('Bow in two');
-  await expect(dashboard.slot, 'where it is').toHaveValue('2');
-  await expect(dashboard.boardBar).toContainText('Holds this group');
-});
-
-test.describe('on a board with slow flash', () => {
-  test.use({ boardSettings: SLOW_FLASH });
-
-  test('a download shows how far it is; cancelled, it leaves the slot broken, and that is not run', async ({
-    dashboard,
-    robot,
-  }) => {
-    await captureGroup(dashboard, [1000, 1010, 1020]);
-    await dashboard.type(dashboard.slot, 7);
-    await expect(dashboard.estimate(1)).toHaveText('≈ 1020');
-    await dashboard.button('Download').click();
-    await expect(dashboard.progress).toHaveAttribute('aria-valuetext', '0 of 3 frames');
-    await expect(dashboard.status).toHaveText('Downloading to slot 7');
-    await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');
-    await dashboard.board.getByRole('button', { name: 'Cancel' }).click();
-
-    await expect(dashboard.notices).toContainText(
-      'Download cancelled. Slot 7 is broken until a whole group is downloaded.',
-    );
-    await expect(dashboard.board).toContainText('Its download did not finish.');
-    await expect(dashboard.button('Run')).toBeDisabled();
-    expect(ofKind(await robot.bus(), 'download')).toHaveLength(1);
-
-    await dashboard.type(dashboard.slot, 8);
-    await expect(dashboard.button('Run')).toBeEnabled();
-    await dashboard.type(dashboard.slot, 7);
-    await dashboard.button('Download').click();
-    const shown = await noteAttribute(dashboard.progress, 'aria-valuetext');
-    await expect(dashboard.button('Run')).toBeEnabled();
-    await poll(shown).toContain('2 of 3 frames');
-  });
-});
-
-test('erasing asks first and names what is lost', async ({ dashboard, robot, page }) => {
-  const erase = dashboard.button('Erase everything');
-  const dialog = page.getByRole('alertdialog', { name: 'Erase every slot of the board?' });
-  await erase.click();
-  await expect(dialog).toContainText('All 256 slots are emptied, with the groups the maker put there.');
-  await dialog.getByRole('button', { name: 'Keep them' }).click();
-  await expect(dialog).toBeHidden();
-  expect(ofKind(await robot.bus(), 'erase')).toEqual([]);
-
-  await erase.click();
-  await dialog.getByRole('button', { name: 'Erase every slot' }).click();
-  await expect(dashboard.notices).toContainText('Every slot is empty.');
-  expect(ofKind(await robot.bus(), 'erase')).toHaveLength(1);
 });

@@ -163,5 +163,6 @@ const soft = Object.assign(expectWith(compare.soft), { poll });
 export const expect = Object.assign(expectWith(compare), {
   poll,
   soft,
+  stringContaining: (part: string): unknown => compare.stringContaining(part),
   configure: ({ soft: isSoft = false }: { readonly soft?: boolean }) => (isSoft ? soft : expect),
 });

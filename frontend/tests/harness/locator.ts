@@ -12,11 +12,24 @@ import type { MouseButton } from './commands.ts';
 import { act, clickAt, touchscreen, type Point } from './hands.ts';
 import { during, eventually, realFrame } from './time.ts';
 
+/** What stands before or after an element and is not to be seen belongs to no name; the engine would count it. */
+const styleOf = window.getComputedStyle.bind(window);
+window.getComputedStyle = (element, pseudo) => {
+  const style = styleOf(element, pseudo);
+  return style.visibility === 'hidden' ? styleOf(element) : style;
+};
+
 type Modifier = 'Control' | 'Shift' | 'Alt' | 'Meta' | 'ControlOrMeta';
 interface TextOptions {
   readonly exact?: boolean;
 }
 type RoleOptions = Parameters<typeof getByRoleSelector>[1];
+interface Filter {
+  readonly has?: Locator;
+  readonly hasNot?: Locator;
+  readonly hasText?: string | RegExp;
+  readonly visible?: boolean;
+}
 interface ClickOptions {
   readonly modifiers?: readonly Modifier[];
   readonly position?: Point;
@@ -76,11 +89,12 @@ export class Locator {
   and = (other: Locator) => this.#within(`internal:and=${JSON.stringify(other.selector)}`);
   or = (other: Locator) => this.#within(`internal:or=${JSON.stringify(other.selector)}`);
 
-  filter({ has, hasNot, hasText }: { has?: Locator; hasNot?: Locator; hasText?: string | RegExp }): Locator {
+  filter({ has, hasNot, hasText, visible }: Filter): Locator {
     const conditions = [
       ...(has ? [`internal:has=${JSON.stringify(has.selector)}`] : []),
       ...(hasNot ? [`internal:has-not=${JSON.stringify(hasNot.selector)}`] : []),
       ...(hasText === undefined ? [] : [getByTextSelector(hasText).replace(':text=', ':has-text=')]),
+      ...(visible === undefined ? [] : [`visible=${visible}`]),
     ];
     return this.#within(conditions.join(' >> '));
   }
@@ -146,15 +160,22 @@ export class Locator {
     }, timeout);
   }
 
+  #press(times: number, options: ClickOptions = {}): Promise<void> {
+    return eventually(async () => {
+      const at = await this.#place(options);
+      if (await meets(this.element(), () => clickAt(at, times, options))) return;
+      throw new Error(`something else came before it: ${this.selector}`);
+    }, options.timeout);
+  }
+
   async click(options: ClickOptions = {}): Promise<void> {
-    const at = await this.#place(options);
     const held = (options.modifiers ?? []).map((key) => (key === 'ControlOrMeta' ? 'Control' : key));
     if (held.length > 0) await act(...held.map((key) => ['keyDown', key] as const));
-    await clickAt(at, 1, options);
+    await this.#press(1, options);
     if (held.length > 0) await act(...held.map((key) => ['keyUp', key] as const));
   }
 
-  dblclick = async (options?: ClickOptions) => clickAt(await this.#place(options), 2);
+  dblclick = (options?: ClickOptions) => this.#press(2, options);
   async tap(): Promise<void> {
     const { x, y } = await this.#place();
     await touchscreen.tap(x, y);
@@ -287,8 +308,29 @@ function pointOf(element: HTMLElement, position?: Point): Point | null {
   if (box === undefined) return null;
   const x = position === undefined ? box.x + box.width / 2 : box.x + position.x;
   const y = position === undefined ? box.y + box.height / 2 : box.y + position.y;
-  const met = document.elementFromPoint(x, y);
+  return isMetAt(element, document.elementFromPoint(x, y)) ? { x, y } : null;
+}
+
+function isMetAt(element: HTMLElement, met: EventTarget | null): boolean {
   const label =
     element.closest('label') ?? ('labels' in element ? (element as HTMLInputElement).labels?.[0] : null);
-  return met !== null && (element.contains(met) || label?.contains(met)) ? { x, y } : null;
+  return met instanceof Node && (element.contains(met) || (label?.contains(met) ?? false));
+}
+
+const PRESSING = ['pointerdown', 'mousedown', 'pointerup', 'mouseup', 'click', 'dblclick'];
+
+/** Whether a press meets it. Where something else came there meanwhile, nothing of the page hears of the press. */
+async function meets(element: HTMLElement, press: () => Promise<void>): Promise<boolean> {
+  const listening = new AbortController();
+  let isMet: boolean | null = null;
+  const judge = (event: Event): void => {
+    isMet ??= isMetAt(element, event.target);
+    if (isMet) return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+  };
+  for (const type of PRESSING)
+    window.addEventListener(type, judge, { capture: true, signal: listening.signal });
+  await press().finally(() => listening.abort());
+  return isMet ?? false;
 }

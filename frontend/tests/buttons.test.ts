@@ -1,12 +1,13 @@
 // The page of buttons: made, used by finger and key, never while stopped; the kiosk that only a long press leaves.
 
-import type { Page } from '@playwright/test';
-import { lastTarget, ofKind } from '../fixtures/bus.ts';
-import type { Dashboard } from '../fixtures/dashboard.ts';
-import type { Robot } from '../fixtures/robot.ts';
-import { fingersOf } from '../fixtures/fingers.ts';
-import { noteTexts } from '../fixtures/notes.ts';
-import { expect, poll, test } from '../fixtures/test.ts';
+import { lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
+import * as notes from '../../e2e/fixtures/notes.ts';
+import type { Page } from './harness/page.ts';
+import type { Robot } from './harness/robot.ts';
+import { expect, here, poll, test, type Dashboard } from './harness/test.ts';
+import { advance } from './harness/time.ts';
+
+const { noteTexts } = here(notes);
 
 const buttonOf = (page: Page, name: string) =>
   page.getByRole('list', { name: 'Buttons' }).getByRole('button', { name: new RegExp(`^${name}`) });
@@ -33,7 +34,7 @@ const leaveEditing = (page: Page) => page.getByRole('switch', { name: 'Edit butt
 const slowMoves = async ({ bus }: Robot) =>
   ofKind(await bus(), 'move').filter(({ durationMs }) => durationMs >= 1500);
 
-test('a sequence is made, runs by a press and by its key, and STOP ends it for good @everyWay', async ({
+test('a sequence is made, runs by a press and by its key, and STOP ends it for good', async ({
   dashboard,
   page,
   robot,
@@ -102,7 +103,7 @@ test('the kiosk shows only buttons and Stop, also after a reload, until a long p
 });
 
 test.describe('with a finger', () => {
-  test.use({ hasTouch: true, isMobile: true, viewport: { width: 390, height: 844 } });
+  test.override({ screen: { hasTouch: true }, viewport: { width: 390, height: 844 } });
 
   test('the kiosk is left by one that stays, not by one that has gone elsewhere', async ({
     dashboard,
@@ -112,13 +113,13 @@ test.describe('with a finger', () => {
     await dashboard.button('Kiosk').tap();
     await page.reload();
     const leave = dashboard.button('Hold for 2 seconds to leave');
-    const box = (await leave.boundingBox())!;
+    const box = await leave.boundingBox();
     const middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
-    const { touch } = await fingersOf(page);
+    const { touch } = page.touchscreen;
     await touch('touchStart', middle);
     for (let step = 1; step <= 30; step += 1) {
       await touch('touchMove', { x: middle.x + (step % 2), y: middle.y - 10 * step });
-      await page.evaluate(() => new Promise((done) => setTimeout(done, 100)));
+      await advance(84);
     }
     await touch('touchEnd');
     await expect(leave).toBeVisible();
