@@ -322,15 +322,15 @@ const PRESSING = ['pointerdown', 'mousedown', 'pointerup', 'mouseup', 'click', '
 /** Whether a press meets it. Where something else came there meanwhile, nothing of the page hears of the press. */
 async function meets(element: HTMLElement, press: () => Promise<void>): Promise<boolean> {
   const listening = new AbortController();
-  let isMet: boolean | null = null;
+  const state: { isMet?: boolean } = {};
   const judge = (event: Event): void => {
-    isMet ??= isMetAt(element, event.target);
-    if (isMet) return;
+    state.isMet ??= isMetAt(element, event.target);
+    if (state.isMet) return;
     event.preventDefault();
     event.stopImmediatePropagation();
   };
   for (const type of PRESSING)
     window.addEventListener(type, judge, { capture: true, signal: listening.signal });
   await press().finally(() => listening.abort());
-  return isMet ?? false;
+  return state.isMet ?? false;
 }

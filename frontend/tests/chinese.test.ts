@@ -1,10 +1,12 @@
 // The page in Chinese: nothing of it is left in English, in any state that the gallery knows, and changing the language costs
 // nothing that a person has done.
 
-import type { Page } from '@playwright/test';
-import { dashboardOf } from '../fixtures/dashboard.ts';
-import { walkGallery } from '../fixtures/gallery.ts';
-import { expect, test } from '../fixtures/test.ts';
+import { vi } from 'vitest';
+import type { Page } from './harness/page.ts';
+import * as gallery from '../../e2e/fixtures/gallery.ts';
+import { dashboardOf, expect, here, test } from './harness/test.ts';
+
+const { walkGallery } = here(gallery);
 
 /** Names, formats, units and keys that are written so in Chinese too. */
 const NAMES = `
@@ -90,21 +92,18 @@ async function expectChinese(page: Page, state: string): Promise<void> {
   expect.soft(left, state).toEqual([]);
 }
 
-test('no state of the gallery has an English sentence left', async ({ page, servers }) => {
-  test.setTimeout(120_000);
-  await walkGallery({ page, url: (await servers.files()).url, language: 'zh' }, (state) =>
-    expectChinese(page, state),
-  );
+test('no state of the gallery has an English sentence left', async ({ page, url }) => {
+  await walkGallery({ page, url, language: 'zh' }, (state) => expectChinese(page, state));
 });
 
 test.describe('in a Chinese browser', () => {
-  test.use({ locale: 'zh-CN' });
+  test.beforeEach(() => void vi.spyOn(navigator, 'languages', 'get').mockReturnValue(['zh-CN']));
 
-  test('the page is Chinese from the start, whatever is opened', async ({ page, servers }) => {
+  test('the page is Chinese from the start, whatever is opened', async ({ page, url }) => {
     const button = (name: string) => page.getByRole('button', { name, exact: true });
     const dialog = page.getByRole('dialog').or(page.getByRole('alertdialog'));
     const ends = (name: string) => dialog.getByRole('button', { name, exact: true });
-    await page.goto((await servers.files()).url);
+    await page.goto(url);
     await expect(button('停止')).toBeVisible();
     await expect(page.locator('html')).toHaveAttribute('lang', 'zh-CN');
     await button('显示日志').click();
@@ -132,10 +131,10 @@ test.describe('in a Chinese browser', () => {
 
 test('another language changes every word at once, loses nothing and is remembered', async ({
   page,
-  servers,
+  url,
 }) => {
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.link).toContainText('Ready');
   await dashboard.capture.click();
   await dashboard.button('Show the log').click();

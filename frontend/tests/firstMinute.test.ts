@@ -1,12 +1,12 @@
 // Without a gateway and without a robot the page is alive on the simulated one, says so, and offers the ways to a real one,
 // each with the reason where it is not possible.
 
-import { dashboardOf } from '../fixtures/dashboard.ts';
-import { expect, test } from '../fixtures/test.ts';
+import { vi } from 'vitest';
+import { dashboardOf, expect, test } from './harness/test.ts';
 
-test('without a gateway the page starts on the simulated robot, and it moves', async ({ page, servers }) => {
+test('without a gateway the page starts on the simulated robot, and it moves', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.link).toHaveText(/Ready\s*Simulated/);
   await expect(dashboard.battery).toContainText('7.50 V');
   await dashboard.type(dashboard.target(6), 1800);
@@ -22,10 +22,10 @@ test('without a gateway the page starts on the simulated robot, and it moves', a
     await expect(act).toBeInViewport({ ratio: 1 });
 });
 
-test('a way that is not possible here says why', async ({ page, servers }) => {
-  await page.addInitScript(() => Object.defineProperty(window, 'isSecureContext', { value: false }));
+test('a way that is not possible here says why', async ({ page, url }) => {
+  vi.spyOn(window, 'isSecureContext', 'get').mockReturnValue(false);
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await dashboard.button('Connect').click();
   const dialog = dashboard.connectDialog;
   await expect(dialog.getByRole('group', { name: 'This computer’s port' })).toContainText(
@@ -36,12 +36,9 @@ test('a way that is not possible here says why', async ({ page, servers }) => {
   );
 });
 
-test('the simulated robot that is open is not offered once more, another board is', async ({
-  page,
-  servers,
-}) => {
+test('the simulated robot that is open is not offered once more, another board is', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.link).toHaveText(/Ready/);
   await dashboard.button('Connect').click();
   const simulated = dashboard.connectDialog.getByRole('group', { name: 'Simulated robot' });
@@ -53,22 +50,21 @@ test('the simulated robot that is open is not offered once more, another board i
   await expect(simulated.getByRole('button', { name: 'The simulated robot is open' })).toBeDisabled();
 });
 
-test('a chooser that is closed without a choice is no failure of the page', async ({ page, servers }) => {
-  await page.addInitScript(() => {
-    Serial.prototype.requestPort = () =>
-      Promise.reject(new DOMException('No port selected.', 'NotFoundError'));
-  });
+test('a chooser that is closed without a choice is no failure of the page', async ({ page, url }) => {
+  vi.spyOn(navigator.serial, 'requestPort').mockRejectedValue(
+    new DOMException('No port selected.', 'NotFoundError'),
+  );
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await dashboard.button('Connect').click();
   await dashboard.button('Choose a port').click();
   await expect(dashboard.notices).toContainText('No port was chosen.');
   await expect(dashboard.connectDialog).toBeVisible();
 });
 
-test('the first press shows the other appearance, and it is remembered', async ({ page, servers }) => {
+test('the first press shows the other appearance, and it is remembered', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await dashboard.button('Appearance: As the system').click();
   await expect(dashboard.button('Appearance: Dark')).toBeVisible();
   await page.reload();

@@ -1,16 +1,19 @@
 // The windows of class rooms: what the main jobs are done with is on screen as a whole, and stays where it is, from connecting a
 // robot to stopping it. Nobody has to scroll for it.
 
-import type { Locator, Page } from '@playwright/test';
-import { dashboardOf } from '../fixtures/dashboard.ts';
-import { timelineOf } from '../fixtures/timeline.ts';
-import { expect, test } from '../fixtures/test.ts';
+import type { Locator } from './harness/locator.ts';
+import type { Page } from './harness/page.ts';
+import * as timeline from '../../e2e/fixtures/timeline.ts';
+import { looks } from './harness/sound.ts';
+import { dashboardOf, expect, here, test } from './harness/test.ts';
+
+const { timelineOf } = here(timeline);
 
 /** What a school has; touch is larger than that, and scrolls. */
 const CLASS_ROOMS = [
   { width: 1280, height: 720 },
   { width: 1366, height: 768 },
-];
+] as const;
 const SERVOS = [1, 2, 3, 4, 5, 6];
 
 /** How much of a control somebody can point at: its middle and its corners, just within its edge. */
@@ -66,19 +69,16 @@ interface Seen {
 /** Where figures end: a mark before them comes and goes. */
 const endOf = ({ x, width }: { readonly x: number; readonly width: number }): number => Math.round(x + width);
 
-async function look(page: Page): Promise<Seen> {
-  const controls = Object.entries(controlsOf(page));
+async function look(controls: Readonly<Record<string, Locator>>): Promise<Seen> {
   const seen = await Promise.all(
-    controls.map(async ([name, control]) => {
+    Object.entries(controls).map(async ([name, control]) => {
       const box = await control.boundingBox();
       return { name, box, cut: await whatIsCut(control) };
     }),
   );
   return {
     cut: seen.flatMap(({ name, cut }) => (cut === null ? [] : [`${name}: ${cut}`])),
-    places: Object.fromEntries(
-      seen.map(({ name, box }) => [name, box === null ? '' : `${endOf(box)} ${Math.round(box.y)}`]),
-    ),
+    places: Object.fromEntries(seen.map(({ name, box }) => [name, `${endOf(box)} ${Math.round(box.y)}`])),
   };
 }
 
@@ -89,22 +89,25 @@ async function rowsInSight(page: Page): Promise<number> {
   return cut.filter((how) => how === null).length;
 }
 
-for (const viewport of CLASS_ROOMS) {
+for (const viewport of looks(CLASS_ROOMS)) {
   test.describe(`a window of ${viewport.width} by ${viewport.height}`, () => {
-    test.use({ viewport });
+    test.override({ viewport });
 
-    test('has all of the main jobs on screen, and nothing of it moves', async ({ page, servers }) => {
+    test('has all of the main jobs on screen, and nothing of it moves', async ({ page, url }) => {
       const dashboard = dashboardOf(page);
-      await page.goto((await servers.files()).url);
+      await page.goto(url);
       await expect(dashboard.estimate(6)).toHaveText('≈ 1500', { timeout: 15_000 });
-      const first = await look(page);
+      const first = await look(controlsOf(page));
       expect.soft(first.cut, 'first visit').toEqual([]);
       expect.soft(await rowsInSight(page), 'rows, first visit').toBeGreaterThanOrEqual(6);
 
-      const expectSame = async (state: string): Promise<void> => {
-        const { cut, places } = await look(page);
+      /** All but `away`, in whose place something else is. */
+      const expectSame = async (state: string, away = ''): Promise<void> => {
+        const { [away]: _, ...controls } = controlsOf(page);
+        const { [away]: _place, ...before } = first.places;
+        const { cut, places } = await look(controls);
         expect.soft(cut, state).toEqual([]);
-        expect.soft(places, state).toEqual(first.places);
+        expect.soft(places, state).toEqual(before);
       };
       await dashboard.servoName(1).click();
       await dashboard.servoName(2).click({ modifiers: ['ControlOrMeta'] });
@@ -120,7 +123,8 @@ for (const viewport of CLASS_ROOMS) {
 
       await dashboard.button('Run on board').click();
       await expect(dashboard.status).toContainText('Running', { timeout: 15_000 });
-      await expectSame('running');
+      await expectSame('running', 'Loop');
+      await expect(dashboard.status).toContainText('Running');
       await dashboard.stop.click();
       await expect(dashboard.resume).toBeVisible();
       await expectSame('stopped');
@@ -130,13 +134,13 @@ for (const viewport of CLASS_ROOMS) {
 
 for (const hasTouch of [false, true]) {
   test.describe(`a tablet ${hasTouch ? 'under fingers' : 'with a mouse'}`, () => {
-    test.use({ viewport: { width: 820, height: 1180 }, hasTouch, isMobile: hasTouch });
+    test.override({ viewport: { width: 820, height: 1180 }, screen: { hasTouch } });
 
-    test('shows the sliders and where the timeline begins', async ({ page, servers }) => {
+    test('shows the sliders and where the timeline begins', async ({ page, url }) => {
       const dashboard = dashboardOf(page);
-      await page.goto((await servers.files()).url);
+      await page.goto(url);
       await expect(dashboard.estimate(6)).toBeVisible();
-      const { y } = (await timelineOf(page).region.boundingBox())!;
+      const { y } = await timelineOf(page).region.boundingBox();
       expect(y).toBeLessThan(900);
       for (const control of [
         ...SERVOS.map(dashboard.slider),

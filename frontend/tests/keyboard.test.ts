@@ -1,11 +1,16 @@
 // The main job by keyboard alone: every control is reached by Tab in reading order, the focus is always to be seen.
 
-import type { Locator, Page } from '@playwright/test';
-import { dashboardOf } from '../fixtures/dashboard.ts';
-import { cutRing } from '../fixtures/rings.ts';
-import { robotDialogOf } from '../fixtures/robotDialog.ts';
-import { expect, poll, test } from '../fixtures/test.ts';
-import { timelineOf } from '../fixtures/timeline.ts';
+import type { Locator } from './harness/locator.ts';
+import type { Page } from './harness/page.ts';
+import * as rings from '../../e2e/fixtures/rings.ts';
+import * as robotDialog from '../../e2e/fixtures/robotDialog.ts';
+import { looks } from './harness/sound.ts';
+import { dashboardOf, expect, here, poll, test } from './harness/test.ts';
+
+const { cutRing } = here(rings);
+const { robotDialogOf } = here(robotDialog);
+const { timelineOf } = here(timeline);
+import * as timeline from '../../e2e/fixtures/timeline.ts';
 
 /** More than there are stops on the page. */
 const MOST_TABS = 80;
@@ -16,18 +21,17 @@ async function tabTo(page: Page, wanted: Locator, key: 'Tab' | 'Shift+Tab' = 'Ta
     if (await holdsFocus(wanted)) return;
     await page.keyboard.press(key);
   }
-  throw new Error(`Tab does not lead to ${String(wanted)}`);
+  throw new Error(`Tab does not lead to ${wanted.selector}`);
 }
 
 function holdsFocus(place: Locator): Promise<boolean> {
   return place.evaluate((element) => element.contains(document.activeElement));
 }
 
-test('the main job needs no mouse', async ({ page, servers }) => {
-  test.slow();
+test('the main job needs no mouse', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
   const { keyboard } = page;
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.link).toHaveText(/Ready/);
   await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
 
@@ -57,7 +61,7 @@ test('the main job needs no mouse', async ({ page, servers }) => {
   await expect(dashboard.status).toHaveText('Idle');
 });
 
-test('F6 goes from part to part, each time to where the keys were in it', async ({ page, servers }) => {
+test('F6 goes from part to part, each time to where the keys were in it', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
   const { keyboard } = page;
   const next = async (key: 'F6' | 'Shift+F6', wanted: Locator) => {
@@ -65,7 +69,7 @@ test('F6 goes from part to part, each time to where the keys were in it', async 
     expect(await holdsFocus(wanted)).toBe(true);
   };
   const part = (name: string) => page.getByRole('region', { name, exact: true });
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
 
   await next('F6', page.getByRole('banner'));
@@ -86,9 +90,9 @@ test('F6 goes from part to part, each time to where the keys were in it', async 
   await next('Shift+F6', dashboard.slider(6));
 });
 
-test('arrows go through the three that are worked on, and back', async ({ page, servers }) => {
+test('arrows go through the three that are worked on, and back', async ({ page, url }) => {
   const part = (name: string): Locator => page.getByRole('radio', { name });
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await part('Action group').focus();
   for (const [key, name] of [
     ['ArrowRight', 'Poses'],
@@ -101,9 +105,9 @@ test('arrows go through the three that are worked on, and back', async ({ page, 
   }
 });
 
-test('a dialog shares the focus with STOP alone, and gives it back', async ({ page, servers }) => {
+test('a dialog shares the focus with STOP alone, and gives it back', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.link).toHaveText(/Ready/);
   await tabTo(page, dashboard.button('Connect'));
   await page.keyboard.press('Enter');
@@ -118,8 +122,7 @@ test('a dialog shares the focus with STOP alone, and gives it back', async ({ pa
   await expect(dashboard.button('Connect')).toBeFocused();
 });
 
-test('what has the focus goes away, and the focus is where one goes on', async ({ page, servers }) => {
-  test.slow();
+test('what has the focus goes away, and the focus is where one goes on', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
   const robots = robotDialogOf(dashboard);
   const { keyboard } = page;
@@ -128,7 +131,7 @@ test('what has the focus goes away, and the focus is where one goes on', async (
     await tabTo(page, button);
     await keyboard.press('Enter');
   };
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.link).toHaveText(/Ready/);
   await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
 
@@ -186,13 +189,12 @@ async function throughDialog(page: Page, opener: Locator, name: string, within: 
   await expect(opener).toBeFocused();
 }
 
-test('robots, library, files, keys over time, slots and poses need no mouse', async ({ page, servers }) => {
+test('robots, library, files, keys over time, slots and poses need no mouse', async ({ page, url }) => {
   // Each press of Tab is one of a person, and there are many of them.
-  test.slow();
   const dashboard = dashboardOf(page);
   const { keyboard } = page;
   const radio = (name: string): Locator => page.getByRole('radio', { name, exact: true });
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.link).toHaveText(/Ready/);
   await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
 
@@ -236,9 +238,9 @@ test('robots, library, files, keys over time, slots and poses need no mouse', as
   await expect(page.getByRole('button', { name: /^Go to Pose/ })).toHaveCount(1);
 });
 
-test('a button presses once for a key that is held', async ({ page, servers }) => {
+test('a button presses once for a key that is held', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
-  await page.goto((await servers.files()).url);
+  await page.goto(url);
   await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
   await dashboard.capture.click();
   await expect(dashboard.frames).toHaveCount(1);
@@ -248,17 +250,17 @@ test('a button presses once for a key that is held', async ({ page, servers }) =
   await expect(dashboard.frames).toHaveCount(2);
 });
 
-for (const viewport of [
+for (const viewport of looks([
   { width: 1440, height: 900 },
   { width: 1280, height: 720 },
   { width: 820, height: 1180 },
-]) {
+])) {
   test.describe(`a window ${viewport.width} pixels wide`, () => {
-    test.use({ viewport });
+    test.override({ viewport });
 
-    test('shows all of the ring around what has the focus, after Escape too', async ({ page, servers }) => {
+    test('shows all of the ring around what has the focus, after Escape too', async ({ page, url }) => {
       const dashboard = dashboardOf(page);
-      await page.goto((await servers.files()).url);
+      await page.goto(url);
       await expect(dashboard.estimate(6)).toHaveText('≈ 1500');
       await dashboard.capture.click();
       await expect(dashboard.frames).toHaveCount(1);
