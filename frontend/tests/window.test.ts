@@ -2,7 +2,7 @@
 // robot to stopping it. Nobody has to scroll for it.
 
 import type { Locator } from './harness/locator.ts';
-import type { Page } from './harness/page.ts';
+import type { Look, Page } from './harness/page.ts';
 import * as timeline from '../../e2e/fixtures/timeline.ts';
 import { looks } from './harness/sound.ts';
 import { dashboardOf, expect, here, test } from './harness/test.ts';
@@ -10,10 +10,10 @@ import { dashboardOf, expect, here, test } from './harness/test.ts';
 const { timelineOf } = here(timeline);
 
 /** What a school has; touch is larger than that, and scrolls. */
-const CLASS_ROOMS = [
+const CLASS_ROOMS: readonly [Look['viewport'], Look['viewport']] = [
   { width: 1280, height: 720 },
   { width: 1366, height: 768 },
-] as const;
+];
 const SERVOS = [1, 2, 3, 4, 5, 6];
 
 /** How much of a control somebody can point at: its middle and its corners, just within its edge. */

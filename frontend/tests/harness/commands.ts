@@ -94,6 +94,7 @@ async function perform({ page, sessionId }: Context, one: Act): Promise<void> {
 
 const emulateMedia: BrowserCommand<[media: Media]> = ({ page }, media) => page.emulateMedia(media);
 
+/** After fingers a headless browser has no pointer at all, neither coarse nor fine: what is laid out must not ask for a fine one. */
 const emulateScreen: BrowserCommand<[screen: Screen]> = async ({ page }, screen) => {
   const devtools = await devtoolsOf(page);
   await devtools.send('Emulation.setTouchEmulationEnabled', { enabled: screen.hasTouch, maxTouchPoints: 2 });

@@ -12,13 +12,6 @@ import type { MouseButton } from './commands.ts';
 import { act, clickAt, touchscreen, type Point } from './hands.ts';
 import { during, eventually, realFrame } from './time.ts';
 
-/** What stands before or after an element and is not to be seen belongs to no name; the engine would count it. */
-const styleOf = window.getComputedStyle.bind(window);
-window.getComputedStyle = (element, pseudo) => {
-  const style = styleOf(element, pseudo);
-  return style.visibility === 'hidden' ? styleOf(element) : style;
-};
-
 type Modifier = 'Control' | 'Shift' | 'Alt' | 'Meta' | 'ControlOrMeta';
 interface TextOptions {
   readonly exact?: boolean;
@@ -215,17 +208,18 @@ export class Locator {
   }
 
   async fill(text: string): Promise<void> {
-    const type = await eventually(() => {
+    await eventually(() => {
       const field = this.element() as HTMLInputElement;
       if (!isVisible(field) || isInactive(field) || field.readOnly)
         throw new Error(`nothing can be written here: ${this.selector}`);
       field.focus();
-      if (field.type === 'range') slide(field, text);
-      else field.select();
-      return field.type;
+      if (field.type === 'range') return slide(field, text);
+      field.select();
+      // At once, before anything else takes the focus.
+      // eslint-disable-next-line @typescript-eslint/no-deprecated
+      document.execCommand(text === '' ? 'delete' : 'insertText', false, text);
     });
-    if (type === 'range') return act();
-    await act(text === '' ? ['press', 'Delete'] : ['insertText', text]);
+    await act();
   }
 
   clear = () => this.fill('');
