@@ -183,7 +183,8 @@ export class Locator {
     if ((await this.isChecked()) === wanted) return;
     await this.click();
     await eventually(() => {
-      if (isChecked(this.element()) !== wanted)
+      // It may be gone with that.
+      if (this.elements().some((element) => isChecked(element) !== wanted))
         throw new Error(`a click did not change it: ${this.selector}`);
     });
   }

@@ -14,11 +14,12 @@ export function createRobot(page: Page, settings: BoardSettings) {
   const family = settings.board ?? 'doc';
   return {
     bus: () => Promise.resolve(heardIn({ startedAtEpochMs: timeOriginMs, entries: portInPage.entries })),
-    /** Opens the dashboard where this robot was connected at the last visit. */
-    async open(): Promise<void> {
+    /** Opens the dashboard where this robot was connected at the last visit; what board it has may be new to the page. */
+    async open({ isKnown = true } = {}): Promise<void> {
       portInPage.allow();
       localStorage.setItem('servodeck.way', 'webSerial doc');
-      localStorage.setItem('servodeck.boards', JSON.stringify({ [PORT]: { family, nickname: '' } }));
+      if (isKnown)
+        localStorage.setItem('servodeck.boards', JSON.stringify({ [PORT]: { family, nickname: '' } }));
       await page.goto('/');
     },
     async unplug() {

@@ -1,11 +1,15 @@
 // Groups from the vendors' programs: opened, looked at, undone, saved, and read back the same; a broken file tells where and why.
 
-import { dashboardOf, type Dashboard } from '../fixtures/dashboard.ts';
-import { filesDialogOf, vector } from '../fixtures/files.ts';
-import { captureGroup } from '../fixtures/group.ts';
-import { libraryOf } from '../fixtures/library.ts';
-import { expect, test } from '../fixtures/test.ts';
-import { timelineOf } from '../fixtures/timeline.ts';
+import { vi } from 'vitest';
+import * as group from '../../e2e/fixtures/group.ts';
+import * as library from '../../e2e/fixtures/library.ts';
+import * as timeline from '../../e2e/fixtures/timeline.ts';
+import { fileOf, filesDialogOf, textOf, vector } from './filesDialog.ts';
+import { dashboardOf, expect, here, test, type Dashboard } from './harness/test.ts';
+
+const { captureGroup } = here(group);
+const { libraryOf } = here(library);
+const { timelineOf } = here(timeline);
 
 /** What a person reads of each frame. */
 const framesOf = (dashboard: Dashboard) =>
@@ -17,7 +21,7 @@ test('a vendor’s XML becomes frames in one step, and saved as XML it is read b
   dashboard,
 }) => {
   const files = filesDialogOf(dashboard);
-  await files.open(vector('No.10 wave.xml'));
+  await files.open(await vector('No.10 wave.xml'));
   const wave = files.file('No.10 wave.xml');
   await expect(wave).toContainText('4 frames, 2.6 sec, 6 servos, for slot 10');
   const take = wave.getByRole('button', { name: 'Open wave' });
@@ -41,16 +45,16 @@ test('a vendor’s XML becomes frames in one step, and saved as XML it is read b
   expect(await framesOf(dashboard)).toEqual(frames);
 });
 
-test('a .d6a database is opened and saved by the page alone @everyWay', async ({ dashboard }) => {
+test('a .d6a database is opened and saved by the page alone', async ({ dashboard }) => {
   const files = filesDialogOf(dashboard);
-  await files.open(vector('greet.d6a'));
+  await files.open(await vector('greet.d6a'));
   const greet = files.file('greet.d6a');
   await greet.getByRole('button', { name: /^Pulse widths/ }).click();
   await greet.getByRole('button', { name: 'Open greet' }).click();
   await expect(dashboard.frames).toHaveCount(3);
   const saved = await files.save('.d6a');
   expect(saved.name).toBe('greet.d6a');
-  expect(saved.content.subarray(0, 15).toString()).toBe('SQLite format 3');
+  expect(textOf(saved).slice(0, 15)).toBe('SQLite format 3');
   await files.open({ ...saved, name: 'back.d6a' });
   await expect(files.file('back.d6a')).toContainText('3 frames, 1.6 sec, 3 servos');
 });
@@ -61,12 +65,8 @@ test('several files come at once; a broken one tells where and why, and changes 
 }) => {
   await captureGroup(dashboard, [1000, 1200]);
   const files = filesDialogOf(dashboard);
-  const broken = vector('nod.xml').content.toString().replace('P1900', 'P19.0');
-  await files.open(
-    vector('secret.rob'),
-    { name: 'broken.xml', content: Buffer.from(broken) },
-    vector('step.rob'),
-  );
+  const broken = textOf(await vector('nod.xml')).replace('P1900', 'P19.0');
+  await files.open(await vector('secret.rob'), fileOf('broken.xml', broken), await vector('step.rob'));
   await expect(files.file('broken.xml')).toContainText('broken.xml was not opened.');
   await expect(files.file('broken.xml')).toContainText('Line 8: “19.0” is no position');
   await expect(files.file('secret.rob')).toContainText('It is encrypted.');
@@ -86,8 +86,13 @@ test('several groups are taken in one go: one is shown, the others are in the li
   page,
 }) => {
   const files = filesDialogOf(dashboard);
-  const { content } = vector('nod.xml');
-  await files.open({ name: 'all one.xml', content }, { name: 'all two.xml', content }, vector('secret.rob'));
+  const { content } = await vector('nod.xml');
+  await files.open(
+    { name: 'all one.xml', content },
+    { name: 'all two.xml', content },
+    await vector('secret.rob'),
+  );
+  await expect(files.file('secret.rob')).toContainText('It is encrypted.');
   await files.dialog.getByRole('button', { name: 'Open all 2' }).click();
   await expect(dashboard.field('Name of the group')).toHaveValue('all one');
   await expect(dashboard.button('Files, 1 not opened')).toBeVisible();
@@ -98,24 +103,18 @@ test('several groups are taken in one go: one is shown, the others are in the li
 
 test('files are read by a worker: how far it has come is said, and a cancel loses nothing', async ({
   dashboard,
-  page,
 }) => {
   await captureGroup(dashboard, [1000, 1200]);
   const files = filesDialogOf(dashboard);
-  let letGo = (): void => undefined;
-  const held = new Promise<void>((resolve) => (letGo = resolve));
-  await page.route(/readingWorker/, async (route) => {
-    await held;
-    await route.continue().catch(() => undefined);
-  });
+  const unanswered = vi.spyOn(Worker.prototype, 'postMessage').mockReturnValue(undefined);
   const progress = files.dialog.getByRole('progressbar', { name: 'Reading files' });
-  await files.open(vector('nod.xml'), vector('greet.d6a'), vector('reach.csv'));
+  await files.open(await vector('nod.xml'), await vector('greet.d6a'), await vector('reach.csv'));
   await expect(progress).toHaveAttribute('aria-valuetext', '0 of 3 files read');
   await files.dialog.getByRole('button', { name: 'Cancel' }).click();
   await expect(files.dialog).toContainText('Cancelled. 3 files not read.');
   await expect(progress).toBeHidden();
-  letGo();
-  await files.open(vector('nod.xml'), vector('greet.d6a'));
+  unanswered.mockRestore();
+  await files.open(await vector('nod.xml'), await vector('greet.d6a'));
   await expect(files.file('nod.xml')).toContainText('2 frames');
   await expect(files.file('greet.d6a')).toContainText('3 frames');
   await expect(files.dialog).not.toContainText('not read');
@@ -125,8 +124,8 @@ test('files are read by a worker: how far it has come is said, and a cancel lose
 
 test('what the board cannot do becomes no program, and says which servo and frame', async ({ dashboard }) => {
   const files = filesDialogOf(dashboard);
-  const far = vector('nod.xml').content.toString().replace('P1900', 'P2900');
-  await files.open({ name: 'far.xml', content: Buffer.from(far) });
+  const far = textOf(await vector('nod.xml')).replace('P1900', 'P2900');
+  await files.open(fileOf('far.xml', far));
   await expect(files.file('far.xml')).toContainText('Servo 3 goes to 2900; it takes 500 to 2500. Frame 2.');
   await files.file('far.xml').getByRole('button', { name: 'Open far' }).click();
   await dashboard.button('Files').click();
@@ -139,53 +138,42 @@ test('files dropped anywhere on the panel are opened; beside it a drop does noth
   dashboard,
   page,
 }) => {
-  const text = vector('nod.xml').content.toString();
-  const carried = await page.evaluateHandle((xml) => {
-    const data = new DataTransfer();
-    data.items.add(new File([xml], 'nod.xml'));
-    return data;
-  }, text);
+  const text = textOf(await vector('nod.xml'));
+  const carried = new DataTransfer();
+  carried.items.add(new File([text], 'nod.xml'));
   await page.getByRole('banner').dispatchEvent('drop', { dataTransfer: carried });
   await expect(filesDialogOf(dashboard).dialog).toBeHidden();
   await page.getByRole('region', { name: 'Action group' }).dispatchEvent('drop', { dataTransfer: carried });
   await expect(filesDialogOf(dashboard).file('nod.xml')).toContainText('2 frames, 0.8 sec, 6 servos');
 });
 
-test('where no board is known the robot’s own counts: files are judged by it and programs are written for it', async ({
-  page,
-  ptyBoard,
-  newGateway,
-}) => {
-  const { url } = await newGateway({ serial: ptyBoard.device, board: 'unknown' });
-  await ptyBoard.unplug();
-  const dashboard = dashboardOf(page);
-  await page.goto(url);
-  await expect(dashboard.link).not.toContainText('Ready');
-  const files = filesDialogOf(dashboard);
-  await files.open(vector('nod.xml'));
-  const nod = files.file('nod.xml');
-  await expect(nod).toContainText('2 frames, 0.8 sec, 6 servos');
-  await expect(nod).not.toContainText('the board takes');
-  await expect(nod).not.toContainText('there are servos');
-  await nod.getByRole('button', { name: 'Open nod' }).click();
-  const { content } = await files.save('Python');
-  expect(content.toString()).toContain('FRAMES = [');
+test.describe('with a board that says nothing', () => {
+  test.override({ boardSettings: { faults: ['droppedByte=1'] } });
+
+  test('where no board is known the robot’s own counts: files are judged by it and programs are written for it', async ({
+    page,
+    robot,
+  }) => {
+    await robot.open({ isKnown: false });
+    const dashboard = dashboardOf(page);
+    await expect(dashboard.link).not.toContainText('Ready');
+    const files = filesDialogOf(dashboard);
+    await files.open(await vector('nod.xml'));
+    const nod = files.file('nod.xml');
+    await expect(nod).toContainText('2 frames, 0.8 sec, 6 servos');
+    await expect(nod).not.toContainText('the board takes');
+    await expect(nod).not.toContainText('there are servos');
+    await nod.getByRole('button', { name: 'Open nod' }).click();
+    expect(textOf(await files.save('Python'))).toContain('FRAMES = [');
+  });
 });
 
 test.describe('on a board that counts in steps', () => {
-  test.use({ boardSettings: { board: 'xarm' } });
+  test.override({ boardSettings: { board: 'xarm' } });
 
-  test('pulse widths become steps where the person says so, and only then', async ({
-    page,
-    ptyBoard,
-    newGateway,
-  }) => {
-    const { url } = await newGateway({ serial: ptyBoard.device, board: 'xarm' });
-    const dashboard = dashboardOf(page);
-    await page.goto(url);
-    await expect(dashboard.link).toContainText('Ready');
+  test('pulse widths become steps where the person says so, and only then', async ({ dashboard, page }) => {
     const files = filesDialogOf(dashboard);
-    await files.open(vector('nod.xml'));
+    await files.open(await vector('nod.xml'));
     const nod = files.file('nod.xml');
     await expect(nod).toContainText('It is made for boards that count in another unit.');
     const converts = nod.getByRole('switch', { name: /^Convert to steps/ });
@@ -199,7 +187,7 @@ test.describe('on a board that counts in steps', () => {
     await expect(dashboard.board).toContainText(/Fits/);
 
     await dashboard.button('Undo: open nod').click();
-    await files.open(vector('nod.xml'));
+    await files.open(await vector('nod.xml'));
     await nod.last().getByRole('button', { name: 'Open nod' }).click();
     const question = page.getByText('Made for another board. Convert?');
     await expect(question).toBeVisible();

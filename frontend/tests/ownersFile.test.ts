@@ -9,10 +9,12 @@ import { encodeCommand } from '#shared/protocol/encode.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createBoard } from '#shared/simulator/board.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import { ofKind, type Heard } from '../fixtures/bus.ts';
-import { filesDialogOf, vector } from '../fixtures/files.ts';
-import { expect, poll, test } from '../fixtures/test.ts';
-import { timelineOf } from '../fixtures/timeline.ts';
+import { ofKind, type Heard } from '../../e2e/fixtures/bus.ts';
+import * as timelines from '../../e2e/fixtures/timeline.ts';
+import { filesDialogOf, textOf, vector } from './filesDialog.ts';
+import { expect, here, poll, test } from './harness/test.ts';
+
+const { timelineOf } = here(timelines);
 
 const TICK_MS = 20;
 /** As the board panel offers it at first, with the rounding to whole positions. */
@@ -26,7 +28,7 @@ test('a vendor’s file is opened, improved with curves and undo, fits, and the 
   robot,
 }) => {
   const files = filesDialogOf(dashboard);
-  await files.open(vector('No.10 wave.xml'));
+  await files.open(await vector('No.10 wave.xml'));
   const wave = files.file('No.10 wave.xml');
   await wave.getByRole('button', { name: /^Pulse widths/ }).click();
   await wave.getByRole('button', { name: 'Open wave' }).click();
@@ -54,7 +56,7 @@ test('a vendor’s file is opened, improved with curves and undo, fits, and the 
   await expect(dashboard.status).toHaveText('Idle', { timeout: 20_000 });
 
   const saved = await files.save('Servodeck');
-  const group = groupIn(saved.content.toString());
+  const group = groupIn(textOf(saved));
   const bus = await robot.bus();
   const stored = ofKind(bus, 'download').map(({ frame }) => frame);
   expect(stored).toEqual(compile(group, { family: FAMILIES.doc, maxErrorUnits: 5 }).frames);
