@@ -14,7 +14,7 @@ import type { Media, Screen } from './commands.ts';
 import { watchFiles } from './files.ts';
 import { act, keyboard, mouse, touchscreen } from './hands.ts';
 import { handleOf, Locator } from './locator.ts';
-import { advance, during, endTimers, eventually, FRAME_MS, realFrame } from './time.ts';
+import { advance, during, endTimers, eventually, FRAME_MS, realFrame, turn } from './time.ts';
 import '../../src/ui/fonts.css';
 import '../../src/ui/tokens.css';
 import '../../src/ui/base.css';
@@ -48,6 +48,24 @@ window.Worker = class extends Worker {
     super(...options);
     workers.push(this);
   }
+};
+
+/** What the page has begun in its database. One that is left still writes, into what the next one is to find empty. */
+const storing = new Set<EventTarget>();
+
+function noteStoring<T extends EventTarget>(work: T, ...ends: readonly string[]): T {
+  storing.add(work);
+  for (const end of ends) work.addEventListener(end, () => storing.delete(work));
+  return work;
+}
+
+const { open } = IDBFactory.prototype;
+IDBFactory.prototype.open = function (...options) {
+  return noteStoring(open.apply(this, options), 'success', 'error');
+};
+const { transaction } = IDBDatabase.prototype;
+IDBDatabase.prototype.transaction = function (...options) {
+  return noteStoring(transaction.apply(this, options), 'complete', 'abort');
 };
 
 /** What is listened to while a page is being put together ends with it; a browser sees to that at a reload. */
@@ -106,6 +124,10 @@ async function leave(): Promise<void> {
   for (const worker of workers) worker.terminate();
   [listening, workers] = [[], []];
   endTimers();
+  await eventually(async () => {
+    await turn();
+    if (storing.size > 0) throw new Error('the page still writes into its database');
+  });
   document.body.replaceChildren();
   document.title = '';
   for (const name of Object.keys(document.documentElement.dataset))
@@ -171,6 +193,11 @@ export function createPage() {
     getByLabel: everything.getByLabel,
     locator: everything.locator,
     reload: () => goto(shown),
+    /** What is opened next is opened by a browser that was never here. */
+    async forget(): Promise<void> {
+      await leave();
+      await forgetAll();
+    },
     viewportSize: () => ({ width: innerWidth, height: innerHeight }),
     evaluate: async <T, A>(run: (argument: A) => T, argument?: A): Promise<Awaited<T>> => {
       const result = await during(Promise.resolve(run(argument as A)));
