@@ -1,6 +1,5 @@
-// Lets a browser test put the real keepers of a page through the contract: `window.checkKeeper`.
+// Lets a browser test put the gateway's keeper through the contract: `window.checkKeeper`.
 
-import { createBrowserKeeper } from './browserKeeper.ts';
 import { KEEPER_CASES } from './contractUnderTest.ts';
 import { gatewayKeeper } from './gatewayKeeper.ts';
 
@@ -10,13 +9,11 @@ declare global {
   }
 }
 
-const KEEPERS = { gateway: gatewayKeeper, browser: createBrowserKeeper('under test', Date.now) };
-
 /** Each case with what was wrong, empty for nothing. */
-async function checkKeeper(which: keyof typeof KEEPERS): Promise<Record<string, string>> {
+async function checkKeeper(): Promise<Record<string, string>> {
   const outcomes: Record<string, string> = {};
   for (const [index, [title, run]] of Object.entries(KEEPER_CASES).entries()) {
-    outcomes[title] = await run(KEEPERS[which], (short) => `under-test-${index}-${short}`).then(
+    outcomes[title] = await run(gatewayKeeper, (short) => `under-test-${index}-${short}`).then(
       () => '',
       (error: unknown) => String(error),
     );
