@@ -5,6 +5,7 @@ import * as group from '../../e2e/fixtures/group.ts';
 import * as notes from '../../e2e/fixtures/notes.ts';
 import * as timeline from '../../e2e/fixtures/timeline.ts';
 import { expect, here, poll, test, type Dashboard } from './harness/test.ts';
+import { advance } from './harness/time.ts';
 
 const captureGroup = here(group.captureGroup);
 const noteTexts = here(notes.noteTexts);
@@ -124,6 +125,8 @@ test('the group and its name outlive a reload of the page', async ({ dashboard, 
   const name = dashboard.field('Name of the group');
   await name.fill('Wave');
   await name.press('Enter');
+  // Whatever hands on an edit of the last moment has done so.
+  await advance(1000);
   await page.reload();
   await expect(dashboard.frames).toHaveCount(2);
   await expect(name).toHaveValue('Wave');
