@@ -25,8 +25,8 @@ export default defineConfig<object, { way: Way }>({
   testDir: 'e2e',
   outputDir: 'test-results',
   fullyParallel: true,
-  // Playwright's own number, half of the cores: a page, its browser and its gateway keep two busy, and pages that wait for
-  // each other take their driver for gone.
+  // Each with a browser, a gateway and a board of its own, which wait for each other most of the time.
+  workers: 2,
   forbidOnly: Boolean(process.env.CI),
   timeout: 30_000,
   expect: { timeout: 5_000 },

@@ -1,7 +1,8 @@
 // A gateway on the network: who comes in and how, what each may do, and that whoever looks can stop the robot.
 
 import { ofKind, type Bus } from '../fixtures/bus.ts';
-import { firstInvitation, guest, newDevice, pairCardOf, peopleOf, ready } from '../fixtures/people.ts';
+import { ready } from '../fixtures/dashboard.ts';
+import { firstInvitation, guest, newDevice, pairCardOf, peopleOf } from '../fixtures/people.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 const stops = async (bus: Bus): Promise<number> => ofKind(await bus(), 'stop').length;

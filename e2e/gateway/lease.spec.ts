@@ -2,7 +2,7 @@
 
 import type { BrowserContext } from '@playwright/test';
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
-import { dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
+import { ready, type Dashboard } from '../fixtures/dashboard.ts';
 import { fingersOf } from '../fixtures/fingers.ts';
 import type { Robot } from '../fixtures/robot.ts';
 import { robotDialogOf } from '../fixtures/robotDialog.ts';
@@ -19,10 +19,9 @@ async function movesSlowly(who: Dashboard, servo: number, position: number): Pro
 }
 
 async function joins(robot: Robot, context: BrowserContext): Promise<Dashboard> {
-  const other = dashboardOf(await context.newPage());
-  await robot.open(other.page);
-  await expect(other.link).toHaveText(READY);
-  return other;
+  const page = await context.newPage();
+  await robot.open(page);
+  return ready(page);
 }
 
 test('whoever is alone drives without being asked, and never hears of it', async ({ dashboard, robot }) => {

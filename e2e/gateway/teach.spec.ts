@@ -4,7 +4,7 @@
 import type { Browser } from '@playwright/test';
 import { createBoardInTest, type BoardInTest } from '../fixtures/boardInTest.ts';
 import { ofKind } from '../fixtures/bus.ts';
-import { dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
+import { ready, type Dashboard } from '../fixtures/dashboard.ts';
 import { expect, poll, test as base } from '../fixtures/test.ts';
 
 const test = base.extend<{ arm: BoardInTest; teaching: Dashboard }>({
@@ -17,8 +17,7 @@ const test = base.extend<{ arm: BoardInTest; teaching: Dashboard }>({
   teaching: async ({ page, arm, newGateway }, use) => {
     const { url } = await newGateway({ serial: arm.device, board: 'xarm' });
     await page.goto(url);
-    const dashboard = dashboardOf(page);
-    await expect(dashboard.link).toHaveText(READY);
+    const dashboard = await ready(page);
     await dashboard.button('Teach').click();
     await page.getByRole('button', { name: 'Release and teach' }).click();
     await expect(dashboard.target(6)).toHaveValue('400');
@@ -62,10 +61,9 @@ test('the arm is posed by hand, captured while it is read, and holds at the end'
 /** Another person on another computer who looks on. */
 async function onlooker(browser: Browser, page: Dashboard['page']): Promise<Dashboard> {
   const context = await browser.newContext({ locale: 'en-GB', viewport: page.viewportSize() });
-  const other = dashboardOf(await context.newPage());
-  await other.page.goto(page.url());
-  await expect(other.link).toHaveText(READY);
-  return other;
+  const other = await context.newPage();
+  await other.goto(page.url());
+  return ready(other);
 }
 
 test('somebody who takes over ends it: nothing moves, the teacher is told, and a servo that was let go goes gently', async ({

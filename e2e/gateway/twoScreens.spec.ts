@@ -1,7 +1,7 @@
 // One robot, two screens: whoever looks on can stop it, and both see that it is stopped.
 
 import { ofKind } from '../fixtures/bus.ts';
-import { dashboardOf, READY } from '../fixtures/dashboard.ts';
+import { ready } from '../fixtures/dashboard.ts';
 import { captureGroup, downloadGroup } from '../fixtures/group.ts';
 import { libraryOf } from '../fixtures/library.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
@@ -12,9 +12,9 @@ test('a STOP on one screen stops the robot for both, and either may resume', asy
   context,
 }) => {
   await dashboard.type(dashboard.target(1), 2000);
-  const other = dashboardOf(await context.newPage());
-  await robot.open(other.page);
-  await expect(other.link).toHaveText(READY);
+  const page = await context.newPage();
+  await robot.open(page);
+  const other = await ready(page);
   await expect(other.target(1), 'whoever comes late learns of moves before').toHaveValue('2000');
   await expect(other.estimate(1)).toHaveText('≈ 2000');
   await dashboard.type(dashboard.target(1), 1800);
@@ -37,9 +37,9 @@ test('what another browser stored in a slot is told, and whether it is the group
   await libraryOf(dashboard.page).call('Bow of the other browser');
   await downloadGroup(dashboard, 0, 1400);
   const elsewhere = await browser.newContext({ locale: 'en-GB', viewport: dashboard.page.viewportSize() });
-  const other = dashboardOf(await elsewhere.newPage());
-  await robot.open(other.page);
-  await expect(other.link).toHaveText(READY);
+  const page = await elsewhere.newPage();
+  await robot.open(page);
+  const other = await ready(page);
   await other.button('Slots').click();
   const slots = other.page.getByRole('dialog', { name: 'Slots of the board' });
   await slots
