@@ -3,6 +3,7 @@ import { rename } from '#shared/actions/group/groupEdits.ts';
 import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
 import { emptyGroup, GROUP_NAME_LENGTH } from '#shared/actions/group/group.ts';
 import { LibraryError, type Keeper } from '#shared/actions/library/keeper.ts';
+import { libraryFromText, type BundledDocument } from '#shared/actions/library/libraryText.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/simulator/virtualClock.ts';
 import { createMemoryKeeper } from '../../keepers/memoryKeeper.ts';
 import { words } from '../../words/words.ts';
@@ -457,6 +458,84 @@ describe('files', () => {
     const wave = other.library.store.getState().documents.find(({ facts }) => facts.name === 'Wave')!;
     expect((await other.library.versions(wave.id)).map(({ name }) => name)).toEqual(['First']);
     expect(JSON.parse((await other.library.exportText())!)).toEqual(JSON.parse(text));
+  });
+
+  const documentsIn = (text: string | null): readonly BundledDocument[] => {
+    const read = libraryFromText(text ?? '');
+    return 'value' in read ? read.value.documents : [];
+  };
+
+  /** Those texts that `isBroken` says, by the name of their group or version. */
+  function damagedAt(keeper: Keeper, isBroken: (name: string) => boolean): Keeper {
+    const whole = async (name: string | undefined): Promise<void> => {
+      if (isBroken(name ?? '')) throw new LibraryError('damaged', `${name ?? ''} is damaged.`);
+      return Promise.resolve();
+    };
+    return {
+      ...keeper,
+      async read(id) {
+        await whole((await keeper.list()).documents.find((one) => one.id === id)?.facts.name);
+        return keeper.read(id);
+      },
+      async readVersion(id, version) {
+        await whole((await keeper.versions(id)).find((one) => one.id === version)?.name);
+        return keeper.readVersion(id, version);
+      },
+    };
+  }
+
+  test('an export holds all that is whole, and what is not is told by name', async () => {
+    const { text, keeper, clock } = await twoGroups();
+    const all = documentsIn(text);
+    const exported = async (...broken: readonly string[]) => {
+      const page = createVisit(
+        damagedAt(keeper, (name) => broken.includes(name)),
+        clock,
+      );
+      const documents = documentsIn(await page.library.exportText());
+      return { documents, told: page.told() };
+    };
+    expect(await exported('Bow')).toEqual({
+      documents: all.filter(({ group }) => group.name === 'Wave'),
+      told: [words.library.exported(1), words.library.notExported(['Bow'])],
+    });
+    expect(await exported('First')).toEqual({
+      documents: all.map((document) => ({ ...document, versions: [] })),
+      told: [
+        words.library.exported(2),
+        words.library.notExported([words.library.versionOf('Wave', 'First')]),
+      ],
+    });
+    expect(await exported('Wave', 'Bow')).toEqual({
+      documents: all.flatMap((document) => document.versions.map(({ group }) => ({ ...document, group }))),
+      told: [
+        words.library.exported(1),
+        words.library.notExported([words.library.standsFor('Wave', 'First'), 'Bow']),
+      ],
+    });
+    const unlisted = createVisit(
+      { ...keeper, versions: () => Promise.reject(new LibraryError('damaged', '')) },
+      clock,
+    );
+    expect(documentsIn(await unlisted.library.exportText())).toHaveLength(2);
+    expect(unlisted.told()).toContain(
+      words.library.notExported(['Wave', 'Bow'].map(words.library.versionsOf)),
+    );
+    expect(await exported('Wave', 'Bow', 'First')).toEqual({
+      documents: [],
+      told: [expect.stringContaining(words.library.problem('damaged', '').trim()) as string],
+    });
+  });
+
+  test('beside a damaged group an import puts its own', async () => {
+    const { text, keeper, clock } = await twoGroups();
+    const page = createVisit(
+      damagedAt(keeper, (name) => name === 'Bow'),
+      clock,
+    );
+    await page.library.importText(text);
+    expect(page.names()).toEqual(['Bow', 'Bow', 'Wave']);
+    expect(page.told()).toContain(words.library.imported(0, 1, 1));
   });
 
   test('what is there already stays; what differs comes beside it', async () => {

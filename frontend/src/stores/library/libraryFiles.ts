@@ -5,9 +5,11 @@ import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { groupToText, sameGroup } from '#shared/actions/group/groupText.ts';
 import {
   asLibraryError,
+  LibraryError,
   listedOf,
   type GroupFacts,
   type Keeper,
+  type LibraryErrorCode,
   type Listed,
 } from '#shared/actions/library/keeper.ts';
 import {
@@ -51,8 +53,13 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
     const keeper = await options.keeper;
     const documents = listedOf(await keeper.list(), 'group');
     const kept = documents.filter(({ isRemoved }) => !isRemoved);
-    const bundled = await Promise.all(kept.map((document) => bundle(keeper, document)));
+    const read = await Promise.all(kept.map((document) => bundle(keeper, document)));
+    const bundled = read.flatMap(({ bundled: one }) => one ?? []);
+    const lost = read.flatMap((one) => one.lost);
+    const [first] = lost;
+    if (bundled.length === 0 && first !== undefined) throw first.error;
     notices.tell('info', words.library.exported(bundled.length));
+    if (first !== undefined) notices.tell('warning', words.library.notExported(lost.map(({ name }) => name)));
     return libraryToText({ documents: bundled });
   }
 
@@ -81,8 +88,10 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
     { id, group }: BundledDocument,
   ): Promise<{ readonly fate: Fate; readonly id: string }> {
     if (!present.some((one) => one.id === id)) return { fate: 'added', id };
-    const { text } = await keeper.read(id);
-    return sameGroup(groupOf(text), group) ? { fate: 'same', id } : { fate: 'changed', id: newId() };
+    const found = await wholeOrNot(async () => groupOf((await keeper.read(id)).text));
+    return 'whole' in found && sameGroup(found.whole, group)
+      ? { fate: 'same', id }
+      : { fate: 'changed', id: newId() };
   }
 
   async function stage(keeper: Keeper, id: string, document: BundledDocument): Promise<void> {
@@ -122,11 +131,46 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
   }
 }
 
-async function bundle(keeper: Keeper, { id, facts }: Listed): Promise<BundledDocument> {
-  const { text } = await keeper.read(id);
-  const versions = await keeper.versions(id);
-  const kept = versions.map(async ({ id: version, name, atMs }): Promise<BundledVersion> => ({
-    ...{ name, atMs, group: groupOf(await keeper.readVersion(id, version)) },
-  }));
-  return { id, updatedAtMs: facts.updatedAtMs, group: groupOf(text), versions: await Promise.all(kept) };
+/** What is not whole is left out and named. In the place of a group there stands the newest of its versions that is. */
+async function bundle(keeper: Keeper, { id, facts }: Listed): Promise<Bundling> {
+  const { name, updatedAtMs } = facts;
+  const read = await wholeOrNot(async () => groupOf((await keeper.read(id)).text));
+  const lost: Lost[] = [];
+  const versions: BundledVersion[] = [];
+  const listed = await wholeOrNot(() => keeper.versions(id));
+  if ('error' in listed) lost.push({ name: words.library.versionsOf(name), error: listed.error });
+  for (const { id: version, ...kept } of 'whole' in listed ? listed.whole : []) {
+    const found = await wholeOrNot(async () => groupOf(await keeper.readVersion(id, version)));
+    if ('whole' in found) versions.push({ ...kept, group: found.whole });
+    else lost.push({ name: words.library.versionOf(name, kept.name), error: found.error });
+  }
+  if ('whole' in read) return { bundled: { id, updatedAtMs, group: read.whole, versions }, lost };
+  const newest = versions.at(-1);
+  const named = newest === undefined ? name : words.library.standsFor(name, newest.name);
+  lost.unshift({ name: named, error: read.error });
+  return { bundled: newest ? { id, updatedAtMs, group: newest.group, versions } : null, lost };
+}
+
+interface Lost {
+  readonly name: string;
+  readonly error: LibraryError;
+}
+
+interface Bundling {
+  readonly bundled: BundledDocument | null;
+  readonly lost: readonly Lost[];
+}
+
+/** Of one text alone: damaged, of another version of this program, or deleted meanwhile. All else is the library's, and thrown. */
+const OF_ONE_TEXT: ReadonlySet<LibraryErrorCode> = new Set(['damaged', 'unreadable', 'notFound']);
+
+async function wholeOrNot<T>(
+  read: () => Promise<T>,
+): Promise<{ readonly whole: T } | { readonly error: LibraryError }> {
+  try {
+    return { whole: await read() };
+  } catch (error) {
+    if (error instanceof LibraryError && OF_ONE_TEXT.has(error.code)) return { error };
+    throw error;
+  }
 }

@@ -109,6 +109,11 @@ export const libraryWords = {
       same === 0 ? '' : ` ${groups(same)} were here already.`,
     ].join(''),
   exported: (count: number): string => `${groups(count)} exported.`,
+  notExported: (names: readonly string[]): string =>
+    `Not in the file, because it cannot be read: ${formatNames(names)}.`,
+  versionOf: (name: string, version: string): string => `version ${version} of ${name}`,
+  versionsOf: (name: string): string => `the versions of ${name}`,
+  standsFor: (name: string, version: string): string => `${name} (its version ${version} stands for it)`,
 
   steps: {
     rename: 'rename group',

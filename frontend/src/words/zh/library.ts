@@ -100,6 +100,10 @@ export const libraryWords: typeof english = {
       same === 0 ? '' : `${groups(same)}原来就有。`,
     ].join(''),
   exported: (count) => `已导出${groups(count)}。`,
+  notExported: (names) => `以下内容无法读取，没有写入文件：${formatNames(names)}。`,
+  versionOf: (name, version) => `${name} 的版本 ${version}`,
+  versionsOf: (name) => `${name} 的各个版本`,
+  standsFor: (name, version) => `${name}（以版本 ${version} 代替）`,
 
   steps: {
     rename: '改动作组的名字',
