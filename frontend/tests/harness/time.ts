@@ -112,17 +112,19 @@ const REAL_WITHIN_MS = 2000;
 
 /** Lets time pass until `check` throws no more; rejects with what it threw last. */
 export async function eventually<T>(check: () => T | Promise<T>, withinMs = USUAL_WITHIN_MS): Promise<T> {
-  const begunMs = real.now();
-  for (let passedMs = 0, tries = 0; ; tries += 1) {
+  const begun = { atMs: clock.now(), realMs: real.now() };
+  for (let tries = 0; ; tries += 1) {
+    // By the clock: what is waited for may itself wait.
+    let passedMs: number;
     try {
       return await check();
     } catch (error) {
-      if (passedMs >= withinMs && real.now() - begunMs >= REAL_WITHIN_MS) throw error;
+      passedMs = clock.now() - begun.atMs;
+      if (passedMs >= withinMs && real.now() - begun.realMs >= REAL_WITHIN_MS) throw error;
     }
     const stepMs = passedMs < 10 * FRAME_MS || passedMs >= withinMs ? FRAME_MS : 3 * FRAME_MS;
     await advance(stepMs);
-    passedMs += stepMs;
-    if (passedMs >= withinMs || tries % 8 === 7) await realMoment();
+    if (passedMs + stepMs >= withinMs || tries % 8 === 7) await realMoment();
   }
 }
 
