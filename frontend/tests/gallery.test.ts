@@ -32,6 +32,8 @@ async function objections(rules: readonly string[] | null): Promise<readonly str
   const { violations } = await during(
     axe.run(state, {
       ...{ preload: false, resultTypes: ['violations'] },
+      // Four fifths of axe's time; the colours themselves are proved from the tokens.
+      rules: { 'color-contrast': { enabled: isExhaustive } },
       ...(rules === null ? {} : { runOnly: [...rules] }),
     }),
   );
