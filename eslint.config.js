@@ -91,6 +91,20 @@ export default defineConfig(
     },
   },
   {
+    // One window, and one `test`, for all files of a worker.
+    files: ['frontend/tests/**'],
+    rules: {
+      'no-restricted-syntax': [
+        ...house['no-restricted-syntax'],
+        {
+          selector: 'Program > ExpressionStatement > CallExpression[callee.property.name="override"]',
+          message:
+            'It would hold for other files, too: `const test = base.extend(…)`, or inside of a `describe`.',
+        },
+      ],
+    },
+  },
+  {
     // The type checker knows which names Node has; the linter does not see that a JSDoc cast names the type of an any.
     files: ['**/*.mjs'],
     rules: { 'no-undef': 'off', '@typescript-eslint/no-unsafe-assignment': 'off' },

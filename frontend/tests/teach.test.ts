@@ -2,9 +2,9 @@
 
 import { ofKind } from '../../e2e/fixtures/bus.ts';
 import { READY } from '../../e2e/fixtures/dashboard.ts';
-import { dashboardOf, expect, poll, test } from './harness/test.ts';
+import { test as base, dashboardOf, expect, poll } from './harness/test.ts';
 
-test.override({ boardSettings: { board: 'xarm' } });
+const test = base.extend({ boardSettings: { board: 'xarm' } });
 
 test('the arm is posed by hand, captured while it is read, and holds at the end', async ({
   page,

@@ -5,13 +5,16 @@ import * as dialogs from '../../e2e/fixtures/robotDialog.ts';
 import type { Point } from './harness/hands.ts';
 import type { Locator } from './harness/locator.ts';
 import type { Page } from './harness/page.ts';
-import { dashboardOf, expect, here, test } from './harness/test.ts';
+import { test as base, dashboardOf, expect, here } from './harness/test.ts';
 import { advance } from './harness/time.ts';
 
 const robotDialogOf = here(dialogs.robotDialogOf);
 const walkGallery = here(gallery.walkGallery);
 
-test.override({ screen: { hasTouch: true }, viewport: { width: 390, height: 844 } });
+const test = base.extend({
+  screen: { hasTouch: true, deviceScaleFactor: 1 },
+  viewport: { width: 390, height: 844 },
+});
 
 async function middleOf(place: Locator): Promise<Point> {
   const box = await place.boundingBox();

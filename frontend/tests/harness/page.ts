@@ -141,9 +141,10 @@ async function forgetAll(): Promise<void> {
   localStorage.clear();
   sessionStorage.clear();
   for (const { name = '' } of await indexedDB.databases())
-    await new Promise<void>((resolve) => {
+    await new Promise<void>((resolve, reject) => {
       const asked = indexedDB.deleteDatabase(name);
-      for (const event of ['success', 'error', 'blocked']) asked.addEventListener(event, () => resolve());
+      asked.addEventListener('success', () => resolve());
+      asked.addEventListener('error', () => reject(new Error(`the browser keeps ${name}`)));
     });
 }
 
