@@ -15,7 +15,16 @@ from servodeck.motion.model import (
     UnknownRun,
     running_unknown,
 )
-from servodeck.motion.tracks import LONGEST_MOVE_MS, contested, order_at, restless_behind, retarget
+from servodeck.motion.tracks import (
+    LONGEST_MOVE_MS,
+    Order,
+    board_duration_ms,
+    contested,
+    ordered,
+    restless_behind,
+    retarget,
+    stopped_before,
+)
 from servodeck.protocol.families import Family
 from servodeck.protocol.values import Frame, Run
 
@@ -97,12 +106,14 @@ def begin_frame(motion: Motion, run: DeadlineRun, board: KnownBoard) -> Motion:
     if run.next >= len(frames):
         return replace(motion, run=None)
     frame, family = frames[run.next], board.family
-    last_frame = order_at(frame.targets, frame.duration_ms, run.next_at_ms, family)
+    end_ms = run.next_at_ms + board_duration_ms(frame.duration_ms, family)
+    order = Order("frame", frame.targets, run.next_at_ms, end_ms, motion.tracks)
+    recent = ordered(motion.recent, order, family)
     tracks = retarget(motion.tracks, frame.targets, frame.duration_ms, run.next_at_ms, family)
     return replace(
         motion,
-        last_frame=last_frame,
-        tracks=contested(tracks, last_frame, motion.last_move, family),
+        recent=recent,
+        tracks=contested(tracks, recent),
         restless_until_ms=restless_behind(motion.restless_until_ms, frame.duration_ms, run.next_at_ms, family)
         if frame.targets
         else motion.restless_until_ms,
@@ -161,9 +172,14 @@ class Deadlines:
             motion = step(motion, run, board)
         return motion
 
-    def stop(self, motion: Motion, _at_ms: float, _board: KnownBoard) -> Motion:
+    def stop(self, motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
         """The frame in progress goes on to its end (S50), and none begins behind it."""
-        return replace(motion, run=None, last_frame=None)
+        return replace(
+            motion,
+            run=None,
+            tracks=stopped_before(motion.tracks, motion.recent, at_ms, board.family),
+            recent=tuple(order for order in motion.recent if order.by == "move"),
+        )
 
     def interrupt(self, motion: Motion, _at_ms: float) -> Motion:
         return motion

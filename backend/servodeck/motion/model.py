@@ -65,8 +65,8 @@ class Motion:
     told: Told = field(default_factory=dict)
     """Of servos without a track."""
     run: AnyRun | None = None
-    last_move: Order | None = None
-    last_frame: Order | None = None
+    recent: tuple[Order, ...] = ()
+    """Moves and frames of almost now."""
     untold_end_ms: float = -inf
     """When a group ended by our clock that the board has not told the end of yet."""
     deaf_until_ms: float = -inf

@@ -27,14 +27,16 @@ from servodeck.motion.polled import polled
 from servodeck.motion.told import after_order, held_at, only_let_go
 from servodeck.motion.tracks import (
     LONGEST_MOVE_MS,
+    Order,
     Tracks,
+    board_duration_ms,
     contested,
     end_ms,
     last_end_ms,
     leeway_of,
     lengthened,
     only,
-    order_at,
+    ordered,
     position_of,
     restless_behind,
     retarget,
@@ -167,7 +169,9 @@ def after_heard(motion: Motion, command: Command, at_ms: float, board: KnownBoar
 
 
 def moved(motion: Motion, move: Move, at_ms: float, board: KnownBoard) -> Motion:
-    last_move = order_at(move.targets, move.duration_ms, at_ms, board.family)
+    end_ms = at_ms + board_duration_ms(move.duration_ms, board.family)
+    order = Order("move", move.targets, at_ms, end_ms, motion.tracks)
+    recent = ordered(motion.recent, order, board.family)
     # A frame of that group may overrule it at any time.
     is_sure = not isinstance(motion.run, UnknownRun)
     tracks = retarget(
@@ -181,8 +185,8 @@ def moved(motion: Motion, move: Move, at_ms: float, board: KnownBoard) -> Motion
     restless_until_ms = restless_behind(motion.restless_until_ms, move.duration_ms, at_ms, board.family)
     return replace(
         motion,
-        last_move=last_move,
-        tracks=contested(tracks, last_move, motion.last_frame, board.family),
+        recent=recent,
+        tracks=contested(tracks, recent),
         restless_until_ms=restless_until_ms,
     )
 

@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf
+from typing import Literal
 
 from servodeck.protocol.families import Family
 from servodeck.protocol.values import ServoTarget
@@ -110,32 +111,64 @@ def restless_behind(restless_until_ms: float, requested_ms: float, at_ms: float,
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """The targets of a move or of a frame, and when they take effect and arrive."""
+    """The targets of a move or of a frame, when they take effect and arrive, and what was under way then."""
 
+    by: Literal["move", "frame"]
     targets: Sequence[ServoTarget]
     at_ms: float
     end_ms: float
+    before: Tracks
 
 
-def order_at(targets: Sequence[ServoTarget], requested_ms: float, at_ms: float, family: Family) -> Order:
-    return Order(targets, at_ms, at_ms + board_duration_ms(requested_ms, family))
+def is_near(order: Order, at_ms: float, family: Family) -> bool:
+    """The board may take up orders that are no farther apart in another order than they are computed in."""
+    return at_ms - order.at_ms <= family.motion.tick_ms + family.motion.talk_ms
 
 
-def contested(tracks: Tracks, one: Order | None, other: Order | None, family: Family) -> Tracks:
-    """After a move and a frame so close that the board may have taken either first: which of two targets a
-    servo has got, nobody knows.
+def ordered(recent: Sequence[Order], order: Order, family: Family) -> tuple[Order, ...]:
+    """`order` behind those that are near it."""
+    return (*(other for other in recent if is_near(other, order.at_ms, family)), order)
+
+
+def torn(track: Track, until_ms: float) -> Track:
+    """Somewhere on its way to one of two places, until the later of two times."""
+    return replace(lengthened(track, until_ms), start_leeway=inf, to_leeway=inf)
+
+
+def contested(tracks: Tracks, recent: Sequence[Order]) -> Tracks:
+    """After the last of `recent`: a servo that a move and a frame near each other send to different places
+    goes to one of them.
     """
-    if one is None or other is None:
-        return tracks
-    if abs(one.at_ms - other.at_ms) > family.motion.tick_ms + family.motion.talk_ms:
-        return tracks
-    wanted = {target.servo: target.position for target in other.targets}
+    latest = recent[-1]
     changed = dict(tracks)
-    for target in one.targets:
-        track = tracks.get(target.servo)
-        if track is not None and wanted.get(target.servo, target.position) != target.position:
-            duration_ms = max(one.end_ms, other.end_ms) - track.start_ms
-            changed[target.servo] = Track(None, track.to, track.start_ms, duration_ms, inf, inf)
+    for target in latest.targets:
+        against = [
+            rival.end_ms
+            for rival in recent
+            if rival.by != latest.by
+            and any(
+                other.servo == target.servo and other.position != target.position for other in rival.targets
+            )
+        ]
+        if target.servo in tracks and against:
+            changed[target.servo] = torn(tracks[target.servo], max(against))
+    return changed
+
+
+def stopped_before(tracks: Tracks, recent: Sequence[Order], at_ms: float, family: Family) -> Tracks:
+    """After a stop at `at_ms`: frames that began just before it may not have begun, and what was under way
+    goes on.
+    """
+    changed = dict(tracks)
+    for frame in recent:
+        if frame.by != "frame" or not is_near(frame, at_ms, family):
+            continue
+        for servo, former in frame.before.items():
+            track = changed.get(servo)
+            if track is None or stands(former, frame.at_ms):
+                continue
+            if former.to != track.to or end_ms(former) > end_ms(track):
+                changed[servo] = torn(track, end_ms(former))
     return changed
 
 
@@ -183,8 +216,8 @@ def retarget(
     if family.motion.timing == "shared":
         for servo, track in tracks.items():
             is_known = track.to_leeway != inf
-            # A guess that has arrived goes nowhere.
-            if is_known or end_ms(track) > at_ms:
+            # A guess that has surely arrived goes nowhere.
+            if is_known or end_ms(track) + family.motion.tick_ms + family.motion.talk_ms > at_ms:
                 changed[servo] = aimed(servo, track.to, sure=is_known)
     for target in targets:
         changed[target.servo] = aimed(target.servo, target.position, sure=is_sure)

@@ -2,10 +2,12 @@
 // of them: one for each button would be drawn with it, a third of what a button costs.
 
 import { useEffect, useRef, useState } from 'react';
+import { Tooltip, TooltipTriggerStateContext } from 'react-aria-components/Tooltip';
 import { attach, HINT } from './hinting.ts';
-import { later, usePart } from './later.tsx';
+import styles from './Hints.module.css';
 
-const hint = later(async () => (await import('./Hint.tsx')).Hint);
+/** To be spread on what is explained. */
+export const hinted = (text: string) => ({ [HINT]: text });
 
 export function Hints() {
   const [text, setText] = useState<string | null>(null);
@@ -13,17 +15,28 @@ export function Hints() {
   const hide = useRef((): void => undefined);
   useEffect(() => {
     const hints = attach(document, (shown) => {
-      const said = shown?.getAttribute(HINT) ?? null;
+      const hint = shown?.getAttribute(HINT) ?? null;
       element.current = shown;
-      setText(said);
+      setText(hint);
       // What is its name is said anyway.
-      if (said !== null && shown?.getAttribute('aria-label') !== said)
-        shown?.setAttribute('aria-description', said);
+      if (hint !== null && shown?.getAttribute('aria-label') !== hint)
+        shown?.setAttribute('aria-description', hint);
     });
     hide.current = hints.hide;
     return hints.detach;
   }, []);
-  const { part: Hint } = usePart(hint, text !== null);
-  if (text === null || Hint === null) return null;
-  return <Hint text={text} of={element} onClose={() => hide.current()} />;
+  if (text === null) return null;
+  const state = {
+    isOpen: true,
+    shouldSkipAnimation: true,
+    open: () => undefined,
+    close: () => hide.current(),
+  };
+  return (
+    <TooltipTriggerStateContext value={state}>
+      <Tooltip key={text} triggerRef={element} className={styles.hint ?? ''} offset={6}>
+        {text}
+      </Tooltip>
+    </TooltipTriggerStateContext>
+  );
 }

@@ -11,7 +11,7 @@ import {
   type Playback,
   type RunRequest,
 } from './model.ts';
-import { contested, orderAt, retarget, unrestBehind } from './tracks.ts';
+import { contested, ordered, retarget, stoppedBefore, unrestBehind } from './tracks.ts';
 
 /** Group 0 takes the place of any other (S47). */
 const PREEMPTIVE_SLOT = 0;
@@ -84,13 +84,14 @@ function beginFrame(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion
   if (frame === undefined) return { ...motion, run: null };
   const { family } = board;
   const { targets, durationMs } = frame;
-  const lastFrame = orderAt(targets, durationMs, run.nextAtMs, family);
+  const order = { by: 'frame', targets, atMs: run.nextAtMs, before: motion.tracks } as const;
+  const recent = ordered(motion.recent, order, durationMs, family);
   const tracks = retarget(motion.tracks, targets, durationMs, run.nextAtMs, family);
   const isPause = targets.length === 0;
   return {
     ...motion,
-    lastFrame,
-    tracks: contested(tracks, lastFrame, motion.lastMove, family),
+    recent,
+    tracks: contested(tracks, recent),
     ...(isPause ? {} : unrestBehind(motion, durationMs, run.nextAtMs, family)),
     // The raw time, not the one the servos were given (S43).
     run: { ...run, next: run.next + 1, nextAtMs: run.nextAtMs + durationMs },
@@ -152,7 +153,11 @@ export const deadlines: Playback = {
   request,
   advance,
   // The frame in progress goes on to its end (S50), and none begins behind it.
-  stop: (motion) => ({ ...motion, run: null, lastFrame: null }),
+  stop: (motion, atMs, { family }) => ({
+    ...{ ...motion, run: null },
+    tracks: stoppedBefore(motion.tracks, motion.recent, atMs, family),
+    recent: motion.recent.filter(({ by }) => by === 'move'),
+  }),
   interrupt: (motion) => motion,
   ended,
   passMs: (frames) => frames.reduce((sum, { durationMs }) => sum + durationMs, 0),

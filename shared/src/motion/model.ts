@@ -45,8 +45,8 @@ export interface Motion {
   /** Of servos at rest, with a track or without. */
   readonly told: Told;
   readonly run: UnknownRun | DeadlineRun | PolledRun | null;
-  readonly lastMove: Order | null;
-  readonly lastFrame: Order | null;
+  /** Moves and frames of almost now. */
+  readonly recent: readonly Order[];
   /** When a group ended by our clock that the board has not told the end of yet; -Infinity for none. */
   readonly untoldEndMs: number;
   /** Until then the board may be busy with flash or servos, its servos frozen, packets waiting or dropped (S9, S41). */
@@ -96,8 +96,7 @@ export const UNKNOWN_MOTION: Motion = {
   tracks: new Map(),
   told: new Map(),
   run: null,
-  lastMove: null,
-  lastFrame: null,
+  recent: [],
   untoldEndMs: -Infinity,
   deafUntilMs: -Infinity,
   answersOwed: [],

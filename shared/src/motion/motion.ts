@@ -22,7 +22,7 @@ import {
   leewayOf,
   LONGEST_MOVE_MS,
   only,
-  orderAt,
+  ordered,
   positionOf,
   retarget,
   shareDone,
@@ -134,14 +134,15 @@ function moved(
   atMs: number,
   { family }: KnownBoard,
 ): Motion {
-  const lastMove = orderAt(targets, durationMs, atMs, family);
+  const order = { by: 'move', targets, atMs, before: motion.tracks } as const;
+  const recent = ordered(motion.recent, order, durationMs, family);
   // A frame of that group may overrule it at any time.
   const isSure = motion.run?.kind !== 'unknown';
   const tracks = retarget(withStart(motion, targets), targets, durationMs, atMs, family, isSure);
   return {
     ...motion,
-    lastMove,
-    tracks: contested(tracks, lastMove, motion.lastFrame, family),
+    recent,
+    tracks: contested(tracks, recent),
     ...unrestBehind(motion, durationMs, atMs, family),
   };
 }

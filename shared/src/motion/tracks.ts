@@ -103,39 +103,68 @@ export function unrestBehind(
   return { restlessUntilMs: until(restlessUntilMs), inheritedUntilMs: until(inheritedUntilMs) };
 }
 
-/** The targets of a move or of a frame, and when they take effect and arrive. */
+/** The targets of a move or of a frame, when they take effect and arrive, and what was under way before. */
 export interface Order {
+  readonly by: 'move' | 'frame';
   readonly targets: readonly ServoTarget[];
   readonly atMs: number;
   readonly endMs: number;
+  readonly before: Tracks;
 }
 
-export function orderAt(
-  targets: readonly ServoTarget[],
+/** The board may take up orders that are no farther apart in another order than they are computed in. */
+function isNear(order: Order, atMs: number, { motion }: Family): boolean {
+  return atMs - order.atMs <= motion.tickMs + motion.talkMs;
+}
+
+/** `order` behind those that are near it. */
+export function ordered(
+  recent: readonly Order[],
+  order: Omit<Order, 'endMs'>,
   requestedMs: number,
+  family: Family,
+): readonly Order[] {
+  const near = recent.filter((other) => isNear(other, order.atMs, family));
+  return [...near, { ...order, endMs: order.atMs + boardDurationMs(requestedMs, family) }];
+}
+
+/** Somewhere on its way to one of two places, until the later of two times. */
+function torn(track: Track, untilMs: number): Track {
+  const durationMs = Math.max(untilMs, endMs(track)) - track.startMs;
+  return { ...track, from: null, durationMs, fromLeeway: Infinity, toLeeway: Infinity };
+}
+
+/** After the last of `recent`: a servo that a move and a frame near each other send to different places goes to one of them. */
+export function contested(tracks: Tracks, recent: readonly Order[]): Tracks {
+  const latest = recent.at(-1);
+  const rivals = recent.filter(({ by }) => by !== latest?.by);
+  const next = new Map(tracks);
+  for (const { servo, position } of latest?.targets ?? []) {
+    const track = tracks.get(servo);
+    const against = rivals.filter(({ targets }) =>
+      targets.some((other) => other.servo === servo && other.position !== position),
+    );
+    if (track && against.length > 0)
+      next.set(servo, torn(track, Math.max(...against.map((order) => order.endMs))));
+  }
+  return next;
+}
+
+/** After a stop at `atMs`: frames that began just before it may not have begun, and what was under way goes on. */
+export function stoppedBefore(
+  tracks: Tracks,
+  recent: readonly Order[],
   atMs: number,
   family: Family,
-): Order {
-  return { targets, atMs, endMs: atMs + boardDurationMs(requestedMs, family) };
-}
-
-/** After a move and a frame so close that the board may have taken either first: which of two targets a servo has got, nobody knows. */
-export function contested(
-  tracks: Tracks,
-  one: Order | null,
-  other: Order | null,
-  { motion }: Family,
 ): Tracks {
-  if (one === null || other === null) return tracks;
-  if (Math.abs(one.atMs - other.atMs) > motion.tickMs + motion.talkMs) return tracks;
-  const wanted = new Map(other.targets.map(({ servo, position }) => [servo, position]));
   const next = new Map(tracks);
-  for (const { servo, position } of one.targets) {
-    const track = tracks.get(servo);
-    if (track === undefined || (wanted.get(servo) ?? position) === position) continue;
-    const durationMs = Math.max(one.endMs, other.endMs) - track.startMs;
-    next.set(servo, { ...track, from: null, durationMs, fromLeeway: Infinity, toLeeway: Infinity });
-  }
+  for (const frame of recent)
+    if (frame.by === 'frame' && isNear(frame, atMs, family))
+      for (const [servo, former] of frame.before) {
+        const track = next.get(servo);
+        if (track && !stands(former, frame.atMs) && (former.to !== track.to || endMs(former) > endMs(track)))
+          next.set(servo, torn(track, endMs(former)));
+      }
   return next;
 }
 
@@ -184,8 +213,9 @@ export function retarget(
   if (family.motion.timing === 'shared')
     tracks.forEach((track, servo) => {
       const isSure = Number.isFinite(track.toLeeway);
-      // A guess that has arrived goes nowhere.
-      if (isSure || endMs(track) > atMs) aim(servo, track.to, isSure);
+      // A guess that has surely arrived goes nowhere.
+      if (isSure || endMs(track) + family.motion.tickMs + family.motion.talkMs > atMs)
+        aim(servo, track.to, isSure);
     });
   for (const { servo, position } of targets) aim(servo, position, isSure);
   return next;

@@ -94,6 +94,117 @@ const FOUND: readonly {
     },
   },
   {
+    name: 'a frame that begins with a STOP may not have re-timed the moves before it',
+    profile: 'openarm-old',
+    history: {
+      ...{ ...PLAIN, onForMs: 60_071 },
+      unknown: [{ durationMs: 20, targets: [{ servo: 1, position: 1000 }] }],
+      known: [
+        {
+          durationMs: 40,
+          targets: [
+            { servo: 1, position: 717 },
+            { servo: 2, position: 1075 },
+            { servo: 6, position: 1329 },
+          ],
+        },
+        { durationMs: 60, targets: [{ servo: 2, position: 2412 }] },
+        {
+          durationMs: 300,
+          targets: [
+            { servo: 1, position: 2185 },
+            { servo: 6, position: 1138 },
+          ],
+        },
+      ],
+      steps: [
+        { kind: 'run', slot: 5, times: 2 },
+        { kind: 'wait', ms: 3 },
+        { kind: 'move', durationMs: 0, targets: [{ servo: 2, position: 1556 }] },
+        { kind: 'wait', ms: 2 },
+        { kind: 'move', durationMs: 20, targets: [{ servo: 6, position: 2064 }] },
+        { kind: 'move', durationMs: 0, targets: [{ servo: 1, position: 2302 }] },
+        { kind: 'wait', ms: 13 },
+      ],
+    },
+  },
+  {
+    name: 'moves go on where the frame that re-times them may not have begun',
+    profile: 'openarm-old',
+    history: {
+      ...{
+        ...PLAIN,
+        onForMs: 60_069,
+        unknown: [{ durationMs: 20, targets: [{ servo: 1, position: 1000 }] }],
+        known: [
+          {
+            durationMs: 300,
+            targets: [
+              { servo: 1, position: 712 },
+              { servo: 2, position: 1094 },
+              { servo: 6, position: 1308 },
+            ],
+          },
+        ],
+        steps: [
+          { kind: 'run', slot: 5, times: 2 },
+          { kind: 'wait', ms: 30 },
+          { kind: 'move', targets: [{ servo: 1, position: 935 }], durationMs: 0 },
+          { kind: 'wait', ms: 23 },
+          { kind: 'move', targets: [{ servo: 2, position: 759 }], durationMs: 0 },
+          { kind: 'wait', ms: 8 },
+          { kind: 'move', targets: [{ servo: 2, position: 991 }], durationMs: 0 },
+          { kind: 'wait', ms: 5 },
+          { kind: 'move', targets: [{ servo: 6, position: 750 }], durationMs: 0 },
+          { kind: 'wait', ms: 13 },
+          { kind: 'wait', ms: 225 },
+        ],
+      },
+    },
+  },
+  {
+    name: 'of two frames just before a STOP neither may have begun',
+    profile: 'openarm-old',
+    history: {
+      ...{
+        ...PLAIN,
+        onForMs: 60_055,
+        unknown: [{ durationMs: 20, targets: [{ servo: 1, position: 1000 }] }],
+        known: [
+          {
+            durationMs: 60,
+            targets: [
+              { servo: 1, position: 1515 },
+              { servo: 2, position: 1687 },
+              { servo: 6, position: 2271 },
+            ],
+          },
+          {
+            durationMs: 20,
+            targets: [
+              { servo: 1, position: 1701 },
+              { servo: 2, position: 754 },
+              { servo: 6, position: 1597 },
+            ],
+          },
+        ],
+        steps: [
+          { kind: 'run', slot: 5, times: 2 },
+          { kind: 'wait', ms: 20 },
+          { kind: 'move', targets: [{ servo: 2, position: 1867 }], durationMs: 20 },
+          { kind: 'wait', ms: 12 },
+          { kind: 'move', targets: [{ servo: 1, position: 509 }], durationMs: 20 },
+          { kind: 'wait', ms: 18 },
+          { kind: 'move', targets: [{ servo: 1, position: 1431 }], durationMs: 0 },
+          { kind: 'wait', ms: 8 },
+          { kind: 'move', targets: [{ servo: 6, position: 679 }], durationMs: 20 },
+          { kind: 'wait', ms: 19 },
+          { kind: 'wait', ms: 4 },
+        ],
+      },
+    },
+  },
+  {
     name: 'a servo on its way from where a group nobody knows left it is held on a guess',
     profile: 'lsc-32',
     history: {
