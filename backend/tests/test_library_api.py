@@ -82,6 +82,33 @@ async def test_a_large_text_is_parsed_where_no_stop_waits_for_it(
         assert (threads[0] is not threading.main_thread()) == is_aside
 
 
+@pytest.mark.parametrize(
+    ("sent", "status", "parsed"),
+    [
+        (json.dumps(body(json.dumps({"x": [[]] * 200_000}))), 200, 1),
+        ('{"facts":[' + "[]," * 200_000 + "[]]}", 413, 0),
+        ('{"facts":[' + "[]," * 200_000, 422, 0),
+    ],
+    ids=["a text of many values", "many values around it", "many values without an end"],
+)
+async def test_no_stop_waits_for_objects_made_of_many_values(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sent: str, status: int, parsed: int
+) -> None:
+    """Python makes them without letting another thread in between."""
+    parse, texts = json.loads, []
+
+    def loads(text: str) -> object:
+        texts.append(text)
+        return parse(text)
+
+    async with client_of(tmp_path) as client:
+        monkeypatch.setattr(json, "loads", loads)
+        headers = {"Content-Type": "application/json"}
+        answer = await client.put("/api/library/a", content=sent, headers=headers)
+        monkeypatch.undo()
+        assert (answer.status_code, len(texts)) == (status, parsed)
+
+
 async def test_trash_and_versions(tmp_path: Path) -> None:
     async with client_of(tmp_path) as client:
         await client.put("/api/library/a", json=body(isRemoved=True))

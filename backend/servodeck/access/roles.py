@@ -11,6 +11,7 @@ from typing import Any
 from fastapi import Depends, FastAPI
 from fastapi.dependencies.models import Dependant
 from fastapi.routing import APIRoute
+from starlette.exceptions import HTTPException
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import Response
 from starlette.routing import BaseRoute, Mount
@@ -18,10 +19,13 @@ from starlette.routing import BaseRoute, Mount
 from servodeck.access.entrance import Entrance
 from servodeck.access.impatient import connection_of
 from servodeck.callers import Caller, Role
+from servodeck.json_text import has_more_values
 from servodeck.threads import in_thread
 
 # Reading as much takes a millisecond or, of a hostile text, ten.
 LARGE_BYTES = 64 * 1024
+# More than the largest download has. Objects of so many take ten milliseconds, in which a stop waits.
+MOST_VALUES = 64_000
 
 
 class Needs:
@@ -52,7 +56,19 @@ class BodyRequest(Request):
 
     async def json(self) -> Any:
         body = await self.body()
-        return await in_thread(lambda: json.loads(body)) if len(body) > LARGE_BYTES else json.loads(body)
+        return await in_thread(lambda: parse_large(body)) if len(body) > LARGE_BYTES else json.loads(body)
+
+
+def parse_large(body: bytes) -> Any:
+    """Raises JSONDecodeError, or HTTPException where so much would be made of it that a stop waits."""
+    text = body.decode()
+    try:
+        is_too_much = has_more_values(text, MOST_VALUES)
+    except ValueError as error:
+        raise json.JSONDecodeError(str(error), "", 0) from error
+    if is_too_much:
+        raise HTTPException(413, f"The request holds more than {MOST_VALUES} values.")
+    return json.loads(text)
 
 
 class JudgingRoute(APIRoute):

@@ -4,7 +4,6 @@ The library waits for a disk: in threads, where STOP does not wait for it. The g
 the robot on the board, which is told behind it.
 """
 
-import json
 from typing import Annotated
 
 from fastapi import Depends, Path
@@ -15,6 +14,7 @@ from servodeck.access.roles import DRIVER, OWNER, VIEWER
 from servodeck.callers import Caller
 from servodeck.driving.control import Control
 from servodeck.errors import MalformedError, NotDrivingError
+from servodeck.json_text import is_object
 from servodeck.library.library import Library, Version
 from servodeck.library.library_messages import (
     DocumentIds,
@@ -157,9 +157,5 @@ def remove_version(document: Id, version: Id, library: Kept) -> None:
 
 
 def check_document(text: str) -> None:
-    try:
-        is_object = isinstance(json.loads(text), dict)
-    except (ValueError, RecursionError):
-        is_object = False
-    if not is_object:
+    if not is_object(text):
         raise MalformedError("A document is a JSON object.")
