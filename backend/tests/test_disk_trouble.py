@@ -20,6 +20,7 @@ from tests.client import lease_of
 from tests.samples import MOVE
 from tests.test_cli import Served
 from tests.test_library_api import body
+from tests.test_library_upgrade import FILES, content_of, lay_down
 
 UNSHARE = ("unshare", "--map-root-user", "--mount", "sh", "-c")
 SMALL, LARGE = json.dumps({"x": 1}), json.dumps({"x": "y" * 400_000})
@@ -99,6 +100,26 @@ def test_a_disk_that_cannot_be_written_is_told_and_changes_nothing(tmp_path: Pat
         assert_control_goes_on(served)
         assert "disk" in troubles(served)
     assert Library(tmp_path).read("a") == (SMALL, 1)
+
+
+@pytest.mark.parametrize("sql", FILES, ids=lambda sql: sql.stem)
+def test_a_file_that_cannot_be_written_is_told_and_opened_once_it_can(sql: Path, tmp_path: Path) -> None:
+    """Of an old version, too: it is brought up to date then."""
+    file = lay_down(sql, tmp_path)
+    before = content_of(file)
+    read_only = f"mount --bind {file} {file} && mount -o remount,ro,bind {file}"
+    with served_on(tmp_path, read_only) as served:
+        for answer in (
+            httpx2.get(f"{served.url}/api/library"),
+            httpx2.put(f"{served.url}/api/library/wave", json=body(SMALL, 2)),
+        ):
+            assert (answer.status_code, answer.json()["code"]) == (503, "storageFailed")
+            assert answer.json()["detail"].startswith("library.sqlite in the data folder cannot be written")
+        assert_control_goes_on(served)
+    assert content_of(file) == before
+    with served_on(tmp_path, "true") as served:
+        assert read(served, "wave") == {"text": '{"frames":[1]}', "revision": 2}
+        assert write(served, "wave", SMALL, 2) == (200, None)
 
 
 def test_an_error_of_the_disk_is_told_and_changes_nothing(tmp_path: Path) -> None:

@@ -1,17 +1,21 @@
 """Library files of every version there has been: each is brought up to date, none is ever lost."""
 
+import json
 import sqlite3
 from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
+from random import Random
+from typing import NamedTuple
 
 import pytest
 
-from servodeck.errors import StorageError
+from servodeck.errors import StorageError, StorageFullError
 from servodeck.library.library import Library, Listed, Version
-from servodeck.library.library_file import FILE, STEPS
+from servodeck.library.library_file import FILE, STEPS, sum_of, version_of
 
 FILES = sorted((Path(__file__).parent / "library_files").glob("version-*.sql"))
+COUNT = 500
 LATER: Sequence[Sequence[str]] = [
     *STEPS,
     ["CREATE TABLE later (id TEXT)"],
@@ -70,6 +74,80 @@ def restored(folder: Path) -> Library:
         part.unlink()
     (folder / BACKUP).rename(folder / FILE)
     return opened(folder, STEPS)
+
+
+class Kept(NamedTuple):
+    """A document of an old file."""
+
+    text: str
+    facts: str
+    revision: int
+    removed_at_ms: int | None
+    versions: tuple[str, ...]
+
+
+def fill(path: Path) -> dict[str, Kept]:
+    """Puts many documents into a file of that version, each another one; what is in them by now."""
+    random, kept = Random(path.stat().st_size), dict[str, Kept]()
+    for number in range(COUNT):
+        frames = [random.randint(500, 2500) for _ in range(random.randint(0, 200))]
+        kept[f"group-{number}"] = Kept(
+            text=json.dumps({"name": f"群 {number} \U0001f916", "frames": frames}, ensure_ascii=False),
+            facts=f'{{"name":"群 {number}","kind":"group"}}',
+            revision=random.randint(1, 90),
+            removed_at_ms=random.choice([None, None, None, 4_102_444_800_000]),
+            versions=tuple(json.dumps({"frames": frames[:count]}) for count in range(random.randint(0, 3))),
+        )
+    with closing(sqlite3.connect(path)) as db, db:
+        db.create_function("sum_of", -1, sum_of, deterministic=True)
+        has_sums = version_of(db) > 2
+        for id_, one in kept.items():
+            document = (id_, one.revision, one.removed_at_ms, one.facts, one.text)
+            columns = "(id, revision, removed_at_ms, facts, text)"
+            db.execute(f"INSERT INTO document {columns} VALUES (?, ?, ?, ?, ?)", document)
+            for number, text in enumerate(one.versions):
+                version = (id_, f"v{number}", f"Try {number}", number, text)
+                db.execute(
+                    "INSERT INTO version (document, id, name, at_ms, text) VALUES (?, ?, ?, ?, ?)", version
+                )
+        if has_sums:  # the last two statements of the step that brought them
+            for statement in STEPS[2][-2:]:
+                db.execute(statement)
+    return kept
+
+
+def assert_holds(library: Library, kept: dict[str, Kept]) -> None:
+    found = {one.id: one for one in library.list()}
+    assert found.keys() == kept.keys() | {"wave", "old-pose"}
+    for id_, one in kept.items():
+        is_removed = one.removed_at_ms is not None
+        assert found[id_] == Listed(id_, one.revision, is_removed, one.facts, "group")
+        assert library.read(id_) == (one.text, one.revision)
+        names = [version.id for version in library.versions(id_)]
+        assert [library.read_version(id_, name) for name in names] == list(one.versions)
+
+
+@pytest.mark.parametrize("sql", FILES, ids=lambda sql: sql.stem)
+def test_of_many_documents_each_is_there_and_whole_behind_it(sql: Path, tmp_path: Path) -> None:
+    kept = fill(lay_down(sql, tmp_path))
+    before = content_of(tmp_path / FILE)
+    library = opened(tmp_path)
+    assert_holds(library, kept)
+    assert (library.set_aside, library.changes_lost) == (None, False)
+    library.close()
+    assert content_of(tmp_path / BACKUP) == before
+    assert_holds(restored(tmp_path), kept)
+
+
+@pytest.mark.parametrize("sql", FILES, ids=lambda sql: sql.stem)
+def test_a_disk_that_is_full_amid_the_upgrade_of_many_loses_none(sql: Path, tmp_path: Path) -> None:
+    kept = fill(lay_down(sql, tmp_path))
+    before = content_of(tmp_path / FILE)
+    small, grow = "PRAGMA max_page_count = 4000", "INSERT INTO later SELECT zeroblob(9000000) FROM document"
+    with pytest.raises(StorageFullError):
+        opened(tmp_path, [*STEPS, ["CREATE TABLE later (text)", small, grow]]).list()
+    assert content_of(tmp_path / FILE) == before
+    assert_holds(opened(tmp_path), kept)
 
 
 @pytest.mark.parametrize("sql", FILES, ids=lambda sql: sql.stem)

@@ -184,6 +184,11 @@ def storage_error(error: sqlite3.Error) -> StorageError:
         return StorageFullError("The disk of the library is full. What was kept before is unharmed.")
     if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
         return StorageBusyError("Another program holds the library's file. It is tried again.")
+    if code == sqlite3.SQLITE_READONLY:
+        return StorageError(
+            f"{FILE} in the data folder cannot be written: it or its disk is read-only. "
+            "Nothing in it is lost."
+        )
     return StorageError(f"The library's file cannot be used: {error}.")
 
 
