@@ -9,6 +9,7 @@ from servodeck.board.parts import Group
 from servodeck.callers import Caller
 from servodeck.driving.control import Control
 from servodeck.errors import OutOfRangeError
+from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.told import ServoLimits
 from servodeck.web.clients import hear, intake_of
@@ -88,7 +89,7 @@ async def test_who_calibrates_a_servo_may_pass_its_limits_alone_and_until_the_en
         say(control, anna, type="calibrate", servo=1)
         control.leave(anna)
         with pytest.raises(OutOfRangeError):
-            control.limits.judge(MOVE, anna)
+            control.limits.judge(parse_command(MOVE), anna)
 
 
 @in_virtual_time

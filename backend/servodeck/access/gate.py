@@ -22,7 +22,7 @@ from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import FAMILIES, UNKNOWN
 from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import check_command, encode
-from servodeck.protocol.values import Download
+from servodeck.protocol.values import Command, Download
 
 MOVE, RUN, STOP, ERASE, DOWNLOAD = 3, 6, 7, 8, 25
 BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
@@ -119,15 +119,19 @@ def only(headers: list[tuple[bytes, bytes]], name: bytes) -> bytes | None:
 
 def judge_packet(text: str, board: str) -> bytes:
     """The packet in `text` (hex) when it is one command that board can take. Raises what is wrong with it."""
+    return judge_command(text, board)[0]
+
+
+def judge_command(text: str, board: str) -> tuple[bytes, Command]:
+    """As `judge_packet`; with what it says, which is read once."""
     try:
         packet = bytes.fromhex(text)
     except ValueError:
         raise MalformedError("The packet is not written in hex digits.") from None
     try:
-        check_command(packet, FAMILIES[board])
+        return packet, check_command(packet, FAMILIES[board])
     except PacketError as error:
         raise refusal_of(error) from error
-    return packet
 
 
 def judge_frame(command: Download, board: str) -> bytes:

@@ -1,14 +1,13 @@
 """How far this robot's servos may be turned, as its owner has described it: less than its board could do.
 
-Knows packets and who sends them; no port and no client's socket. The page refuses the same things before they
-come here; this holds for every program that moves the robot.
+Knows commands and who sends them; no port and no client's socket. The page refuses the same things before
+they come here; this holds for every program that moves the robot.
 """
 
 from collections.abc import Iterable, Sequence
 
 from servodeck.errors import MovingError, OutOfRangeError
 from servodeck.port.wire import Owner
-from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Command, Move, ServoTarget
 from servodeck.told import ServoLimits
 
@@ -51,9 +50,9 @@ class RobotLimits:
         self._calibrating.clear()
         self._are_awaited = False
 
-    def judge(self, packet: bytes, owner: Owner) -> None:
+    def judge(self, command: Command | None, owner: Owner) -> None:
         """Raises OutOfRangeError that names the servo and its range, or MovingError."""
-        self.judge_targets(targets_of(parse_command(packet)), self._calibrating.get(owner))
+        self.judge_targets(targets_of(command), self._calibrating.get(owner))
 
     def judge_targets(self, targets: Sequence[ServoTarget], free: int | None = None) -> None:
         """As `judge`; that servo is `free` of its limits."""

@@ -11,9 +11,10 @@ from servodeck.access.gate import (
     STOP,
     is_harmless,
     judge_by_hand,
+    judge_command,
     judge_latch,
     judge_newest,
-    judge_packet,
+    role_for,
 )
 from servodeck.access.hub import AGAINST_THE_RULES, Hub, Seat
 from servodeck.board.board import Board
@@ -51,7 +52,6 @@ from servodeck.port.link import Ports
 from servodeck.port.wire import Job, Left, Owner, always
 from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.packets import parse_command
 from servodeck.told import JobState, UnheldServos
 
 SOMEBODY = Cause("person")
@@ -145,25 +145,26 @@ class Control:
                 self.board.disown(seat, CancelledError(reason))
                 self.leave(seat)
 
-    def send(self, owner: Owner, packet_hex: str, nonce: str | None = None, *, newest: bool = False) -> Left:
+    def send(self, seat: Seat, packet_hex: str, nonce: str | None = None, *, newest: bool = False) -> Left:
         """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving. What
         is not harmless needs the lease and its `nonce`. A `newest` move is cancelled where a later one takes
         its place.
         """
-        packet = judge_packet(packet_hex, self.board.taken_for)
+        packet, command = judge_command(packet_hex, self.board.taken_for)
+        seat.caller.require(role_for(packet))
         judge_newest(packet, newest)
-        self.limits.judge(packet, owner)
+        self.limits.judge(command, seat)
         wire = self.board.link.wire()
         judge_latch(packet, self.latch)
         judge_by_hand(packet)
-        self.board.jobs.judge_run(parse_command(packet), self.board.link.place)
+        self.board.jobs.judge_run(command, self.board.link.place)
         self._judge_idle(packet)
-        judge = always if is_harmless(packet) else self._permitted(owner, nonce)
-        command = packet[COMMAND_AT]
-        if command == STOP:
+        judge = always if is_harmless(packet) else self._permitted(seat, nonce)
+        is_stop = packet[COMMAND_AT] == STOP
+        if is_stop:
             # A stop overtakes all that waits; a run it overtook must not start the group again behind it.
             wire.purge(is_run, CancelledError("A stop has overtaken this run."))
-        return wire.send(packet, owner, urgent=command == STOP, newest=newest, judge=judge)
+        return wire.send(packet, seat, urgent=is_stop, newest=newest, judge=judge)
 
     def stop(self, hold: bytes | None, cause: Cause = SOMEBODY, owner: Owner = None) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
@@ -294,8 +295,8 @@ class Control:
 
     # Inside
 
-    def _permitted(self, owner: Owner, nonce: str | None) -> Callable[[], None]:
-        permit = self.driving.permit(owner, nonce)
+    def _permitted(self, seat: Seat, nonce: str | None) -> Callable[[], None]:
+        permit = self.driving.permit(seat, nonce)
         return lambda: self.driving.judge(permit)
 
     def _judge_idle(self, packet: bytes) -> None:

@@ -124,9 +124,9 @@ class Driving:
             self._lease.vouch(seat, self._now() + for_s)
             self._plan()
 
-    def permit(self, seat: object, nonce: str | None) -> Permit:
+    def permit(self, seat: Seat, nonce: str | None) -> Permit:
         """Raises NotDrivingError or ExpiredError."""
-        return self._lease.permit(seat, nonce, self._now())  # type: ignore[arg-type]
+        return self._lease.permit(seat, nonce, self._now())
 
     def judge_request(self, caller: Caller, nonce: str) -> None:
         """For what a page asks beside its WebSocket: only the driver's has the nonce. A large request takes

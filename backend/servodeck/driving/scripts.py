@@ -27,6 +27,7 @@ from servodeck.errors import (
 )
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
+from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Erase, Erased, Run, RunAccepted, RunStarted
 from servodeck.told import JobState, LeaseState
 
@@ -118,7 +119,7 @@ class Scripts:
             raise MovingError(end_of_group(control.board.motion.group_ends_in_s(now)))
         plan = plan_move(duration_ms, positions, family, control.board.motion, now, control.limits.name_of)
         for step in plan.steps:
-            control.limits.judge(step.packet, seat)
+            control.limits.judge(parse_command(step.packet), seat)
         turn = Turn(control, seat, plan.steps[0].packet, take=take)
         for step in plan.steps:
             await asyncio.sleep(step.after_s)

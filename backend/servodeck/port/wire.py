@@ -229,8 +229,9 @@ class Wire:
             fail(job.left, error)
             return
         self._under_way = job
-        metrics.queue_wait.observe(self._now() - job.asked_at)
+        waited_s = self._now() - job.asked_at
         await self._put(job.packet, job.owner)
+        metrics.queue_wait.observe(waited_s)
         self._under_way = None
         settle(job.left)
 
