@@ -156,8 +156,8 @@ export class Locator {
   #press(times: number, options: ClickOptions = {}): Promise<void> {
     return eventually(async () => {
       const at = await this.#place(options);
-      if (await meets(this.element(), () => clickAt(at, times, options))) return;
-      throw new Error(`something else came before it: ${this.selector}`);
+      const other = await otherMet(this.element(), () => clickAt(at, times, options));
+      if (other !== null) throw new Error(`${other} came before it: ${this.selector}`);
     }, options.timeout);
   }
 
@@ -314,18 +314,22 @@ function isMetAt(element: HTMLElement, met: EventTarget | null): boolean {
 
 const PRESSING = ['pointerdown', 'mousedown', 'pointerup', 'mouseup', 'click', 'dblclick'];
 
-/** Whether a press meets it. Where something else came there meanwhile, nothing of the page hears of the press. */
-async function meets(element: HTMLElement, press: () => Promise<void>): Promise<boolean> {
+/** What a press meets instead of it, null for nothing. Then nothing of the page hears of the press. */
+async function otherMet(element: HTMLElement, press: () => Promise<void>): Promise<string | null> {
   const listening = new AbortController();
-  const state: { isMet?: boolean } = {};
+  let other: string | null = 'no event';
   const judge = (event: Event): void => {
-    state.isMet ??= isMetAt(element, event.target);
-    if (state.isMet) return;
+    if (other === 'no event') other = isMetAt(element, event.target) ? null : described(event);
+    if (other === null) return;
     event.preventDefault();
     event.stopImmediatePropagation();
   };
   for (const type of PRESSING)
     window.addEventListener(type, judge, { capture: true, signal: listening.signal });
   await press().finally(() => listening.abort());
-  return state.isMet ?? false;
+  return other;
+}
+
+function described({ type, target }: Event): string {
+  return `${type} on ${target instanceof Element ? target.outerHTML.slice(0, 200) : 'the page'}`;
 }
