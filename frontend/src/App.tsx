@@ -3,7 +3,6 @@
 
 import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
 import { I18nProvider } from 'react-aria-components/I18nProvider';
-import { Tab, TabList, TabPanel, Tabs } from 'react-aria-components/Tabs';
 import { useStore } from 'zustand';
 import { CaptureStrip } from './actions/CaptureStrip.tsx';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
@@ -30,8 +29,9 @@ import type { Undoable } from './stores/undoable.ts';
 import type { Tab as TabName, Theme } from './stores/view.ts';
 import { TopBar } from './topBar/TopBar.tsx';
 import { Hints } from './ui/Hints.tsx';
-import { Icon, type IconName } from './ui/Icon.tsx';
+import type { IconName } from './ui/Icon.tsx';
 import { fetchRest, laterComponent } from './ui/later.tsx';
+import { TabList, tabPanel } from './ui/TabList.tsx';
 import { useEachFrame } from './ui/useEachFrame.ts';
 import { useFocusKept } from './ui/useFocusKept.ts';
 import { useLayout } from './ui/useLayout.ts';
@@ -175,42 +175,36 @@ function PhoneWork() {
   const { view } = useStores();
   const tab = useView((state) => state.tab);
   return (
-    <Tabs
-      className={styles.tabs ?? ''}
-      selectedKey={tab}
-      onSelectionChange={(key) => view.setState({ tab: key as TabName })}
-    >
+    <div className={styles.tabs}>
       <nav className={styles.tabBar} aria-label={words.tabList}>
-        <TabList className={styles.tabList ?? ''} aria-label={words.tabList}>
-          {TABS.map(({ id, icon }) => (
-            <Tab key={id} id={id} className={styles.tab ?? ''}>
-              <Icon name={icon} />
-              {words.tabs[id]}
-            </Tab>
-          ))}
-        </TabList>
+        <TabList
+          label={words.tabList}
+          tabs={TABS.map((one) => ({ ...one, name: words.tabs[one.id] }))}
+          chosen={tab}
+          onChoose={(id) => view.setState({ tab: id })}
+        />
       </nav>
       {tab === 'live' && <CaptureStrip />}
       <Messages />
       <main {...useOwnPlace(tab)} className={styles.phone}>
-        <TabPanel id="live" className={styles.tabPanel ?? ''}>
-          <LivePanel />
-        </TabPanel>
-        <TabPanel id="actions" className={styles.tabPanel ?? ''}>
-          <Authoring />
-        </TabPanel>
-        <TabPanel id="board" className={styles.tabPanel ?? ''}>
-          <BoardPanel />
-          <BatteryPanel />
-        </TabPanel>
-        <TabPanel id="log" className={styles.tabPanel ?? ''}>
-          <LogPanel />
-        </TabPanel>
-        <TabPanel id="buttons" className={styles.tabPanel ?? ''}>
-          <ButtonsPage />
-        </TabPanel>
+        <div key={tab} {...tabPanel(tab)} className={styles.tabPanel}>
+          <PhonePanel tab={tab} />
+        </div>
       </main>
-    </Tabs>
+    </div>
+  );
+}
+
+function PhonePanel({ tab }: { readonly tab: TabName }) {
+  if (tab === 'live') return <LivePanel />;
+  if (tab === 'actions') return <Authoring />;
+  if (tab === 'log') return <LogPanel />;
+  if (tab === 'buttons') return <ButtonsPage />;
+  return (
+    <>
+      <BoardPanel />
+      <BatteryPanel />
+    </>
   );
 }
 

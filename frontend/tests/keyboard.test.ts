@@ -105,6 +105,26 @@ test('arrows go through the three that are worked on, and back', async ({ page, 
   }
 });
 
+test('on a phone arrows go from tab to tab, around both ends', async ({ page, url }) => {
+  const tab = (name: string): Locator => page.getByRole('tab', { name });
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.goto(url);
+  await tabTo(page, tab('Live'), 'Shift+Tab');
+  for (const [key, name] of [
+    ['ArrowRight', 'Actions'],
+    ['ArrowLeft', 'Live'],
+    ['ArrowLeft', 'Buttons'],
+    ['ArrowRight', 'Live'],
+    ['End', 'Buttons'],
+    ['Home', 'Live'],
+  ] as const) {
+    await page.keyboard.press(key);
+    await expect(tab(name)).toBeFocused();
+    await expect(tab(name)).toHaveAttribute('aria-selected', 'true');
+    await expect(page.getByRole('tabpanel', { name })).toBeVisible();
+  }
+});
+
 test('a dialog shares the focus with STOP alone, and gives it back', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
   await page.goto(url);

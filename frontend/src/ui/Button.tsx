@@ -1,9 +1,9 @@
 // A button with a verb, and an icon-only one with a name. Neutral by nature: colour is kept for what is true.
 
-import type { ComponentProps, ReactNode } from 'react';
+import type { ComponentProps, ReactNode, Ref } from 'react';
 import { Button as AriaButton, type ButtonProps as AriaButtonProps } from 'react-aria-components/Button';
 import { cx } from './cx.ts';
-import { hinted } from './Hints.tsx';
+import { hinted } from './hinting.ts';
 import { Icon, type IconName } from './Icon.tsx';
 import { pressOnce } from './pressOnce.ts';
 import styles from './Button.module.css';
@@ -15,6 +15,7 @@ export interface ButtonProps extends Omit<AriaButtonProps, 'className' | 'childr
   /** What the verb alone does not say. */
   readonly hint?: string;
   readonly children: ReactNode;
+  readonly ref?: Ref<HTMLButtonElement>;
 }
 
 export function Button({ tone = 'plain', icon, wide = false, hint, children, ...rest }: ButtonProps) {

@@ -1,11 +1,8 @@
-// A dialog over the page. STOP lies above it and stays within reach: it is in the library's top layer (StopButton). Esc
-// closes the dialog and is STOP at the same time, as everywhere.
+// A dialog over the page. STOP stays within reach. Esc closes the dialog and is STOP at the same time, as everywhere. What holds the
+// focus in it is fetched when a dialog is first opened.
 
 import type { ReactNode } from 'react';
-import { Dialog as AriaDialog, Heading } from 'react-aria-components/Dialog';
-import { Modal, ModalOverlay } from 'react-aria-components/Modal';
-import { IconButton } from './Button.tsx';
-import { cx } from './cx.ts';
+import { later, Missing, usePart } from './later.tsx';
 import styles from './Dialog.module.css';
 
 export interface DialogProps {
@@ -20,36 +17,17 @@ export interface DialogProps {
   onClose(): void;
 }
 
-export function Dialog({
-  title,
-  closeLabel,
-  isOpen,
-  role = 'dialog',
-  wide = false,
-  full = false,
-  children,
-  onClose,
-}: DialogProps) {
+const modal = later(async () => (await import('./ModalDialog.tsx')).ModalDialog);
+
+export function Dialog(props: DialogProps) {
+  const { part: ModalDialog, isMissing } = usePart(modal, props.isOpen);
+  if (ModalDialog !== null) return <ModalDialog {...props} />;
+  if (!props.isOpen || !isMissing) return null;
   return (
-    <ModalOverlay
-      className={styles.veil ?? ''}
-      isOpen={isOpen}
-      isDismissable={role === 'dialog'}
-      onOpenChange={(open) => {
-        if (!open) onClose();
-      }}
-    >
-      <Modal className={cx(styles.modal, wide && styles.wide, full && styles.full)}>
-        <AriaDialog className={styles.dialog ?? ''} role={role}>
-          <div className={styles.header}>
-            <Heading slot="title" level={2} className={styles.title ?? ''}>
-              {title}
-            </Heading>
-            <IconButton icon="close" label={closeLabel} onPress={onClose} />
-          </div>
-          {children}
-        </AriaDialog>
-      </Modal>
-    </ModalOverlay>
+    <div className={styles.veil}>
+      <div className={styles.modal}>
+        <Missing part={modal} />
+      </div>
+    </div>
   );
 }

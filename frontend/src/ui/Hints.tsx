@@ -2,12 +2,10 @@
 // of them: one for each button would be drawn with it, a third of what a button costs.
 
 import { useEffect, useRef, useState } from 'react';
-import { Tooltip, TooltipTriggerStateContext } from 'react-aria-components/Tooltip';
 import { attach, HINT } from './hinting.ts';
-import styles from './Hints.module.css';
+import { later, usePart } from './later.tsx';
 
-/** To be spread on what is explained. */
-export const hinted = (text: string) => ({ [HINT]: text });
+const hint = later(async () => (await import('./Hint.tsx')).Hint);
 
 export function Hints() {
   const [text, setText] = useState<string | null>(null);
@@ -15,28 +13,17 @@ export function Hints() {
   const hide = useRef((): void => undefined);
   useEffect(() => {
     const hints = attach(document, (shown) => {
-      const hint = shown?.getAttribute(HINT) ?? null;
+      const said = shown?.getAttribute(HINT) ?? null;
       element.current = shown;
-      setText(hint);
+      setText(said);
       // What is its name is said anyway.
-      if (hint !== null && shown?.getAttribute('aria-label') !== hint)
-        shown?.setAttribute('aria-description', hint);
+      if (said !== null && shown?.getAttribute('aria-label') !== said)
+        shown?.setAttribute('aria-description', said);
     });
     hide.current = hints.hide;
     return hints.detach;
   }, []);
-  if (text === null) return null;
-  const state = {
-    isOpen: true,
-    shouldSkipAnimation: true,
-    open: () => undefined,
-    close: () => hide.current(),
-  };
-  return (
-    <TooltipTriggerStateContext value={state}>
-      <Tooltip key={text} triggerRef={element} className={styles.hint ?? ''} offset={6}>
-        {text}
-      </Tooltip>
-    </TooltipTriggerStateContext>
-  );
+  const { part: Hint } = usePart(hint, text !== null);
+  if (text === null || Hint === null) return null;
+  return <Hint text={text} of={element} onClose={() => hide.current()} />;
 }

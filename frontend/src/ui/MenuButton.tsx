@@ -1,10 +1,8 @@
-// A button below which a few choices open.
+// A button below which a few choices open; they are fetched when a menu is first opened.
 
-import type { ReactNode } from 'react';
-import { Menu, MenuItem, MenuTrigger } from 'react-aria-components/Menu';
-import { Popover } from 'react-aria-components/Popover';
+import { useRef, useState, type ReactNode } from 'react';
 import { Button, type ButtonProps } from './Button.tsx';
-import styles from './Menu.module.css';
+import { later, usePart } from './later.tsx';
 
 interface MenuButtonProps extends Pick<ButtonProps, 'tone'> {
   readonly label: string;
@@ -14,19 +12,29 @@ interface MenuButtonProps extends Pick<ButtonProps, 'tone'> {
   onChoose(id: string): void;
 }
 
+const menu = later(async () => (await import('./ChoiceMenu.tsx')).ChoiceMenu);
+
 export function MenuButton({ label, children = label, choices, onChoose, ...button }: MenuButtonProps) {
+  const ref = useRef<HTMLButtonElement>(null);
+  const [isOpen, setOpen] = useState(false);
+  const { part: ChoiceMenu } = usePart(menu, isOpen);
   return (
-    <MenuTrigger>
-      <Button {...button}>{children}</Button>
-      <Popover className={styles.popover ?? ''} placement="bottom start">
-        <Menu className={styles.menu ?? ''} aria-label={label}>
-          {choices.map(({ id, name }) => (
-            <MenuItem key={id} className={styles.item ?? ''} onAction={() => onChoose(id)}>
-              {name}
-            </MenuItem>
-          ))}
-        </Menu>
-      </Popover>
-    </MenuTrigger>
+    <>
+      <Button
+        {...button}
+        ref={ref}
+        aria-haspopup="menu"
+        aria-expanded={isOpen}
+        onPress={() => setOpen(true)}
+        onKeyDown={({ key }) => {
+          if (key === 'ArrowDown') setOpen(true);
+        }}
+      >
+        {children}
+      </Button>
+      {ChoiceMenu !== null && (
+        <ChoiceMenu {...{ label, choices, onChoose, isOpen }} under={ref} onClose={() => setOpen(false)} />
+      )}
+    </>
   );
 }

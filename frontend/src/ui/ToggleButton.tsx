@@ -1,7 +1,7 @@
 // A button that stays pressed: a switch for tight places.
 
 import type { ReactNode } from 'react';
-import { hinted } from './Hints.tsx';
+import { hinted } from './hinting.ts';
 import { pressOnce } from './pressOnce.ts';
 import styles from './ToggleButton.module.css';
 

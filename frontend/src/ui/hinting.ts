@@ -3,6 +3,9 @@
 
 export const HINT = 'data-hint';
 
+/** To be spread on what is explained. */
+export const hinted = (text: string) => ({ [HINT]: text });
+
 /** Long enough for a pointer on its way to something else. */
 const REST_MS = 500;
 /** Whoever reads one hint after the other waits for the first alone. */

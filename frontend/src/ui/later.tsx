@@ -46,8 +46,10 @@ export async function fetchRest(whenIdle: () => Promise<void>): Promise<void> {
 }
 
 /** null until it is there. */
-export function usePart<Part>(part: Later<Part>): Fetched<Part> {
-  useEffect(() => void part.fetch(), [part]);
+export function usePart<Part>(part: Later<Part>, isWanted = true): Fetched<Part> {
+  useEffect(() => {
+    if (isWanted) void part.fetch();
+  }, [part, isWanted]);
   return useStore(part.store);
 }
 

@@ -1,0 +1,22 @@
+// The tooltip: what it says, beside what that is about. It opens and closes as it is drawn or not.
+
+import type { RefObject } from 'react';
+import { Tooltip, TooltipTriggerStateContext } from 'react-aria-components/Tooltip';
+import styles from './Hints.module.css';
+
+interface HintProps {
+  readonly text: string;
+  readonly of: RefObject<Element | null>;
+  onClose(): void;
+}
+
+export function Hint({ text, of, onClose }: HintProps) {
+  const state = { isOpen: true, shouldSkipAnimation: true, open: () => undefined, close: onClose };
+  return (
+    <TooltipTriggerStateContext value={state}>
+      <Tooltip key={text} triggerRef={of} className={styles.hint ?? ''} offset={6}>
+        {text}
+      </Tooltip>
+    </TooltipTriggerStateContext>
+  );
+}

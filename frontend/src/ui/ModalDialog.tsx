@@ -1,0 +1,43 @@
+// An open dialog, as the library makes it: it holds the focus and gives it back, and all behind it is out of reach. STOP lies above
+// it: it is in the library's top layer (StopButton).
+
+import { Dialog as AriaDialog, Heading } from 'react-aria-components/Dialog';
+import { Modal, ModalOverlay } from 'react-aria-components/Modal';
+import { IconButton } from './Button.tsx';
+import { cx } from './cx.ts';
+import type { DialogProps } from './Dialog.tsx';
+import styles from './Dialog.module.css';
+
+export function ModalDialog({
+  title,
+  closeLabel,
+  isOpen,
+  role = 'dialog',
+  wide = false,
+  full = false,
+  children,
+  onClose,
+}: DialogProps) {
+  return (
+    <ModalOverlay
+      className={styles.veil ?? ''}
+      isOpen={isOpen}
+      isDismissable={role === 'dialog'}
+      onOpenChange={(open) => {
+        if (!open) onClose();
+      }}
+    >
+      <Modal className={cx(styles.modal, wide && styles.wide, full && styles.full)}>
+        <AriaDialog className={styles.dialog ?? ''} role={role}>
+          <div className={styles.header}>
+            <Heading slot="title" level={2} className={styles.title ?? ''}>
+              {title}
+            </Heading>
+            <IconButton icon="close" label={closeLabel} onPress={onClose} />
+          </div>
+          {children}
+        </AriaDialog>
+      </Modal>
+    </ModalOverlay>
+  );
+}
