@@ -1,16 +1,13 @@
 // Keeps the pose that the robot was asked for or that its board has said; says why it cannot while nobody knows one.
 
-import type { PressEvent } from 'react-aria-components/Button';
 import { tellsPositions } from '../stores/device/readiness.ts';
 import { useDevice } from '../stores/stores.ts';
-import { Button } from '../ui/Button.tsx';
+import { Button, type ButtonProps } from '../ui/Button.tsx';
 import { words } from '../words/words.ts';
 import styles from './CaptureButton.module.css';
 
-export interface CaptureButtonProps {
+export interface CaptureButtonProps extends Required<Pick<ButtonProps, 'hint' | 'onPress'>> {
   readonly label: string;
-  readonly hint: string;
-  onPress(event: PressEvent): void;
 }
 
 export function CaptureButton({ label, hint, onPress }: CaptureButtonProps) {

@@ -3,7 +3,7 @@
 // says itself that it is pressed twice; a finger is not taken at its word before it could have read; a key has nothing to press,
 // because the question has the focus (Ask).
 
-import { useRef, useState, type MouseEvent } from 'react';
+import { useState, type MouseEvent } from 'react';
 import { useStores } from '../stores/stores.ts';
 import { Button, type ButtonProps } from '../ui/Button.tsx';
 import styles from './CalibrationWizard.module.css';
@@ -18,19 +18,18 @@ export interface AnswerProps extends Omit<ButtonProps, 'onPress'> {
 export function Answer({ onPress, ...rest }: AnswerProps) {
   const { clock } = useStores().device;
   const [askedMs] = useState(clock.now);
-  const isEcho = useRef(false);
 
-  function look({ detail, nativeEvent }: MouseEvent): void {
+  function isEcho({ detail, nativeEvent }: MouseEvent): boolean {
     const isFinger = nativeEvent instanceof PointerEvent && nativeEvent.pointerType === 'touch';
-    isEcho.current = isFinger ? clock.now() - askedMs < READ_MS : detail > 1;
+    return isFinger ? clock.now() - askedMs < READ_MS : detail > 1;
   }
 
   return (
-    <span className={styles.answer} onClickCapture={look}>
+    <span className={styles.answer}>
       <Button
         {...rest}
-        onPress={({ pointerType }) => {
-          if (pointerType === 'keyboard' || !isEcho.current) onPress();
+        onPress={(press) => {
+          if (!isEcho(press)) onPress();
         }}
       />
     </span>

@@ -2,9 +2,9 @@
 
 import { useMemo } from 'react';
 import { useStores, useView } from '../stores/stores.ts';
-import { Button as AriaButton } from 'react-aria-components/Button';
 import { Icon } from '../ui/Icon.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
+import { pressOnce } from '../ui/pressOnce.ts';
 import { words } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import { LogPanel } from './LaterLogPanel.tsx';
@@ -25,15 +25,17 @@ export function LogDrawer() {
   }
   return (
     <section {...PART} className={styles.folded} aria-label={words.log.title}>
-      <AriaButton
-        className={styles.button ?? ''}
+      <button
+        type="button"
+        className={styles.button}
         aria-label={words.log.open}
-        onPress={() => view.setState({ logOpen: true })}
+        onClick={() => view.setState({ logOpen: true })}
+        onKeyDown={pressOnce}
       >
         <Icon name="up" />
         <span className={styles.title}>{words.log.title}</span>
         <Latest />
-      </AriaButton>
+      </button>
     </section>
   );
 }

@@ -1,11 +1,11 @@
 // What stands in the dialog about files: what was opened, each with what it holds or what is wrong with it, and saving the group at hand.
 
 import { useCallback } from 'react';
-import { FileTrigger } from 'react-aria-components/FileTrigger';
 import { useStore } from 'zustand';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { useKnownFamily } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
+import { FileButton } from '../ui/FileButton.tsx';
 import { words } from '../words/words.ts';
 import { readyGroups, type ReadyGroup } from './answers.ts';
 import { FileProgress } from './FileProgress.tsx';
@@ -34,9 +34,9 @@ export function FilesContent({ files, onTake, onTakeAll }: FilesContentProps) {
       <section className={styles.part}>
         <h3 className={styles.heading}>{words.files.open}</h3>
         <div className={styles.choose}>
-          <FileTrigger allowsMultiple onSelect={(chosen) => files.open([...(chosen ?? [])])}>
-            <Button icon="upload">{words.files.choose}</Button>
-          </FileTrigger>
+          <FileButton multiple onChoose={files.open}>
+            {words.files.choose}
+          </FileButton>
           <span className={styles.dim}>{words.files.hint}</span>
         </div>
         <Reading files={files} />

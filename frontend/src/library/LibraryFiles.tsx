@@ -1,8 +1,8 @@
 // A new group, and the whole library to a file and from one. An import adds to what is there.
 
-import { FileTrigger } from 'react-aria-components/FileTrigger';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
+import { FileButton } from '../ui/FileButton.tsx';
 import { saveFile } from '../ui/saveFile.ts';
 import { words } from '../words/words.ts';
 import styles from './Library.module.css';
@@ -11,10 +11,8 @@ export function LibraryFiles({ onDone }: { onDone(): void }) {
   const { library, notices } = useStores();
   const isEmpty = useLibrary(({ documents }) => documents.every(({ isRemoved }) => isRemoved));
 
-  const take = (files: FileList | null): void =>
-    void files?.[0]
-      ?.text()
-      .then(library.importText, () => notices.tell('warning', words.library.unreadableFile));
+  const take = ([file]: readonly File[]): void =>
+    void file?.text().then(library.importText, () => notices.tell('warning', words.library.unreadableFile));
 
   async function save(): Promise<void> {
     const text = await library.exportText();
@@ -34,9 +32,9 @@ export function LibraryFiles({ onDone }: { onDone(): void }) {
         {words.library.create}
       </Button>
       <span className={styles.gap} />
-      <FileTrigger acceptedFileTypes={['.json', 'application/json']} onSelect={take}>
-        <Button icon="upload">{words.library.import}</Button>
-      </FileTrigger>
+      <FileButton accept=".json,application/json" onChoose={take}>
+        {words.library.import}
+      </FileButton>
       <Button icon="save" isDisabled={isEmpty} onPress={() => void save()}>
         {words.library.export}
       </Button>

@@ -3,13 +3,13 @@
 
 import type { Label } from '#shared/actions/history.ts';
 import { useEffect, useRef, useState } from 'react';
-import { Button as Bare } from 'react-aria-components/Button';
 import type { Binding, Input } from '#shared/actions/mapping/mapping.ts';
 import { shaped, valueOf } from '#shared/actions/mapping/mappingInputs.ts';
 import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
 import { useMapping, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { useEachFrame } from '../ui/useEachFrame.ts';
+import { pressOnce } from '../ui/pressOnce.ts';
 import { words } from '../words/words.ts';
 import { BindingForm } from './BindingForm.tsx';
 import { draftFor, draftOf, type Draft } from './draft.ts';
@@ -125,15 +125,17 @@ function Table({ onEdit }: { onEdit(at: number, binding: Binding): void }) {
               const binding = mapping.bindings[at];
               return (
                 binding && (
-                  <Bare
+                  <button
                     key={at}
+                    type="button"
                     data-binding={at}
-                    className={styles.chip ?? ''}
+                    className={styles.chip}
                     aria-label={words.pad.edit(words.pad.input(binding.input), title)}
-                    onPress={() => onEdit(at, binding)}
+                    onClick={() => onEdit(at, binding)}
+                    onKeyDown={pressOnce}
                   >
                     {words.pad.chip(binding)}
-                  </Bare>
+                  </button>
                 )
               );
             })}

@@ -1,12 +1,12 @@
 // The foot of the poses: keep the pose at hand, and the ways home and to rest, in the time that holds for every pose.
 
-import type { PressEvent } from 'react-aria-components/Button';
+import type { MouseEvent } from 'react';
 import { POSE_VERBS } from '#shared/actions/poses/pose.ts';
 import { CaptureButton } from '../actions/CaptureButton.tsx';
 import { poseName } from '../stores/driving/poses.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
-import { Button } from '../ui/Button.tsx';
+import { Button, isByKey } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { words } from '../words/words.ts';
 import { capturePose } from './capturePose.ts';
@@ -49,11 +49,11 @@ export function PoseVerbs({ onNew }: PoseVerbsProps) {
 
 function Capture({ onNew }: PoseVerbsProps) {
   const stores = useStores();
-  const capture = ({ pointerType, target }: PressEvent): void => {
+  const capture = (press: MouseEvent): void => {
     capturePose(stores);
     const { selectedPose } = stores.view.getState();
-    const isByKey = pointerType === 'keyboard' && !stores.pad.store.getState().isDriving;
-    if (isByKey && selectedPose !== null) onNew({ pose: selectedPose, from: target });
+    const isNamed = isByKey(press) && !stores.pad.store.getState().isDriving;
+    if (isNamed && selectedPose !== null) onNew({ pose: selectedPose, from: press.currentTarget });
   };
   return <CaptureButton label={words.poses.capture} hint={words.poses.captureHint} onPress={capture} />;
 }

@@ -1,11 +1,10 @@
 // Robot files come in by choosing or dropping them. One that cannot be read changes nothing and says why.
 
 import { useState } from 'react';
-import { FileTrigger } from 'react-aria-components/FileTrigger';
 import { robotFromText } from '#shared/actions/robot/robotText.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
-import { Button } from '../ui/Button.tsx';
+import { FileButton } from '../ui/FileButton.tsx';
 import { words } from '../words/words.ts';
 import styles from './RobotList.module.css';
 
@@ -38,13 +37,9 @@ export function ImportRobot({ connected }: { readonly connected: FamilyId | null
         void take([...event.dataTransfer.files]);
       }}
     >
-      <FileTrigger
-        acceptedFileTypes={['.json', 'application/json']}
-        allowsMultiple
-        onSelect={(files) => void take([...(files ?? [])])}
-      >
-        <Button icon="upload">{words.robots.import}</Button>
-      </FileTrigger>
+      <FileButton accept=".json,application/json" multiple onChoose={(files) => void take(files)}>
+        {words.robots.import}
+      </FileButton>
       <span className={styles.dim}>{words.robots.importHint}</span>
       <ul className={styles.outcomes} aria-live="polite">
         {outcomes.map((outcome) => (

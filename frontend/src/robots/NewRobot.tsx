@@ -1,11 +1,11 @@
 // The ready robots that can be built on a board, each with its picture. Adding one takes it up.
 
 import { useId } from 'react';
-import { Button } from 'react-aria-components/Button';
 import { READY_ROBOTS, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { freshRobot } from '../stores/robots/robots.ts';
 import { useStores } from '../stores/stores.ts';
+import { pressOnce } from '../ui/pressOnce.ts';
 import { words } from '../words/words.ts';
 import { PRODUCTS } from './products.ts';
 import { RobotPicture } from './RobotPicture.tsx';
@@ -21,18 +21,20 @@ export function NewRobot({ board }: { readonly board: FamilyId }) {
       <ul className={styles.ready}>
         {fitting(board).map((id) => (
           <li key={id}>
-            <Button
-              className={styles.card ?? ''}
+            <button
+              type="button"
+              className={styles.card}
               aria-label={words.robots.add(words.robots.ready[id])}
               aria-describedby={`${headingId}-${id}`}
-              onPress={() => robots.add(() => words.robots.steps.add, freshRobot(id, board))}
+              onClick={() => robots.add(() => words.robots.steps.add, freshRobot(id, board))}
+              onKeyDown={pressOnce}
             >
               <RobotPicture robot={freshRobot(id, board)} />
               {words.robots.ready[id]}
               <span id={`${headingId}-${id}`} className={styles.dim}>
                 {PRODUCTS[id]}
               </span>
-            </Button>
+            </button>
           </li>
         ))}
       </ul>

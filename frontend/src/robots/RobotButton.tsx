@@ -1,8 +1,8 @@
 // The robot at hand by its name, in the bar; opens the list of robots.
 
-import { Button } from 'react-aria-components/Button';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
+import { pressOnce } from '../ui/pressOnce.ts';
 import { words } from '../words/words.ts';
 import styles from './RobotButton.module.css';
 
@@ -10,17 +10,19 @@ export function RobotButton() {
   const { view } = useStores();
   const { name } = useRobot();
   return (
-    <Button
-      className={styles.button ?? ''}
+    <button
+      type="button"
+      className={styles.button}
       aria-label={words.robots.button(name)}
       aria-haspopup="dialog"
-      onPress={() => view.setState({ robotView: 'list' })}
+      onClick={() => view.setState({ robotView: 'list' })}
+      onKeyDown={pressOnce}
     >
       <span className={styles.icon}>
         <Icon name="pose" />
       </span>
       <span className={styles.name}>{name}</span>
       <Icon name="down" />
-    </Button>
+    </button>
   );
 }

@@ -1,9 +1,9 @@
 // The link in one word with one shape, and the one obvious Connect. Pressing it opens the ways to connect.
 
-import { Button as AriaButton } from 'react-aria-components/Button';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Mark, type Truth } from '../ui/Chip.tsx';
 import { Button } from '../ui/Button.tsx';
+import { pressOnce } from '../ui/pressOnce.ts';
 import type { LinkState } from '#shared/session/state.ts';
 import { words } from '../words/words.ts';
 import styles from './LinkChip.module.css';
@@ -29,10 +29,12 @@ export function LinkChip() {
   const label = way === null || isSimulated ? '' : way.label;
   return (
     <div className={styles.link} data-connects={connects}>
-      <AriaButton
-        className={styles.chip ?? ''}
+      <button
+        type="button"
+        className={styles.chip}
         aria-label={words.link.chip(isSimulated ? words.link.simulated : words.link.status[status], label)}
-        onPress={open}
+        onClick={open}
+        onKeyDown={pressOnce}
       >
         <Mark truth={TRUTH[status]} />
         <span className={styles.word}>{words.link.status[status]}</span>
@@ -41,7 +43,7 @@ export function LinkChip() {
         ) : (
           <span className={styles.label}>{label}</span>
         )}
-      </AriaButton>
+      </button>
       {connects && (
         <Button tone={status === 'ready' ? 'plain' : 'primary'} icon="plug" onPress={open}>
           {words.link.connect}

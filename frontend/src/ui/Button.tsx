@@ -1,33 +1,58 @@
-// A button with a verb, and an icon-only one with a name. Neutral by nature: colour is kept for what is true.
+// A button with a verb, and an icon-only one with a name. Neutral by nature: colour is kept for what is true. Bare buttons: there are
+// dozens in a panel, and one of the library's takes as long to come up as five of them.
 
-import type { ComponentProps, ReactNode, Ref } from 'react';
-import { Button as AriaButton, type ButtonProps as AriaButtonProps } from 'react-aria-components/Button';
+import type { ComponentProps, MouseEvent, ReactNode, Ref } from 'react';
 import { cx } from './cx.ts';
 import { hinted } from './hinting.ts';
 import { Icon, type IconName } from './Icon.tsx';
 import { pressOnce } from './pressOnce.ts';
 import styles from './Button.module.css';
 
-export interface ButtonProps extends Omit<AriaButtonProps, 'className' | 'children' | 'style'> {
+export interface ButtonProps extends Pick<
+  ComponentProps<'button'>,
+  'aria-expanded' | 'aria-haspopup' | 'aria-label' | 'autoFocus' | 'type'
+> {
   readonly tone?: 'plain' | 'primary' | 'quiet' | 'danger';
   readonly icon?: IconName;
   readonly wide?: boolean;
   /** What the verb alone does not say. */
   readonly hint?: string;
+  readonly isDisabled?: boolean | undefined;
+  /** Does nothing for now, and keeps the focus. */
+  readonly isPending?: boolean;
   readonly children: ReactNode;
   readonly ref?: Ref<HTMLButtonElement>;
+  onPress?(press: MouseEvent<HTMLButtonElement>): void;
 }
 
-export function Button({ tone = 'plain', icon, wide = false, hint, children, ...rest }: ButtonProps) {
+/** By a key, not by a pointer. */
+export const isByKey = ({ detail }: Pick<MouseEvent, 'detail'>): boolean => detail === 0;
+
+export function Button({
+  tone = 'plain',
+  icon,
+  wide = false,
+  hint,
+  isDisabled,
+  isPending = false,
+  children,
+  onPress,
+  ...rest
+}: ButtonProps) {
   return (
-    <AriaButton
+    <button
+      type="button"
       {...rest}
       {...(hint === undefined ? {} : hinted(hint))}
+      disabled={isDisabled}
+      aria-disabled={isPending || undefined}
       className={cx(styles.button, styles[tone], wide && styles.wide)}
+      onClick={isPending ? undefined : onPress}
+      onKeyDown={pressOnce}
     >
       {icon !== undefined && <Icon name={icon} />}
       <span className={styles.label}>{children}</span>
-    </AriaButton>
+    </button>
   );
 }
 
@@ -41,7 +66,6 @@ export interface IconButtonProps extends Pick<
   onPress(target: Element): void;
 }
 
-/** A bare button: there are dozens in a panel, and one of the library's takes as long to come up as five of them. */
 export function IconButton({ icon, label, isDisabled, onPress, ...rest }: IconButtonProps) {
   return (
     <button

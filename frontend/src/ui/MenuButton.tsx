@@ -20,16 +20,7 @@ export function MenuButton({ label, children = label, choices, onChoose, ...butt
   const { part: ChoiceMenu } = usePart(menu, isOpen);
   return (
     <>
-      <Button
-        {...button}
-        ref={ref}
-        aria-haspopup="menu"
-        aria-expanded={isOpen}
-        onPress={() => setOpen(true)}
-        onKeyDown={({ key }) => {
-          if (key === 'ArrowDown') setOpen(true);
-        }}
-      >
+      <Button {...button} ref={ref} aria-haspopup="menu" aria-expanded={isOpen} onPress={() => setOpen(true)}>
         {children}
       </Button>
       {ChoiceMenu !== null && (
