@@ -6,7 +6,6 @@ import { I18nProvider } from 'react-aria-components/I18nProvider';
 import { useStore } from 'zustand';
 import { CaptureStrip } from './actions/CaptureStrip.tsx';
 import { useUndoKeys } from './actions/useUndoKeys.ts';
-import { BatteryPanel } from './battery/BatteryPanel.tsx';
 import { useBatteryTab } from './battery/useBatteryTab.ts';
 import { motionsInFrame } from './body/motionInFrame.ts';
 import { BoardPanel } from './board/BoardPanel.tsx';
@@ -44,6 +43,10 @@ import styles from './App.module.css';
 const ButtonsPage = laterComponent(
   async () => (await import('./macros/ButtonsPage.tsx')).ButtonsPage,
   '100%',
+);
+const BatteryPanel = laterComponent(
+  async () => (await import('./battery/BatteryPanel.tsx')).BatteryPanel,
+  '200px',
 );
 const Kiosk = laterComponent(async () => (await import('./macros/Kiosk.tsx')).Kiosk, '100%');
 

@@ -4,9 +4,11 @@ import { useEffect } from 'react';
 import { useStore } from 'zustand';
 import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Dialog } from '../ui/Dialog.tsx';
+import { laterComponent } from '../ui/later.tsx';
 import { words } from '../words/words.ts';
 import type { Connector } from './connector.ts';
-import { ConnectWays } from './ConnectWays.tsx';
+
+const ConnectWays = laterComponent(async () => (await import('./ConnectWays.tsx')).ConnectWays, '60vh');
 
 export function ConnectDialog({ connector }: { readonly connector: Connector }) {
   const { view, notices } = useStores();

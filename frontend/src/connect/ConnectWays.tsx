@@ -10,7 +10,7 @@ import { Chip } from '../ui/Chip.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/words.ts';
 import type { ConnectState } from './connector.ts';
-import { isProfileName } from '#shared/simulator/profiles.ts';
+import { isProfileName } from '#shared/simulator/profileNames.ts';
 import { PortGuide } from './PortGuide.tsx';
 import styles from './ConnectWays.module.css';
 

@@ -6,7 +6,7 @@ import type { Robot } from '#shared/actions/robot/robot.ts';
 import { FAMILIES, UNKNOWN_BOARD, type FamilyId } from '#shared/protocol/families.ts';
 import { STOP_PACKET } from '#shared/session/halt.ts';
 import { createSession, type Session } from '#shared/session/session.ts';
-import { isProfileName } from '#shared/simulator/profiles.ts';
+import { isProfileName } from '#shared/simulator/profileNames.ts';
 import type { Transport } from '#shared/session/transport.ts';
 import type { Boards } from '../stores/device/boards.ts';
 import type { Device, Way } from '../stores/device/device.ts';

@@ -1,8 +1,13 @@
 // The place of live control: the servos, or, while nobody has said which board this is, the question.
 
-import { WhichBoard } from '../identity/WhichBoard.tsx';
 import { useDevice } from '../stores/stores.ts';
+import { laterComponent } from '../ui/later.tsx';
 import { ServosPanel } from './ServosPanel.tsx';
+
+const WhichBoard = laterComponent(
+  async () => (await import('../identity/WhichBoard.tsx')).WhichBoard,
+  '100%',
+);
 
 export function LivePanel() {
   const isUnknown = useDevice(({ family, way }) => family.id === 'unknown' && way !== null);

@@ -1,6 +1,7 @@
 // A saved log in, a report out, as text: what the command line shows. Knows no file and prints nothing.
 
-import { isProfileName, PROFILES } from '../simulator/profiles.ts';
+import { isProfileName } from '../simulator/profileNames.ts';
+import { PROFILES } from '../simulator/profiles.ts';
 import { replay } from './report.ts';
 import { readRecording } from './text.ts';
 

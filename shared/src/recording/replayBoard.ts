@@ -4,7 +4,7 @@
 import { FAMILIES } from '../protocol/families.ts';
 import { createReceiver } from '../session/receiver.ts';
 import { createBoard, type BoardOptions } from '../simulator/board.ts';
-import type { ProfileName } from '../simulator/profiles.ts';
+import type { ProfileName } from '../simulator/profileNames.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
 import type { PacketEntry } from './recorder.ts';
 import type { Entry } from './recording.ts';

@@ -3,7 +3,7 @@
 
 import type { BoardId } from '../protocol/families.ts';
 import type { SessionState } from '../session/state.ts';
-import { isProfileName, type ProfileName } from '../simulator/profiles.ts';
+import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
 import { compare, tally, type Row } from './compare.ts';
 import { entryOf, type PacketEntry } from './recorder.ts';
 import type { Entry, Recording } from './recording.ts';

@@ -20,7 +20,7 @@ import { wireMs } from '../protocol/packet.ts';
 import type { Report } from '../protocol/reports.ts';
 import { createBoard, type Board } from '../simulator/board.ts';
 import type { Fault } from '../simulator/faults.ts';
-import { isProfileName, type ProfileName } from '../simulator/profiles.ts';
+import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
 import { createVirtualClock, type VirtualClock } from '../simulator/virtualClock.ts';
 import { createGroupMemory, type GroupMemory } from './groupMemory.ts';
 import { createReceiver } from './receiver.ts';

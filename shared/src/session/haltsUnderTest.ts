@@ -12,7 +12,7 @@ import { wireMs } from '../protocol/packet.ts';
 import { commandIn, parseReport } from '../protocol/parse.ts';
 import { createDecoder } from '../protocol/decoder.ts';
 import { createBoard } from '../simulator/board.ts';
-import type { ProfileName } from '../simulator/profiles.ts';
+import type { ProfileName } from '../simulator/profileNames.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
 import { createReceiver } from './receiver.ts';
 import { createRobotEstimate, type RobotEstimate } from './robot.ts';

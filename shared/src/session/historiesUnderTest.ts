@@ -4,7 +4,7 @@
 import fc from 'fast-check';
 import type { Frame, ServoTarget } from '../protocol/commands.ts';
 import { family as familyOf, positionRange, type Family } from '../protocol/families.ts';
-import type { ProfileName } from '../simulator/profiles.ts';
+import type { ProfileName } from '../simulator/profileNames.ts';
 
 type Bare = 'endGroup' | 'erase' | 'cancel' | 'halt' | 'resume' | 'read';
 

@@ -4,7 +4,7 @@
 import { describe, expect, test } from 'vitest';
 import { COMMAND_NUMBER } from '../protocol/commands.ts';
 import { family, FAMILIES, UNKNOWN_BOARD, type FamilyId } from '../protocol/families.ts';
-import type { ProfileName } from '../simulator/profiles.ts';
+import type { ProfileName } from '../simulator/profileNames.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
 import { LinkError } from './linkError.ts';

@@ -6,7 +6,7 @@ import fc from 'fast-check';
 import type { Clock } from '../clock.ts';
 import { fromHex, toHex } from '../protocol/hex.ts';
 import { createBoard, type Board } from '../simulator/board.ts';
-import { isProfileName, type ProfileName } from '../simulator/profiles.ts';
+import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
 import { SERVOS, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
 import { foreignFlash, SLOW_FLASH } from './stopUnderTest.ts';
 

@@ -2,7 +2,7 @@
 
 import { describe, expect, test } from 'vitest';
 import { FAMILIES, type FamilyId } from '../protocol/families.ts';
-import type { ProfileName } from '../simulator/profiles.ts';
+import type { ProfileName } from '../simulator/profileNames.ts';
 import { createRig, type Rig } from './rig.ts';
 
 const SIX = [1, 2, 3, 4, 5, 6];

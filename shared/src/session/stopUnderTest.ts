@@ -8,7 +8,7 @@ import type { Fault } from '../simulator/faults.ts';
 import { createFlashChip, type FlashChip } from '../simulator/flashChip.ts';
 import { createGroupStore, openLayout } from '../simulator/groupStore.ts';
 import { LEARM_LAYOUT } from '../simulator/learm/engine.ts';
-import type { ProfileName } from '../simulator/profiles.ts';
+import type { ProfileName } from '../simulator/profileNames.ts';
 import { encodeFrame } from '../simulator/storedFrame.ts';
 import { createRig, type Rig } from './rig.ts';
 import {

@@ -10,7 +10,8 @@ import type { Engine } from './engine.ts';
 import { planFaults, type Fault, type Incident } from './faults.ts';
 import { createFlashChip, type FlashChip } from './flashChip.ts';
 import { createLine, type Line } from './line.ts';
-import { PROFILES, type BoardProfile, type ProfileName } from './profiles.ts';
+import type { ProfileName } from './profileNames.ts';
+import { PROFILES, type BoardProfile } from './profiles.ts';
 import { createSchedule } from './schedule.ts';
 import { createSender } from './sender.ts';
 

@@ -11,7 +11,7 @@ import {
   STOP,
 } from './boardUnderTest.ts';
 import { parseFault } from './faults.ts';
-import type { ProfileName } from './profiles.ts';
+import type { ProfileName } from './profileNames.ts';
 
 const STARTED_8 = '55 55 05 06 08 01 00';
 const FINISHED_8 = '55 55 05 08 08 01 00';

@@ -11,7 +11,7 @@ import {
   RUN_ACK,
   STOP,
 } from './boardUnderTest.ts';
-import type { ProfileName } from './profiles.ts';
+import type { ProfileName } from './profileNames.ts';
 
 /** A board of that build whose group 100 and its successor take 200 ms each. */
 async function boardWithChain(profile: ProfileName) {

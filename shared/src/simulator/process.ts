@@ -10,7 +10,8 @@ import type { Clock } from '../clock.ts';
 import { createBoard, type Board, type BoardOptions } from './board.ts';
 import type { BusLogEntry } from './busLog.ts';
 import { parseFault } from './faults.ts';
-import { isProfileName, PROFILES, type ProfileName } from './profiles.ts';
+import { isProfileName, type ProfileName } from './profileNames.ts';
+import { PROFILES } from './profiles.ts';
 
 const USAGE = `Usage: simulator (--stdio | --tcp HOST:PORT) [--board NAME] [--seed N] [--fault NAME[=VALUE]]... [--battery-mv N]
                  [--servos N] [--baud N] [--bus-log FILE]

@@ -12,7 +12,8 @@ import {
   run,
   STOP,
 } from './boardUnderTest.ts';
-import { isProfileName, PROFILES, type ProfileName } from './profiles.ts';
+import { isProfileName, type ProfileName } from './profileNames.ts';
+import { PROFILES } from './profiles.ts';
 
 const NAMES = Object.keys(PROFILES).filter(isProfileName);
 

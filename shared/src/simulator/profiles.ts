@@ -1,11 +1,11 @@
-// The boards there are to simulate, as values: which firmware, with how many servos. Knows their names, no behaviour: that
-// is in the engines. Source: boards.md chapter 2.
+// The boards there are to simulate, as values: which firmware, with how many servos. Knows no behaviour: that is in the engines. Source: boards.md chapter 2.
 
 import { createClosedEngine, type ClosedTraits } from './closedEngine.ts';
 import type { CreateEngine } from './engine.ts';
 import { createLearmEngine } from './learm/engine.ts';
 import { BUS_LEARM, PWM_LEARM, type LearmTraits } from './learm/traits.ts';
 import { createOpenEngine, type OpenBuild } from './openEngine.ts';
+import type { ProfileName } from './profileNames.ts';
 
 export interface BoardProfile {
   /** Servos on such a board where nothing else is said. */
@@ -56,7 +56,7 @@ function leArm(traits: LearmTraits): BoardProfile {
   };
 }
 
-export const PROFILES = {
+export const PROFILES: Readonly<Record<ProfileName, BoardProfile>> = {
   /** The ideal board of the protocol document: the open firmware that tells its battery, with any number of servos. */
   doc: openFirmware({ ...NEW_BUILD, answersBattery: true, copiesToBus: false }, 32),
   'openarm-old': openFirmware(OLD_BUILD, 6),
@@ -69,10 +69,4 @@ export const PROFILES = {
   xarm: closedFirmware(BUS, 6, 6),
   'learm-esp32': leArm(PWM_LEARM),
   'learm-esp32-bus': leArm(BUS_LEARM),
-} as const satisfies Readonly<Record<string, BoardProfile>>;
-
-export type ProfileName = keyof typeof PROFILES;
-
-export function isProfileName(text: string): text is ProfileName {
-  return Object.hasOwn(PROFILES, text);
-}
+};

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
-import { isProfileName } from '#shared/simulator/profiles.ts';
+import { isProfileName } from '#shared/simulator/profileNames.ts';
 import { words } from '../../words/words.ts';
 import { captureFrame } from '../../actions/capture.ts';
 import { createDesk } from '../deskUnderTest.ts';
