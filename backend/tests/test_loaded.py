@@ -19,9 +19,24 @@ def run(self, sockets):
     print(*sys.modules, flush=True)
 Server.run = run
 """
+# A port that is closed, what was remembered, what is wished where nothing is said.
+HELD_FROM_THE_START = {"PortState", "Memory", "ApplyWish", "RunWish", "EraseWish"}
+# There, too: the messages whose validators are built by then.
+BUILT = """
+from servodeck.run.server import Server
+def run(self, sockets):
+    from servodeck.schema import Message
+    def kinds(kind):
+        return [kind, *(each for below in kind.__subclasses__() for each in kinds(below))]
+    print(*(kind.__name__ for kind in kinds(Message) if kind.__pydantic_complete__), flush=True)
+    import os
+    os._exit(0)
+Server.run = run
+"""
 
 
-def loaded_by(*arguments: str, before: str = "") -> set[str]:
+def words_of(*arguments: str, before: str = "") -> set[str]:
+    """Of its last line, each word once."""
     program = f"import sys\n{before}\nsys.argv[1:] = {list(arguments)}\nfrom servodeck.__main__ import main\n"
     ending = "try:\n    main()\nfinally:\n    print(*sys.modules)\n"
     said = subprocess.check_output([sys.executable, "-c", program + ending], text=True)
@@ -29,13 +44,18 @@ def loaded_by(*arguments: str, before: str = "") -> set[str]:
 
 
 def test_a_start_loads_what_it_serves_with_and_no_more(tmp_path: object) -> None:
-    loaded = loaded_by("serve", "--listen", "127.0.0.1:0", "--data", str(tmp_path), "--no-open", before=SERVE)
+    loaded = words_of("serve", "--listen", "127.0.0.1:0", "--data", str(tmp_path), "--no-open", before=SERVE)
     assert "servodeck.run.app" in loaded
     assert sorted(loaded & set(NOT_TO_SERVE)) == []
 
 
+def test_a_start_builds_no_message_that_nobody_has_said_yet(tmp_path: object) -> None:
+    built = words_of("serve", "--listen", "127.0.0.1:0", "--data", str(tmp_path), "--no-open", before=BUILT)
+    assert built <= HELD_FROM_THE_START
+
+
 @pytest.mark.parametrize("arguments", [("--version",), ("decode", "55", "55", "02", "07")])
 def test_a_small_command_loads_no_gateway(arguments: tuple[str, ...]) -> None:
-    loaded = loaded_by(*arguments)
+    loaded = words_of(*arguments)
     assert "servodeck.cli.cli" in loaded
     assert sorted(loaded & set(NOT_FOR_A_COMMAND)) == []
