@@ -17,7 +17,7 @@ import { NameField } from '../ui/NameField.tsx';
 import type { PanelParts } from '../ui/Panel.tsx';
 import { PlayBar } from '../play/PlayBar.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { CaptureBar } from './CaptureBar.tsx';
 import { FrameStrip } from './FrameStrip.tsx';
 import { FrameTools } from './FrameTools.tsx';

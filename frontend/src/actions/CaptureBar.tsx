@@ -4,7 +4,7 @@ import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { ExamplesControl } from '../examples/ExamplesControl.tsx';
 import { RecordControl } from '../record/RecordControl.tsx';
 import { useDocument, useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { captureFrame } from './capture.ts';
 import { CaptureButton } from './CaptureButton.tsx';
 import styles from './CaptureBar.module.css';

@@ -6,7 +6,7 @@ import { motionHindrance } from '../stores/device/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useDevice, useDocument, useSnapshot, useStores, useTimeline, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { AddsSwitch } from '../timeline/AddsSwitch.tsx';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { captureFrame } from './capture.ts';

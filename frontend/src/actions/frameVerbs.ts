@@ -9,7 +9,7 @@ import { deskOf, rangeOf, rowOf, type DeskStores } from '../timeline/desk.ts';
 import { showFrame, showFrames } from '../timeline/inStep.ts';
 import { wholeFrames } from '../timeline/wholeFrames.ts';
 import { namesIn } from '../stores/servoName.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 export type FrameIds = readonly number[];
 /** As the person counts the frames, from 1. */

@@ -6,7 +6,7 @@ import { useBattery, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './BatteryForm.module.css';
 
 export function BatteryForm({ robot }: { readonly robot: Robot }) {

@@ -10,7 +10,7 @@ import { Chip } from '../ui/Chip.tsx';
 import { laterComponent } from '../ui/later.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { BatterySettings } from './BatterySettings.tsx';
 import { lastMv, levelWord, LEVEL_TRUTH, voltsText } from './readings.ts';
 import { VoltMeter } from './VoltMeter.tsx';

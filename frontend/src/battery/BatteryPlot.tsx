@@ -3,7 +3,7 @@
 import { useEffect, useRef } from 'react';
 import { isPlain } from '#shared/actions/battery/batteryGauge.ts';
 import { useBattery, useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { drawPlot } from './plot.ts';
 import styles from './BatteryPlot.module.css';
 

@@ -3,7 +3,7 @@
 import { useRobot } from '../stores/stores.ts';
 import { Dialog } from '../ui/Dialog.tsx';
 import { laterComponent } from '../ui/later.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 const BatteryForm = laterComponent(async () => (await import('./BatteryForm.tsx')).BatteryForm, '40vh');
 

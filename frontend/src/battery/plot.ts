@@ -5,7 +5,7 @@ import UPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { isPlain } from '#shared/actions/battery/batteryGauge.ts';
 import type { BatteryState, BatteryStore } from '../stores/battery/battery.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 /** Readings further apart are not joined: what was between, nobody measured. */
 const GAP_MS = 20_000;

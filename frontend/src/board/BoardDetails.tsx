@@ -8,7 +8,7 @@ import { useHeldName } from '../slots/useHeldName.ts';
 import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { CompileRow } from '../compile/CompileRow.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { Absent } from './Absent.tsx';
 import { EraseControl } from './EraseControl.tsx';
 import { PlaceControl } from './PlaceControl.tsx';

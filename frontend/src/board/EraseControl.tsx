@@ -4,7 +4,7 @@ import { notRestored } from '#shared/actions/slots/slotBook.ts';
 import { startHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSlots, useSnapshot, useStores } from '../stores/stores.ts';
 import { Confirm } from '../ui/Confirm.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 export function EraseControl() {
   const { slots } = useStores();

@@ -4,7 +4,7 @@
 import { useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import field from '../ui/Field.module.css';
 import styles from './BoardPanel.module.css';
 

@@ -4,7 +4,7 @@ import { setMeta } from '#shared/actions/group/groupEdits.ts';
 import { chosenTimes } from '../stores/slots/groupPlace.ts';
 import { useDocument, useSlot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './BoardPanel.module.css';
 
 export function PlaceControl() {

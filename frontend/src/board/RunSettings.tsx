@@ -3,7 +3,7 @@
 import { useDevice, useStores, useView } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { GoOnControl } from './GoOnControl.tsx';
 import { useRunSettings } from './useRunSettings.ts';
 import field from '../ui/Field.module.css';

@@ -7,7 +7,7 @@ import { useDevice, useSnapshot, useStores, useSlot } from '../stores/stores.ts'
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import field from '../ui/Field.module.css';
 import styles from './BoardPanel.module.css';
 

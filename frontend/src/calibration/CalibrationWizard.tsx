@@ -9,7 +9,7 @@ import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Mark } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { Answer } from './Answer.tsx';
 import { DirectionStep } from './DirectionStep.tsx';
 import { EndStep } from './EndStep.tsx';

@@ -10,7 +10,7 @@ import { motionHindrance } from '../stores/device/readiness.ts';
 import { useStores } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { Icon } from '../ui/Icon.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import type { PositionUnit } from '../words/numbers.ts';
 import { startCreeping } from './creeping.ts';
 import styles from './CreepControl.module.css';

@@ -9,7 +9,7 @@ import { useTarget } from '../servos/useTarget.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import { sightOf } from './sight.ts';

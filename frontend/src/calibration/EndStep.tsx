@@ -8,7 +8,7 @@ import { ReachBar } from '../robots/ReachBar.tsx';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useTarget } from '../servos/useTarget.ts';
 import { useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import { CreepControl } from './CreepControl.tsx';

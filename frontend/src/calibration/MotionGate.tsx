@@ -10,7 +10,7 @@ import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { turnOf } from '../topBar/turn.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 

@@ -2,7 +2,7 @@
 
 import { flawOf, servoOf } from '#shared/actions/robot/robot.ts';
 import { changeServo, fromPartner } from '#shared/actions/robot/robotEdits.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import type { CalibrationAtHand } from './useCalibration.ts';

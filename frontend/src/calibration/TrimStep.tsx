@@ -3,7 +3,7 @@
 import { changeServo, homeAtCentre } from '#shared/actions/robot/robotEdits.ts';
 import { TRIM, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import type { CalibrationAtHand } from './useCalibration.ts';

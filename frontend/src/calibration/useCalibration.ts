@@ -13,7 +13,7 @@ import {
   type CalibrationStep,
 } from '#shared/actions/robot/robotCalibration.ts';
 import { useRobot, useServoView, useStores, useView } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 export interface CalibrationAtHand {
   readonly robot: Robot;

@@ -10,7 +10,7 @@ import { servoName } from '../stores/servoName.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { useInFrame } from '../ui/useInFrame.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { goToPlace } from './places.ts';
 import { Problems } from './Problems.tsx';
 import field from '../ui/Field.module.css';

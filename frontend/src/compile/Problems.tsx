@@ -5,7 +5,7 @@ import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
 import { obstacles } from '../stores/group/compiled.ts';
 import { problemText } from '../stores/group/problemText.ts';
 import { useCompiled, useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { goToPlace } from './places.ts';
 import styles from './CompileRow.module.css';
 

@@ -8,7 +8,7 @@ import { Button } from '../ui/Button.tsx';
 import { ThisBoard } from '../identity/ThisBoard.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import type { ConnectState } from './connector.ts';
 import { isProfileName } from '#shared/simulator/profileNames.ts';
 import { PortGuide } from './PortGuide.tsx';

@@ -2,7 +2,7 @@
 
 import { useState } from 'react';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { SYSTEMS, type OperatingSystem } from '../words/systems.ts';
 import { operatingSystem } from './operatingSystem.ts';
 import styles from './PortGuide.module.css';

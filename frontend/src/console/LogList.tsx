@@ -5,7 +5,8 @@ import { memo, useLayoutEffect, useRef, type KeyboardEvent } from 'react';
 import type { LogEntry } from '../stores/device/traffic.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { cx } from '../ui/cx.ts';
-import { useWords, words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
+import { useWords } from '../words/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import styles from './LogList.module.css';
 

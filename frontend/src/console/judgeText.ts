@@ -5,7 +5,7 @@ import { fromHex } from '#shared/protocol/hex.ts';
 import { judgeRaw } from '#shared/protocol/rawPacket.ts';
 import { isHarmless } from '#shared/protocol/commands.ts';
 import type { SessionState } from '#shared/session/state.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 export interface Judged {
   /** Null where it may not go. */

@@ -7,7 +7,7 @@ import { PoseThumb } from '../body/PoseThumb.tsx';
 import { useDevice, useDocument, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './Examples.module.css';
 
 export function ExamplesControl() {

@@ -6,7 +6,7 @@ import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { useKnownFamily } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { FileButton } from '../ui/FileButton.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { readyGroups, type ReadyGroup } from './answers.ts';
 import { FileProgress } from './FileProgress.tsx';
 import { OpenedFileItem } from './OpenedFileItem.tsx';

@@ -9,7 +9,7 @@ import { boardOfGroup } from '../stores/group/groupBoard.ts';
 import { useKnownFamily, useRobot } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { convertedOf, takenAs, type Answer } from './answers.ts';
 import { GroupPlot } from './GroupPlot.tsx';
 import { UnitQuestion } from './UnitQuestion.tsx';

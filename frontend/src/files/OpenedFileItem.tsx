@@ -5,7 +5,7 @@ import { memo } from 'react';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Remark } from '#shared/actions/files/reading.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import type { Answer } from './answers.ts';
 import { FoundGroup } from './FoundGroup.tsx';
 import type { OpenedFile, OpenedFiles } from './openedFiles.ts';

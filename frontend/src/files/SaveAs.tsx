@@ -14,7 +14,7 @@ import { useGroup, useKnownFamily, useRobot, useStores } from '../stores/stores.
 import { Button } from '../ui/Button.tsx';
 import { saveBlob } from '../ui/saveFile.ts';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { fileMeans } from './means.ts';
 import { loadSqlite } from './sqlite.ts';
 import styles from './SaveAs.module.css';

@@ -3,7 +3,7 @@
 import type { Unit } from '#shared/actions/files/reading.ts';
 import { meaningIn } from '#shared/actions/files/units.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './UnitQuestion.module.css';
 
 const UNITS: readonly Unit[] = ['us', 'steps'];

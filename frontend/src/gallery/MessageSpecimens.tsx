@@ -5,7 +5,7 @@ import { BodyMap } from '../body/BodyMap.tsx';
 import { Messages } from '../console/Messages.tsx';
 import type { Stores } from '../stores/stores.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { standing, type Exhibit } from './exhibit.ts';
 import { LEASE, READY, REMOTE } from './states.ts';
 

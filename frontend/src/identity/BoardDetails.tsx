@@ -3,7 +3,7 @@
 import { mayAsk } from '../stores/device/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 export function BoardDetails() {
   const { device } = useStores();

@@ -2,7 +2,7 @@
 
 import type { Evidence } from '#shared/session/identity.ts';
 import { Mark, type Truth } from '../ui/Chip.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './WhichBoard.module.css';
 
 const TRUTH: Readonly<Record<Evidence['kind'], Truth>> = {

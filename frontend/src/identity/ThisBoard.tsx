@@ -4,7 +4,7 @@ import { useStore } from 'zustand';
 import { nameOf, NICKNAME_LENGTH } from '../stores/device/boards.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { BoardDetails } from './BoardDetails.tsx';
 import { EvidenceList } from './EvidenceList.tsx';
 import field from '../ui/Field.module.css';

@@ -6,7 +6,7 @@ import { fitOf, type Fit } from '#shared/session/identity.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { EvidenceList } from './EvidenceList.tsx';
 import styles from './WhichBoard.module.css';
 

@@ -5,7 +5,7 @@ import type { Listed } from '#shared/actions/library/keeper.ts';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { DocumentDetails } from './DocumentDetails.tsx';
 import { DocumentThumb } from './DocumentThumb.tsx';
 import styles from './Library.module.css';

@@ -6,7 +6,7 @@ import { tagsFromText, tagsToText } from '#shared/actions/library/tags.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NameField } from '../ui/NameField.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { cx } from '../ui/cx.ts';
 import field from '../ui/Field.module.css';
 import styles from './Library.module.css';

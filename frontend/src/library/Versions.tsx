@@ -5,7 +5,7 @@ import type { Version } from '#shared/actions/library/keeper.ts';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { NameField } from '../ui/NameField.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { cx } from '../ui/cx.ts';
 import field from '../ui/Field.module.css';
 import styles from './Library.module.css';

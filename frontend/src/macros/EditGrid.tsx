@@ -8,7 +8,7 @@ import { Button } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { MacroFace } from './MacroFace.tsx';
 import styles from './Macros.module.css';
 import { useAddMacro } from './useAddMacro.ts';

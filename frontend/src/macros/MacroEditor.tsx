@@ -8,7 +8,7 @@ import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { Panel } from '../ui/Panel.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { macroKey } from './macroKey.ts';
 import { StepList } from './StepList.tsx';
 import styles from './MacroEditor.module.css';

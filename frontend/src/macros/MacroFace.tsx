@@ -5,7 +5,7 @@ import { PoseThumb } from '../body/PoseThumb.tsx';
 import type { MacroProgress } from '../stores/driving/macroRun.ts';
 import { poseName } from '../stores/driving/poses.ts';
 import { useDevice, usePoses, useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './Macros.module.css';
 
 export interface MacroFaceProps {

@@ -4,7 +4,7 @@ import { useStore } from 'zustand';
 import type { Macro } from '#shared/actions/macros/macro.ts';
 import { startHindrance } from '../stores/device/readiness.ts';
 import { useMacros, useSnapshot, useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { MacroFace } from './MacroFace.tsx';
 import { useMacroKeys } from './useMacroKeys.ts';
 import { useMacroPress } from './useMacroPress.ts';

@@ -6,7 +6,7 @@ import type { Range } from '#shared/protocol/families.ts';
 import { PoseSelect } from '../poses/PoseSelect.tsx';
 import { useStores } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './MacroEditor.module.css';
 
 export interface StepFieldsProps<Step extends MacroStep = MacroStep> {

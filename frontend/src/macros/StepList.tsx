@@ -6,7 +6,7 @@ import type { MacroPage } from '#shared/actions/macros/macro.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { StepFields } from './StepFields.tsx';
 import styles from './MacroEditor.module.css';
 

@@ -2,7 +2,7 @@
 
 import { addMacro } from '#shared/actions/macros/macroEdits.ts';
 import { useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 export function useAddMacro(): () => void {
   const { macros, view } = useStores();

@@ -8,7 +8,7 @@ import { useDevice, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { bindingFrom, type Draft } from './draft.ts';
 import styles from './BindingForm.module.css';
 

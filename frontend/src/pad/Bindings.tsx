@@ -10,7 +10,7 @@ import { useMapping, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { pressOnce } from '../ui/pressOnce.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { BindingForm } from './BindingForm.tsx';
 import { draftFor, draftOf, type Draft } from './draft.ts';
 import { rowsOf } from './rows.ts';

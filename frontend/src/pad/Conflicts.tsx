@@ -5,7 +5,7 @@ import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import { useMapping, usePoses, useRobot } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { rowTitle, servoTitle } from './rows.ts';
 import styles from './Conflicts.module.css';
 

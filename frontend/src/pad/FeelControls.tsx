@@ -6,7 +6,7 @@ import type { Feel } from '#shared/actions/mapping/mapping.ts';
 import { shaped } from '#shared/actions/mapping/mappingInputs.ts';
 import { useMapping, usePad, useStores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './FeelControls.module.css';
 
 interface Control {

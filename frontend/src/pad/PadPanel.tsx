@@ -17,7 +17,7 @@ import { Button } from '../ui/Button.tsx';
 import type { PanelParts } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { Bindings } from './Bindings.tsx';
 import { Conflicts } from './Conflicts.tsx';
 import { FeelControls } from './FeelControls.tsx';

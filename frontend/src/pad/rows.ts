@@ -4,7 +4,7 @@ import { servoBoundBy, type Binding, type Mapping } from '#shared/actions/mappin
 import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
 import { poseName } from '../stores/driving/poses.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 export interface Row {
   readonly id: string;

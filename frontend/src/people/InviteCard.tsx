@@ -10,7 +10,7 @@ import {
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { cx } from '../ui/cx.ts';
 import field from '../ui/Field.module.css';
 import styles from './People.module.css';

@@ -13,7 +13,7 @@ import { Chip } from '../ui/Chip.tsx';
 import { Confirm } from '../ui/Confirm.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { Select } from '../ui/Select.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { AddressNotes } from './AddressNotes.tsx';
 import { InviteCard } from './InviteCard.tsx';
 import { ScriptsCard } from './ScriptsCard.tsx';

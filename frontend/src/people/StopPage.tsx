@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from 'react';
 import type { PeopleError } from '../stores/people/people.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './Outside.module.css';
 
 export type StopOutcome = 'idle' | 'sending' | 'sent' | PeopleError;

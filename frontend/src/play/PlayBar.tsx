@@ -25,7 +25,7 @@ import { cx } from '../ui/cx.ts';
 import { LiveText } from '../ui/LiveText.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './PlayBar.module.css';
 
 export function PlayBar() {

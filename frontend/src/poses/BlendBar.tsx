@@ -11,7 +11,7 @@ import { useBlend, useDevice, usePoses, useSnapshot, useStores, useView } from '
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './PosesPanel.module.css';
 
 export interface BlendBarProps {

@@ -11,7 +11,7 @@ import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import card from '../ui/Card.module.css';
 import styles from './PoseCard.module.css';
 

@@ -5,7 +5,7 @@ import { poseBookToText } from '#shared/actions/poses/poseText.ts';
 import { saveFile } from '../ui/saveFile.ts';
 import { usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 export function PoseFiles() {
   const { poses, notices } = useStores();

@@ -5,7 +5,7 @@ import { movePose, removePose } from '#shared/actions/poses/poseEdits.ts';
 import { useCards } from '../actions/useCards.ts';
 import { poseName } from '../stores/driving/poses.ts';
 import { usePoses, useStores, useView } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { PoseCard } from './PoseCard.tsx';
 import styles from './PosesPanel.module.css';
 

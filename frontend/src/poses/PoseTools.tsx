@@ -11,7 +11,7 @@ import { longerName } from '../stores/longerName.ts';
 import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { useSelectedPose } from './useSelectedPose.ts';
 import styles from './PosesPanel.module.css';
 

@@ -8,7 +8,7 @@ import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button, isByKey } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { capturePose } from './capturePose.ts';
 import { PoseFiles } from './PoseFiles.tsx';
 import type { Captured } from './useNaming.ts';

@@ -7,7 +7,7 @@ import { strangersTo } from '#shared/actions/poses/poseShapes.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './PosesPanel.module.css';
 
 export function ServoPicker({ pose }: { readonly pose: Pose }) {

@@ -5,7 +5,7 @@ import { recorded } from '../stores/servoView.ts';
 import { servoViewOf, useRobot, useServoView, useStores, type Stores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { useOffer } from './useOffer.ts';
 
 export function RecordControl() {

@@ -9,7 +9,7 @@ import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import field from '../ui/Field.module.css';
 import styles from './Take.module.css';
 

@@ -5,7 +5,7 @@ import { robotFromText } from '#shared/actions/robot/robotText.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { FileButton } from '../ui/FileButton.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './RobotList.module.css';
 
 export function ImportRobot({ connected }: { readonly connected: FamilyId | null }) {

@@ -6,7 +6,7 @@ import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { freshRobot } from '../stores/robots/robots.ts';
 import { useStores } from '../stores/stores.ts';
 import { pressOnce } from '../ui/pressOnce.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { PRODUCTS } from './products.ts';
 import { RobotPicture } from './RobotPicture.tsx';
 import styles from './RobotList.module.css';

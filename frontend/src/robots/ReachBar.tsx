@@ -3,7 +3,7 @@
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Range } from '#shared/protocol/families.ts';
 import type { PositionUnit } from '../words/numbers.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './ReachBar.module.css';
 
 export interface ReachBarProps {

@@ -7,7 +7,7 @@ import { FAMILIES } from '#shared/protocol/families.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { CellField } from './CellField.tsx';
 import { PlaceEditor } from './PlaceEditor.tsx';
 import { RobotHead } from './RobotHead.tsx';

@@ -8,7 +8,7 @@ import { currentOf, type OwnRobot } from '../stores/robots/robots.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { ImportRobot } from './ImportRobot.tsx';
 import { NewRobot } from './NewRobot.tsx';
 import { RobotPicture } from './RobotPicture.tsx';

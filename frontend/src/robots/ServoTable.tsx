@@ -7,7 +7,7 @@ import { changeServo, pair, reachOf, removeServo } from '#shared/actions/robot/r
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { CellField } from './CellField.tsx';
 import { COLUMNS, type Column, type ColumnId, type Edited } from './columns.ts';
 import { ReachBar } from './ReachBar.tsx';

@@ -3,7 +3,7 @@
 
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { changeServo, renumber } from '#shared/actions/robot/robotEdits.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 export type ColumnId = 'servo' | 'name' | 'group' | 'min' | 'home' | 'max' | 'trim' | 'degreesPerUnit';
 

@@ -4,7 +4,7 @@ import { compareFrames } from '#shared/actions/slots/compareFrames.ts';
 import type { SlotRecord } from '#shared/actions/slots/slotBook.ts';
 import { servoName } from '../stores/servoName.ts';
 import { useCompiled } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import styles from './Slots.module.css';
 
 const SHOWN = 8;

@@ -8,7 +8,7 @@ import { useDevice, useLibrary, useSnapshot, useStores } from '../stores/stores.
 import { Button } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { downloadOf, hindranceOf, type Wanted } from './several.ts';
 import { useWanted } from './useWanted.ts';
 import styles from './Slots.module.css';

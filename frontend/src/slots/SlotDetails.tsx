@@ -9,7 +9,7 @@ import { motionHindrance, startHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSlots, useSnapshot, useStores, useSlot } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { Comparison } from './Comparison.tsx';
 import { FATE_TRUTH, useFates } from './useFates.ts';
 import styles from './Slots.module.css';

@@ -6,7 +6,7 @@ import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
 import { useDevice, useStores, useSlot } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { slotAfterKey } from './slotKeys.ts';
 import { FATE_TRUTH, useFates } from './useFates.ts';
 import { useHeldName } from './useHeldName.ts';

@@ -3,7 +3,7 @@
 import { obstacles, type CompiledGroup } from '../stores/group/compiled.ts';
 import { problemText } from '../stores/group/problemText.ts';
 import type { SlotDownload } from '../stores/slots/slots.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 
 export interface Wanted {
   readonly documentId: string;

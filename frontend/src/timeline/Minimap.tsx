@@ -5,7 +5,7 @@ import { memo } from 'react';
 import type { PointerEvent } from 'react';
 import { Canvas } from '../body/Canvas.tsx';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { timesOf } from './groupTimes.ts';
 import { setTime } from './looking.ts';
 import { paintFrames, paintPlayhead } from './paintMinimap.ts';

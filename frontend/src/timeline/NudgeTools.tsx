@@ -3,7 +3,7 @@
 import type { IconName } from '../ui/Icon.tsx';
 import { useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { words, type Words } from '../words/words.ts';
+import { words, type Words } from '../words/whole.ts';
 import { deskOf } from './desk.ts';
 import { selectedKeys } from './groupTimes.ts';
 import { nudgeMarker } from './markers.ts';

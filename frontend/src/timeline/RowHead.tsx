@@ -17,7 +17,8 @@ import {
 } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { cx } from '../ui/cx.ts';
-import { useWords, words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
+import { useWords } from '../words/words.ts';
 import { rowName } from './cellName.ts';
 import { deskOf, rangeOf } from './desk.ts';
 import { timesOf } from './groupTimes.ts';

@@ -6,7 +6,7 @@ import { Button } from '../ui/Button.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
 import { isTouch } from '../ui/touch.ts';
 import { READABLE_MS } from '../ui/useFollow.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { cellName } from './cellName.ts';
 import type { StatusName } from './gesture.ts';
 import { changeable, whyHeld } from './desk.ts';

@@ -15,7 +15,7 @@ import {
 } from 'react';
 import { MovingLabel } from '../body/MovingLabel.tsx';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { AskBox } from './AskBox.tsx';
 import { copy, cut, paste } from './changes.ts';
 import { clipFromText, clipToText } from './clipText.ts';

@@ -10,7 +10,7 @@ import type { Ask } from '../stores/timeline/timeline.ts';
 import { numberIn } from '../ui/NumberField.tsx';
 import type { Scale } from '../servos/scale.ts';
 import { servoName } from '../stores/servoName.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { apply, changeable, hasChangeable, rangeOf, selectedFrames, type Desk } from './desk.ts';
 import { changeIn } from './changeIn.ts';
 import { keyOf, selectedKeys, spanOf, timesOf } from './groupTimes.ts';

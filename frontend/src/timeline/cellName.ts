@@ -1,7 +1,7 @@
 // What a row and a cell of the grid are called, for ears.
 
 import type { Cursor } from '../stores/timeline/timeline.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import type { Desk } from './desk.ts';
 import { keysOfFrame } from './groupTimes.ts';
 import { scaleAt, type Reader } from './positions.ts';

@@ -15,7 +15,7 @@ import { keysAt, positionAt, type Key, type KeyRef } from '#shared/actions/group
 import { keySet, NO_KEYS } from '../stores/timeline/keySet.ts';
 import { isHeld } from '../stores/servoView.ts';
 import { namesIn, servoName } from '../stores/servoName.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import {
   apply,
   changeable,

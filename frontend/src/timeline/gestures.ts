@@ -5,7 +5,7 @@ import { moveMarker } from '#shared/actions/group/markerEdits.ts';
 import { setDuration } from '#shared/actions/group/timeEdits.ts';
 import { keySet, withKeys } from '../stores/timeline/keySet.ts';
 import type { KeyRef } from '#shared/actions/group/tracks.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
 import {
   draggedTo,

@@ -6,7 +6,7 @@ import { withKeys, type SelectMode } from '../stores/timeline/keySet.ts';
 import { setChanged } from '../stores/setChanged.ts';
 import { rowOf, select, type Desk } from './desk.ts';
 import { allKeys, endOfFrame, keysOfFrame, selectedKeys, spanOf } from './groupTimes.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { fitted, panned, showing, xOf, zoomedAt, type Span } from '../stores/timeline/timeScale.ts';
 import { beside, settled, walked, type Cell, type Direction, type Grid } from './walk.ts';
 

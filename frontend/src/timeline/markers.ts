@@ -2,7 +2,7 @@
 
 import { moveMarker } from '#shared/actions/group/markerEdits.ts';
 import type { Marker } from '#shared/actions/group/group.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import type { Desk } from './desk.ts';
 import { lookAt } from './looking.ts';
 

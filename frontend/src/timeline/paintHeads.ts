@@ -1,6 +1,6 @@
 // Draws what is fixed on top of the lanes: the ruler with its marks, markers and loop range, and the heads of the frames.
 
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { hasAll } from './hit.ts';
 import { colourOf } from './look.ts';
 import { marksWithin, markStep } from './marks.ts';

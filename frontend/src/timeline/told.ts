@@ -1,7 +1,7 @@
 // What is dragged, in words: where it is by now. Read while the hand is still on it; changes nothing.
 
 import type { Cursor } from '../stores/timeline/timeline.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { cellName } from './cellName.ts';
 import { deskOf, type DeskStores } from './desk.ts';
 import { endOfFrame } from './groupTimes.ts';

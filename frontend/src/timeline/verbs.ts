@@ -2,7 +2,7 @@
 
 import type { IconName } from '../ui/Icon.tsx';
 import type { Ask, TimelineState } from '../stores/timeline/timeline.ts';
-import { words, type Words } from '../words/words.ts';
+import { words, type Words } from '../words/whole.ts';
 import {
   copy,
   cut,

@@ -1,9 +1,10 @@
 import { readdirSync, readFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { afterEach, describe, expect, test } from 'vitest';
 import { emptyGroup } from '#shared/actions/group/group.ts';
 import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
-import { english } from './en/english.ts';
+import { wholeEnglish as english } from './en/whole.ts';
+import { words as wholeWords } from './whole.ts';
 import { LANGUAGES, OWN_NAMES, preferredLanguage, speak, words } from './words.ts';
 import { chinese } from './zh/chinese.ts';
 
@@ -17,6 +18,16 @@ const chineseDir = join(import.meta.dirname, 'zh');
 const chineseSources = readdirSync(chineseDir)
   .map((path) => readFileSync(join(chineseDir, path), 'utf8'))
   .join('\n');
+
+/** All modules of the page that come with this one, itself included: types do not, nor what is imported when it is wanted. */
+function comesWith(path: string, found = new Set<string>()): Set<string> {
+  if (found.has(path)) return found;
+  found.add(path);
+  const source = readFileSync(join(pageDir, path), 'utf8');
+  for (const [, to = ''] of source.matchAll(/^(?:import|export)(?! type)[^;]*? from '([.][^']+[.]tsx?)';/gmu))
+    comesWith(join(dirname(path), to), found);
+  return found;
+}
 
 /** Every text of the catalogue that takes no values, with its path. */
 function plainTexts(value: unknown, path: string): [string, string][] {
@@ -83,6 +94,13 @@ describe('the words', () => {
       );
     });
     expect(unused).toEqual([]);
+  });
+
+  test('what only later parts say does not come with the first load', () => {
+    const first = [...comesWith('main.tsx')];
+    expect(first).toContain(join('words', 'en', 'english.ts'));
+    expect(first.filter((path) => /words.(?:whole|en.whole|en.later)/u.test(path))).toEqual([]);
+    expect(comesWith(join('files', 'FilesContent.tsx'))).toContain(join('words', 'en', 'later', 'files.ts'));
   });
 
   test('one of a thing is never called many', () => {
@@ -162,8 +180,10 @@ describe('the language', () => {
   test('is what everybody reads once it is spoken', async () => {
     await speak('zh');
     expect(words.stop.button).toBe('停止');
+    expect(wholeWords.files.save).toBe(chinese.files.save);
     await speak('en');
     expect(words.stop.button).toBe('Stop');
+    expect(wholeWords.files.save).toBe(english.files.save);
   });
 
   test('is the one asked for last, however long the other takes to load', async () => {

@@ -1,34 +1,13 @@
 // Words about what feeds the robot: its volts, what they mean, what is to happen when they are low.
 
 import type { Level } from '#shared/actions/battery/batteryGauge.ts';
-import type { BatteryKind, BatteryPolicy } from '#shared/actions/robot/robot.ts';
-import {
-  counted,
-  formatAge,
-  formatSeconds,
-  formatTick,
-  formatTimeOfDay,
-  formatVolts,
-  formatWhole,
-} from './numbers.ts';
+import { formatAge, formatSeconds, formatVolts } from './numbers.ts';
 
 export const batteryWords = {
   title: 'Battery',
-  gauge: 'Measured battery voltage',
   measured: 'Battery voltage, as the board measured it last',
-  estimated: 'What is left, estimated from the volts at rest',
   noVolts: '– V',
   above: (volts: string): string => `> ${volts}`,
-  unread: 'Not read yet',
-  zero: 'The board reads 0 V',
-  zeroHint: 'It has measured nothing yet, or cannot see the battery. Nothing is judged by it.',
-  saturated: 'More than it can measure',
-  saturatedHint: 'The battery has that or more. Nothing is judged by it.',
-  moving: 'Read while it moved',
-  silent: 'This board cannot tell',
-  absentHint: 'It has no command for that. Watch the battery itself.',
-  silentHint: 'Three questions stayed unanswered. Refresh asks again.',
-  refresh: 'Refresh',
   /** Of volts that are shown though the board no longer answers. */
   noNewer: 'none since',
   age: (ms: number): string => formatAge(ms),
@@ -37,42 +16,6 @@ export const batteryWords = {
     adapter: { good: 'Good', warning: 'Low', danger: 'Too low' },
   } satisfies Record<string, Record<Level, string>>,
   volts: (millivolts: number): string => formatVolts(millivolts),
-  percent: (share: number): string => `≈ ${formatWhole(Math.round(share))} %`,
-
-  kind: { adapter: 'Adapter', '2s': '2S pack', '3s': '3S pack' } satisfies Record<BatteryKind, string>,
-  kindField: 'What feeds the robot',
-  kindHint: {
-    adapter: 'A mains adapter or USB. Nothing runs out, so there is no percentage.',
-    '2s': 'Two Li-ion or LiPo cells, 7.4 V, full at 8.4 V.',
-    '3s': 'Three Li-ion or LiPo cells, 11.1 V, full at 12.6 V.',
-  } satisfies Record<BatteryKind, string>,
-
-  settings: 'Battery settings',
-  settingsOf: (robot: string): string => `Battery of ${robot}`,
-  thresholds: 'Volts at rest',
-  warnField: 'Warn at, in millivolts',
-  alarmField: 'Alarm at, in millivolts',
-  warnLabel: 'Warn at',
-  alarmLabel: 'Alarm at',
-  millivolts: 'mV',
-  outOfRange: (min: number, max: number): string =>
-    `A threshold is ${formatWhole(min)} to ${formatWhole(max)} mV.`,
-  usual: 'Usual thresholds',
-  policyField: 'At the alarm',
-  policy: { tell: 'Tell me', refuse: 'Refuse new runs', rest: 'Go to rest and stop' } satisfies Record<
-    BatteryPolicy,
-    string
-  >,
-  policyHint: {
-    tell: 'A message, nothing else. The robot goes on.',
-    refuse: 'A message, and nothing new is run or played unless you say so once more.',
-    rest: 'New runs are refused. When nothing runs, servos moved in this visit go slowly to the rest pose, home where none is marked, and the robot is stopped.',
-  } satisfies Record<BatteryPolicy, string>,
-  steps: {
-    kind: 'what feeds the robot',
-    thresholds: 'battery thresholds',
-    policy: 'what a low battery does',
-  },
 
   warned: (volts: string): string => `The battery is low: ${volts} at rest.`,
   alarmed: (volts: string): string => `The battery is at its alarm: ${volts} at rest. Charge it now.`,
@@ -86,9 +29,4 @@ export const batteryWords = {
   anyway: 'Start anyway',
 
   tab: (volts: string, product: string): string => `Low battery, ${volts} – ${product}`,
-  plot: (lowest: string, highest: string, now: string, runs: number): string =>
-    `Volts measured in this visit: lowest ${lowest}, highest ${highest}, now ${now}; ${counted(runs, 'run')}`,
-  noPlot: 'Volts measured in this visit: none yet',
-  timeOfDay: formatTimeOfDay,
-  tick: formatTick,
 };

@@ -2,20 +2,10 @@
 
 import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
-import {
-  counted,
-  formatCount,
-  formatDegrees,
-  formatMs,
-  formatPosition,
-  formatRoughly,
-  formatSeconds,
-  formatWhole,
-  unitSymbol,
-} from './numbers.ts';
-import type { PositionUnit } from '../numbers.ts';
+import { formatCount, formatMs, formatPosition, formatSeconds, formatWhole, unitSymbol } from './numbers.ts';
 
 type NameOf = (servo: number) => string;
+
 type Said<Problem> = (problem: Problem, group: ActionGroup, nameOf: NameOf) => string;
 
 type ProblemWords = {
@@ -45,24 +35,9 @@ const problems: ProblemWords = {
 };
 
 export const compileWords = {
-  label: 'On the board',
-  error: 'May be off by',
-  step: 'change how far off it may be',
-  errorField: 'Largest error allowed on the board',
-  frames: (count: number, limit: number): string => `${formatCount(count)} of ${counted(limit, 'frame')}`,
-  bytes: (bytes: number): string => counted(bytes, 'byte'),
-  download: (ms: number): string => `about ${formatRoughly(ms)} to download`,
-  exact: 'Exactly as written',
-  worst: (units: number, unit: PositionUnit, degrees: number, name: string, atMs: number): string =>
-    `At most ${formatPosition(Math.round(units), unit)} (${formatDegrees(degrees, 1)}) off: ${name} at ${formatSeconds(atMs)}`,
-  shifted: (ms: number): string => `Keys moved by up to ${formatMs(ms)}: the board counts ticks`,
   fits: 'Fits',
   fitsNot: 'Does not fit',
   ofOther: 'For another board',
-  stale: 'Being worked out',
-  empty: 'Nothing to store yet.',
-  problems: 'What does not fit',
-  more: (count: number): string => `and ${formatCount(count)} more`,
   problem: (problem: CompileProblem, group: ActionGroup, nameOf: NameOf): string =>
     (problems[problem.kind] as Said<CompileProblem>)(problem, group, nameOf),
 };

@@ -1,4 +1,4 @@
-// The English words, as one typed catalogue. Another language is another object of this type.
+// The English words that the first load needs, as one typed catalogue; those of what comes later are in later/, all of them in whole.ts.
 // Words are short and concrete; verbs stand on buttons; whatever destroys something names what is lost.
 
 import type { Family } from '#shared/protocol/families.ts';
@@ -6,20 +6,17 @@ import type { LinkState } from '#shared/session/state.ts';
 import { counted, formatAge, formatCount, formatRoughly, formatWhole, numbers } from './numbers.ts';
 import { actionWords } from './actions.ts';
 import { batteryWords } from './battery.ts';
-import { calibrationWords } from './calibration.ts';
 import { errorSentence } from './errors.ts';
 import { fileWords } from './files.ts';
 import { firstMoveWords } from './firstMoves.ts';
-import { guideWords } from './guides.ts';
 import { identityWords } from './identity.ts';
 import { leaseWords } from './lease.ts';
 import { libraryWords } from './library.ts';
 import { peopleWords } from './people.ts';
 import { rangeText } from './refusals.ts';
-import { robotEditorWords } from './robotEditor.ts';
 import { padWords } from './pad.ts';
 import { compileWords } from './compile.ts';
-import { exampleWords, recordWords } from './examples.ts';
+import { recordWords } from './record.ts';
 import { macroWords } from './macros.ts';
 import { playWords } from './play.ts';
 import { teachWords } from './teach.ts';
@@ -29,7 +26,6 @@ import { servoPanelWords } from './servoPanel.ts';
 import { packetWords, timesWords } from './packets.ts';
 import { slotWords } from './slots.ts';
 import { stopWords } from './stop.ts';
-import { timelineWords } from './timeline.ts';
 
 export const english = {
   /** For `lang` and for whatever speaks or sorts. */
@@ -79,10 +75,7 @@ export const english = {
   },
 
   identity: identityWords,
-  guide: guideWords,
   robots: robotWords,
-  robotEditor: robotEditorWords,
-  calibration: calibrationWords,
   firstMoves: firstMoveWords,
   servoPanel: servoPanelWords,
   authoring: {
@@ -98,11 +91,9 @@ export const english = {
   teach: teachWords,
   slots: slotWords,
   lease: leaseWords,
-  examples: exampleWords,
   record: recordWords,
   poses: poseWords,
   files: fileWords,
-  timeline: timelineWords,
   macros: macroWords,
 
   stop: stopWords,
@@ -138,35 +129,7 @@ export const english = {
 
   connect: {
     title: 'Connect a robot',
-    intro: 'Connecting moves nothing.',
-    here: 'Connected by this',
-    open: (label: string): string => `Open ${label}`,
-    inUse: (label: string): string => `${label} is open`,
     isOpen: (label: string): string => `${label} is open and ready.`,
-    reconnects: 'Come back by itself after a lost link',
-    webSerial: {
-      title: 'This computer’s port',
-      about: 'A robot on a USB cable of this computer, opened by the browser.',
-      choose: 'Choose a port',
-      inUse: 'In use here. Disconnect, below, lets go of it for others.',
-      secureLink: 'Open on 127.0.0.1',
-    },
-    gateway: {
-      title: 'Gateway',
-      about: 'A robot on a port of the machine that serves this page.',
-      looking: 'Looking for a gateway at this address.',
-      none: 'The gateway sees no serial port. Plug the robot in, then look again.',
-      refresh: 'Look again',
-      inUse: (hasOthers: boolean): string =>
-        `In use here. Disconnect, below, takes this page off it${hasOthers ? '; another port takes its place on every screen' : ''}.`,
-    },
-    simulated: {
-      title: 'Simulated robot',
-      about: 'A board in this page. Nothing real moves.',
-      board: 'Which board to simulate',
-      open: 'Use the simulated robot',
-      isOpen: 'The simulated robot is open',
-    },
   },
 
   body: {
@@ -224,14 +187,6 @@ export const english = {
     details: 'Details',
     title: 'Board',
     slot: 'Slot',
-    /** What the group at hand says of itself. */
-    place: (slot: number | null, times: number): string =>
-      `This group: ${slot === null ? 'no slot of its own' : `slot ${formatWhole(slot)}`}, ${timesWords(times)}`,
-    keepPlace: 'Remember slot and times',
-    keepPlaceHint:
-      'The slot and the times chosen here become this group’s own, for the next time it is opened',
-    steps: { place: 'slot and times' },
-    glance: (slot: number, badge: string): string => `Slot ${formatWhole(slot)}: ${badge}`,
     download: 'Download',
     downloadHint: (count: number, slot: number): string =>
       `${counted(count, 'frame')} to slot ${formatWhole(slot)}`,
@@ -242,28 +197,12 @@ export const english = {
       `${formatCount(stored)} of ${counted(count, 'frame')}`,
     bytes: (sent: number, total: number): string => `${formatCount(sent)} of ${counted(total, 'byte')}`,
     left: (ms: number): string => `${formatRoughly(ms)} left`,
-    times: 'Times',
-    untilStopped: 'Until stopped',
-    untilStoppedHint: 'Repeats without end until you stop it.',
-    untilStoppedAbsent: 'This board cannot repeat without end.',
-    goOn: 'Keep running when I leave',
-    goOnHint: 'Closing this page does not stop it. Everybody sees it and may.',
-    goOnAbsent: 'Only what has a number of times can go on without you.',
-    goOnAtMost: 'At most',
-    goOnUnit: 'min',
-    goOnMinutes: 'Minutes at most',
     run: 'Run',
     runsNothing: (slot: number): string =>
       `Slot ${formatWhole(slot)} is empty, as far as is known here: nothing runs. Download a group to it first.`,
     runHint: (slot: number, times: number): string => `Slot ${formatWhole(slot)}, ${timesWords(times)}`,
     stopGroup: 'End group',
     stopGroupHint: 'Ends the group after its frame in progress. Not an emergency stop.',
-    erase: 'Erase everything',
-    eraseTitle: 'Erase every slot of the board?',
-    eraseText: (slots: number): string =>
-      `All ${counted(slots, 'slot')} are emptied, with the groups the maker put there. The board cannot be read, so what was not downloaded from this page cannot be brought back. Your frames on this page stay.`,
-    eraseConfirm: 'Erase every slot',
-    eraseKeep: 'Keep them',
     erased: 'Every slot is empty.',
     downloaded: ([first = 0, ...others]: readonly number[]): string =>
       others.length === 0
@@ -274,27 +213,8 @@ export const english = {
       broken === null
         ? 'Download cancelled. No slot is broken.'
         : `Download cancelled. Slot ${formatWhole(broken)} is broken until a whole group is downloaded.`,
-    speed: 'Speed',
-    speedField: 'Group speed in percent',
-    percent: '%',
-    everySlot: 'Every slot',
-    setSpeed: 'Set speed',
-    speedHint: 'Percent of the speed a group was stored with. Lasts until the board is switched off.',
     speedSent: (slot: number | null, percent: number): string =>
       `${slot === null ? 'Every slot' : `Slot ${formatWhole(slot)}`} was asked to play at ${formatWhole(percent)} %. The board does not confirm it.`,
-    unsure: {
-      download: 'Once it is clear which board this is.',
-      run: 'Once it is clear which board this is.',
-      speed: 'Once it is clear which board this is.',
-      erase: 'Once it is clear which board this is.',
-    },
-    absent: {
-      download:
-        'This board takes no groups from here. Play from this page, or fill its slots with the maker’s program.',
-      run: 'This board runs no groups. Play from this page.',
-      speed: 'This board plays groups as they were stored.',
-      erase: 'This board is erased only with the maker’s program.',
-    },
   },
 
   battery: batteryWords,
@@ -304,41 +224,7 @@ export const english = {
   log: {
     title: 'Log',
     open: 'Show the log',
-    fold: 'Hide the log',
-    entries: 'Packets',
     empty: 'No packets yet',
-    pause: 'Hold log',
-    goOn: 'Continue log',
-    paused: (count: number): string => `Held; ${formatCount(count)} new`,
-    clear: 'Clear log',
-    save: 'Save log',
-    saveHint: 'A text file of this visit’s packets, for a bug report',
-    copy: 'Copy line',
-    copied: 'The line is copied.',
-    notCopied: 'The browser does not allow copying here. Select the line and copy it by hand.',
-    filter: 'Show',
-    kinds: { move: 'Moves', group: 'Groups', battery: 'Battery', link: 'Link', noise: 'Noise' },
-    search: 'Find in the log',
-    searchHint: 'Words or hex',
-    counted: (passed: number, hidden: number): string =>
-      hidden === 0
-        ? counted(passed, 'line')
-        : `${formatCount(passed)} of ${counted(passed + hidden, 'line')}`,
-    nothingFound: 'No line is like that',
-    sent: 'Sent',
-    received: 'Received',
-    link: 'Link',
-  },
-
-  raw: {
-    title: 'Send by hand',
-    field: 'Packet in hex',
-    example: '55 55 02 0F',
-    hint: 'Type a packet to see what the board would make of it.',
-    notHex: 'Only whole bytes in hex: 0 to 9 and A to F.',
-    consent: 'I know what this does',
-    send: 'Send packet',
-    waits: 'Stopped. Resume before this can go.',
   },
 
   refused: (name: string, value: number, min: number, max: number): string =>
@@ -353,5 +239,4 @@ export const english = {
   moreNotices: (count: number): string => `${formatWhole(count)} more`,
 };
 
-/** What each language must say. */
-export type Words = typeof english;
+export type FirstWords = typeof english;

@@ -3,9 +3,8 @@
 import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
 import type { TextFlaw } from '#shared/actions/versionedText.ts';
 import { PROBLEMS as FLAWS } from './files.ts';
-import { counted, formatLongAge, formatNames, formatSeconds, formatWhen } from './numbers.ts';
+import { counted, formatNames } from './numbers.ts';
 
-const frames = (count: number): string => counted(count, 'frame');
 const groups = (count: number): string => counted(count, 'group');
 
 const PROBLEMS: Readonly<Record<LibraryErrorCode, string>> = {
@@ -27,63 +26,13 @@ const problem = (code: LibraryErrorCode, detail: string): string => {
 
 export const libraryWords = {
   title: 'Library',
-  button: 'Library',
-  list: 'Action groups',
-  place: {
-    gateway: 'Kept by the gateway, for every browser at it. Each change is kept by itself.',
-    browser: 'Kept in this browser. Each change is kept by itself; export it now and then.',
-  },
-  looking:
-    'Waiting for the gateway’s word on where the library is. Until then each change is kept in this browser.',
-  waiting: 'Not all changes are in the library yet.',
   notHeldHere:
     'This browser has no room for changes that wait for the library. Keep the page open until the library has them.',
-  empty: 'No groups in the library yet',
-  emptyHint:
-    'Close this and capture a frame: the group goes into the library by itself, with every change. Or import a file.',
-  nothingFound: 'No group is like that.',
-
-  search: 'Find a group',
-  searchHint: 'Name, robot or tag',
-  sort: 'Sort by',
-  sorts: { updated: 'Last changed', name: 'Name', duration: 'Length' },
-  tag: 'Tag',
-  everyTag: 'Every tag',
-  showRemoved: 'Deleted',
-
-  create: 'New group',
-  import: 'Import',
-  export: 'Export',
-  fileName: 'servodeck library',
-
-  open: (name: string): string => `Open ${name}`,
-  isOpen: 'Open now',
-  about: (count: number, durationMs: number): string => `${frames(count)}, ${formatSeconds(durationMs)}`,
-  age: (ms: number): string => formatLongAge(ms),
-  more: (name: string): string => `More about ${name}`,
-  name: (name: string): string => `Name of ${name}`,
-  tags: (name: string): string => `Tags of ${name}`,
-  tagsLabel: 'Tags',
-  tagsHint: 'Separated by commas',
-  duplicate: 'Duplicate',
-  remove: 'Delete',
-  restore: 'Bring back',
   undo: 'Undo',
   copyOf: (name: string): string => `${name}, copy`,
   otherVersion: (name: string): string => `${name}, other version`,
-
-  versions: 'Versions',
-  versionName: 'Name of the version',
-  versionHint: 'For example: before the show',
-  keepVersion: 'Keep version',
-  noVersions: 'A version stays as it is while you go on changing the group.',
-  restoreVersion: (name: string): string => `Go back to ${name}`,
-  goBack: 'Go back to it',
-  nameOfVersion: (name: string): string => `Name of version ${name}`,
   versionRenamed: (name: string, wanted: string): string => `Version ${name} is called ${wanted} now.`,
-  removeVersion: (name: string): string => `Delete version ${name}`,
   versionRemoved: (name: string): string => `Version deleted: ${name}.`,
-  at: (epochMs: number): string => formatWhen(epochMs),
   versionKept: (name: string): string => `Version kept: ${name}.`,
 
   removed: (name: string): string => `Deleted: ${name}.`,
@@ -101,7 +50,6 @@ export const libraryWords = {
   importWaits: 'The library is waited for. What is in the file comes in as soon as it answers.',
   importFailed: (code: LibraryErrorCode, detail: string): string =>
     `${problem(code, detail)} Nothing was taken from the file; import it again then.`,
-  unreadableFile: 'The file could not be read.',
   imported: (added: number, changed: number, same: number): string =>
     [
       `${groups(added)} added.`,

@@ -6,20 +6,8 @@ import type { RobotFileFlaw } from '#shared/actions/robot/robotText.ts';
 import type { Range } from '#shared/protocol/families.ts';
 import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
 import { libraryWords } from './library.ts';
-import { counted, formatNames, formatWhole } from './numbers.ts';
+import { formatNames, formatWhole } from './numbers.ts';
 import { FIELD_TAKES, inList } from './robotFields.ts';
-
-const READY: Readonly<Record<ReadyRobotId, string>> = {
-  arm: 'Arm, 6 servos',
-  hand: 'Hand, 6 servos',
-  humanoid16: 'Humanoid, 16 servos',
-  humanoid18: 'Humanoid, 18 servos',
-  hexapod18: 'Hexapod, 18 servos',
-  plain6: 'Plain, 6 servos',
-  plain16: 'Plain, 16 servos',
-  plain24: 'Plain, 24 servos',
-  plain32: 'Plain, 32 servos',
-};
 
 /** What it is called once it is a robot: its servos may become more or fewer. */
 const NAMES: Readonly<Record<ReadyRobotId, string>> = {
@@ -67,7 +55,7 @@ const LIMB_NAMES: Readonly<Record<Limb, string>> = {
   rearRight: 'Rear right leg',
 };
 
-function flawText(flaw: RobotFileFlaw): string {
+export function flawText(flaw: RobotFileFlaw): string {
   switch (flaw.code) {
     case 'notOurs':
       return 'this is no robot file of Servodeck';
@@ -86,7 +74,7 @@ function flawText(flaw: RobotFileFlaw): string {
   }
 }
 
-function servoFlawText(flaw: ServoFlaw): string {
+export function servoFlawText(flaw: ServoFlaw): string {
   switch (flaw.code) {
     case 'number':
       return `its board takes servos ${rangeText(flaw.range)}`;
@@ -102,7 +90,7 @@ function servoFlawText(flaw: ServoFlaw): string {
   }
 }
 
-const rangeText = ({ min, max }: Range): string => `${formatWhole(min)}..${formatWhole(max)}`;
+export const rangeText = ({ min, max }: Range): string => `${formatWhole(min)}..${formatWhole(max)}`;
 
 export const robotWords = {
   notSaved: 'The browser does not store robots; they are kept until the page is closed.',
@@ -132,41 +120,10 @@ export const robotWords = {
   /** Both knees of a body are called Knee. */
   called: ({ name, group }: { readonly name: string; readonly group: string }): string =>
     group === '' ? name : `${name} (${group})`,
-  absent: (servo: number): string => `Servo ${formatWhole(servo)}, not on this robot`,
   title: 'Robots',
   button: (name: string): string => `Robot: ${name}`,
-  own: 'Described',
-  /** Where they are. */
-  place: {
-    gateway: 'Kept by the gateway: every screen sees these.',
-    browser: 'Kept in this browser.',
-  },
-  everyones: 'On the board, for everyone',
-  count: (servos: number): string => counted(servos, 'servo'),
-  atHand: 'In use',
-  use: (name: string): string => `Use ${name}`,
-  useVerb: 'Use',
-  otherBoard: (board: string): string => `Waits for its board, ${board}`,
-  calibrate: 'Calibrate',
-  edit: 'Edit',
-  duplicate: 'Duplicate',
-  export: 'Export',
-  remove: 'Delete',
-  removeNamed: (name: string): string => `Delete ${name}`,
-  fresh: 'New robot',
-  freshHint: (board: string): string => `Ready ones that fit the ${board}. Add one, then calibrate it.`,
-  ready: READY,
   /** What a ready robot is called when it is added. */
   names: robotNames,
-  add: (name: string): string => `Add ${name}`,
-  import: 'Import a robot file',
-  importHint: 'Or drop it here.',
-  imported: (name: string): string => `${name} is imported.`,
-  importedElsewhere: (name: string, board: string): string =>
-    `${name} is imported and waits until its board, ${board}, is connected.`,
-  notImported: (file: string, problem: RobotFileFlaw): string =>
-    `${file} was not imported: ${flawText(problem)}.`,
-  back: 'All robots',
 };
 
 function robotNames(id: ReadyRobotId): RobotNames {

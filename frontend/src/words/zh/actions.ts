@@ -1,12 +1,12 @@
 // Words of the action group being written: its frames, what is done to them, and the steps that come of it.
 
-import type { actionWords as english } from '../en/actions.ts';
+import type { Words } from '../en/whole.ts';
 import { formatCount, formatList, formatMs, formatSeconds, formatWhole, unitSymbol } from './numbers.ts';
 
 const theFrames = (numbers: readonly number[]): string =>
   numbers.length === 1 ? `第${formatWhole(numbers[0] ?? 0)}帧` : `${formatCount(numbers.length)}帧`;
 
-export const actionWords: typeof english = {
+export const actionWords: Words['actions'] = {
   title: '动作组',
   name: '动作组的名字',
   defaultName: '新动作组',

@@ -1,6 +1,6 @@
 // Words about what feeds the robot, in Chinese.
 
-import type { batteryWords as english } from '../en/battery.ts';
+import type { Words } from '../en/whole.ts';
 import {
   formatAge,
   formatCount,
@@ -11,7 +11,7 @@ import {
   formatWhole,
 } from './numbers.ts';
 
-export const batteryWords: typeof english = {
+export const batteryWords: Words['battery'] = {
   title: '电池',
   gauge: '测得的电池电压',
   measured: '电池电压，控制板最近一次测得',

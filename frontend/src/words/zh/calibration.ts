@@ -1,6 +1,6 @@
 // Words of the calibration, in Chinese.
 
-import type { calibrationWords as english } from '../en/calibration.ts';
+import type { Words } from '../en/whole.ts';
 import { formatPosition, formatWhole, unitSymbol } from './numbers.ts';
 
 const WAYS = {
@@ -13,7 +13,7 @@ const HOMEWARD = {
   left: '它像箭头那样逆时针转吗？',
 };
 
-export const calibrationWords: typeof english = {
+export const calibrationWords: Words['calibration'] = {
   servos: '要校准的舵机',
   servo: (name, done, all) => `${name}，已完成${formatWhole(done)}步，共${formatWhole(all)}步`,
   steps: '这个舵机的步骤',

@@ -1,6 +1,6 @@
 // The Chinese words, simplified, as the makers of these boards and their customers say it.
 
-import type { Words } from '../en/english.ts';
+import type { Words } from '../en/whole.ts';
 import { actionWords } from './actions.ts';
 import { batteryWords } from './battery.ts';
 import { boardName } from './boards.ts';

@@ -2,7 +2,7 @@
 
 import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
-import type { compileWords as english } from '../en/compile.ts';
+import type { Words } from '../en/whole.ts';
 import {
   formatCount,
   formatDegrees,
@@ -42,7 +42,7 @@ const problems: ProblemWords = {
     `${nameOf(servo)}在${formatSeconds(atMs)}会偏差${formatPosition(Math.round(units), unit)}；允许${formatPosition(limit, unit)}。请给它更多时间，或允许更大的误差。`,
 };
 
-export const compileWords: typeof english = {
+export const compileWords: Words['compile'] = {
   label: '在控制板上',
   error: '允许偏差',
   step: '更改允许偏差',

@@ -1,7 +1,7 @@
 // Words about groups to begin with, and about recording one by hand.
 
 import type { ExampleId } from '#shared/actions/examples/examples.ts';
-import type { exampleWords as englishExamples, recordWords as englishRecord } from '../en/examples.ts';
+import type { Words } from '../en/whole.ts';
 import { formatCount, formatSeconds } from './numbers.ts';
 
 const names: Readonly<Record<ExampleId, string>> = {
@@ -20,7 +20,7 @@ const names: Readonly<Record<ExampleId, string>> = {
   sweep: '摆动',
 };
 
-export const exampleWords: typeof englishExamples = {
+export const exampleWords: Words['examples'] = {
   open: '示例',
   begin: '从示例开始',
   title: '适合这个机器人的示例',
@@ -30,7 +30,7 @@ export const exampleWords: typeof englishExamples = {
   step: (name) => `示例“${name}”`,
 };
 
-export const recordWords: typeof englishRecord = {
+export const recordWords: Words['record'] = {
   record: '录制',
   recordHint: '录下滑块和手柄的动作，直到您结束',
   end: (ms) => `结束录制，${formatSeconds(ms)}`,

@@ -6,7 +6,7 @@ import type { Problem, ProblemCode, Remark, RemarkCode } from '#shared/actions/f
 import type { SaveFormat } from '#shared/actions/files/writeGroupFile.ts';
 import { UNIT_RANGE } from '#shared/actions/files/units.ts';
 import type { Range } from '#shared/protocol/families.ts';
-import type { fileWords as english } from '../en/files.ts';
+import type { Words } from '../en/whole.ts';
 import type { PositionUnit } from '../numbers.ts';
 import { formatSeconds, formatWhole, unitSymbol } from './numbers.ts';
 
@@ -109,7 +109,7 @@ const UNITS: Readonly<Record<PositionUnit, string>> = {
   steps: '步数，用于总线舵机',
 };
 
-export const fileWords: typeof english = {
+export const fileWords: Words['files'] = {
   title: '文件',
   button: (opened, refused) =>
     [

@@ -1,10 +1,10 @@
 // Words of first moves: who starts next, and the pose a board was last seen in, in Chinese.
 
-import type { firstMoveWords as english } from '../en/firstMoves.ts';
+import type { Words } from '../en/whole.ts';
 import { formatCount, formatList } from './numbers.ts';
 import { MOST_NAMED } from '../numbers.ts';
 
-export const firstMoveWords: typeof english = {
+export const firstMoveWords: Words['firstMoves'] = {
   waiting: (servos) =>
     `正在逐个缓慢启动，还未启动：${servos.length > MOST_NAMED ? `${formatCount(servos.length)}个` : `${formatList(servos)}号`}舵机。`,
   guess: '上次位置',

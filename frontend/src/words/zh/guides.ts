@@ -1,6 +1,6 @@
 // What to do when the port is not in the list, in Chinese.
 
-import type { guideWords as english } from '../en/guides.ts';
+import type { Words } from '../en/whole.ts';
 
 const EVERYWHERE = [
   '打开机器人的电源：很多控制板只靠线缆供电不会启动。',
@@ -10,7 +10,7 @@ const EVERYWHERE = [
 const HID_BOARDS =
   'LSC 控制板、总线舵机控制板和 xArm 自带的 USB 线不是串口。请用它的4针接口（GND、TX、RX），接一个5 V 或3.3 V 的 USB 转 TTL 模块。';
 
-export const guideWords: typeof english = {
+export const guideWords: Words['guide'] = {
   title: '列表里没有？',
   system: '这台电脑的系统',
   systems: {

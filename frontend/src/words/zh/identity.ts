@@ -2,10 +2,10 @@
 
 import type { Family } from '#shared/protocol/families.ts';
 import type { Evidence } from '#shared/session/identity.ts';
-import type { identityWords as english } from '../en/identity.ts';
+import type { Words } from '../en/whole.ts';
 import { formatCount, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
 
-export const identityWords: typeof english = {
+export const identityWords: Words['identity'] = {
   title: { none: '还没有机器人', which: '这是哪种控制板？', changed: '应答的是另一种控制板' },
   unasked: '接好机器人并打开电源，然后选择它的串口。这不会让它动。',
   choosePort: '选择串口',

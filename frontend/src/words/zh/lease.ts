@@ -1,6 +1,6 @@
 // Whose turn it is to drive a shared robot, in Chinese.
 
-import type { Words } from '../en/english.ts';
+import type { Words } from '../en/whole.ts';
 import { formatCount, formatMinutes, formatWhole } from './numbers.ts';
 
 /** The gateway's name for a program on its own computer. */

@@ -1,7 +1,7 @@
 // Words about the library, in Chinese.
 
 import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
-import type { libraryWords as english } from '../en/library.ts';
+import type { Words } from '../en/whole.ts';
 import { PROBLEMS as FLAWS } from './files.ts';
 import { formatCount, formatLongAge, formatNames, formatSeconds, formatWhen } from './numbers.ts';
 
@@ -24,7 +24,7 @@ const problem = (code: LibraryErrorCode, detail: string): string => {
   return code === 'failed' ? `${PROBLEMS.failed}：${detail}。` : PROBLEMS[code];
 };
 
-export const libraryWords: typeof english = {
+export const libraryWords: Words['library'] = {
   title: '动作库',
   button: '动作库',
   list: '动作组',

@@ -1,13 +1,13 @@
 // Words about the page of buttons, in Chinese.
 
-import type { macroWords as english } from '../en/macros.ts';
+import type { Words } from '../en/whole.ts';
 import { PROBLEMS } from './files.ts';
 import { formatMs, formatSeconds, formatWhole } from './numbers.ts';
 import { timesWords } from './packets.ts';
 
 const KIOSK_HOLD_S = 2;
 
-export const macroWords: typeof english = {
+export const macroWords: Words['macros'] = {
   title: '按钮',
   page: { label: '页面', work: '控制', buttons: '按钮' },
   list: '按钮',

@@ -4,7 +4,7 @@ import type { Command, CommandKind, ServoTarget } from '#shared/protocol/command
 import type { RawRefusal, RawVerdict } from '#shared/protocol/rawPacket.ts';
 import type { Report } from '#shared/protocol/reports.ts';
 import type { Happening } from '#shared/recording/recording.ts';
-import type { packetWords as english } from '../en/packets.ts';
+import type { Words } from '../en/whole.ts';
 import { formatCount, formatMs, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
 import { rangeText } from './refusals.ts';
 
@@ -176,7 +176,7 @@ function listWords(items: readonly string[]): string {
   return rest === 0 ? shown.join('，') : `${shown.join('，')}，另有${formatWhole(rest)}个`;
 }
 
-export const packetWords: typeof english = {
+export const packetWords: Words['packets'] = {
   command: commandWords,
   report: reportWords,
   noise: noiseWords,

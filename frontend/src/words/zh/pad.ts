@@ -1,7 +1,7 @@
 // Words about driving by pad and keys, in Chinese.
 
 import type { Binding, Input, Side } from '#shared/actions/mapping/mapping.ts';
-import type { padWords as english } from '../en/pad.ts';
+import type { Words } from '../en/whole.ts';
 import { PROBLEMS } from './files.ts';
 import { formatMs, formatNames, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
 
@@ -45,7 +45,7 @@ function chipText({ input, action }: Binding): string {
   return isBothWays ? name : `${name} ${action.unitsPerS < 0 ? '−' : '+'}`;
 }
 
-export const padWords: typeof english = {
+export const padWords: Words['pad'] = {
   title: '键盘和手柄',
   drive: '操控',
   driveHint: '关闭时，按键和摇杆都不会让机器人动。手柄上的“停止”始终有效。',

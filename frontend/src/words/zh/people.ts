@@ -1,6 +1,6 @@
 // Words about coming in and letting in, in Chinese.
 
-import type { peopleWords as english } from '../en/people.ts';
+import type { Words } from '../en/whole.ts';
 import type { PeopleErrorCode } from '../people.ts';
 import { formatCount, formatWhen, formatWhole } from './numbers.ts';
 
@@ -12,7 +12,7 @@ const PROBLEMS: Readonly<Record<PeopleErrorCode, string>> = {
   refused: '网关拒绝了',
 };
 
-export const peopleWords: typeof english = {
+export const peopleWords: Words['people'] = {
   problem: (code, detail) =>
     code === 'refused' && detail !== '' ? `${PROBLEMS.refused}：${detail}` : PROBLEMS[code],
 

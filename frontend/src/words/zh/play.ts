@@ -1,10 +1,10 @@
 // Words about playing the group, from the page and on the board.
 
-import type { playWords as english } from '../en/play.ts';
+import type { Words } from '../en/whole.ts';
 import { formatNames, formatPercent, formatSeconds, formatWhole } from './numbers.ts';
 import { timesWords } from './packets.ts';
 
-export const playWords: typeof english = {
+export const playWords: Words['play'] = {
   tools: '播放动作组',
   play: (times) => (times === 1 ? '播放' : `播放，${timesWords(times)}`),
   playFrom: (atMs) => `从${formatSeconds(atMs)}播放`,

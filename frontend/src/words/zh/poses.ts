@@ -1,10 +1,10 @@
 // Words about poses, in Chinese.
 
-import type { poseWords as english } from '../en/poses.ts';
+import type { Words } from '../en/whole.ts';
 import { PROBLEMS } from './files.ts';
 import { formatList, formatMs, formatPercent, formatWhole } from './numbers.ts';
 
-export const poseWords: typeof english = {
+export const poseWords: Words['poses'] = {
   title: '姿态',
   list: '姿态',
   empty: '还没有姿态',

@@ -1,9 +1,9 @@
 // Words of the description of a robot, in Chinese.
 
-import type { robotEditorWords as english } from '../en/robotEditor.ts';
+import type { Words } from '../en/whole.ts';
 import { formatWhole, unitSymbol } from './numbers.ts';
 
-export const robotEditorWords: typeof english = {
+export const robotEditorWords: Words['robotEditor'] = {
   name: '机器人的名字',
   board: (name) => `用于${name}`,
   body: '画成',

@@ -4,7 +4,7 @@ import type { Limb, ReadyRobotId, RobotNames, Role } from '#shared/actions/robot
 import type { ServoFlaw } from '#shared/actions/robot/robot.ts';
 import type { RobotFileFlaw } from '#shared/actions/robot/robotText.ts';
 import type { Range } from '#shared/protocol/families.ts';
-import type { robotWords as english } from '../en/robots.ts';
+import type { Words } from '../en/whole.ts';
 import { libraryWords } from './library.ts';
 import { formatNames, formatWhole } from './numbers.ts';
 import { FIELD_TAKES, inList } from './robotFields.ts';
@@ -112,7 +112,7 @@ function servoFlawText(flaw: ServoFlaw): string {
 
 const rangeText = ({ min, max }: Range): string => `${formatWhole(min)}到${formatWhole(max)}`;
 
-export const robotWords: typeof english = {
+export const robotWords: Words['robots'] = {
   notSaved: '浏览器不能保存机器人；关闭页面前它们一直在。',
   unreadable: '已保存的机器人无法读取。原文件已完好地另存。',
   flaw: (flaw) => `这样不行：${flawText(flaw)}。`,

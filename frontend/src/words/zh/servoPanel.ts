@@ -1,13 +1,13 @@
 // Words of the servo panel, in Chinese.
 
-import type { servoPanelWords as english } from '../en/servoPanel.ts';
+import type { Words } from '../en/whole.ts';
 import { formatCount, formatList, formatNames, formatWhole } from './numbers.ts';
 import { MOST_NAMED } from '../numbers.ts';
 
 const servosText = (servos: readonly number[]): string =>
   servos.length > MOST_NAMED ? `${formatCount(servos.length)}个舵机` : `${formatList(servos)}号舵机`;
 
-export const servoPanelWords: typeof english = {
+export const servoPanelWords: Words['servoPanel'] = {
   figure: (robot) => `${robot}；实线是估算，轮廓是目标，虚线是未知，点线是预览`,
   someUnknown: (servos) => `${servosText(servos)}：位置未知，第一次移动可能很慢。`,
   estimated: (position) => `≈ ${position}`,

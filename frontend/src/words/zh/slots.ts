@@ -2,7 +2,7 @@
 
 import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
 import type { PadButton } from '#shared/protocol/slotMeanings.ts';
-import type { slotWords as english } from '../en/slots.ts';
+import type { Words } from '../en/whole.ts';
 import { formatCount, formatNames, formatRoughly, formatSeconds, formatWhole } from './numbers.ts';
 
 const slotName = (slot: number): string => `槽位${formatWhole(slot)}`;
@@ -36,7 +36,7 @@ const holds = (fate: SlotFate, name: string): string =>
     unknown: '里面有什么未知；控制板不能读取。',
   })[fate];
 
-export const slotWords: typeof english = {
+export const slotWords: Words['slots'] = {
   title: '控制板的槽位',
   open: '槽位',
   map: '槽位一览',

@@ -1,6 +1,6 @@
 // Words about STOP and Resume, in Chinese.
 
-import type { Words } from '../en/english.ts';
+import type { Words } from '../en/whole.ts';
 import { formatList, formatSecondsUp } from './numbers.ts';
 import { named } from './lease.ts';
 

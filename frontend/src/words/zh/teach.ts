@@ -1,9 +1,9 @@
 // Words about posing the robot by hand.
 
-import type { teachWords as english } from '../en/teach.ts';
+import type { Words } from '../en/whole.ts';
 import { formatNames } from './numbers.ts';
 
-export const teachWords: typeof english = {
+export const teachWords: Words['teach'] = {
   teach: '示教',
   hint: '让舵机卸力，用手摆好机器人，再采集读到的姿态',
   title: '用手示教？',

@@ -1,7 +1,7 @@
 // Words of the timeline, in Chinese.
 
 import type { PasteProblem } from '#shared/actions/group/clip.ts';
-import type { timelineWords as english } from '../en/timeline.ts';
+import type { Words } from '../en/whole.ts';
 import { markText, secondsText } from '../instants.ts';
 import { formatCount, formatNames, formatMs, formatPercent, formatWhole, unitSymbol } from './numbers.ts';
 
@@ -10,7 +10,7 @@ const formatInstant = (atMs: number): string => `${secondsText(atMs)}秒`;
 
 const signedInstant = (byMs: number): string => `${byMs < 0 ? '−' : '+'}${formatInstant(Math.abs(byMs))}`;
 
-const easings: typeof english.easings = {
+const easings: Words['timeline']['easings'] = {
   linear: '匀速',
   in: '缓入',
   out: '缓出',
@@ -29,7 +29,7 @@ const pasteProblem = (problem: PasteProblem, nameOf: (servo: number) => string):
   }
 };
 
-export const timelineWords: typeof english = {
+export const timelineWords: Words['timeline'] = {
   title: '时间轴',
   grid: '时间轴：纵向是舵机，横向是时间',
   toolbar: '修改时间轴',

@@ -3,7 +3,7 @@
 import type { Colour } from '#shared/actions/colours.ts';
 import type { PasteProblem } from '#shared/actions/group/clip.ts';
 import type { Easing } from '#shared/actions/group/group.ts';
-import { markText, secondsText } from '../instants.ts';
+import { markText, secondsText } from '../../instants.ts';
 import {
   counted,
   formatCount,
@@ -12,7 +12,7 @@ import {
   formatPercent,
   formatWhole,
   unitSymbol,
-} from './numbers.ts';
+} from '../numbers.ts';
 
 const keysText = (count: number): string => counted(count, 'key');
 

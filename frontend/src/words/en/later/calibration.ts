@@ -1,8 +1,8 @@
 // Words of the calibration: what to do with a servo at each step, and what each button sets.
 
 import type { CalibrationStep } from '#shared/actions/robot/robotCalibration.ts';
-import { counted, formatPosition, formatWhole, unitSymbol } from './numbers.ts';
-import type { PositionUnit } from '../numbers.ts';
+import { counted, formatPosition, formatWhole, unitSymbol } from '../numbers.ts';
+import type { PositionUnit } from '../../numbers.ts';
 
 /** What holds of a servo, in its board's unit. */
 interface Limits {

@@ -1,7 +1,8 @@
 // Words about groups to begin with, and about recording one by hand.
 
 import type { ExampleId } from '#shared/actions/examples/examples.ts';
-import { counted, formatCount, formatSeconds } from './numbers.ts';
+import { counted, formatCount, formatSeconds } from '../numbers.ts';
+import { recordWords } from '../record.ts';
 
 const names: Readonly<Record<ExampleId, string>> = {
   wave: 'Wave',
@@ -30,14 +31,13 @@ export const exampleWords = {
   step: (name: string): string => `example ${name}`,
 };
 
-export const recordWords = {
+export const wholeRecordWords = {
+  ...recordWords,
   record: 'Record',
   recordHint: 'Records what sliders and pad do, until you end it',
   end: (ms: number): string => `End recording, ${formatSeconds(ms)}`,
   takeThat: 'Keep last 2 minutes',
   takeThatHint: 'The motion of the last two minutes becomes a group. Key: T',
-  title: 'Recorded motion',
-  nothing: 'Nothing moved.',
   keeps: {
     armed: (count: number, all: number): string =>
       `Records what is armed, ${counted(count, 'servo')} of ${formatCount(all)}`,

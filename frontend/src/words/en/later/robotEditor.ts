@@ -1,7 +1,7 @@
 // Words of the description of a robot: what each figure of a servo is called, and why one is not taken.
 
-import { formatWhole, unitSymbol } from './numbers.ts';
-import type { PositionUnit } from '../numbers.ts';
+import { formatWhole, unitSymbol } from '../numbers.ts';
+import type { PositionUnit } from '../../numbers.ts';
 
 export const robotEditorWords = {
   name: 'Name of the robot',

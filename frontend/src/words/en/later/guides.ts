@@ -1,7 +1,7 @@
 // What to do when the port is not in the list, by operating system, most likely cause first. Facts about cables, drivers and
 // permissions; no panel.
 
-import type { OperatingSystem } from '../systems.ts';
+import type { OperatingSystem } from '../../systems.ts';
 
 const EVERYWHERE = [
   'Switch the robot on: many boards are not on the cable’s power alone.',

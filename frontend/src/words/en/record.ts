@@ -1,0 +1,6 @@
+// Words about recording a group by hand.
+
+export const recordWords = {
+  title: 'Recorded motion',
+  nothing: 'Nothing moved.',
+};
