@@ -39,7 +39,6 @@ export default defineConfig<object, { way: Way }>({
     { name: 'gateway', testMatch: ['commands/**', 'gateway/**', 'tasks/**'], use: { way: 'gateway' } },
     { name: 'webserial', testMatch: 'tasks/**', grep: /@everyWay/, use: { way: 'webSerial' } },
     { name: 'real-webserial', testMatch: 'realSerial/**', use: { way: 'webSerial' } },
-    { name: 'quality', testMatch: 'quality/**', use: { way: 'webSerial' } },
   ],
   use: {
     locale: 'en-GB',

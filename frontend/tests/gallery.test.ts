@@ -2,13 +2,11 @@
 // what the bar says is read in full on a small laptop. Where every look is tried: also in dark, with more contrast, in Chinese,
 // and with the system's own colours, in which what is chosen is still to be seen.
 
-import axe from 'axe-core';
 import * as chosen from '../../e2e/fixtures/chosen.ts';
 import * as gallery from '../../e2e/fixtures/gallery.ts';
 import type { Page } from './harness/page.ts';
-import { isExhaustive, looks } from './harness/sound.ts';
+import { isExhaustive, looks, objections } from './harness/sound.ts';
 import { expect, here, test } from './harness/test.ts';
-import { during } from './harness/time.ts';
 
 const walkGallery = here(gallery.walkGallery);
 const chosenUnseen = here(chosen.chosenUnseen);
@@ -26,19 +24,8 @@ const LOOKS = looks([
   { name: 'light, more contrast', media: { colorScheme: 'light' }, rules: ['color-contrast'] },
 ]);
 
-/** What axe objects to in the state alone. */
-async function objections(rules: readonly string[] | null): Promise<readonly string[]> {
-  const state = document.querySelector('article') ?? document;
-  const { violations } = await during(
-    axe.run(state, {
-      ...{ preload: false, resultTypes: ['violations'] },
-      // Four fifths of axe's time; the colours themselves are proved from the tokens.
-      rules: { 'color-contrast': { enabled: isExhaustive } },
-      ...(rules === null ? {} : { runOnly: [...rules] }),
-    }),
-  );
-  return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' | ')}`);
-}
+/** The page around it is the gallery's. */
+const stateAlone = (): Document | Element => document.querySelector('article') ?? document;
 
 /** Of 12, 14, 16 or 24 px, and of one of two weights; the fifth size is that of a Stop alone on its page. */
 function oddLetters(page: Page): Promise<readonly string[]> {
@@ -76,7 +63,7 @@ async function expectAllLooksSound(page: Page, state: string): Promise<void> {
   expect.soft(await oddLetters(page), `${state}: letters`).toEqual([]);
   for (const { name, media, rules } of LOOKS) {
     await page.emulateMedia(media);
-    expect.soft(await objections(rules), `${state}, ${name}`).toEqual([]);
+    expect.soft(await objections(stateAlone(), rules), `${state}, ${name}`).toEqual([]);
   }
   if (!isExhaustive) return;
   await page.emulateMedia({ forcedColors: 'active' });
