@@ -165,6 +165,9 @@ test.describe('with a board that says nothing', () => {
     await expect(nod).not.toContainText('there are servos');
     await nod.getByRole('button', { name: 'Open nod' }).click();
     expect(textOf(await files.save('Python'))).toContain('FRAMES = [');
+    const sketch = await files.save('Arduino');
+    expect(sketch.name).toMatch(/\.ino$/);
+    expect(textOf(sketch)).toContain('void loop()');
   });
 });
 

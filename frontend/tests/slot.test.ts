@@ -1,15 +1,17 @@
 // The board's own memory: what a slot holds and runs, what takes its place, and what an erase takes.
 
-import { kindsAfter, ofKind } from '../../e2e/fixtures/bus.ts';
+import { kindsAfter, lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
 import * as group from '../../e2e/fixtures/group.ts';
 import * as library from '../../e2e/fixtures/library.ts';
 import * as notes from '../../e2e/fixtures/notes.ts';
 import { SLOW_FLASH } from '../../e2e/fixtures/robot.ts';
+import * as stopping from '../../e2e/fixtures/stopping.ts';
 import { expect, here, poll, test } from './harness/test.ts';
 
 const { captureGroup, downloadGroup } = here(group);
 const { libraryOf } = here(library);
 const { noteAttribute } = here(notes);
+const { stopAndCheck } = here(stopping);
 
 test('a group runs until it is ended after its frame in progress, one at a time', async ({
   dashboard,
@@ -120,4 +122,35 @@ test('erasing asks first and names what is lost', async ({ dashboard, robot, pag
   await dialog.getByRole('button', { name: 'Erase every slot' }).click();
   await expect(dashboard.notices).toContainText('Every slot is empty.');
   expect(ofKind(await robot.bus(), 'erase')).toHaveLength(1);
+});
+
+test('behind an erase a run runs nothing: a move is held by STOP, and nothing is said to move on', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  const slots = page.getByRole('dialog', { name: 'Slots of the board' });
+  await captureGroup(dashboard, [1000], 200);
+  await downloadGroup(dashboard, 21, 1000);
+  await dashboard.button('Erase everything').click();
+  await page.getByRole('alertdialog').getByRole('button', { name: 'Erase every slot' }).click();
+  await expect(dashboard.boardBar).toContainText('Empty');
+  await dashboard.button('Slots').click();
+  for (const slot of [21, 77])
+    await expect(
+      slots.getByRole('option', { name: `Slot ${slot}: Empty since everything was erased` }),
+    ).toBeVisible();
+  await slots.getByRole('button', { name: 'Close' }).click();
+
+  await dashboard.button('Run').click();
+  await poll(async () => ofKind(await robot.bus(), 'run')).toEqual([{ kind: 'run', slot: 21, times: 1 }]);
+  await page.getByRole('radio', { name: 'In a set time' }).check();
+  await dashboard.type(dashboard.field('Move time in milliseconds'), 10_000);
+  await dashboard.type(dashboard.target(1), 2000);
+  await poll(() => lastTarget(robot.bus, 1)).toBe(2000);
+  await stopAndCheck(dashboard, robot.bus, () => dashboard.stop.click());
+  const held = await lastTarget(robot.bus, 1);
+  expect(held, 'where it is by then').toBeLessThan(1100);
+  await expect(dashboard.estimate(1)).toHaveText(`≈ ${held}`);
+  await expect(page.getByText(/may move on/)).toHaveCount(0);
 });

@@ -1,17 +1,14 @@
 // Teaching by hand: an xArm whose released servos are turned.
 
-import { ofKind } from '../../e2e/fixtures/bus.ts';
+import { lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
 import { READY } from '../../e2e/fixtures/dashboard.ts';
-import { test as base, dashboardOf, expect, poll } from './harness/test.ts';
+import type { Page } from './harness/page.ts';
+import { test as base, dashboardOf, expect, poll, type Dashboard } from './harness/test.ts';
 
 const test = base.extend({ boardSettings: { board: 'xarm' } });
 
-test('the arm is posed by hand, captured while it is read, and holds at the end', async ({
-  page,
-  robot,
-  url,
-}) => {
-  // Chosen anew: nothing has been asked of it that tells where a servo is.
+/** Chosen anew: nothing has been asked of it that tells where a servo is. */
+async function connect(page: Page, url: string): Promise<Dashboard> {
   const dashboard = dashboardOf(page);
   await page.goto(url);
   await dashboard.button('Connect').click();
@@ -19,6 +16,15 @@ test('the arm is posed by hand, captured while it is read, and holds at the end'
   await dashboard.takeFor('xArm').click();
   await expect(dashboard.link).toHaveText(READY);
   await expect(page.getByText('Move a servo or read positions first.').first()).toBeVisible();
+  return dashboard;
+}
+
+test('the arm is posed by hand, captured while it is read, and holds at the end', async ({
+  page,
+  robot,
+  url,
+}) => {
+  const dashboard = await connect(page, url);
   await dashboard.button('Teach').click();
   const warning = page.getByRole('alertdialog', { name: 'Teach by hand?' });
   await expect(warning).toContainText('the arm drops: hold it');
@@ -41,6 +47,42 @@ test('the arm is posed by hand, captured while it is read, and holds at the end'
     return moves.map(({ targets: [target], durationMs }) => [target?.servo, target?.position, durationMs]);
   }).toEqual([1, 2, 3, 4, 5, 6].map((servo) => [servo, servo === 3 ? 300 : 400, 1500]));
   await expect(dashboard.button('Teach')).toBeEnabled();
+});
+
+test('what was read is the pose, without teaching: on the body, in a frame, as a pose to go to', async ({
+  page,
+  robot,
+  url,
+}) => {
+  const dashboard = await connect(page, url);
+  await expect(dashboard.capture).toBeDisabled();
+  await page.getByRole('radio', { name: 'Body' }).check();
+  const unknown = page.getByText('Positions are unknown until each servo is moved once.').first();
+  const drawn = () => page.evaluate(() => document.querySelector('[data-figure="estimated"]')?.outerHTML);
+  await expect(unknown).toBeVisible();
+  await dashboard.button('Release').click();
+  await page.getByRole('button', { name: 'Release every servo' }).click();
+  robot.turn(3, 620);
+  await dashboard.button('Read positions').click();
+  await expect(unknown).toBeHidden();
+  await expect(dashboard.capture).toBeEnabled();
+  const bent = await drawn();
+  robot.turn(3, 200);
+  await dashboard.button('Read positions').click();
+  await poll(drawn).not.toBe(bent);
+  robot.turn(3, 620);
+  await dashboard.button('Read positions').click();
+  await poll(drawn).toBe(bent);
+  await dashboard.capture.click();
+  await expect(dashboard.frame(1)).toHaveAccessibleName(/moves servos 1, 2, 3, 4, 5, and 6$/);
+
+  await page.getByRole('radio', { name: 'Poses' }).check();
+  await dashboard.button('Capture pose').click();
+  expect(ofKind(await robot.bus(), 'move'), 'until here nothing was moved').toEqual([]);
+  robot.turn(3, 300);
+  await dashboard.button(/^Go to /).click();
+  await poll(() => lastTarget(robot.bus, 3)).toBe(620);
+  expect(ofKind(await robot.bus(), 'move')[0]?.durationMs).toBeGreaterThanOrEqual(1500);
 });
 
 test('on a phone it is said in sight, wherever one has scrolled to', async ({ page, dashboard }) => {

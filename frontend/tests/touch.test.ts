@@ -1,5 +1,7 @@
 // The main job with fingers alone, on a phone: nothing moves that a scroll brushes, and STOP is under the thumb at all times.
 
+import { ofKind } from '../../e2e/fixtures/bus.ts';
+import { READY } from '../../e2e/fixtures/dashboard.ts';
 import * as gallery from '../../e2e/fixtures/gallery.ts';
 import * as dialogs from '../../e2e/fixtures/robotDialog.ts';
 import type { Point } from './harness/hands.ts';
@@ -32,6 +34,38 @@ async function expectStopInReach(page: Page, state: string): Promise<void> {
     });
   await expect.configure({ soft: true }).poll(meetsStop, { message: state }).toBe(true);
 }
+
+test.describe('an xArm', () => {
+  test.override({ boardSettings: { board: 'xarm' } });
+
+  test('a robot is connected: the way there is in sight and under the finger', async ({
+    page,
+    robot,
+    url,
+  }) => {
+    const dashboard = dashboardOf(page);
+    await page.goto(url);
+    const tap = async (place: Locator): Promise<void> => {
+      const { x, y } = await middleOf(place);
+      await page.touchscreen.tap(x, y);
+    };
+    const connect = dashboard.button('Connect');
+    await expect(connect).toBeInViewport({ ratio: 1 });
+    const box = await connect.boundingBox();
+    expect(Math.min(box.width, box.height)).toBeGreaterThanOrEqual(44);
+    await tap(connect);
+    await expect(dashboard.connectDialog).toBeInViewport({ ratio: 1 });
+    const port = dashboard.button('Choose a port');
+    await expect(port).toBeInViewport({ ratio: 1 });
+    await tap(port);
+    await expect(dashboard.connectDialog).toBeHidden();
+    const board = dashboard.takeFor('xArm');
+    await expect(board).toBeInViewport({ ratio: 1 });
+    await tap(board);
+    await expect(dashboard.link).toHaveText(READY);
+    expect(ofKind(await robot.bus(), 'move')).toEqual([]);
+  });
+});
 
 test('a scroll over the sliders moves no servo, a drag of a thumb does', async ({ page, url }) => {
   const dashboard = dashboardOf(page);

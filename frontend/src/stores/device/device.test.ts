@@ -43,6 +43,45 @@ async function createDesk(listening: (events: SessionEvents) => unknown = () => 
   return { ...rig, robots, device, state, targets, told, draw };
 }
 
+describe('what playing could not keep', () => {
+  const MANY = Array.from({ length: 55 }, (_, index) => ({
+    durationMs: 40,
+    targets: [{ servo: 1, position: 1000 + 10 * (index % 20) }],
+  }));
+
+  test('frames that began late are told, with how late, and that none was left out', async () => {
+    const { device, asleep, draw, told } = await createDesk();
+    device.play(MANY, 1, () => undefined);
+    await draw(1900);
+    await asleep(300);
+    await draw(6000);
+    expect(told()).toEqual([
+      expect.stringMatching(/^This page was busy while it played: .* began late, by up to 2\d\d ms\. None/),
+    ]);
+  });
+
+  test('a frame that was left out is told instead', async () => {
+    const { device, transport, asleep, draw, told } = await createDesk();
+    const { send } = transport;
+    let sent = 0;
+    transport.send = (packet) =>
+      ++sent === 2 ? Promise.reject(new LinkError('expired', 'too late')) : send(packet);
+    device.play(MANY, 1, () => undefined);
+    await draw(1900);
+    await asleep(300);
+    await draw(6000);
+    expect(told()).toContain(words.play.skipped(1));
+    expect(told()).not.toContainEqual(expect.stringContaining('None was left out'));
+  });
+
+  test('nothing is told of what went well', async () => {
+    const { device, draw, told } = await createDesk();
+    device.play(MANY, 1, () => undefined);
+    await draw(6000);
+    expect(told()).toEqual([]);
+  });
+});
+
 describe('what came too late', () => {
   const late = words.errorSentence('expired');
 

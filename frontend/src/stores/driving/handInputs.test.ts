@@ -1,5 +1,5 @@
 // No input of a hand moves a servo faster than the person asked or the soft limit, and none makes it jump: generated histories of
-// readings, releases, hands on the arm, sliders, keys, set times, a pad and a blend, on simulated boards in virtual time.
+// readings, releases, hands on the arm, sliders, keys, set times, a pad, a blend and a playhead, on simulated boards in virtual time.
 
 import * as fc from 'fast-check';
 import { expect, test } from 'vitest';
@@ -10,6 +10,7 @@ import { RANGE_MS } from '#shared/session/timings.ts';
 import { createDesk } from '../deskUnderTest.ts';
 import { GENTLE_MOVE_MS } from '../device/moveTime.ts';
 import { createMappings } from '../robots/mappings.ts';
+import { createFollower } from './follower.ts';
 import { createPad } from './pad.ts';
 
 const BOARDS = ['xarm', 'bus-ctrl', 'learm-esp32-bus', 'doc', 'openarm-new'] as const;
@@ -46,6 +47,11 @@ const event = fc.oneof(
     servo,
     share,
     ms: fc.integer({ min: RANGE_MS, max: 4000 }),
+    isAlone: fc.boolean(),
+  }),
+  fc.record({
+    kind: fc.constant('scrub' as const),
+    shares: fc.array(share, { minLength: 1, maxLength: 30 }),
   }),
   fc.record({ kind: fc.constant('centre' as const) }),
   fc.record({
@@ -66,6 +72,7 @@ test.each(BOARDS)('%s', { timeout: 60_000 * TIMES }, async (profile) => {
     const desk = await createDesk(new Map(), { profile, family: FAMILIES[profile] });
     const { clock, device, robots, view, poses, notices, transport, blend, session } = desk;
     const { board } = transport;
+    const follower = createFollower(device);
     const mappings = createMappings({ getItem: () => null, setItem: () => undefined }, notices, robots);
     let pressed: number | null = null;
     const buttons = () => Array.from({ length: 17 }, (_, at) => ({ value: Number(at === pressed) }));
@@ -143,9 +150,30 @@ test.each(BOARDS)('%s', { timeout: 60_000 * TIMES }, async (profile) => {
         case 'leap':
           device.move([{ servo: one.servo, position: at(one.share) }], 'leap');
           return pass(STEP_MS);
-        case 'timed':
+        case 'timed': {
+          const isAlone = one.isAlone && device.isAtRest() && device.waiting() === 0 && isStill();
+          const from = board.pulse(one.servo);
           device.move([{ servo: one.servo, position: at(one.share) }], one.ms);
-          return pass(STEP_MS);
+          if (!isAlone) return pass(STEP_MS);
+          const begins = seen.length;
+          await pass(one.ms);
+          const steps = WINDOW_MS / STEP_MS;
+          const index = SERVOS.indexOf(one.servo);
+          for (const [now, pulses] of seen.slice(begins).entries()) {
+            const way = Math.abs((pulses[index] ?? NaN) - (seen[begins + now - steps]?.[index] ?? NaN));
+            expect(way, `way of servo ${one.servo}, asked for in ${one.ms} ms`).toBeLessThanOrEqual(
+              (Math.abs(at(one.share) - from) * WINDOW_TICKS_MS) / one.ms + ROUNDING,
+            );
+          }
+          return;
+        }
+        case 'scrub':
+          follower.begin();
+          for (const of of one.shares) {
+            follower.follow(new Map(SERVOS.map((each) => [each, at(of)])));
+            await pass(20);
+          }
+          return;
         case 'centre':
           device.move(
             homeTargets(robots.current().robot).filter((target) => SERVOS.includes(target.servo)),
