@@ -1,5 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { evenly } from '#shared/evenlyUnderTest.ts';
 import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
 import { degreesOf, type RobotServo } from '#shared/actions/robot/robot.ts';
 import { words } from '../words/words.ts';
@@ -61,7 +62,7 @@ describe('servos that move together', () => {
 
   test('keep their stand over any number of small moves, and never leave their limits', () => {
     const positions = fc.array(fc.integer({ min: 500, max: 2500 }), { minLength: 1 });
-    const weights = fc.double({ min: -2, max: 2, noNaN: true });
+    const weights = evenly(-2, 2);
     fc.assert(
       fc.property(positions, weights, (path, weight) => {
         const members = [member(1), member(2, weight, { min: 900, max: 1900 })];

@@ -1,9 +1,10 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
+import { evenly } from '#shared/evenlyUnderTest.ts';
 import { gripOf, isSideways, placeOf, valueAt } from './sliderValue.ts';
 
 const way = { fromPx: 100, lengthPx: 200, min: 500, max: 2_500 };
-const px = fc.double({ min: -500, max: 2_000, noNaN: true });
+const px = evenly(-500, 2_000);
 const position = fc.integer({ min: way.min, max: way.max });
 
 test.each([
@@ -30,7 +31,7 @@ test('further right is never less, and always within the limits', () => {
 
 test('a thumb that is taken stays where it is until the pointer moves', () => {
   fc.assert(
-    fc.property(position, fc.double({ min: -9, max: 9, noNaN: true }), (value, besidePx) => {
+    fc.property(position, evenly(-9, 9), (value, besidePx) => {
       const atPx = placeOf(way, value) + besidePx;
       const held = gripOf(way, value, { atPx, reachPx: 9.001, isFinger: true });
       expect(held).not.toBeNull();

@@ -1,9 +1,10 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { evenly } from '#shared/evenlyUnderTest.ts';
 import { fitted, msAt, panned, pinched, seenSpan, showing, xOf, zoomedAt } from './timeScale.ts';
 
 const view = fc.record({
-  fromMs: fc.double({ min: 0, max: 60_000, noNaN: true }),
+  fromMs: evenly(0, 60_000),
   msPerPx: fc.double({ min: 0.2, max: 100, noNaN: true }),
 });
 const px = fc.integer({ min: 100, max: 2000 });

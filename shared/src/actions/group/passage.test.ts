@@ -1,5 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { evenly } from '../../evenlyUnderTest.ts';
 import { someGroup } from './groupsUnderTest.ts';
 import { passageOf, type PassageOptions } from './passage.ts';
 import { positionAt, tracksOf } from './tracks.ts';
@@ -96,7 +97,7 @@ describe('every passage', () => {
       fc.property(
         straight(),
         fc.integer({ min: 10, max: 200 }),
-        fc.double({ min: 0, max: 1, noNaN: true }),
+        evenly(0, 1),
         (group, speedPercent, share) => {
           const fromMs = Math.floor(lengthOf(group) * share);
           const { frames, atMs } = passageOf(group.frames, {
@@ -119,7 +120,7 @@ describe('every passage', () => {
       fc.property(
         straight({ durationMs: fc.integer({ min: 20, max: 1500 }) }),
         fc.integer({ min: 10, max: 200 }),
-        fc.double({ min: 0, max: 1, noNaN: true }),
+        evenly(0, 1),
         (group, speedPercent, share) => {
           const tracks = tracksOf(group);
           const fromMs = Math.floor(lengthOf(group) * share);

@@ -1,5 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { evenly } from '../../evenlyUnderTest.ts';
 import { EASINGS, emptyGroup, totalDurationMs } from './group.ts';
 import { frozen, shapeOf, someGroup, someRange, withGroup } from './groupsUnderTest.ts';
 import { setKey } from './keyEdits.ts';
@@ -119,7 +120,7 @@ describe('time', () => {
       durationMs: fc.integer({ min: 1, max: 900 }),
     });
     fc.assert(
-      fc.property(full, fc.double({ min: 0, max: 1, noNaN: true }), (group, share) => {
+      fc.property(full, evenly(0, 1), (group, share) => {
         const fromMs = group.frames[0]!.durationMs;
         const toMs = totalDurationMs(group.frames);
         const atMs = fromMs + share * (toMs - fromMs);

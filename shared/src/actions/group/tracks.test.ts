@@ -1,5 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { evenly } from '../../evenlyUnderTest.ts';
 import { BACKWARDS, CURVES } from './easings.ts';
 import { EASINGS, emptyGroup, totalDurationMs, type Easing } from './group.ts';
 import { insertFrame, setTargets } from './groupEdits.ts';
@@ -33,7 +34,7 @@ function groupOf(...rows: readonly Row[]) {
   );
 }
 
-const shares = fc.double({ min: 0, max: 1, noNaN: true });
+const shares = evenly(0, 1);
 
 describe.each(EASINGS)('the curve %s', (easing) => {
   const curve = CURVES[easing];

@@ -1,5 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { evenly } from '../../evenlyUnderTest.ts';
 import {
   conflicts,
   overlaps,
@@ -29,7 +30,7 @@ const turn = (input: Input, servo = 1): Binding => ({
 });
 const mappingOf = (...bindings: readonly Binding[]): Mapping => ({ bindings, feel: READY_FEEL });
 
-const way = fc.double({ min: -1, max: 1, noNaN: true });
+const way = evenly(-1, 1);
 const anyFeel = fc.record({
   deadZonePercent: fc.integer({ min: 0, max: 50 }),
   curvePercent: fc.integer({ min: 0, max: 100 }),

@@ -1,5 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { evenly } from '../../evenlyUnderTest.ts';
 import type { Action, Feel, Input } from './mapping.ts';
 import { NO_INPUTS, type Inputs } from './mappingInputs.ts';
 import { AT_REST, step, type Driven, type Moment } from './mappingStep.ts';
@@ -119,7 +120,7 @@ describe('a rate', () => {
     fc.assert(
       fc.property(
         fc.integer({ min: -3000, max: 3000 }),
-        fc.array(fc.tuple(fc.double({ min: -1, max: 1, noNaN: true }), fc.integer({ min: 0, max: 100 })), {
+        fc.array(fc.tuple(evenly(-1, 1), fc.integer({ min: 0, max: 100 })), {
           maxLength: 60,
         }),
         (unitsPerS, pushes) => {

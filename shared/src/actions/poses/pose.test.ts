@@ -2,6 +2,7 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { evenly } from '../../evenlyUnderTest.ts';
 import type { ServoTarget } from '../../protocol/commands.ts';
 import { EMPTY_BOOK, flawOfBook, type PoseBook } from './pose.ts';
 import {
@@ -98,23 +99,18 @@ describe('mirror and flip', () => {
 describe('a blend', () => {
   test('is one pose at its start, the other at its end, and between them everywhere else', () => {
     fc.assert(
-      fc.property(
-        targetsOf(8),
-        targetsOf(8),
-        fc.double({ min: 0, max: 1, noNaN: true }),
-        (one, other, share) => {
-          const has = (list: readonly ServoTarget[], servo: number) => list.some((t) => t.servo === servo);
-          const common = (list: readonly ServoTarget[]) =>
-            list.filter(({ servo }) => has(one, servo) && has(other, servo));
-          expect(sameTargets(blended(one, other, 0), common(one))).toBe(true);
-          expect(sameTargets(blended(one, other, 1), common(other))).toBe(true);
-          for (const { servo, position } of blended(one, other, share)) {
-            const ends = [...one, ...other].filter((t) => t.servo === servo).map((t) => t.position);
-            expect(position).toBeGreaterThanOrEqual(Math.min(...ends));
-            expect(position).toBeLessThanOrEqual(Math.max(...ends));
-          }
-        },
-      ),
+      fc.property(targetsOf(8), targetsOf(8), evenly(0, 1), (one, other, share) => {
+        const has = (list: readonly ServoTarget[], servo: number) => list.some((t) => t.servo === servo);
+        const common = (list: readonly ServoTarget[]) =>
+          list.filter(({ servo }) => has(one, servo) && has(other, servo));
+        expect(sameTargets(blended(one, other, 0), common(one))).toBe(true);
+        expect(sameTargets(blended(one, other, 1), common(other))).toBe(true);
+        for (const { servo, position } of blended(one, other, share)) {
+          const ends = [...one, ...other].filter((t) => t.servo === servo).map((t) => t.position);
+          expect(position).toBeGreaterThanOrEqual(Math.min(...ends));
+          expect(position).toBeLessThanOrEqual(Math.max(...ends));
+        }
+      }),
     );
   });
 });
