@@ -76,6 +76,10 @@ def test_no_client_puts_the_end_off(served: Served, text: str) -> None:
     with raw(served, text):
         time.sleep(0.2)  # what it sent has arrived and fills what it does not read
         end_in_time(served)
+    assert served.process.stderr
+    said = served.process.stderr.read()
+    assert "ending" in said
+    assert ("ERROR" in said, "Traceback" in said) == (False, False), said
 
 
 def test_the_description_of_the_interface_does_not_put_the_stop_off(tmp_path: Path) -> None:

@@ -33,7 +33,9 @@ from servodeck.errors import PortError
 from servodeck.run import supervisor
 
 MESSAGE_BYTES = 16 * 1024
-LEAVE_S = 1
+# Whoever has not gone by then is cut off. Later, uvicorn would cancel what they asked and call that an error.
+LEAVE_S = 1.0
+CANCEL_S = 2
 END_S = 2.5
 FORCED = 1
 log = logging.getLogger("servodeck.server")
@@ -54,7 +56,7 @@ class Server(uvicorn.Server):
                 ws_per_message_deflate=False,
                 ws_max_size=MESSAGE_BYTES,
                 timeout_keep_alive=IDLE_S,
-                timeout_graceful_shutdown=LEAVE_S,
+                timeout_graceful_shutdown=CANCEL_S,
                 log_config=None,  # ours
                 log_level="warning",
                 access_log=False,
@@ -100,7 +102,12 @@ class Server(uvicorn.Server):
         supervisor.tell("STOPPING=1")
         self._opening.cancel()
         await self._control.shut_down()
+        asyncio.get_running_loop().call_later(LEAVE_S, self._cut_off)
         await super().shutdown(sockets)
+
+    def _cut_off(self) -> None:
+        for connection in tuple(self.server_state.connections):
+            connection.transport.abort()
 
     async def _open_port(self) -> None:
         if self._device:
