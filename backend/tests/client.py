@@ -16,6 +16,8 @@ from servodeck.port.wire import Left
 from tests.fake_port import FakePort, FakePorts
 from tests.virtual_time import now
 
+ANNA = Caller("anna", "Anna", "driver")
+
 
 class Client(Seat):
     """`lease` is what it was told last; `beats` False is a tab that froze."""

@@ -12,7 +12,7 @@ from starlette.types import ASGIApp
 from servodeck.access import access
 from servodeck.access.devices import Devices, NoShelf
 from servodeck.access.entrance import Entrance
-from servodeck.callers import Caller, Role
+from servodeck.callers import Role
 from servodeck.driving.control import Control
 from servodeck.library.library import wall_clock_ms
 from servodeck.protocol.families import FAMILIES
@@ -28,7 +28,6 @@ from tests.virtual_time import now
 RUN_TAKEN = bytes.fromhex("55550206")
 RUN_ENDED = bytes.fromhex("55550207")
 ERASED = bytes.fromhex("55550208")
-ANNA = Caller("anna", "Anna", "driver")
 
 
 def move(time_ms: int, **positions: int) -> bytes:

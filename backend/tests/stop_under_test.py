@@ -39,7 +39,7 @@ from servodeck.protocol.values import (
 from servodeck.run.app import create_app
 from servodeck.told import UnheldServos
 from servodeck.web.clients import take
-from tests.client import Client
+from tests.client import ANNA, Client
 from tests.fake_port import FakePorts
 from tests.lockstep import SERVOS, History, Simulator, SteppedBoard
 from tests.running import DEVICE, NO_LIBRARY, client_of, entrance_to
@@ -183,7 +183,7 @@ class Driven:
         group = Group(slot, "", frames)
         with contextlib.suppress(GatewayError, PacketError):
             part = made_of(group, list(packets_of(group, self.family.id)), self.family.id)
-            self.control.download([part], "Olga", lambda: None)
+            self.control.download([part], ANNA, lambda: None)
 
     async def take(self, step: Step) -> None:
         kind = step["kind"]

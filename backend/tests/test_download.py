@@ -16,7 +16,7 @@ from servodeck.driving.control import Control
 from servodeck.port.wire import wire_s
 from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.told import JobState
-from tests.client import Client, gateway_on
+from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import STOP
 from tests.virtual_time import at, in_virtual_time, now
@@ -53,7 +53,7 @@ def begin(control: Control, *groups: Group) -> JobState:
     """By somebody who may."""
     board = control.board.taken_for
     parts = [made_of(group, list(packets_of(group, board)), board) for group in groups]
-    return control.download(parts, "Anna", lambda: None)
+    return control.download(parts, ANNA, lambda: None)
 
 
 def groups_of(scenario: dict[str, Any]) -> list[Group]:

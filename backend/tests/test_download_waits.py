@@ -8,7 +8,7 @@ from servodeck.board.parts import Group, made_of, packets_of
 from servodeck.errors import MovingError
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Move, ServoTarget
-from tests.client import driven
+from tests.client import ANNA, driven
 from tests.virtual_time import in_virtual_time
 
 GROUP = Group(5, "", [Frame(500, (ServoTarget(1, 1500),))])
@@ -24,4 +24,4 @@ async def test_it_says_how_long_the_robot_still_moves(*, is_stopped: bool) -> No
             await control.stop(None)
             control.resume(driver.caller)
         with pytest.raises(MovingError, match=r"moves for up to 2\.[345] s more: wait that long"):
-            control.download([made_of(GROUP, list(packets_of(GROUP, "doc")), "doc")], "Anna", lambda: None)
+            control.download([made_of(GROUP, list(packets_of(GROUP, "doc")), "doc")], ANNA, lambda: None)

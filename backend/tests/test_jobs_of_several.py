@@ -19,7 +19,7 @@ from servodeck.port.wire import wire_s
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Run, ServoTarget
-from tests.client import Client, gateway_on
+from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakePorts
 from tests.running import http_to
 from tests.samples import DOWNLOAD, STOP
@@ -134,7 +134,7 @@ async def test_a_slot_that_is_wanted_twice_or_another_board_is_refused_before_an
         made = [made_of(WAVE, list(packets_of(WAVE, "doc")), "doc")]
         control.take_for("openarm-new")
         with pytest.raises(CancelledError):
-            control.download(made, "Anna", lambda: None)
+            control.download(made, ANNA, lambda: None)
         assert (port.packets(), broken(control)) == ([STOP], [])
 
 
@@ -159,7 +159,7 @@ async def test_others_go_on_while_a_large_group_is_made_into_packets() -> None:
 
 def follow(control: Control, job_id: str, *groups: Group, claim: Callable[[], object] = lambda: None) -> Any:
     parts = [made_of(group, list(packets_of(group, "doc")), "doc") for group in groups]
-    return control.download(parts, "Anna", claim, job_id)
+    return control.download(parts, ANNA, claim, job_id)
 
 
 @in_virtual_time

@@ -10,12 +10,11 @@ from starlette.types import Message
 
 from servodeck.callers import THIS_COMPUTER
 from servodeck.told import ServoLimits
-from tests.client import Client
+from tests.client import ANNA, Client
 from tests.knocking import scope_of
 from tests.running import PORT
 from tests.samples import STOPS, wire_ms
 from tests.scripted import (
-    ANNA,
     move,
     refusal,
     script,

@@ -15,7 +15,7 @@ from servodeck.port.link import FIRST_RETRY_S
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Move, ServoTarget
-from tests.client import Client
+from tests.client import ANNA, Client
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, RUN, STOP, STOPS
 from tests.virtual_time import at, in_virtual_time, now
@@ -67,7 +67,7 @@ async def test_a_cut_frame_of_a_download_is_ended_too() -> None:
     async with gateway("doc", first, second) as (control, _):
         at(now() + 0.005, first.unplug)
         packets = list(packets_of(Group(5, "", [FRAME]), "doc"))
-        control.download([made_of(Group(5, "", [FRAME]), packets, "doc")], "Anna", lambda: None)
+        control.download([made_of(Group(5, "", [FRAME]), packets, "doc")], ANNA, lambda: None)
         await asyncio.sleep(RETURNED_S)
         assert second.packets() == [b"\xfd" * 253, STOP]
 

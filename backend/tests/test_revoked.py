@@ -17,9 +17,11 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Run
 from servodeck.web.clients import take
-from tests.client import Client
-from tests.samples import RUN, STOPS
-from tests.scripted import ANNA, Scripted, move, refusal, script
+from tests.client import ANNA, Client
+from tests.fake_port import FakePort
+from tests.samples import DOWNLOAD, RUN, STOPS
+from tests.scripted import Scripted, move, refusal, script
+from tests.test_download import AnsweringPort
 from tests.virtual_time import in_virtual_time
 
 REVOKE, DEMOTE = "DELETE", "PATCH"
@@ -192,6 +194,77 @@ async def test_the_revocation_of_somebody_else_stops_nothing() -> None:
         assert (await here.client.delete(f"/api/people/{other.id}", headers=here.owner)).status_code == 204
         await asyncio.sleep(0.5)
         assert here.sent() == [move(3000, s1=2000)]
+
+
+FRAMES = [{"durationMs": 500, "positions": {"1": 1500}}]
+STORES = {"slot": 8, "frames": FRAMES * 3}
+ANSWERS_MS = [[180], [4], [46]]
+
+
+def stored_by(port: FakePort) -> list[tuple[int, int]]:
+    """Slot and frame of each frame that left."""
+    return [(packet[4], packet[6]) for packet in port.packets() if packet[3] == DOWNLOAD[3]]
+
+
+@pytest.mark.parametrize("how", [REVOKE, DEMOTE])
+@pytest.mark.parametrize("by", ["script", "page"])
+@in_virtual_time
+async def test_their_download_ends_before_the_answer_and_its_slot_is_broken(how: str, by: str) -> None:
+    async with script(behind=AnsweringPort([[180], [4], []])) as here:
+        anna = Client(here.control, ANNA)
+        nonce = None
+        if by == "page":
+            page = Client(here.control, here.entrance.devices.get(here.token_id).caller)
+            here.control.driving.act(page, "request")
+            nonce = page.nonce
+        begun = await here.post("download", groups=[STORES], nonce=nonce)
+        assert begun.status_code == 202
+        await asyncio.sleep(0.3)
+        assert stored_by(here.port) == [(8, 0), (8, 1), (8, 2)]
+        await send_away(here, how)
+        found = here.control.board.jobs.find(begun.json()["id"])
+        assert (found.status, found.code) == ("cancelled", "cancelled")
+        state = await latest_state(anna)
+        assert (state["brokenSlots"], state["latch"]) == ([8], False)
+        await asyncio.sleep(10)
+        assert stored_by(here.port) == [(8, 0), (8, 1), (8, 2)]
+
+
+@in_virtual_time
+async def test_of_their_groups_the_stored_ones_stay_and_those_behind_are_not_begun() -> None:
+    async with script(behind=AnsweringPort(ANSWERS_MS * 3)) as here:
+        await here.post("download", groups=[{**STORES, "slot": slot} for slot in (8, 3, 200)])
+        await asyncio.sleep(0.4)
+        await send_away(here, REVOKE)
+        board = here.control.board
+        assert (board.broken_slots, list(board.slot_versions)) == ([3], ["8"])
+        await asyncio.sleep(10)
+        assert {slot for slot, _ in stored_by(here.port)} == {8, 3}
+
+
+@in_virtual_time
+async def test_a_download_goes_on_when_somebody_else_is_revoked_or_its_caller_may_still_drive() -> None:
+    async with script(behind=AnsweringPort(ANSWERS_MS)) as here:
+        other, _ = here.entrance.devices.admit("device", "Bert", "driver")
+        begun = await here.post("download", groups=[STORES])
+        assert (await here.client.delete(f"/api/people/{other.id}", headers=here.owner)).status_code == 204
+        path = f"/api/people/{here.token_id}"
+        assert (await here.client.patch(path, json={"role": "owner"}, headers=here.owner)).status_code == 200
+        await asyncio.sleep(1)
+        assert here.control.board.jobs.find(begun.json()["id"]).status == "done"
+
+
+@in_virtual_time
+async def test_nobody_adds_to_the_download_of_another() -> None:
+    """It would end with them."""
+    async with script(behind=AnsweringPort(ANSWERS_MS * 2)) as here:
+        begun = (await here.post("download", groups=[STORES])).json()
+        more = {"groups": [{**STORES, "slot": 3}], "behind": begun["id"]}
+        added = await here.post("download", owner=True, take=True, **more)
+        assert refusal(added) == (409, "notDriving")
+        assert (await here.post("lease", action="take")).status_code == 403
+        await here.post("lease", owner=True, action="release")
+        assert (await here.post("download", **more)).json()["slots"] == [8, 3]
 
 
 async def unattended_slot(here: Scripted) -> object:

@@ -1,7 +1,7 @@
 """Several callers ask for anything through every door, and are revoked, demoted or dropped at any instant.
 
-The oracle is what the port was given: each request moves for a time, or runs a slot, that no other one has,
-so that a packet says whose it is.
+The oracle is what the port was given: each request moves for a time, or runs or fills a slot, that no other
+one has, so that a packet says whose it is.
 """
 
 import asyncio
@@ -16,21 +16,28 @@ from hypothesis import strategies as st
 from servodeck.access.intake import Intake, Rate
 from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.messages import AnyClientMessage, ContinueMessage, LeaseMessage, SendMessage, StopMessage
+from servodeck.port.wire import wire_s
+from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode, parse_command
-from servodeck.protocol.values import Command, Move, Run
+from servodeck.protocol.values import Command, Download, Move, Run
 from servodeck.web.clients import take
 from tests.amount import TIMES
 from tests.client import Client
-from tests.samples import STOP
+from tests.fake_port import FakePort
+from tests.samples import DOWNLOAD, STOP
 from tests.scripted import Scripted, move, script
-from tests.virtual_time import in_virtual_time
+from tests.test_download import STORED
+from tests.virtual_time import at, in_virtual_time, now
 
 NAMES = ("Anna", "Bert", "Cleo")
 FIRST_MOVE_MS = 1500
+FRAMES, FRAME_COUNT = [{"durationMs": 500, "positions": {"1": 1500}}], 10
+STORED_AFTER_S = 0.02
 What = Literal[
     "script moves",
     "script runs",
+    "script downloads",
     "script acts",
     "page moves",
     "page runs",
@@ -41,8 +48,8 @@ What = Literal[
     "is revoked",
     "is demoted",
 ]
-OFTEN: list[What] = ["script moves", "script runs", "page moves", "page runs"]
-OVER_HTTP: list[What] = ["script moves", "script runs", "script acts"]
+OFTEN: list[What] = ["script moves", "script runs", "script downloads", "page moves", "page runs"]
+OVER_HTTP: list[What] = ["script moves", "script runs", "script downloads", "script acts"]
 ON_PAGES: list[What] = ["page moves", "page runs", "page ends a group", "page stops"]
 LOSSES: list[What] = ["page drops", "is revoked", "is demoted"]
 
@@ -54,6 +61,15 @@ class Step:
     after_ms: int
     what: What
     who: str
+
+
+class StoringPort(FakePort):
+    """Says of each frame of a download that it is stored."""
+
+    def write(self, data: bytes) -> None:
+        super().write(data)
+        if data[COMMAND_AT] == DOWNLOAD[COMMAND_AT]:
+            at(now() + wire_s(len(data)) + STORED_AFTER_S, lambda: self.say(STORED))
 
 
 class Page(Client):
@@ -125,6 +141,9 @@ class History:
         elif what == "script runs":
             alone = {"continueForMs": 5000} if number % 2 else {}
             self._post(party, f"slots/{self._mark('run', number, sender)}/run", {"times": 1, **alone})
+        elif what == "script downloads":
+            slot = self._mark("download", number, sender)
+            self._post(party, "download", {"groups": [{"slot": slot, "frames": FRAMES * FRAME_COUNT}]})
         else:
             self._post(party, "lease", {"action": ("request", "release", "beat")[number % 3]})
 
@@ -178,7 +197,7 @@ class History:
         await asyncio.gather(*self._losses)
         for party in self.parties.values():
             for answer in await asyncio.gather(*party.asked):
-                assert answer.status_code in (200, 401, 403, 409, 422, 429), answer.text
+                assert answer.status_code in (200, 202, 401, 403, 409, 422, 429), answer.text
         await asyncio.sleep(8)
         for index, packet in enumerate(self.here.port.packets()):
             sender = self._sender_of(parse_command(packet))
@@ -191,12 +210,14 @@ class History:
                 return self._senders.get(("move", duration_ms))
             case Run(slot, _):
                 return self._senders.get(("run", slot))
+            case Download(slot=slot):
+                return self._senders.get(("download", slot))
         return None
 
 
 @in_virtual_time
 async def play(steps: list[Step]) -> None:
-    async with script() as here:
+    async with script(behind=StoringPort()) as here:
         history = History(here)
         for number, step in enumerate(steps):
             await asyncio.sleep(step.after_ms / 1000)

@@ -9,13 +9,12 @@ from servodeck.driving.control import Control
 from servodeck.errors import CancelledError, NotDrivingError, OutOfRangeError
 from servodeck.messages import ContinueMessage, StopMessage
 from servodeck.web.clients import take
-from tests.client import Client, gateway_on
+from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import MOVE, RUN, STOP, STOPS
 from tests.scripted import RUN_ENDED, refusal, script
 from tests.virtual_time import in_virtual_time, now
 
-ANNA = Caller("anna", "Anna", "driver")
 BERT = Caller("bert", "Bert", "viewer")
 ENDLESS = bytes.fromhex("55550506080000")
 

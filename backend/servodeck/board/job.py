@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 
 from servodeck.board.parts import Part
 from servodeck.board.tally import Tally
+from servodeck.callers import Caller
 from servodeck.errors import GatewayError
 from servodeck.port.wire import Wire
 from servodeck.told import JobState
@@ -20,10 +21,11 @@ class Job:
     task: asyncio.Task[None]
 
     def __init__(
-        self, parts: Sequence[Part], by: str, board: str, wire: Wire, now: Callable[[], float]
+        self, parts: Sequence[Part], by: Caller, board: str, wire: Wire, now: Callable[[], float]
     ) -> None:
         """`board` is what its broken slots are remembered by."""
         self.parts: list[Part] = []
+        self.by = by
         self.board = board
         self.wire = wire
         self.is_cancelled = False
@@ -35,7 +37,7 @@ class Job:
         first = parts[0]
         self.state = JobState(
             id=secrets.token_hex(6),
-            by=by,
+            by=by.name,
             status="running",
             slots=[],
             groups_stored=0,

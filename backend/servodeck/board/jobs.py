@@ -1,5 +1,5 @@
-"""Downloads as jobs of the gateway: they go on when whoever began them has left. One at a time; while it
-lasts nothing else goes to the board. Keeps account of what they leave behind in the slots.
+"""Downloads as jobs of the gateway: they go on when their client has left. One at a time; while it lasts
+nothing else goes to the board. Keeps account of what they leave behind in the slots.
 
 Knows packets and a wire. Must not know HTTP, nor who may begin one and when.
 """
@@ -15,10 +15,12 @@ from servodeck.board.download import EDGE_FRAME_TIMEOUT_S, Download
 from servodeck.board.job import Job
 from servodeck.board.parts import Part
 from servodeck.board.slot_memory import SlotMemory
+from servodeck.callers import Caller
 from servodeck.errors import (
     CancelledError,
     GatewayError,
     MovingError,
+    NotDrivingError,
     NotFoundError,
     SlotBrokenError,
     SlotChangedError,
@@ -67,7 +69,7 @@ class Jobs:
     def find(self, job_id: str) -> JobState:
         return self._found(job_id).state
 
-    def begin(self, parts: Sequence[Part], by: str, board: str, wire: Wire) -> JobState:
+    def begin(self, parts: Sequence[Part], by: Caller, board: str, wire: Wire) -> JobState:
         """One group after the other, until one fails. Raises MovingError while another job lasts."""
         self.judge_idle()
         job = Job(parts, by, board, wire, self._now)
@@ -87,9 +89,11 @@ class Jobs:
             raise CancelledError("That download has ended: nothing can follow it.")
         return job.parts
 
-    def add(self, job_id: str, parts: Sequence[Part]) -> JobState:
-        """To one that lasts, behind what it has."""
+    def add(self, job_id: str, parts: Sequence[Part], by: Caller) -> JobState:
+        """To one that lasts, behind what it has. Raises NotDrivingError where another began it."""
         job = self._found(job_id)
+        if job.by.id != by.id:
+            raise NotDrivingError(f"{job.state.by} began that download: only they add to it.")
         job.add(parts)
         self._tell(job)
         return job.state
@@ -106,6 +110,11 @@ class Jobs:
             job.wire.purge(lambda waiting: waiting.owner is job, error)
             job.task.cancel()
             self._finish(job, error)
+
+    def disown(self, caller_id: str, error: GatewayError) -> None:
+        """That caller may not drive any more: ends the download that they began."""
+        if self._current and self._current.by.id == caller_id:
+            self.end(error)
 
     def judge_idle(self) -> None:
         """Raises MovingError while the board works on its flash: what comes then overwrites what is being

@@ -133,12 +133,22 @@ class Control:
         self._telling.state()
 
     def send_away(
-        self, caller_id: str, reason: str, by: str, *, group_goes_on: bool = False, also: Sequence[Seat] = ()
+        self,
+        caller_id: str,
+        reason: str,
+        by: str,
+        *,
+        still_drives: bool = False,
+        group_goes_on: bool = False,
+        also: Sequence[Seat] = (),
     ) -> None:
         """What they move stops, what they still say is not heard, and nothing that they asked for leaves any
-        more but stops. `also`: seats of theirs that are no client's.
+        more but stops. `still_drives`: they may come back and drive, so their download goes on, and the group
+        that they let go on. `also`: seats of theirs that are no client's.
         """
-        self._watch.sent_away(caller_id, by, group_goes_on=group_goes_on)
+        self._watch.sent_away(caller_id, by, group_goes_on=group_goes_on or still_drives)
+        if not still_drives:
+            self.board.jobs.disown(caller_id, CancelledError(reason))
         for seat in (*self.hub.seats, *also):
             if seat.caller.id == caller_id:
                 seat.end(AGAINST_THE_RULES, reason)
@@ -222,7 +232,7 @@ class Control:
         self.board.unattended.allow(run, seat, for_ms / 1000)
 
     def download(
-        self, parts: Sequence[Part], by: str, claim: Callable[[], object], behind: str | None = None
+        self, parts: Sequence[Part], by: Caller, claim: Callable[[], object], behind: str | None = None
     ) -> JobState:
         """Begins to store them, or has the job `behind` which they come store them, too; raises what keeps it
         from that before anything is sent. `claim` raises where `by` may not.
@@ -235,7 +245,7 @@ class Control:
             board.jobs.judge_replaced(part, board.link.place)
         if behind:
             claim()
-            return board.jobs.add(behind, parts)
+            return board.jobs.add(behind, parts, by)
         wire = board.link.wire()
         judge_latch(parts[0].packets[0], self.latch)
         board.jobs.judge_idle()

@@ -158,7 +158,7 @@ class Scripts:
         def claim() -> None:
             driving.speak_for(seat, take=take)
 
-        job = self._control.download(parts, seat.caller.name, claim, behind)
+        job = self._control.download(parts, seat.caller, claim, behind)
         driving.vouch(seat, 0.0)
         return job
 
@@ -191,13 +191,23 @@ class Scripts:
         self._control.driving.give(seat, to)
         return self._control.driving.state_for(seat)
 
-    async def send_away(self, caller_id: str, reason: str, by: str, *, group_goes_on: bool = False) -> None:
-        """They may not come in any more, or as somebody else: what they asked for on pages and over HTTP has
+    async def send_away(
+        self,
+        caller_id: str,
+        reason: str,
+        by: str,
+        *,
+        still_drives: bool = False,
+        group_goes_on: bool = False,
+    ) -> None:
+        """They may not come in any more, or in another role: what they asked for on pages and over HTTP has
         ended when this returns. The group that they let go on is stopped in the name of `by`, or goes on.
         """
         own = self._seats.pop(caller_id, None)
         also = (own,) if own else ()
-        self._control.send_away(caller_id, reason, by, group_goes_on=group_goes_on, also=also)
+        self._control.send_away(
+            caller_id, reason, by, still_drives=still_drives, group_goes_on=group_goes_on, also=also
+        )
         if own:
             await own.end_pending()
 

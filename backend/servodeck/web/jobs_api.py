@@ -78,8 +78,9 @@ async def download(
     scripts: Scripted,
 ) -> JobState:
     """Stores groups in slots of the board, one after the other, as one job, also where they come in several
-    requests. Goes on when whoever asked has left; STOP ends it, and then the slot of the group in progress is
-    broken: nobody may run it before another download to it has ended well.
+    requests. Goes on when its client has left. STOP ends it, and so does the loss of the right to drive; then
+    the slot of the group in progress is broken: nobody may run it before another download to it has ended
+    well.
     """
     judge_known(control.board.taken_for)
     groups = [await body.group() for body in wish.groups]
@@ -91,7 +92,7 @@ async def download(
     def claim() -> None:
         control.driving.judge_request(caller, nonce)
 
-    return control.download(parts, caller.name, claim, wish.behind)
+    return control.download(parts, caller, claim, wish.behind)
 
 
 @jobs_api.get("/jobs/{job}", dependencies=[VIEWER])

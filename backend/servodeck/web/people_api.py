@@ -162,15 +162,15 @@ async def change(
     by: Annotated[Caller, OWNER],
 ) -> Person:
     """Another name or role. What was open under the old role is closed and may come back; a group that it let
-    go on is stopped where it may not drive any more.
+    go on is stopped, and its download ends, where it may not drive any more.
     """
     before = entrance.devices.get(person).role
     changed = entrance.devices.change(person, wanted.name, wanted.role)
     if changed.role == before:
         spread_name(changed, control)
     else:
-        reason, goes_on = "Your role is another one now.", changed.caller.may("driver")
-        await scripts.send_away(person, reason, by.name, group_goes_on=goes_on)
+        reason, still_drives = "Your role is another one now.", changed.caller.may("driver")
+        await scripts.send_away(person, reason, by.name, still_drives=still_drives)
     await entrance.devices.keep()
     return person_of(changed, control)
 
