@@ -82,9 +82,10 @@ test.describe('on a board with slow flash', () => {
 test.describe('on a board that seems to be silent', () => {
   test.use({ boardSettings: LOST_WORD });
 
-  test('a page that is loaded again shows the download that is under way, and may call it off', async ({
+  test('a page that is loaded again shows the download that is under way, and may call it off; another page sees its slot broken', async ({
     dashboard,
     robot,
+    browser,
   }) => {
     await begins(dashboard, 22);
     await dashboard.page.reload();
@@ -96,6 +97,32 @@ test.describe('on a board that seems to be silent', () => {
     await dashboard.type(dashboard.slot, 22);
     await expect(dashboard.board).toContainText('Its download did not finish.');
     expect(new Set(await framesHeard(robot))).toEqual(new Set([0]));
+
+    // A whole copy was there before the next one that is called off.
+    await dashboard.button('Download').click();
+    await expect(dashboard.board).toContainText('Holds this group, as it is now.');
+    await dashboard.button('Download').click();
+    await dashboard.board.getByRole('button', { name: 'Cancel' }).click();
+    await expect(dashboard.board).toContainText('Its download did not finish.');
+    const elsewhere = await browser.newContext();
+    const other = await joins(robot, elsewhere);
+    for (const each of [dashboard, other]) {
+      await each.button('Slots').click();
+      const slots = each.page.getByRole('dialog', { name: 'Slots of the board' });
+      await slots.getByRole('option', { name: 'Slot 22: Broken: its download did not finish' }).click();
+      const details = slots.getByRole('region', { name: 'Slot 22' });
+      await expect(details).toContainText('Broken');
+      await expect(details).not.toContainText(/downloaded (by|elsewhere)|library/i);
+      await slots.getByRole('button', { name: 'Close' }).click();
+    }
+    await elsewhere.close();
+
+    // Half a group is nothing that an erase takes.
+    await dashboard.button('Erase everything').click();
+    const question = dashboard.page.getByRole('alertdialog');
+    await expect(question).toContainText('All 256 slots are emptied');
+    await expect(question).not.toContainText('22');
+    await question.getByRole('button', { name: 'Keep them' }).click();
   });
 
   test('whoever looks on sees it, STOP of anybody ends it, and nobody runs what is left', async ({
