@@ -20,7 +20,7 @@ PIECES = st.sampled_from([*'{}[]",:\\ 0-1.e', "null", "true", "\n", "\0", "\ufef
 
 @st.composite
 def texts(draw: st.DrawFn) -> str:
-    """JSON, as whoever writes it likes, and often with something that does not belong there."""
+    """JSON in one of its spellings, and often with something that does not belong there."""
     indent, is_ascii = draw(st.sampled_from([None, 1])), draw(st.booleans())
     text = json.dumps(draw(VALUES), indent=indent, ensure_ascii=is_ascii)
     at = draw(st.integers(0, len(text)))

@@ -1,5 +1,5 @@
-"""Whoever is revoked, or may not drive any more, moves nothing from the gateway's answer on: what they asked
-for ends before it.
+"""A caller who is revoked, or may not drive any more, moves nothing from the gateway's answer on: what they
+asked for ends before it.
 """
 
 import asyncio

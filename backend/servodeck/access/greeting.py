@@ -9,7 +9,7 @@ from servodeck.access.entrance import Entrance
 from servodeck.access.links import drawn_for_terminal, pair_link
 
 OVERHEARD = (
-    "Plain http can be overheard by others on this network: whoever listens can take a paired device's\n"
+    "Plain http can be overheard by others on this network: a listener can take a paired device's\n"
     "place. On a network that is not yours use Tailscale or an SSH tunnel, or put Caddy with https in front\n"
     "and start with --public-url."
 )

@@ -34,7 +34,7 @@ TokenFile = Annotated[
     typer.Option(envvar="SERVODECK_TOKEN_FILE", help="A file that holds the token and nothing else."),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="For programs.")]
-Take = Annotated[bool, typer.Option("--take", help="As an owner: also from whoever drives.")]
+Take = Annotated[bool, typer.Option("--take", help="As an owner: also from the present driver.")]
 
 
 def remote_at(url: Url = HERE, token: Token = "", token_file: TokenFile = None) -> Remote:

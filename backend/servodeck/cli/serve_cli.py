@@ -68,7 +68,7 @@ def serve(
     log_level: Annotated[Level, typer.Option(help="The least that the log on stderr tells.")] = "info",
     log_format: Annotated[Form, typer.Option(help="For people, or a JSON object a line.")] = "text",
     exit_with_stdin: Annotated[
-        bool, typer.Option("--exit-with-stdin", help="End when stdin ends: with whoever started us.")
+        bool, typer.Option("--exit-with-stdin", help="End when stdin ends: with the program that started us.")
     ] = False,
 ) -> None:
     """Serve the page and own the serial port. Each option may also come from SERVODECK_NAME or a file."""

@@ -213,9 +213,9 @@ class Driving:
 
 
 def require_present(seat: Seat) -> None:
-    """Whoever was sent away gets nothing by what they still ask."""
+    """A client that was sent away gets nothing by what it still asks."""
     if seat.ended.is_set():
-        raise CancelledError("Whoever asked for it is not here any more.")
+        raise CancelledError("Its client is not here any more.")
 
 
 def could_drive(seat: Seat) -> bool:

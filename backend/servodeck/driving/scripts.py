@@ -124,7 +124,7 @@ class Scripts:
         for step in plan.steps:
             await asyncio.sleep(step.after_s)
             if not await is_wanted():
-                raise CancelledError("Whoever asked has hung up.")
+                raise CancelledError("The client has hung up.")
             await turn.send(step.packet, duration_ms / 1000)
         return Moved(len(plan.steps), duration_ms, plan.first_moves)
 

@@ -49,7 +49,7 @@ class Watch:
 
     def sent_away(self, caller_id: str, by: str, *, group_goes_on: bool) -> None:
         """`by` has revoked them: STOP for what they move, and for the group that they let go on unless it
-        may. Whoever answers for it must not be somebody who is out.
+        may. Nobody who is out answers for what moves.
         """
         board, driver = self._control.board, self._control.driving.driver
         if is_of(board.unattended.by, caller_id):

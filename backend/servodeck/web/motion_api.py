@@ -18,7 +18,7 @@ from servodeck.told import LeaseState
 from servodeck.web.api import routes
 
 Servo = Annotated[str, Field(pattern=r"^[1-9][0-9]{0,2}$")]
-Take = Annotated[bool, Field(description="An owner's: without asking whoever drives.")]
+Take = Annotated[bool, Field(description="An owner's: without asking the driver.")]
 
 
 class MoveWish(Message):

@@ -1,4 +1,4 @@
-// What the group in a slot is called: as it was noted here, else as whoever sees all downloads has it.
+// What the group in a slot is called: as it was noted here, else as the gateway has it, which sees all downloads.
 
 import { recordOf } from '#shared/actions/slots/slotBook.ts';
 import { useSlots, useSnapshot } from '../stores/stores.ts';

@@ -1,4 +1,4 @@
-// Whoever keeps documents as texts: what a list says of each, revisions, a trash, named versions. One interface for every place
+// A keeper of documents as texts: what a list says of each, revisions, a trash, named versions. One interface for every place
 // they may lie, and the one rule about writing that all of them follow. Knows no group, no robot and no place.
 
 import * as z from 'zod/mini';
@@ -20,7 +20,7 @@ const groupFactsSchema = z.strictObject({
   pose: z.array(targetSchema).check(z.maxLength(256)),
 });
 
-/** What whoever keeps it goes by itself: limits and poses are as the board counts. */
+/** What its keeper goes by itself: limits and poses are as the board counts. */
 const robotFactsSchema = z.strictObject({
   kind: z.literal('robot'),
   name,
@@ -89,7 +89,7 @@ export interface Version {
   readonly atMs: number;
 }
 
-/** Everything rejects with a LibraryError. Whoever writes names a new document, so that asking twice makes no second one. */
+/** Everything rejects with a LibraryError. The writer names a new document, so that asking twice makes no second one. */
 export interface Keeper {
   readonly place: 'gateway' | 'browser';
   list(): Promise<Listing>;

@@ -60,7 +60,7 @@ export interface SlotBook {
   readonly begun: readonly SlotRecord[];
 }
 
-/** What whoever sees all downloads knows of each slot, of those of others too. `version` is the fingerprint. */
+/** What a gateway, which sees all downloads, knows of each slot, of those of others too. `version` is the fingerprint. */
 export type VersionsTold = Readonly<
   Partial<Record<number, { readonly version: string; readonly documentId: string | null }>>
 >;
@@ -95,8 +95,8 @@ export function withUnknown(book: SlotBook, slot: number): SlotBook {
 }
 
 /**
- * By the word of whoever sees all downloads: where something else stands by now, what was there is gone; where nothing does,
- * somebody has erased it; and what an erase took stands there again, whoever brought it back.
+ * By the word of the gateway, which sees all downloads: where something else stands by now, what was there is gone; where nothing does,
+ * somebody has erased it; and what an erase took stands there again.
  */
 export function withVersions(book: SlotBook, versions: VersionsTold): SlotBook {
   const isThere = ({ slot, fingerprint }: SlotRecord): boolean => versions[slot]?.version === fingerprint;

@@ -175,7 +175,7 @@ describe('comparing two groups', () => {
   });
 });
 
-describe('the word of whoever sees all downloads', () => {
+describe('the word of a gateway that sees all downloads', () => {
   const told = (version: string, documentId: string | null = null) => ({ version, documentId });
   const book = [record(3), record(5, 'Bow', [at(400, 1200)])].reduce(withStored, EMPTY_SLOT_BOOK);
   const versions = Object.fromEntries(book.stored.map(({ slot, fingerprint }) => [slot, told(fingerprint)]));

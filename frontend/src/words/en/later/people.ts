@@ -31,7 +31,7 @@ export const wholePeopleWords = {
     unheard: (detail: string): string => `The gateway is stopped but did not reach the robot. ${detail}`,
   },
   overheard:
-    'Plain http can be overheard by others on this network, and whoever listens can take a paired device’s place. On a network that is not yours, use Tailscale or an SSH tunnel, or put Caddy with https in front.',
+    'Plain http can be overheard by others on this network, and a listener can take a paired device’s place. On a network that is not yours, use Tailscale or an SSH tunnel, or put Caddy with https in front.',
   insecure:
     'At this address (plain http) a browser gives no USB port, no game pad and no clipboard. Sliders, playing, groups and Stop work.',
 
