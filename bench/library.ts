@@ -15,7 +15,7 @@ import { median } from './statistics.ts';
 const GROUPS = 504;
 const SERVOS = 16;
 const FRAMES = 56;
-const REPEATS = amount(5, 1);
+const REPEATS = amount(3, 1);
 const REST_MS = 400;
 const OPEN_LIMIT_MS = 150;
 

@@ -13,12 +13,12 @@ import { mustRun } from '../scripts/steps.mjs';
 import { amount } from './amounts.ts';
 import { withEcho } from './echo.ts';
 import type { Figure } from './figure.ts';
-import { withBoard, withPage } from './station.ts';
+import { withPage, withSilentBoard } from './station.ts';
 import { percentile } from './statistics.ts';
 
-const TRIPS = amount(200, 40);
+const TRIPS = amount(120, 40);
 /** Thrown away: caches and compilers warm up, on both sides alike. */
-const WARM_UP_TRIPS = amount(30, 5);
+const WARM_UP_TRIPS = amount(15, 5);
 /** No question waits for its turn: longer than the gateway leaves between two packets, and it takes 30 messages a second. */
 const PAUSE_MS = 45;
 
@@ -26,7 +26,7 @@ const question = hex(encodeCommand({ kind: 'run', slot: 200, times: 1 }, family(
 const answer = hex(encodeReport({ kind: 'runAccepted' }));
 
 export async function measureRelay(): Promise<Figure[]> {
-  const { relayed, echoed, plain } = await withBoard(['--baud', '0'], async ({ device }) => {
+  const { relayed, echoed, plain } = await withSilentBoard(['--baud', '0'], async (device) => {
     const throughPage = await withPage(device, async (page, url) => ({
       relayed: await tripsThroughPage(page, url),
       echoed: await tripsOfEcho(page),

@@ -8,11 +8,11 @@ import { python } from '../scripts/python.mjs';
 import { SetupProblem } from '../scripts/steps.mjs';
 import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
-import { temporaryFolder, withBoard } from './station.ts';
+import { temporaryFolder, withSilentBoard } from './station.ts';
 import { median } from './statistics.ts';
 
-const STARTS = amount(7, 1);
-const IDLE_MS = amount(10_000, 1_000);
+const STARTS = amount(5, 1);
+const IDLE_MS = amount(3_000, 1_000);
 const POLL_MS = 2;
 const READY_MS = 15_000;
 const HOST = '127.0.0.1';
@@ -31,7 +31,7 @@ type CommandOn = (port: number) => readonly string[];
 
 export function measureStart(): Promise<Figure[]> {
   const folder = temporaryFolder();
-  return withBoard([], async ({ device }) => {
+  return withSilentBoard([], async (device) => {
     const serve: CommandOn = (port) => [
       ...['-m', 'servodeck', 'serve', '--listen', `${HOST}:${port}`, '--serial', device],
       ...['--data', folder, '--no-open', '--exit-with-stdin'],

@@ -24,26 +24,32 @@ export interface BoardOnPort {
 }
 
 /** Lends a fresh board to `work`. `simulatorArgs` as for the simulator program, e.g. `--baud 0`. */
-export async function withBoard<Result>(
+export function withBoard<Result>(
   simulatorArgs: readonly string[],
   work: (board: BoardOnPort) => Promise<Result>,
 ): Promise<Result> {
-  const folder = temporaryFolder();
-  const busLog = path.join(folder, 'bus.jsonl');
+  const busLog = path.join(temporaryFolder(), 'bus.jsonl');
+  return withSilentBoard(['--bus-log', busLog, ...simulatorArgs], (device) =>
+    work({ device, readBusLog: () => parseBusLog(readFileSync(busLog, 'utf8')) }),
+  );
+}
+
+/** One without a log, which takes a tenth of a millisecond of each answer. */
+export async function withSilentBoard<Result>(
+  simulatorArgs: readonly string[],
+  work: (device: string) => Promise<Result>,
+): Promise<Result> {
   const lines: string[] = [];
   const cable = await simulatedBoard({
     link: `build/bench-board-${process.pid}-${(boards += 1)}`,
-    simulatorArgs: ['--bus-log', busLog, ...simulatorArgs],
+    simulatorArgs,
     onLine: (line) => lines.push(line),
     onLost: () => lines.push('it ended'),
   });
   try {
     await cable.plug();
     if (!cable.isPlugged()) throw new SetupProblem(`The simulated board did not start: ${lines.join(' ')}`);
-    return await work({
-      device: cable.device,
-      readBusLog: () => parseBusLog(readFileSync(busLog, 'utf8')),
-    });
+    return await work(cable.device);
   } finally {
     await cable.pull();
   }
