@@ -4,7 +4,7 @@
 import { resolve } from 'node:path';
 import { playwright } from '@vitest/browser-playwright';
 import { defineConfig } from 'vitest/config';
-import { commands } from './frontend/tests/harness/commands.ts';
+import { BROWSER_WINDOW, commands } from './frontend/tests/harness/commands.ts';
 import { findBrowser } from './scripts/browser.mjs';
 
 const executablePath = findBrowser();
@@ -44,8 +44,7 @@ export default defineConfig({
       viewport: { width: 1440, height: 900 },
       provider: playwright({
         launchOptions: executablePath === null ? {} : { executablePath },
-        // Room for the largest window of a test.
-        contextOptions: { locale: 'en-GB', viewport: { width: 1920, height: 1200 } },
+        contextOptions: { locale: 'en-GB', viewport: BROWSER_WINDOW },
       }),
       commands,
       instances: [{ browser: 'chromium' }],

@@ -94,16 +94,18 @@ async function perform({ page, sessionId }: Context, one: Act): Promise<void> {
 
 const emulateMedia: BrowserCommand<[media: Media]> = ({ page }, media) => page.emulateMedia(media);
 
+/** Room for the largest window of a test. */
+export const BROWSER_WINDOW = { width: 1920, height: 1200 };
+
 /** After fingers a headless browser has no pointer at all, neither coarse nor fine: what is laid out must not ask for a fine one. */
-const emulateScreen: BrowserCommand<[screen: Screen]> = async ({ page }, screen) => {
+const emulateScreen: BrowserCommand<[screen: Screen]> = async ({ page }, { hasTouch, deviceScaleFactor }) => {
   const devtools = await devtoolsOf(page);
-  await devtools.send('Emulation.setTouchEmulationEnabled', { enabled: screen.hasTouch, maxTouchPoints: 2 });
-  if (screen.deviceScaleFactor === 1) await devtools.send('Emulation.clearDeviceMetricsOverride');
-  else
-    await devtools.send('Emulation.setDeviceMetricsOverride', {
-      ...{ width: 0, height: 0, mobile: false },
-      deviceScaleFactor: screen.deviceScaleFactor,
-    });
+  await devtools.send('Emulation.setTouchEmulationEnabled', { enabled: hasTouch, maxTouchPoints: 2 });
+  // Never cleared: that would take back the window's size too, and presses far below would meet what they were not meant for.
+  await devtools.send('Emulation.setDeviceMetricsOverride', {
+    ...BROWSER_WINDOW,
+    ...{ deviceScaleFactor, mobile: false },
+  });
 };
 
 /** The picture of a part of the window, as base64. */
