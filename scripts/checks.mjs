@@ -125,12 +125,13 @@ function gateway(amount) {
   };
 }
 
-/** @returns {Task} */
-function endToEnd() {
+/** The usual ones are about 40 journeys. @param {Amount} amount @returns {Task} */
+function endToEnd(amount) {
   return {
     name: 'end to end',
     command: node('@playwright/test/cli.js', 'test', '--fail-on-flaky-tests', '--reporter=dot,junit'),
     env: {
+      ...tried(amount).env,
       PLAYWRIGHT_JUNIT_OUTPUT_FILE: at(reportOf('playwright')),
       CHROMIUM_PATH: findBrowser() ?? '',
       NO_COLOR: undefined, // its workers are told to colour, and Node warns of the contradiction
@@ -169,6 +170,6 @@ export async function test(amount) {
     browserForTests(),
   ]);
   const panels = await runTasks([components(amount)]);
-  const journeys = await runTasks([endToEnd()]);
+  const journeys = await runTasks([endToEnd(amount)]);
   return conclude([...built, ...checked, ...panels, ...journeys], { slowest: amount !== 'usual' });
 }

@@ -31,13 +31,13 @@ test('npm start brings up a gateway and a board that can be unplugged and plugge
 });
 
 for (const signal of ['SIGTERM', 'SIGHUP', 'SIGKILL'] as const) {
-  test(`npm start leaves nothing behind when npm gets ${signal}`, async ({ terminal }) => {
+  test(`npm start leaves nothing behind when npm gets ${signal} @exhaustive`, async ({ terminal }) => {
     terminal.npm.kill(signal);
     await expect.poll(() => remains(terminal)).toEqual([]);
   });
 }
 
-test('npm start says what to do when the address is taken', async ({ terminal: { url } }) => {
+test('npm start says what to do when the address is taken @exhaustive', async ({ terminal: { url } }) => {
   const second = spawn('npm', ['start', '--', '--no-open', '--listen', new URL(url).host], { cwd: root });
   let said = '';
   second.stderr.on('data', (text: Buffer) => (said += text.toString()));

@@ -81,7 +81,7 @@ test('people come in by the digits, one after the other, until five were wrong',
   await expect(guesser.problem).toContainText('no code counts any more');
 });
 
-test('the code that is shown is one of the role that is chosen, also when that changes', async ({
+test('the code that is shown is one of the role that is chosen, also when that changes @exhaustive', async ({
   newGateway,
   ptyBoard,
   browser,
@@ -119,7 +119,7 @@ test('a stop-only link has one button, which stops the robot', async ({ newGatew
   await expect(passer.getByRole('heading', { name: 'Stop the robot' })).toBeVisible();
 });
 
-test('whoever revokes a script is asked what becomes of the group that it let go on', async ({
+test('whoever revokes a script is asked what becomes of the group that it let go on @exhaustive', async ({
   newGateway,
   ptyBoard,
   browser,

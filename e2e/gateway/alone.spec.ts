@@ -34,7 +34,7 @@ test('a run that may go on outlives its page; the next page sees it, and stops i
   await expect(next.alone).toHaveCount(0);
 });
 
-test('what may go on can be bound to its page again, and then ends with it', async ({
+test('what may go on can be bound to its page again, and then ends with it @exhaustive', async ({
   dashboard,
   robot,
   context,
@@ -52,7 +52,11 @@ test('what may go on can be bound to its page again, and then ends with it', asy
   await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
 });
 
-test('a pose that a page has captured can be gone to by a script', async ({ dashboard, robot, request }) => {
+test('a pose that a page has captured can be gone to by a script @exhaustive', async ({
+  dashboard,
+  robot,
+  request,
+}) => {
   const { page } = dashboard;
   const { origin } = new URL(page.url());
   await page.getByRole('radio', { name: 'Poses' }).check();

@@ -82,7 +82,7 @@ test.describe('on a board with slow flash', () => {
 test.describe('on a board that seems to be silent', () => {
   test.use({ boardSettings: LOST_WORD });
 
-  test('a page that is loaded again shows the download that is under way, and may call it off; another page sees its slot broken', async ({
+  test('a page that is loaded again shows the download that is under way, and may call it off; another page sees its slot broken @exhaustive', async ({
     dashboard,
     robot,
     browser,

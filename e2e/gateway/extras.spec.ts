@@ -60,7 +60,7 @@ test.describe('an xArm', () => {
 test.describe('an LSC-6', () => {
   test.use({ boardSettings: { board: 'lsc-6' } });
 
-  test('plays a group, then every group, at another speed; it has no servos to ask', async ({
+  test('plays a group, then every group, at another speed; it has no servos to ask @exhaustive', async ({
     page,
     ptyBoard,
     newGateway,

@@ -68,7 +68,7 @@ for (const { trouble, settings, says } of TROUBLES) {
   test.describe(trouble, () => {
     test.use({ boardSettings: settings });
 
-    test('is told in words that say what to do', async ({ page, ptyBoard, newGateway }) => {
+    test('is told in words that say what to do @exhaustive', async ({ page, ptyBoard, newGateway }) => {
       const { url } = await newGateway({ serial: ptyBoard.device, board: 'unknown' });
       await page.goto(url);
       await expect(page.getByRole('region', { name: 'Which board is this?' })).toContainText(says, {
@@ -81,7 +81,7 @@ for (const { trouble, settings, says } of TROUBLES) {
 test.describe('another board under the name of a known one', () => {
   test.use({ boardSettings: { board: 'learm-esp32' } });
 
-  test('is not driven as the one before', async ({ page, ptyBoard, newGateway }) => {
+  test('is not driven as the one before @exhaustive', async ({ page, ptyBoard, newGateway }) => {
     const { url } = await newGateway({ serial: ptyBoard.device, board: 'unknown' });
     const known = { [`gateway ${ptyBoard.device}`]: { family: 'lsc-6', nickname: 'Hand' } };
     await page.addInitScript((text) => localStorage.setItem('servodeck.boards', text), JSON.stringify(known));

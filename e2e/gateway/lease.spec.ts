@@ -24,7 +24,10 @@ async function joins(robot: Robot, context: BrowserContext): Promise<Dashboard> 
   return ready(page);
 }
 
-test('whoever is alone drives without being asked, and never hears of it', async ({ dashboard, robot }) => {
+test('whoever is alone drives without being asked, and never hears of it @exhaustive', async ({
+  dashboard,
+  robot,
+}) => {
   await dashboard.type(dashboard.target(1), 1800);
   await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
   await expect(dashboard.turn).toHaveCount(0);
@@ -77,7 +80,11 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   await poll(() => topOfWork(dashboard)).toEqual(before);
 });
 
-test('whoever calibrates asks to drive where it is said', async ({ dashboard, robot, context }) => {
+test('whoever calibrates asks to drive where it is said @exhaustive', async ({
+  dashboard,
+  robot,
+  context,
+}) => {
   const other = await joins(robot, context);
   await dashboard.type(dashboard.target(1), 1800);
   await expect(other.turn).toContainText('Another window drives');
@@ -95,7 +102,7 @@ test('whoever calibrates asks to drive where it is said', async ({ dashboard, ro
 test.describe('with a finger', () => {
   test.use({ hasTouch: true });
 
-  test('scrolling past the sliders asks nobody for the robot, a tap on one does', async ({
+  test('scrolling past the sliders asks nobody for the robot, a tap on one does @exhaustive', async ({
     dashboard,
     robot,
     context,
@@ -121,7 +128,7 @@ test.describe('with a finger', () => {
   });
 });
 
-test('a driver who says nothing passes it on; taking over asks nobody and stops what moves', async ({
+test('a driver who says nothing passes it on; taking over asks nobody and stops what moves @exhaustive', async ({
   dashboard,
   robot,
   context,

@@ -23,7 +23,7 @@ test('a port that is not there at the start says what to do, and is found when i
   await poll(() => lastTarget(ptyBoard.bus, 1)).toBe(1234);
 });
 
-test('a gateway without a port offers the ports it knows', async ({ page, newGateway }) => {
+test('a gateway without a port offers the ports it knows @exhaustive', async ({ page, newGateway }) => {
   const gateway = await newGateway();
   await page.goto(gateway.url);
   const dashboard = dashboardOf(page);
@@ -32,7 +32,11 @@ test('a gateway without a port offers the ports it knows', async ({ page, newGat
   await expect(dashboard.connectDialog.getByRole('button', { name: 'Look again' })).toBeVisible();
 });
 
-test('a port in use is said to be, and not offered once more', async ({ page, ptyBoard, newGateway }) => {
+test('a port in use is said to be, and not offered once more @exhaustive', async ({
+  page,
+  ptyBoard,
+  newGateway,
+}) => {
   const gateway = await newGateway({ serial: ptyBoard.device });
   await page.goto(gateway.url);
   const dashboard = dashboardOf(page);

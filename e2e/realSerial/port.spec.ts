@@ -5,12 +5,15 @@ import { kindsAfter, lastTarget, ofKind } from '../fixtures/bus.ts';
 import { READY } from '../fixtures/dashboard.ts';
 import { expect, poll, test } from '../fixtures/realPort.ts';
 
-test('a real port is opened and tells the battery', async ({ openPort, ptyBoard }) => {
+test('a real port is opened and tells the battery @exhaustive', async ({ openPort, ptyBoard }) => {
   await expect(openPort.battery).toContainText('7.50 V');
   expect(new Set(await kindsAfter(ptyBoard.bus, 0))).toEqual(new Set(['readBattery', 'readPositions']));
 });
 
-test('a port that is open says so, and is not opened once more', async ({ openPort, ptyBoard }) => {
+test('a port that is open says so, and is not opened once more @exhaustive', async ({
+  openPort,
+  ptyBoard,
+}) => {
   const before = (await ptyBoard.bus()).length;
   await openPort.link.click();
   await expect(openPort.button('USB serial 1234:5678 is open')).toBeDisabled();
@@ -37,7 +40,7 @@ test('STOP goes out three times over a real port, and holds', async ({ openPort,
   expect(ofKind(await ptyBoard.bus(), 'move').at(-1)?.targets).toEqual([{ servo: 1, position: 2000 }]);
 });
 
-test('an adapter that goes away is told as such', async ({ openPort, ptyBoard }) => {
+test('an adapter that goes away is told as such @exhaustive', async ({ openPort, ptyBoard }) => {
   await ptyBoard.unplug();
   await expect(openPort.link).toHaveText(/^Lost/);
   await expect(openPort.status).toContainText(/Check the cable|Plug the robot in|Another program/);

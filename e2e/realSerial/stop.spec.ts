@@ -31,7 +31,7 @@ async function kindsFromStop(bus: Bus, stopsBefore: number): Promise<string> {
 
 test.use({ boardSettings: SLOW_FLASH });
 
-test('STOP is heard over a real port in each state', async ({ openPort, ptyBoard, page }) => {
+test('STOP is heard over a real port in each state @exhaustive', async ({ openPort, ptyBoard, page }) => {
   const { bus } = ptyBoard;
   await stopIn(openPort, bus);
 

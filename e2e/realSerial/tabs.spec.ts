@@ -74,7 +74,7 @@ async function crash(page: Page): Promise<void> {
 }
 
 for (const { name, stops, end } of ENDINGS) {
-  test(`a tab that ${name} moves nothing more, and the next one has the robot at once`, async ({
+  test(`a tab that ${name} moves nothing more, and the next one has the robot at once @exhaustive`, async ({
     context,
     open,
     openPort,

@@ -61,7 +61,7 @@ test('a cable that is pulled and comes back is told within half a second', async
 test.describe('on a board with slow flash', () => {
   test.use({ boardSettings: SLOW_FLASH });
 
-  test('a download that is cut is never run, wherever it was cut', async ({
+  test('a download that is cut is never run, wherever it was cut @exhaustive', async ({
     openPort,
     ptyBoard,
     pull,

@@ -51,7 +51,10 @@ test('what one page stores another finds, and a reload finds it with what is ope
 test.describe('at a gateway that is there late', () => {
   test.use({ expectedComplaint: /api\/(me|status) net::ERR_ABORTED/ });
 
-  test('what was written meanwhile is kept there once it answers', async ({ dashboard, page }) => {
+  test('what was written meanwhile is kept there once it answers @exhaustive', async ({
+    dashboard,
+    page,
+  }) => {
     const library = libraryOf(page);
     let isThere = false;
     await page.route(/\/api\/(me|status)$/, (route) => (isThere ? route.continue() : route.abort('aborted')));
@@ -71,7 +74,7 @@ test.describe('at a gateway that is there late', () => {
   });
 });
 
-test('a gateway that has said who is here is waited for', async ({ dashboard, page }) => {
+test('a gateway that has said who is here is waited for @exhaustive', async ({ dashboard, page }) => {
   await page.route(/\/api\/status$/, async (route) => {
     await new Promise((resolve) => setTimeout(resolve, 2500));
     await route.continue();

@@ -41,7 +41,7 @@ test('a pulled cable is told, comes back without a reload, and moves only after 
 test.describe('on a board with slow flash', () => {
   test.use({ boardSettings: SLOW_FLASH });
 
-  test('a cable pulled during a download leaves a slot that is known to be broken', async ({
+  test('a cable pulled during a download leaves a slot that is known to be broken @exhaustive', async ({
     dashboard,
     robot,
   }) => {
