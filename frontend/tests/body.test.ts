@@ -104,6 +104,18 @@ test.describe('of a humanoid', () => {
   });
 });
 
+test.describe('of an arm on a phone', () => {
+  test.override({ viewport: { width: 390, height: 844 } });
+
+  test('base and hand are whole within the window', async ({ page, url }) => {
+    await page.goto(url);
+    for (const name of ['Base, from above', 'Hand, from the front']) {
+      const { x, width } = await page.getByText(name).boundingBox();
+      expect(x + width, name).toBeLessThanOrEqual(390);
+    }
+  });
+});
+
 test.describe('of a humanoid on a phone', () => {
   test.override({ screen: { hasTouch: true }, viewport: { width: 390, height: 844 } });
   test.beforeEach(({ page }) => rememberHumanoid(page));

@@ -3,8 +3,7 @@
 import { useRobot } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { Dials } from './Dials.tsx';
-import { LiveArm } from './LiveArm.tsx';
-import { LiveBones } from './LiveBones.tsx';
+import { LiveArm, LiveBones } from './pictures.ts';
 import { UnknownNote } from './UnknownNote.tsx';
 import styles from './Body.module.css';
 
@@ -20,9 +19,12 @@ export function Body() {
 
 export function BodyPicture() {
   const { body } = useRobot();
-  if (body === 'arm') return <LiveArm />;
   if (body === 'plain') return <Dials />;
-  return (
+  return body === 'arm' ? (
+    <div className={styles.arm}>
+      <LiveArm />
+    </div>
+  ) : (
     <div className={styles.bones}>
       <LiveBones />
     </div>

@@ -8,7 +8,11 @@ import { laterComponent } from '../ui/later.tsx';
 import { words } from '../words/words.ts';
 import type { Connector } from './connector.ts';
 
-const ConnectWays = laterComponent(async () => (await import('./ConnectWays.tsx')).ConnectWays, '60vh');
+const ConnectWays = laterComponent(
+  async () => (await import('./ConnectWays.tsx')).ConnectWays,
+  '60vh',
+  'guards',
+);
 
 export function ConnectDialog({ connector }: { readonly connector: Connector }) {
   const { view, notices } = useStores();

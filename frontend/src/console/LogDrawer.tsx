@@ -1,21 +1,21 @@
 // The log at the foot of the page: folded it is one line with the latest packet or the stop that holds, unfolded the whole log.
 
-import { useMemo } from 'react';
 import { useStores, useView } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
-import { LiveText } from '../ui/LiveText.tsx';
+import { later, usePart } from '../ui/later.tsx';
 import { pressOnce } from '../ui/pressOnce.ts';
 import { words } from '../words/words.ts';
-import { arrowOf, bytesText, meaning } from './describe.ts';
 import { LogPanel } from './LaterLogPanel.tsx';
-import { createStrip } from './strip.ts';
-import { READABLE_MS } from '../ui/useFollow.ts';
 import { PART } from '../ui/useParts.ts';
 import styles from './LogDrawer.module.css';
+
+/** What a packet means is many words: they come when the page is there, into a line that has its height already. */
+const latest = later(async () => (await import('./LatestEntry.tsx')).LatestEntry);
 
 export function LogDrawer() {
   const { view } = useStores();
   const isOpen = useView((state) => state.logOpen);
+  const { part: LatestEntry } = usePart(latest, !isOpen);
   if (isOpen) {
     return (
       <div className={styles.open}>
@@ -34,32 +34,8 @@ export function LogDrawer() {
       >
         <Icon name="up" />
         <span className={styles.title}>{words.log.title}</span>
-        <Latest />
+        {LatestEntry !== null && <LatestEntry />}
       </button>
     </section>
-  );
-}
-
-function Latest() {
-  const { traffic } = useStores().device;
-  const strip = useMemo(() => createStrip(traffic), [traffic]);
-  const said = (): string => {
-    const now = strip.latest();
-    return now === null ? words.log.empty : `${arrowOf(now.entry)} ${meaning(now)}`;
-  };
-  const bytes = (): string => {
-    const now = strip.latest();
-    return now === null ? '' : bytesText(now);
-  };
-  const how = {
-    ...{ isFixed: true, eachMs: READABLE_MS },
-    isCalm: () => !strip.isStopped(),
-    about: () => strip.latest()?.id,
-  };
-  return (
-    <>
-      <LiveText className={styles.latest} text={said} {...how} />
-      <LiveText className={styles.bytes} text={bytes} {...how} />
-    </>
   );
 }

@@ -82,7 +82,8 @@ export function LogPanel({ onFold }: { readonly onFold?: () => void }) {
 function useLogView(query: string, heldId: number | null) {
   const { device } = useStores();
   const kinds = useView((state) => state.logKinds);
-  const spoken = useWords();
+  useWords();
+  const spoken = words;
   const view = useMemo(() => {
     const isFound = searchTest(query, spoken);
     const passes = (entry: LogEntry): boolean => kinds.includes(kindOf(entry)) && isFound(entry);

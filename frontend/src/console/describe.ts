@@ -10,7 +10,7 @@ import type { Entry } from '#shared/recording/recording.ts';
 import type { Traffic } from '#shared/session/state.ts';
 import type { LogEntry } from '../stores/device/traffic.ts';
 import type { LogKind } from '../stores/view.ts';
-import { words as spoken, type FirstWords } from '../words/words.ts';
+import { words as spoken, type Words } from '../words/whole.ts';
 
 type Described = Pick<LogEntry, 'board' | 'entry'>;
 
@@ -33,7 +33,7 @@ const KINDS: Readonly<Partial<Record<CommandKind | ReportKind, LogKind>>> = {
 };
 
 /** In the language in use, or in another one. */
-export function meaning(described: Described, words: FirstWords = spoken): string {
+export function meaning(described: Described, words: Words = spoken): string {
   const { entry } = described;
   if (entry.mark === 'link') return words.packets.happening(entry.happening);
   if (entry.mark === 'board') return words.packets.board(words.boardName(family(entry.board)));

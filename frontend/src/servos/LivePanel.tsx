@@ -7,6 +7,7 @@ import { ServosPanel } from './ServosPanel.tsx';
 const WhichBoard = laterComponent(
   async () => (await import('../identity/WhichBoard.tsx')).WhichBoard,
   '100%',
+  'guards',
 );
 
 export function LivePanel() {

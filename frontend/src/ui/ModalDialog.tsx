@@ -1,12 +1,24 @@
 // An open dialog, as the library makes it: it holds the focus and gives it back, and all behind it is out of reach. STOP lies above
 // it: it is in the library's top layer (StopButton).
 
+import type { ReactNode } from 'react';
 import { Dialog as AriaDialog, Heading } from 'react-aria-components/Dialog';
 import { Modal, ModalOverlay } from 'react-aria-components/Modal';
 import { IconButton } from './Button.tsx';
 import { cx } from './cx.ts';
-import type { DialogProps } from './Dialog.tsx';
 import styles from './Dialog.module.css';
+
+export interface DialogProps {
+  readonly title: string;
+  readonly closeLabel: string;
+  readonly isOpen: boolean;
+  readonly role?: 'dialog' | 'alertdialog';
+  readonly wide?: boolean;
+  /** As wide as the window allows, for work rather than a decision. */
+  readonly full?: boolean;
+  readonly children: ReactNode;
+  onClose(): void;
+}
 
 export function ModalDialog({
   title,

@@ -38,3 +38,15 @@ test('at rest all others are fetched, one after the other, past one that does no
   expect(order.slice(-6)).toEqual(['rest', 'first', 'rest', 'lost', 'rest', 'last']);
   expect(parts.map(({ store }) => store.getState().part)).toEqual(['first', null, 'last']);
 });
+
+test('what guards a robot is fetched before all others, however late the page names it', async () => {
+  const order: string[] = [];
+  const named = (name: string) => () => {
+    order.push(name);
+    return Promise.resolve(name);
+  };
+  later(named('usual'));
+  later(named('guard'), 'guards');
+  await fetchRest(() => Promise.resolve());
+  expect(order).toEqual(['guard', 'usual']);
+});

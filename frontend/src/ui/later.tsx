@@ -1,5 +1,6 @@
 // Parts of the page that its first load leaves out: fetched when they are first wanted, all others once the page is at rest, so that
-// nothing is missing when the gateway goes. STOP, the sliders and the way to connect are no such parts.
+// nothing is missing when the gateway goes. STOP and the sliders are no such parts; dialogs, the ways to connect and the question which
+// board this is come first of all.
 
 import { useEffect, type ComponentType } from 'react';
 import { createStore, useStore, type StoreApi } from 'zustand';
@@ -21,7 +22,10 @@ export interface Later<Part> {
 
 const all: Later<unknown>[] = [];
 
-export function later<Part>(load: () => Promise<Part>): Later<Part> {
+/** What guards a robot comes before the rest. */
+type Rank = 'guards' | 'rest';
+
+export function later<Part>(load: () => Promise<Part>, rank: Rank = 'rest'): Later<Part> {
   const store = createStore<Fetched<Part>>(() => ({ part: null, isMissing: false }));
   let under: Promise<void> | null = null;
   async function fetchNow(): Promise<void> {
@@ -33,7 +37,8 @@ export function later<Part>(load: () => Promise<Part>): Later<Part> {
     }
   }
   const made = { store, fetch: () => (under ??= fetchNow()) };
-  all.push(made);
+  if (rank === 'guards') all.unshift(made);
+  else all.push(made);
   return made;
 }
 
@@ -57,8 +62,9 @@ export function usePart<Part>(part: Later<Part>, isWanted = true): Fetched<Part>
 export function laterComponent<Props extends object>(
   load: () => Promise<ComponentType<Props>>,
   room: string,
+  rank: Rank = 'rest',
 ): ComponentType<Props> {
-  const made = later(load);
+  const made = later(load, rank);
   return function LaterComponent(props) {
     const { part: Part, isMissing } = usePart(made);
     if (Part !== null) return <Part {...props} />;

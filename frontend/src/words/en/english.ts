@@ -23,7 +23,7 @@ import { teachWords } from './teach.ts';
 import { poseWords } from './poses.ts';
 import { robotWords } from './robots.ts';
 import { servoPanelWords } from './servoPanel.ts';
-import { packetWords, timesWords } from './packets.ts';
+import { timesWords } from './times.ts';
 import { slotWords } from './slots.ts';
 import { stopWords } from './stop.ts';
 
@@ -34,7 +34,6 @@ export const english = {
   numbers,
   errorSentence,
   rangeText,
-  packets: packetWords,
   boardName: (family: Pick<Family, 'id' | 'name'>): string => family.name,
   regions: { top: 'Robot and link', notices: 'Notices' },
   tabs: { live: 'Live', actions: 'Actions', board: 'Board', log: 'Log', buttons: 'Buttons' },
@@ -133,10 +132,6 @@ export const english = {
   },
 
   body: {
-    base: 'Base, from above',
-    hand: 'Hand, from the front',
-    figure:
-      'Arm from the side; solid is estimated, outline is commanded, dashed is unknown, dotted is a preview',
     allUnknown: 'Positions are unknown until each servo is moved once. The first move is slow.',
     gaugeFigure: (servo: number): string => `Dial of servo ${formatWhole(servo)}`,
   },

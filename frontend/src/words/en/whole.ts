@@ -1,7 +1,8 @@
 // All English words: those of the first load, and of what comes later. Another language is another object of this type.
 
 import { counted, formatCount, formatWhole } from './numbers.ts';
-import { timesWords } from './packets.ts';
+import { packetWords } from './later/packets.ts';
+import { timesWords } from './times.ts';
 import { english } from './english.ts';
 import { wholeIdentityWords } from './later/identity.ts';
 import { guideWords } from './later/guides.ts';
@@ -25,6 +26,7 @@ import { wholePeopleWords } from './later/people.ts';
 
 export const wholeEnglish = {
   ...english,
+  packets: packetWords,
   identity: wholeIdentityWords,
   guide: guideWords,
   robots: wholeRobotWords,
@@ -44,6 +46,13 @@ export const wholeEnglish = {
   battery: wholeBatteryWords,
   library: wholeLibraryWords,
   people: wholePeopleWords,
+  body: {
+    ...english.body,
+    base: 'Base, from above',
+    hand: 'Hand, from the front',
+    figure:
+      'Arm from the side; solid is estimated, outline is commanded, dashed is unknown, dotted is a preview',
+  },
   connect: {
     ...english.connect,
     intro: 'Connecting moves nothing.',

@@ -3,7 +3,7 @@
 import type { Colour } from '#shared/actions/colours.ts';
 import type { MacroStep } from '#shared/actions/macros/macro.ts';
 import { counted, formatMs, formatSeconds, formatWhole } from '../numbers.ts';
-import { timesWords } from '../packets.ts';
+import { timesWords } from '../times.ts';
 import { macroWords } from '../macros.ts';
 
 const KIOSK_HOLD_S = 2;

@@ -1,7 +1,7 @@
 // Words about playing the group, from the page and on the board.
 
 import { formatNames, formatPercent, formatSeconds, formatWhole } from '../numbers.ts';
-import { timesWords } from '../packets.ts';
+import { timesWords } from '../times.ts';
 import { playWords } from '../play.ts';
 
 export const wholePlayWords = {

@@ -4,8 +4,9 @@ import type { Command, CommandKind, ServoTarget } from '#shared/protocol/command
 import type { RawRefusal, RawVerdict } from '#shared/protocol/rawPacket.ts';
 import type { Report } from '#shared/protocol/reports.ts';
 import type { Happening } from '#shared/recording/recording.ts';
-import { counted, formatMs, formatVolts, formatWhole, unitSymbol } from './numbers.ts';
-import { rangeText } from './refusals.ts';
+import { counted, formatMs, formatVolts, formatWhole, unitSymbol } from '../numbers.ts';
+import { rangeText } from '../refusals.ts';
+import { timesWords } from '../times.ts';
 
 /** Targets named in one line of the log; the bytes beside it have the rest. */
 const TARGETS_SHOWN = 6;
@@ -150,11 +151,6 @@ function refusalWords(reason: RawRefusal, board: string): string {
 
 function bytesWords(count: number): string {
   return counted(count, 'byte');
-}
-
-export function timesWords(times: number): string {
-  if (times === 0) return 'until stopped';
-  return times === 1 ? 'once' : `${formatWhole(times)} times`;
 }
 
 function downloadWords({
