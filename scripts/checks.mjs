@@ -19,30 +19,10 @@ function pythonModule(...args) {
   return [python, '-m', ...args];
 }
 
-const tsc = 'typescript/bin/tsc';
-const cache = 'node_modules/.cache';
-
 /** @type {Task} */
 const build = { name: 'build', command: [process.execPath, 'scripts/build.mjs'] };
-/** @type {Task} */
-const types = { name: 'types, Node side', command: node(tsc, '-p', '.') };
-/** @type {Task} */
-const pageTypes = { name: 'types, page', command: node(tsc, '-p', 'frontend') };
-/** @type {Task} */
-const sharedTypes = { name: 'types, shared', command: node(tsc, '-p', 'shared') };
-/** @type {Task} */
-const lint = {
-  name: 'lint',
-  command: node(
-    'eslint/bin/eslint.js',
-    '--cache',
-    '--cache-location',
-    `${cache}/eslint/`,
-    '--max-warnings',
-    '0',
-    '.',
-  ),
-};
+/** What the compiler has to say is among it. @type {Task} */
+const lint = { name: 'lint and types', command: node('oxlint/bin/oxlint') };
 /** @type {Task} */
 const format = {
   name: 'format',
@@ -141,18 +121,7 @@ function endToEnd(amount) {
   };
 }
 
-const still = [
-  lint,
-  types,
-  pageTypes,
-  pythonTypes,
-  sharedTypes,
-  layers,
-  messages,
-  format,
-  pythonLint,
-  pythonFormat,
-];
+const still = [lint, pythonTypes, layers, messages, format, pythonLint, pythonFormat];
 
 /** @returns {Promise<number>} the exit code */
 export async function check() {

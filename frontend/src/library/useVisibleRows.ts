@@ -30,7 +30,7 @@ export function useVisibleRows(
   focused: number,
 ): VisibleRows {
   const [marginPx, setMarginPx] = useState(0);
-  // eslint-disable-next-line react-hooks/incompatible-library -- it is about React's compiler, which the page is built without
+  // oxlint-disable-next-line react/incompatible-library -- it is about React's compiler, which the page is built without
   const virtualizer = useVirtualizer<Element, Element>({
     ...{ count: keys.length, overscan: BESIDE, gap: GAP_PX, scrollMargin: marginPx },
     estimateSize: () => ROW_PX,

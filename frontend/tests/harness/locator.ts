@@ -217,7 +217,7 @@ export class Locator {
       if (field.type === 'range') return slide(field, text);
       field.select();
       // At once, before anything else takes the focus.
-      // eslint-disable-next-line @typescript-eslint/no-deprecated
+      // oxlint-disable-next-line typescript/no-deprecated
       document.execCommand(text === '' ? 'delete' : 'insertText', false, text);
     });
     await act();
