@@ -152,23 +152,30 @@ def test_an_end_is_waited_for_as_long_as_the_group_takes_or_half_a_minute() -> N
 
 
 @pytest.mark.exhaustive
-def test_an_endless_run_says_so_and_is_watched_over_until_ctrl_c_ends_it(served: Served) -> None:
-    with begin(served, "run", "8", "--times", "0") as watching:
-        assert watching.stdout
-        assert watching.stderr
-        assert watching.stdout.readline() == "Slot 8: silent.\n"
-        assert watching.stderr.readline().startswith("Slot 8 repeats until it is stopped")
-        with pytest.raises(subprocess.TimeoutExpired):
-            watching.wait(2.5)  # longer than the gateway waits for somebody who does not beat
-        assert "running  slot 8, endless times" in run("status", "--url", served.url).stdout
-        watching.send_signal(signal.SIGINT)
-        assert watching.wait(5) == INTERRUPTED
-        assert served.read_until_stops(3) == ENDLESS + STOP * 3
+def test_an_endless_run_says_who_ends_it_and_returns(served: Served) -> None:
+    begun = run("run", "8", "--times", "0", "--url", served.url)
+    assert (begun.exit_code, begun.stdout) == (0, "Slot 8: silent.\n")
+    assert begun.stderr.startswith("Slot 8 repeats until it is stopped: by `servodeck stop`")
+    assert "after 3600 s, by the gateway" in begun.stderr
+    told = run("status", "--url", served.url).stdout
+    assert "running  slot 8, endless times" in told
+    assert "alone    without A script on this computer, 3" in told
+    assert run("stop", "--url", served.url).exit_code == 0
+    assert served.read_until_stops(3) == ENDLESS + STOP * 3
 
 
 @pytest.mark.exhaustive
-def test_an_endless_run_is_stopped_where_its_command_is_killed(served: Served) -> None:
-    with begin(served, "run", "8", "--times", "0") as watching:
+def test_an_endless_run_ends_after_the_time_that_was_said(served: Served) -> None:
+    begun = run("run", "8", "--times", "0", "--continue", "1", "--url", served.url)
+    assert begun.exit_code == 0
+    assert "after 1 s, by the gateway" in begun.stderr
+    assert served.read_until_stops(3) == ENDLESS + STOP * 3
+    assert "motion   allowed" in run("status", "--url", served.url).stdout
+
+
+@pytest.mark.exhaustive
+def test_a_watched_run_is_stopped_where_its_command_is_killed(served: Served) -> None:
+    with begin(served, "run", "8", "--times", "0", "--timeout", "60") as watching:
         assert watching.stdout
         watching.stdout.readline()
         watching.kill()

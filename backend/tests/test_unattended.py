@@ -6,13 +6,13 @@ import pytest
 
 from servodeck.callers import Caller
 from servodeck.driving.control import Control
-from servodeck.errors import CancelledError, NotDrivingError, OutOfRangeError
+from servodeck.errors import CancelledError, NotDrivingError
 from servodeck.messages import ContinueMessage, StopMessage
 from servodeck.web.clients import take
 from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import MOVE, RUN, STOP, STOPS
-from tests.scripted import RUN_ENDED, refusal, script
+from tests.scripted import RUN_ENDED, script
 from tests.virtual_time import in_virtual_time, now
 
 BERT = Caller("bert", "Bert", "viewer")
@@ -124,16 +124,28 @@ async def test_the_boards_word_that_it_ended_and_another_run_end_the_leave_too()
 
 
 @in_virtual_time
-async def test_only_what_runs_and_has_an_end_may_go_on_and_only_its_driver_says_so() -> None:
+async def test_an_endless_run_ends_when_its_time_is_over() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = Client(control, ANNA)
+        await anna.send(ENDLESS)
+        take(ContinueMessage(type="continue", for_ms=60_000), anna, control)
+        assert await told(anna) == {"slot": 8, "times": 0, "by": "Anna", "endsInMs": 60_000}
+        control.leave(anna)
+        await asyncio.sleep(59)
+        assert port.packets() == [STOP, ENDLESS]
+        await asyncio.sleep(2)
+        assert (port.packets(), control.latch) == ([STOP, ENDLESS, *STOPS], False)
+
+
+@in_virtual_time
+async def test_only_what_runs_may_go_on_and_only_its_driver_says_so() -> None:
     async with gateway_on() as control:
         anna, carl = Client(control, ANNA), Client(control)
         with pytest.raises(NotDrivingError):
             control.let_go_on(anna, 60_000)
         await anna.send(MOVE)
         with pytest.raises(CancelledError):
-            control.let_go_on(anna, 60_000)
-        await anna.send(ENDLESS)
-        with pytest.raises(OutOfRangeError):
             control.let_go_on(anna, 60_000)
         await anna.send(RUN)
         with pytest.raises(NotDrivingError):
@@ -143,7 +155,6 @@ async def test_only_what_runs_and_has_an_end_may_go_on_and_only_its_driver_says_
 @in_virtual_time
 async def test_a_script_says_so_with_the_run_itself() -> None:
     async with script() as here:
-        assert refusal(await here.post("slots/8/run", times=0, continueForMs=10_000)) == (422, "outOfRange")
         assert (await here.post("slots/8/run", times=2, continueForMs=10_000)).status_code == 200
         status = (await here.client.get("/api/status")).json()
         assert (status["unattended"]["by"], status["driver"]) == ("Dance", "Dance")

@@ -6,7 +6,6 @@ Parses and prints; what may be done the gateway decides.
 import sys
 import time
 from collections.abc import Callable
-from math import inf
 from typing import Annotated, Any
 
 import typer
@@ -18,6 +17,8 @@ from servodeck.cli.stop_words import stopped_words
 
 UNKNOWN, NAME_IT = "unknown", " (open the page once, which asks it, or: servodeck serve --board FAMILY)"
 BEAT_S = 1.0
+# What the gateway lets go on without its driver at most.
+LONGEST_ALONE_S = 3600
 # How long the end of a group is waited for where nobody said: until its computed end and a little more, or
 # where only the board could tell.
 BEHIND_ITS_END_S = 2.0
@@ -100,7 +101,11 @@ def run(
     times: Annotated[int, typer.Option(help="0: until stopped.")] = 1,
     go_on: Annotated[
         int | None,
-        typer.Option("--continue", metavar="SECONDS", help="Return at once; it goes on for so long at most."),
+        typer.Option(
+            "--continue",
+            metavar="SECONDS",
+            help=f"Return at once; it goes on for so long at most. With --times 0: {LONGEST_ALONE_S}.",
+        ),
     ] = None,
     timeout_s: Annotated[
         float | None,
@@ -109,23 +114,24 @@ def run(
             metavar="SECONDS",
             min=0,
             help="End it where it has not ended by then. Left out: what the group takes, "
-            f"{UNKNOWN_END_S:.0f} where nobody knows that, no limit with --times 0.",
+            f"{UNKNOWN_END_S:.0f} where nobody knows that.",
         ),
     ] = None,
     take: Take = False,
     as_json: AsJson = False,
 ) -> None:
-    """Run a group of the board and watch over it: Ctrl-C ends it."""
+    """Run a group of the board and watch over it: Ctrl-C ends it. An endless run is not waited for."""
     if go_on is not None and timeout_s is not None:
         fail("--continue returns at once: there is nothing that --timeout could end.", USAGE)
+    if times == 0 and timeout_s is None and go_on is None:
+        go_on = LONGEST_ALONE_S
     body = {"times": times, "take": take, "continueForMs": None if go_on is None else go_on * 1000}
     answer = asked(remote, "POST", f"/api/slots/{slot}/run", body)
     show(answer, as_json, lambda begun: f"Slot {slot}: {begun['outcome']}.")
     if go_on is not None:
+        if times == 0:
+            print(endless(slot, go_on), file=sys.stderr)
         return
-    if times == 0 and timeout_s is None:
-        print(endless(slot), file=sys.stderr, flush=True)
-        timeout_s = inf
     limit_s = watch(remote, timeout_s)
     if limit_s is not None and times == 0:
         print(f"Ended after {limit_s:g} s.")
@@ -133,10 +139,10 @@ def run(
         fail(unheard_end(slot, limit_s), TIMED_OUT)
 
 
-def endless(slot: int) -> str:
+def endless(slot: int, alone_s: int) -> str:
     return (
-        f"Slot {slot} repeats until it is stopped, and this command watches over it: Ctrl-C ends both. "
-        "--timeout SECONDS ends them by itself; --continue SECONDS returns at once."
+        f"Slot {slot} repeats until it is stopped: by `servodeck stop`, by a page, by the next driver, or "
+        f"after {alone_s} s, by the gateway. --continue SECONDS sets that; --timeout SECONDS waits instead."
     )
 
 

@@ -23,7 +23,6 @@ from servodeck.errors import (
     MovingError,
     NoAnswerError,
     NotPairedError,
-    OutOfRangeError,
 )
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
@@ -140,8 +139,6 @@ class Scripts:
     ) -> RunOutcome:
         family = self._family()
         packet = packet_of(Run(slot, times), family)
-        if continue_ms is not None and times == 0:
-            raise OutOfRangeError("times is 0: what goes on without its driver has an end.")
         with self._asking_the_board():
             turn = Turn(self._control, seat, packet, take=take)
             await turn.end_what_moves()

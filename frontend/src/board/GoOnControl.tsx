@@ -10,26 +10,17 @@ import styles from './BoardPanel.module.css';
 
 const LONGEST_MINUTES = 60;
 
-export function GoOnControl({ isEndless }: { readonly isEndless: boolean }) {
+export function GoOnControl() {
   const { view } = useStores();
   const isShared = useSnapshot((snapshot) => snapshot.lease !== null);
-  const isOn = useView((state) => state.goesOn) && !isEndless;
+  const isOn = useView((state) => state.goesOn);
   if (!isShared) return null;
   return (
     <div className={styles.row}>
       <MinutesField isDisabled={!isOn} />
       <div className={styles.actions}>
-        <Toggle
-          label={words.board.goOn}
-          isOn={isOn}
-          isDisabled={isEndless}
-          onChange={(goesOn) => view.setState({ goesOn })}
-        />
-        {isEndless ? (
-          <p className={styles.absent}>{words.board.goOnAbsent}</p>
-        ) : (
-          <p className={styles.hint}>{isOn ? words.board.goOnHint : ''}</p>
-        )}
+        <Toggle label={words.board.goOn} isOn={isOn} onChange={(goesOn) => view.setState({ goesOn })} />
+        <p className={styles.hint}>{isOn ? words.board.goOnHint : ''}</p>
       </div>
     </div>
   );

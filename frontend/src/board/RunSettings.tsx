@@ -30,7 +30,7 @@ export function RunSettings() {
           )}
         </div>
       </div>
-      <GoOnControl isEndless={untilStopped} />
+      <GoOnControl />
     </>
   );
 }

@@ -19,7 +19,7 @@ export function runAsChosen(
   const { goesOn, goOnMinutes } = view.getState();
   view.setState({ goesOn: false });
   device.run(slot, times, (isTaken) => {
-    if (isTaken && goesOn && times > 0) device.letGoOn(goOnMinutes * 60_000);
+    if (isTaken && goesOn) device.letGoOn(goOnMinutes * 60_000);
     settled(isTaken);
   });
 }

@@ -100,7 +100,6 @@ export const wholeEnglish = {
     untilStoppedAbsent: 'This board cannot repeat without end.',
     goOn: 'Keep running when I leave',
     goOnHint: 'Closing this page does not stop it. Everybody sees it and may.',
-    goOnAbsent: 'Only what has a number of times can go on without you.',
     goOnAtMost: 'At most',
     goOnUnit: 'min',
     goOnMinutes: 'Minutes at most',

@@ -234,7 +234,6 @@ export const chinese: Words = {
     untilStoppedAbsent: '这种控制板不能无限重复。',
     goOn: '我离开后继续运行',
     goOnHint: '关闭这个页面不会停止它。所有人都能看到，也能停止。',
-    goOnAbsent: '只有设定了次数的运行才能在您离开后继续。',
     goOnAtMost: '最长',
     goOnUnit: '分钟',
     goOnMinutes: '最长分钟数',
