@@ -6,6 +6,7 @@ import path from 'node:path';
 import { brotliCompressSync, gzipSync } from 'node:zlib';
 import react from '@vitejs/plugin-react';
 import { defineConfig, type Plugin } from 'vite';
+import { shortClassNames } from './scripts/class_names.mjs';
 
 const gateway = 'http://127.0.0.1:8300';
 // The gateway accepts its own Host and Origin only, so the development server speaks in its name.
@@ -49,7 +50,12 @@ function readsFirstLoad(): Plugin {
 export default defineConfig({
   root: 'frontend',
   base: './',
-  plugins: [react(), readsFirstLoad(), compressed()],
+  plugins: [
+    shortClassNames(path.resolve(import.meta.dirname, 'frontend/src')),
+    react(),
+    readsFirstLoad(),
+    compressed(),
+  ],
   server: {
     host: '127.0.0.1',
     proxy: { '/api': proxy, '/ws': { ...proxy, ws: true } },

@@ -47,7 +47,7 @@ function Age() {
 function Plug() {
   return (
     <svg className={styles.cell} viewBox="0 0 30 16" aria-hidden="true" focusable="false">
-      <path className={styles.case} d="M4 5h4M4 11h4M8 2.5h5a5.5 5.5 0 0 1 0 11H8zM18.5 8H27" />
+      <path className={styles.outline} d="M4 5h4M4 11h4M8 2.5h5a5.5 5.5 0 0 1 0 11H8zM18.5 8H27" />
     </svg>
   );
 }
@@ -56,7 +56,7 @@ function Cell({ restMv, supply }: { readonly restMv: number | null; readonly sup
   const width = restMv === null ? 0 : (percentOf(restMv, supply) ?? 0) / 5;
   return (
     <svg className={styles.cell} viewBox="0 0 30 16" aria-hidden="true" focusable="false">
-      <path className={styles.case} d="M2.5 1.5h22v13h-22zM26.5 5.5v5" />
+      <path className={styles.outline} d="M2.5 1.5h22v13h-22zM26.5 5.5v5" />
       {restMv === null ? (
         <path className={styles.none} d="M6 13L16 3M12 13L22 3" />
       ) : (

@@ -67,7 +67,7 @@ export function PadPicture() {
       >
         <path className={styles.body} d={BODY} />
         {TRIGGERS.map(([index, x]) => (
-          <g key={index} data-button={index} className={styles.trigger}>
+          <g key={index} data-button={index}>
             <rect x={x} y={6} width={36} height={16} rx={5} className={styles.part} />
             <rect x={x} y={6} width={36} height={16} rx={5} className={styles.fill} />
           </g>

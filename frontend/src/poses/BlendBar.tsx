@@ -79,7 +79,7 @@ export function BlendBar({ pose, otherFirst }: BlendBarProps) {
           onChange={({ target }) => setShare(target.valueAsNumber / 100)}
         />
         <span className={styles.percent}>{words.poses.share(share)}</span>
-        <span className={styles.blendThumb}>
+        <span>
           <PoseThumb
             pose={new Map(targets.map(({ servo, position }) => [servo, position]))}
             changed={targets.map(({ servo }) => servo)}

@@ -30,7 +30,7 @@ export function ImportRobot({ connected }: { readonly connected: FamilyId | null
 
   return (
     <div
-      className={styles.import}
+      className={styles.zone}
       onDragOver={(event) => event.preventDefault()}
       onDrop={(event) => {
         event.preventDefault();

@@ -67,7 +67,7 @@ function KeysMenu({ onClose }: { onClose(): void }) {
   return (
     <Menu className={styles.menu ?? ''} aria-label={words.timeline.menu} autoFocus="first" onClose={onClose}>
       {SECTIONS.map((verbs) => (
-        <MenuSection key={verbs[0]} className={styles.section ?? ''} aria-label={words.timeline.menu}>
+        <MenuSection key={verbs[0]} aria-label={words.timeline.menu}>
           {items(verbs)}
           <Separator className={styles.separator ?? ''} />
         </MenuSection>
