@@ -23,9 +23,9 @@ module.exports = {
 
     forbid(
       'shared-is-pure',
-      'shared/ runs anywhere: no Node, no browser, nothing outside itself but zod, which is as pure. Its tests and the process entry may.',
+      'shared/ runs anywhere: no Node, no browser, nothing outside itself but valibot, which is as pure. Its tests and the process entry may.',
       { path: '^shared/src/', pathNot: [test, '^shared/src/simulator/process[.]ts$'] },
-      { pathNot: '^(shared/|node_modules/zod/)' },
+      { pathNot: '^(shared/|node_modules/valibot/)' },
     ),
     forbid(
       'shared-process-is-only-an-entry',

@@ -77,10 +77,10 @@ test.each(Object.keys(mayKnow))('%s knows only what lies below it', (part) => {
   expect(strangersIn(part)).toEqual([]);
 });
 
-test('shared code imports nothing from outside shared but zod, which is as pure', () => {
+test('shared code imports nothing from outside shared but valibot, which is as pure', () => {
   const strangers = sourcesOf('shared').flatMap((file) =>
     importsOf(file)
-      .filter((imported) => !imported.startsWith('shared/src/') && imported !== 'zod/mini')
+      .filter((imported) => !imported.startsWith('shared/src/') && imported !== 'valibot')
       .map((imported) => `${file} imports ${imported}`),
   );
   expect(strangers).toEqual([]);

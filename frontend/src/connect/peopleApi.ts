@@ -1,7 +1,7 @@
 // The gateway's HTTP interface as far as coming in and letting in need it. Trusts no answer's shape; every failure is a
 // PeopleError.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { GatewayProblem, request, type Method } from '../gateway/request.ts';
 import { PeopleError, type PeopleApi, type PeopleErrorCode } from '../stores/people/people.ts';
 import type {
@@ -24,39 +24,40 @@ const CODES: Readonly<Record<string, PeopleErrorCode>> = {
   pairingLocked: 'locked',
 };
 
-const role = z.enum(['stopper', 'viewer', 'driver', 'owner']);
-const youSchema: z.ZodMiniType<You> = z.object({ id: z.string(), name: z.string(), role });
-const meSchema: z.ZodMiniType<Me> = z.object({
-  mode: z.enum(['local', 'lan', 'proxy']),
-  overheard: z.boolean(),
-  you: z.nullable(youSchema),
+const number = v.pipe(v.number(), v.finite());
+const role = v.picklist(['stopper', 'viewer', 'driver', 'owner']);
+const youSchema: v.GenericSchema<unknown, You> = v.object({ id: v.string(), name: v.string(), role });
+const meSchema: v.GenericSchema<unknown, Me> = v.object({
+  mode: v.picklist(['local', 'lan', 'proxy']),
+  overheard: v.boolean(),
+  you: v.nullable(youSchema),
 });
-const peopleSchema: z.ZodMiniType<People> = z.object({
-  people: z.array(
-    z.object({
-      id: z.string(),
-      kind: z.enum(['device', 'token', 'stopLink']),
-      name: z.string(),
+const peopleSchema: v.GenericSchema<unknown, People> = v.object({
+  people: v.array(
+    v.object({
+      id: v.string(),
+      kind: v.picklist(['device', 'token', 'stopLink']),
+      name: v.string(),
       role,
-      pairedAtMs: z.number(),
-      lastSeenMs: z.nullable(z.number()),
-      here: z.boolean(),
-      drives: z.boolean(),
-      unattendedSlot: z.nullable(z.number()),
+      pairedAtMs: number,
+      lastSeenMs: v.nullable(number),
+      here: v.boolean(),
+      drives: v.boolean(),
+      unattendedSlot: v.nullable(number),
     }),
   ),
-  openInvites: z.array(z.string()),
-  openCodes: z.array(z.string()),
+  openInvites: v.array(v.string()),
+  openCodes: v.array(v.string()),
 });
-const link = { id: z.string(), link: z.string(), picture: z.string() };
-const invitationSchema: z.ZodMiniType<Invitation> = z.object({
+const link = { id: v.string(), link: v.string(), picture: v.string() };
+const invitationSchema: v.GenericSchema<unknown, Invitation> = v.object({
   ...link,
-  code: z.nullable(z.string()),
-  expiresInMs: z.number(),
+  code: v.nullable(v.string()),
+  expiresInMs: number,
 });
-const stopLinkSchema: z.ZodMiniType<StopLink> = z.object(link);
-const tokenSchema: z.ZodMiniType<Token> = z.object({ id: z.string(), token: z.string() });
-const nothing = z.unknown();
+const stopLinkSchema: v.GenericSchema<unknown, StopLink> = v.object(link);
+const tokenSchema: v.GenericSchema<unknown, Token> = v.object({ id: v.string(), token: v.string() });
+const nothing = v.unknown();
 
 /** null where no gateway answers: the page came from elsewhere. */
 export async function readMe(): Promise<Me | null> {
@@ -94,16 +95,16 @@ export const peopleApi: PeopleApi = {
 async function ask<T>(
   path: string,
   method: Method,
-  schema: z.ZodMiniType<T>,
+  schema: v.GenericSchema<unknown, T>,
   body?: object,
   withinMs = ANSWER_WITHIN_MS,
 ): Promise<T> {
   const answer = await request(`api/${path}`, { method, body, withinMs }).catch((error: unknown) => {
     throw asPeopleError(error);
   });
-  const read = schema.safeParse(answer);
+  const read = v.safeParse(schema, answer);
   if (!read.success) throw new PeopleError('unreachable', 'no gateway is at this address');
-  return read.data;
+  return read.output;
 }
 
 function asPeopleError(error: unknown): unknown {

@@ -1,6 +1,6 @@
 // The library in the gateway's data folder, over HTTP. Trusts no answer's shape; every failure is a LibraryError.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import {
   factsSchema,
   LibraryError,
@@ -32,21 +32,24 @@ const CODES: Readonly<Record<string, LibraryErrorCode>> = {
   damaged: 'damaged',
 };
 
-const whole = z.number().check(z.int());
-const listingSchema: z.ZodMiniType<LibraryListing> = z.object({
-  documents: z.array(
-    z.object({ id: z.string(), revision: whole, isRemoved: z.boolean(), facts: factsSchema }),
+const whole = v.pipe(v.number(), v.safeInteger());
+const listingSchema: v.GenericSchema<unknown, LibraryListing> = v.object({
+  documents: v.array(
+    v.object({ id: v.string(), revision: whole, isRemoved: v.boolean(), facts: factsSchema }),
   ),
-  setAside: z.nullable(z.string()),
-  changesLost: z.boolean(),
+  setAside: v.nullable(v.string()),
+  changesLost: v.boolean(),
 });
-const storedSchema: z.ZodMiniType<StoredDocument> = z.object({ text: z.string(), revision: whole });
-const writtenSchema: z.ZodMiniType<DocumentWritten> = z.object({ revision: whole });
-const versionsSchema: z.ZodMiniType<ListedVersion[]> = z.array(
-  z.object({ id: z.string(), name: z.string(), atMs: whole }),
+const storedSchema: v.GenericSchema<unknown, StoredDocument> = v.object({
+  text: v.string(),
+  revision: whole,
+});
+const writtenSchema: v.GenericSchema<unknown, DocumentWritten> = v.object({ revision: whole });
+const versionsSchema: v.GenericSchema<unknown, ListedVersion[]> = v.array(
+  v.object({ id: v.string(), name: v.string(), atMs: whole }),
 );
-const versionTextSchema: z.ZodMiniType<VersionText> = z.object({ text: z.string() });
-const nothing = z.unknown();
+const versionTextSchema: v.GenericSchema<unknown, VersionText> = v.object({ text: v.string() });
+const nothing = v.unknown();
 
 export const gatewayKeeper: Keeper = {
   place: 'gateway',
@@ -77,14 +80,19 @@ async function mark(verb: 'remove' | 'restore', ids: readonly string[]): Promise
   await ask(`/${verb}`, 'POST', nothing, wanted);
 }
 
-async function ask<T>(path: string, method: Method, schema: z.ZodMiniType<T>, body?: object): Promise<T> {
+async function ask<T>(
+  path: string,
+  method: Method,
+  schema: v.GenericSchema<unknown, T>,
+  body?: object,
+): Promise<T> {
   const asking = { method, body, withinMs: ANSWER_WITHIN_MS };
   const answer = await request(`api/library${path}`, asking).catch((error: unknown) => {
     throw problem(error);
   });
-  const read = schema.safeParse(answer);
+  const read = v.safeParse(schema, answer);
   if (!read.success) throw new LibraryError('failed', 'the gateway’s answer is none');
-  return read.data;
+  return read.output;
 }
 
 function problem(error: unknown): unknown {

@@ -1,7 +1,8 @@
 // A value as JSON that carries its format and version, and back through a schema. Knows no particular value; the sentences are
 // the page's.
 
-import type * as z from 'zod/mini';
+import * as v from 'valibot';
+import { placeOf } from './schemas.ts';
 
 export type TextFlawCode =
   | ('notOurs' | 'otherVersion' | 'badValue')
@@ -30,7 +31,7 @@ const versioned = (format: string, content: unknown) => ({ format, version: 1, c
 /** `flawOf` judges what no schema can; it says what is wrong, or null. */
 export function readVersioned<T>(
   text: string,
-  schema: z.ZodMiniType<{ content: T }>,
+  schema: v.GenericSchema<unknown, { content: T }>,
   flawOf: (content: T) => TextFlaw | null,
 ): Read<T> {
   const read = readJson(text, schema);
@@ -40,9 +41,9 @@ export function readVersioned<T>(
   return flaw === null ? { value: content } : { problem: flaw };
 }
 
-export function readJson<T>(text: string, schema: z.ZodMiniType<T>): Read<T> {
-  const parsed = schema.safeParse(jsonIn(text));
-  return parsed.success ? { value: parsed.data } : { problem: flawIn(parsed.error.issues) };
+export function readJson<T>(text: string, schema: v.GenericSchema<unknown, T>): Read<T> {
+  const parsed = v.safeParse(schema, jsonIn(text));
+  return parsed.success ? { value: parsed.output } : { problem: flawIn(parsed.issues[0]) };
 }
 
 function jsonIn(text: string): unknown {
@@ -53,8 +54,8 @@ function jsonIn(text: string): unknown {
   }
 }
 
-function flawIn([first]: readonly z.core.$ZodIssue[]): TextFlaw {
-  const path = first?.path ?? [];
+function flawIn(issue: v.BaseIssue<unknown>): TextFlaw {
+  const path = placeOf(issue);
   if (path.length === 0 || path[0] === 'format') return { code: 'notOurs', at: '' };
   return path[0] === 'version' ? { code: 'otherVersion', at: '' } : { code: 'badValue', at: path.join('.') };
 }

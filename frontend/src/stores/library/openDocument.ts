@@ -1,7 +1,7 @@
 // Which document of the library the page shows, remembered for the next visit, and the histories of those it showed before.
 // Knows no keeper.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { sameGroup } from '#shared/actions/group/groupText.ts';
 import { record, startHistory, type History, type Label } from '#shared/actions/history.ts';
@@ -22,9 +22,9 @@ export interface OpenDocument {
 }
 
 const KEY = 'servodeck.group.open';
-const schema = z.object({
-  id: z.string().check(z.minLength(1)),
-  revision: z.number().check(z.int(), z.gte(0)),
+const schema = v.object({
+  id: v.pipe(v.string(), v.minLength(1)),
+  revision: v.pipe(v.number(), v.safeInteger(), v.minValue(0)),
 });
 
 export function createOpenDocument(
@@ -83,9 +83,9 @@ function goneOn(
   return isFresh ? startHistory(group) : record(history, label, group);
 }
 
-function load(storage: TextStorage): z.infer<typeof schema> | null {
+function load(storage: TextStorage): v.InferOutput<typeof schema> | null {
   try {
-    return schema.safeParse(JSON.parse(storage.getItem(KEY) ?? 'null')).data ?? null;
+    return v.parse(schema, JSON.parse(storage.getItem(KEY) ?? 'null'));
   } catch {
     return null;
   }

@@ -1,7 +1,7 @@
 // Texts that the library does not have yet, by document: in the browser's storage as soon as they are written, so that a
 // crash or an absent gateway loses nothing. Several tabs may share the storage. Knows no keeper.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import type { Stored } from '#shared/actions/library/keeper.ts';
 import type { TextStorage } from '../textStorage.ts';
 
@@ -18,10 +18,10 @@ export interface Outbox {
 const KEY = 'servodeck.unkept';
 /** Stands in no JSON text. Texts within JSON would be read and written sign by sign, and the largest are written in each frame. */
 const MARK = '\u001e';
-const revision = z.number().check(z.int(), z.gte(0));
-const headSchema = z.array(z.object({ id: z.string(), revision }));
+const revision = v.pipe(v.number(), v.safeInteger(), v.minValue(0));
+const headSchema = v.array(v.object({ id: v.string(), revision }));
 /** Of earlier versions. */
-const earlierSchema = z.record(z.string(), z.object({ text: z.string(), revision }));
+const earlierSchema = v.record(v.string(), v.object({ text: v.string(), revision }));
 type Unkept = ReadonlyMap<string, Stored>;
 
 /** `onWritten`: whether the storage took the last change. */
@@ -80,9 +80,9 @@ function load(storage: TextStorage): Unkept {
   try {
     const [head = '', ...texts] = (storage.getItem(KEY) ?? '[]').split(MARK);
     const said: unknown = JSON.parse(head);
-    if (!Array.isArray(said)) return new Map(Object.entries(earlierSchema.parse(said)));
+    if (!Array.isArray(said)) return new Map(Object.entries(v.parse(earlierSchema, said)));
     return new Map(
-      headSchema.parse(said).flatMap(({ id, revision: at }, index) => {
+      v.parse(headSchema, said).flatMap(({ id, revision: at }, index) => {
         const text = texts[index];
         return text === undefined ? [] : [[id, { text, revision: at }] as const];
       }),

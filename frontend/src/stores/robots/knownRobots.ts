@@ -1,7 +1,7 @@
 // What the library had of each robot of this page when it was last read or written, as the browser keeps it from one visit
 // to the next: what both sides can be compared with. Knows no library.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { kitFromText, kitToText, type Kit } from '#shared/actions/robot/kit.ts';
 import type { TextStorage } from '../textStorage.ts';
 
@@ -14,9 +14,13 @@ export interface Known {
 
 const KEY = 'servodeck.robots.kept';
 
-const knownSchema = z.record(
-  z.string(),
-  z.object({ document: z.string(), revision: z.number().check(z.int(), z.gte(0)), text: z.string() }),
+const knownSchema = v.record(
+  v.string(),
+  v.object({
+    document: v.string(),
+    revision: v.pipe(v.number(), v.safeInteger(), v.minValue(0)),
+    text: v.string(),
+  }),
 );
 
 export function saveKnown(storage: TextStorage, known: ReadonlyMap<number, Known>): void {
@@ -34,7 +38,7 @@ export function saveKnown(storage: TextStorage, known: ReadonlyMap<number, Known
 export function loadKnown(storage: TextStorage): Map<number, Known> {
   const known = new Map<number, Known>();
   try {
-    const rows = knownSchema.safeParse(JSON.parse(storage.getItem(KEY) ?? '{}')).data ?? {};
+    const rows = v.parse(knownSchema, JSON.parse(storage.getItem(KEY) ?? '{}'));
     for (const [id, { document, revision, text }] of Object.entries(rows)) {
       const kit = kitFromText(text);
       if (kit !== null) known.set(Number(id), { document, revision, kit });

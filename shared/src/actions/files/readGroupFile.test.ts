@@ -4,6 +4,7 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import fc from 'fast-check';
+import { safeParse } from 'valibot';
 import { describe, expect, test } from 'vitest';
 import { flawOfGroup, groupSchema } from '../group/group.ts';
 import { meaningOf, MEANINGS } from './fileUnderTest.ts';
@@ -161,7 +162,7 @@ describe('whatever is chosen', () => {
     const groups = 'groups' in reading ? reading.groups : [];
     expect('problem' in reading || groups.length > 0).toBe(true);
     for (const group of groups) {
-      expect(groupSchema.safeParse(group).error).toBeUndefined();
+      expect(safeParse(groupSchema, group).issues).toBeUndefined();
       expect(flawOfGroup(group)).toBeNull();
     }
   };

@@ -5,7 +5,7 @@
 // A frame is a moment, `durationMs` after the one before it, and a servo named in it has a key there. A servo that is not named
 // goes on towards its next key: its way spans the frames between. `easing` is how the servos keyed in a frame come into it.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { COLOURS } from '../colours.ts';
 import type { Frame, ServoTarget } from '../../protocol/commands.ts';
 import type { TextFlaw } from '../versionedText.ts';
@@ -24,49 +24,50 @@ export const MAX_FRAMES = 10_000;
 const MAX_MARKERS = 1000;
 const MAX_TAGS = 20;
 
-const frameSchema = z.strictObject({
+const frameSchema = v.strictObject({
   /** Tells frames apart while they move about in the list; never used twice, means nothing outside the document. */
   id: runningId,
   durationMs: whole(0, 0xffff),
   /** In ascending servo order, each servo once. */
-  targets: z.array(targetSchema),
-  easing: z.enum(EASINGS),
-  note: z.string().check(z.maxLength(NOTE_LENGTH)),
-  colour: z.nullable(z.enum(COLOURS)),
+  targets: v.array(targetSchema),
+  easing: v.picklist(EASINGS),
+  note: v.pipe(v.string(), v.maxLength(NOTE_LENGTH)),
+  colour: v.nullable(v.picklist(COLOURS)),
 });
 
-const markerSchema = z.strictObject({
+const markerSchema = v.strictObject({
   id: runningId,
   /** Since the group began. */
   atMs: whole(0, 0xffff * MAX_FRAMES),
-  text: z.string().check(z.maxLength(NOTE_LENGTH)),
+  text: v.pipe(v.string(), v.maxLength(NOTE_LENGTH)),
 });
 
-export const groupSchema = z.strictObject({
-  name: z.string().check(z.maxLength(GROUP_NAME_LENGTH)),
-  unit: z.enum(['us', 'steps']),
+export const groupSchema = v.strictObject({
+  name: v.pipe(v.string(), v.maxLength(GROUP_NAME_LENGTH)),
+  unit: v.picklist(['us', 'steps']),
   /** The name of the robot it was made for; empty where nobody said. */
-  robot: z.string().check(z.maxLength(GROUP_NAME_LENGTH)),
-  tags: z
-    .array(z.string().check(z.minLength(1), z.maxLength(GROUP_NAME_LENGTH)))
-    .check(z.maxLength(MAX_TAGS)),
+  robot: v.pipe(v.string(), v.maxLength(GROUP_NAME_LENGTH)),
+  tags: v.pipe(
+    v.array(v.pipe(v.string(), v.minLength(1), v.maxLength(GROUP_NAME_LENGTH))),
+    v.maxLength(MAX_TAGS),
+  ),
   /** Where on the board it belongs; null: nowhere yet. */
-  slot: z.nullable(whole(0, 255)),
+  slot: v.nullable(whole(0, 255)),
   /** How often it is played; 0: until stopped. */
   times: whole(0, 0xffff),
   /** How far off its board may be on the way; left out: as little as nobody can see. */
-  maxErrorUnits: z.optional(whole(1, MOST_ERROR_UNITS)),
-  frames: z.array(frameSchema).check(z.maxLength(MAX_FRAMES)),
-  markers: z.array(markerSchema).check(z.maxLength(MAX_MARKERS)),
+  maxErrorUnits: v.optional(whole(1, MOST_ERROR_UNITS)),
+  frames: v.pipe(v.array(frameSchema), v.maxLength(MAX_FRAMES)),
+  markers: v.pipe(v.array(markerSchema), v.maxLength(MAX_MARKERS)),
   /** The next unused id of a frame or marker: an undone frame comes back as itself. */
   nextId: runningId,
 });
 
-export type Marker = Readonly<z.infer<typeof markerSchema>>;
+export type Marker = Readonly<v.InferOutput<typeof markerSchema>>;
 
-export type GroupFrame = Readonly<Omit<z.infer<typeof frameSchema>, 'targets'>> & Frame;
+export type GroupFrame = Readonly<Omit<v.InferOutput<typeof frameSchema>, 'targets'>> & Frame;
 
-export type ActionGroup = Readonly<Omit<z.infer<typeof groupSchema>, 'frames' | 'markers' | 'tags'>> & {
+export type ActionGroup = Readonly<Omit<v.InferOutput<typeof groupSchema>, 'frames' | 'markers' | 'tags'>> & {
   readonly frames: readonly GroupFrame[];
   readonly markers: readonly Marker[];
   readonly tags: readonly string[];

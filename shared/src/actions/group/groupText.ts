@@ -1,22 +1,18 @@
 // An action group as text with a version, and back; the same for storage and files. Reading trusts nothing and says what is
 // wrong. Knows no place to store anything and no board's limits.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { readVersioned, versionedLine, versionedText, type Read } from '../versionedText.ts';
 import { flawOfGroup, groupSchema, type ActionGroup } from './group.ts';
 
 const FORMAT = 'servodeck-group';
 
-export const groupFileSchema = z.strictObject({
-  format: z.literal(FORMAT),
-  version: z.literal(1),
+/** Other programs may use it: docs/group.schema.json. */
+export const groupFileSchema = v.strictObject({
+  format: v.literal(FORMAT),
+  version: v.literal(1),
   content: groupSchema,
 });
-
-/** The schema that other programs may use: docs/group.schema.json. */
-export function publishedGroupSchema(): object {
-  return z.toJSONSchema(groupFileSchema, { target: 'draft-2020-12' });
-}
 
 export const groupToText = (group: ActionGroup): string => versionedLine(FORMAT, group);
 
@@ -26,7 +22,7 @@ export const groupToFile = (group: ActionGroup): string => versionedText(FORMAT,
 /** By what they say, whoever made the objects. */
 export const sameGroup = (one: ActionGroup, other: ActionGroup): boolean => plain(one) === plain(other);
 
-const plain = (group: ActionGroup): string => JSON.stringify(groupSchema.safeParse(group).data);
+const plain = (group: ActionGroup): string => JSON.stringify(v.safeParse(groupSchema, group).output);
 
 export function groupFromText(text: string): Read<ActionGroup> {
   return readVersioned(text, groupFileSchema, flawOfGroup);

@@ -1,4 +1,5 @@
 import fc from 'fast-check';
+import { safeParse } from 'valibot';
 import { describe, expect, test } from 'vitest';
 import { flawOfGroup, groupSchema } from './group.ts';
 import { frozen, refsOf, shapeOf } from './groupsUnderTest.ts';
@@ -43,7 +44,7 @@ describe('a recorded motion as keys', () => {
         expect(Math.max(...misses)).toBeLessThanOrEqual(maxErrorUnits + 1e-6);
         expect(refsOf(group).length).toBeLessThanOrEqual(samples.length);
         expect(flawOfGroup(group)).toBeNull();
-        expect(groupSchema.safeParse(group).error).toBeUndefined();
+        expect(safeParse(groupSchema, group).issues).toBeUndefined();
       }),
     );
   });

@@ -1,48 +1,48 @@
 // A keeper of documents as texts: what a list says of each, revisions, a trash, named versions. One interface for every place
 // they may lie, and the one rule about writing that all of them follow. Knows no group, no robot and no place.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { count, targetSchema, whole } from '../schemas.ts';
 
-const name = z.string().check(z.maxLength(64));
+const name = v.pipe(v.string(), v.maxLength(64));
 
-const groupFactsSchema = z.strictObject({
-  kind: z.literal('group'),
+const groupFactsSchema = v.strictObject({
+  kind: v.literal('group'),
   name,
   robot: name,
-  tags: z.array(name).check(z.maxLength(20)),
+  tags: v.pipe(v.array(name), v.maxLength(20)),
   /** Milliseconds since 1970. */
   updatedAtMs: count,
   frames: count,
   durationMs: count,
-  unit: z.enum(['us', 'steps']),
+  unit: v.picklist(['us', 'steps']),
   /** Its picture. */
-  pose: z.array(targetSchema).check(z.maxLength(256)),
+  pose: v.pipe(v.array(targetSchema), v.maxLength(256)),
 });
 
 /** What its keeper goes by itself: limits and poses are as the board counts. */
-const robotFactsSchema = z.strictObject({
-  kind: z.literal('robot'),
+const robotFactsSchema = v.strictObject({
+  kind: v.literal('robot'),
   name,
   board: name,
   updatedAtMs: count,
-  limits: z.array(
-    z.strictObject({ servo: whole(0, 0xff), name: z.string(), min: whole(0, 0xffff), max: whole(0, 0xffff) }),
+  limits: v.array(
+    v.strictObject({ servo: whole(0, 0xff), name: v.string(), min: whole(0, 0xffff), max: whole(0, 0xffff) }),
   ),
-  poses: z.array(
-    z.strictObject({
+  poses: v.array(
+    v.strictObject({
       id: count,
-      name: z.string(),
-      unit: z.enum(['us', 'steps']),
-      targets: z.array(targetSchema),
+      name: v.string(),
+      unit: v.picklist(['us', 'steps']),
+      targets: v.array(targetSchema),
     }),
   ),
 });
 
-export const factsSchema = z.discriminatedUnion('kind', [groupFactsSchema, robotFactsSchema]);
+export const factsSchema = v.variant('kind', [groupFactsSchema, robotFactsSchema]);
 
-export type GroupFacts = z.infer<typeof groupFactsSchema>;
-export type RobotFacts = z.infer<typeof robotFactsSchema>;
+export type GroupFacts = v.InferOutput<typeof groupFactsSchema>;
+export type RobotFacts = v.InferOutput<typeof robotFactsSchema>;
 /** What a list says of a document without reading it. */
 export type Facts = GroupFacts | RobotFacts;
 

@@ -1,29 +1,29 @@
 // A whole library as one text with a version, and back, all or nothing. Reading trusts nothing and names the document it
 // stumbles over. Knows no keeper's place.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { flawOfGroup, groupSchema, type ActionGroup } from '../group/group.ts';
 import { readVersioned, versionedText, type Read, type TextFlaw } from '../versionedText.ts';
 import { count } from '../schemas.ts';
 
 const FORMAT = 'servodeck-library';
 
-const versionSchema = z.strictObject({
-  name: z.string().check(z.maxLength(64)),
+const versionSchema = v.strictObject({
+  name: v.pipe(v.string(), v.maxLength(64)),
   atMs: count,
   group: groupSchema,
 });
-const documentSchema = z.strictObject({
-  id: z.string().check(z.regex(/^[A-Za-z0-9-]{1,64}$/)),
+const documentSchema = v.strictObject({
+  id: v.pipe(v.string(), v.regex(/^[A-Za-z0-9-]{1,64}$/)),
   updatedAtMs: count,
   group: groupSchema,
-  versions: z.array(versionSchema).check(z.maxLength(200)),
+  versions: v.pipe(v.array(versionSchema), v.maxLength(200)),
 });
 
-export const libraryFileSchema = z.strictObject({
-  format: z.literal(FORMAT),
-  version: z.literal(1),
-  content: z.strictObject({ documents: z.array(documentSchema).check(z.maxLength(5000)) }),
+export const libraryFileSchema = v.strictObject({
+  format: v.literal(FORMAT),
+  version: v.literal(1),
+  content: v.strictObject({ documents: v.pipe(v.array(documentSchema), v.maxLength(5000)) }),
 });
 
 export interface BundledVersion {

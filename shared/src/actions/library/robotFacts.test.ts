@@ -1,3 +1,4 @@
+import { is } from 'valibot';
 import { expect, test } from 'vitest';
 import { EMPTY_BOOK, type PoseBook } from '../poses/pose.ts';
 import { readyRobot } from '../robot/readyRobots.ts';
@@ -24,7 +25,7 @@ test('limits and poses are as the board counts, home is number 0, and all of it 
     [0, 'home', 1520],
     [3, 'Wave', 1820],
   ]);
-  expect(factsSchema.safeParse(facts).success).toBe(true);
+  expect(is(factsSchema, facts)).toBe(true);
 });
 
 test('a pose that a trim takes below nothing is left out', () => {

@@ -1,7 +1,7 @@
 // Buttons for everyone: each one is a list of steps (go to a pose, run a slot, wait) with a name, a colour and perhaps a key.
 // One immutable page of a robot, checked by one schema. Poses are named by reference. Knows no session and no storage.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { COLOURS } from '../colours.ts';
 import { POSE_MS, poseRefSchema } from '../poses/pose.ts';
 import { NAME_LENGTH } from '../robot/robot.ts';
@@ -15,39 +15,39 @@ export const SLOT_TIMES = { min: 1, max: 255 } as const;
 const MAX_MACROS = 200;
 const MAX_STEPS = 100;
 
-const stepSchema = z.discriminatedUnion('kind', [
-  z.strictObject({
-    kind: z.literal('pose'),
+const stepSchema = v.variant('kind', [
+  v.strictObject({
+    kind: v.literal('pose'),
     pose: poseRefSchema,
     durationMs: whole(POSE_MS.min, POSE_MS.max),
   }),
   /** Without end is no step: the next one would never come. */
-  z.strictObject({
-    kind: z.literal('slot'),
+  v.strictObject({
+    kind: v.literal('slot'),
     slot: whole(SLOT.min, SLOT.max),
     times: whole(SLOT_TIMES.min, SLOT_TIMES.max),
   }),
-  z.strictObject({ kind: z.literal('wait'), waitMs: whole(WAIT_MS.min, WAIT_MS.max) }),
+  v.strictObject({ kind: v.literal('wait'), waitMs: whole(WAIT_MS.min, WAIT_MS.max) }),
 ]);
 
-const macroSchema = z.strictObject({
+const macroSchema = v.strictObject({
   /** Never used twice; means nothing outside its page. */
   id: runningId,
-  name: z.string().check(z.trim(), z.minLength(1), z.maxLength(NAME_LENGTH)),
-  colour: z.enum(COLOURS),
+  name: v.pipe(v.string(), v.trim(), v.minLength(1), v.maxLength(NAME_LENGTH)),
+  colour: v.picklist(COLOURS),
   /** One sign in lower case, as `keyOf` gives it; null for none. */
-  key: z.nullable(z.string().check(z.minLength(1), z.maxLength(2))),
-  steps: z.array(stepSchema).check(z.maxLength(MAX_STEPS)),
+  key: v.nullable(v.pipe(v.string(), v.minLength(1), v.maxLength(2))),
+  steps: v.pipe(v.array(stepSchema), v.maxLength(MAX_STEPS)),
 });
 
-export const macroPageSchema = z.strictObject({
-  macros: z.array(macroSchema).check(z.maxLength(MAX_MACROS)),
+export const macroPageSchema = v.strictObject({
+  macros: v.pipe(v.array(macroSchema), v.maxLength(MAX_MACROS)),
   nextId: runningId,
 });
 
-export type MacroStep = Readonly<z.infer<typeof stepSchema>>;
+export type MacroStep = Readonly<v.InferOutput<typeof stepSchema>>;
 
-export type Macro = Readonly<Omit<z.infer<typeof macroSchema>, 'steps'>> & {
+export type Macro = Readonly<Omit<v.InferOutput<typeof macroSchema>, 'steps'>> & {
   readonly steps: readonly MacroStep[];
 };
 

@@ -1,14 +1,14 @@
 // A page of buttons as text with a version, and back; for storage. Reading trusts nothing. Knows no place to store anything.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { flawOfPage, macroPageSchema, type MacroPage } from './macro.ts';
 import { readVersioned, versionedText, type Read } from '../versionedText.ts';
 
 const FORMAT = 'servodeck-buttons';
 
-const fileSchema = z.strictObject({
-  format: z.literal(FORMAT),
-  version: z.literal(1),
+const fileSchema = v.strictObject({
+  format: v.literal(FORMAT),
+  version: v.literal(1),
   content: macroPageSchema,
 });
 

@@ -1,7 +1,7 @@
 // What the inputs of a pad and of a keyboard do to a robot: a list of bindings and how the sticks feel. One immutable value with
 // one schema, and what two bindings have against each other. Knows no pad, no time and no session.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { POSE_MS, poseRefSchema } from '../poses/pose.ts';
 import { whole } from '../schemas.ts';
 
@@ -12,40 +12,41 @@ export type Side = (typeof SIDES)[number];
 const index = whole(0, 63);
 const servo = whole(1, 253);
 
-const inputSchema = z.discriminatedUnion('kind', [
-  z.strictObject({ kind: z.literal('axis'), index, side: z.enum(SIDES) }),
-  z.strictObject({ kind: z.literal('button'), index }),
+const inputSchema = v.variant('kind', [
+  v.strictObject({ kind: v.literal('axis'), index, side: v.picklist(SIDES) }),
+  v.strictObject({ kind: v.literal('button'), index }),
   /** A key by its place on the keyboard, as browsers call it, e.g. `KeyQ`. */
-  z.strictObject({ kind: z.literal('key'), code: z.string().check(z.minLength(1), z.maxLength(32)) }),
+  v.strictObject({ kind: v.literal('key'), code: v.pipe(v.string(), v.minLength(1), v.maxLength(32)) }),
 ]);
 
 /** The fastest a servo may be asked to follow: any servo's whole range in less than a second. */
 export const FASTEST_UNITS_PER_S = 3000;
 
-const actionSchema = z.discriminatedUnion('kind', [
+const actionSchema = v.variant('kind', [
   /** Turns on while the input is away from rest; at full deflection by so much, negative the other way. */
-  z.strictObject({
-    kind: z.literal('rate'),
+  v.strictObject({
+    kind: v.literal('rate'),
     servo,
     unitsPerS: whole(-FASTEST_UNITS_PER_S, FASTEST_UNITS_PER_S),
   }),
   /** The input's way is the servo's range. */
-  z.strictObject({ kind: z.literal('position'), servo, isReversed: z.boolean() }),
-  z.strictObject({
-    kind: z.literal('pose'),
+  v.strictObject({ kind: v.literal('position'), servo, isReversed: v.boolean() }),
+  v.strictObject({
+    kind: v.literal('pose'),
     pose: poseRefSchema,
     durationMs: whole(POSE_MS.min, POSE_MS.max),
   }),
-  z.strictObject({ kind: z.literal('run'), slot: whole(0, 255) }),
-  z.strictObject({ kind: z.literal('stop') }),
+  v.strictObject({ kind: v.literal('run'), slot: whole(0, 255) }),
+  v.strictObject({ kind: v.literal('stop') }),
 ]);
 
-const bindingSchema = z.strictObject({ input: inputSchema, action: actionSchema }).check(
+const bindingSchema = v.pipe(
+  v.strictObject({ input: inputSchema, action: actionSchema }),
   // Letting go of a key must never be what moves a servo.
-  z.refine(({ input, action }) => input.kind !== 'key' || action.kind !== 'position'),
+  v.check(({ input, action }) => input.kind !== 'key' || action.kind !== 'position'),
 );
 
-const feelSchema = z.strictObject({
+const feelSchema = v.strictObject({
   /** So much of a stick's way counts as rest: worn sticks never come back to the very middle. */
   deadZonePercent: whole(0, 50),
   /** 0 is a straight line; the more, the finer near the middle. */
@@ -56,14 +57,14 @@ const feelSchema = z.strictObject({
   speedPercent: whole(10, 100),
 });
 
-export const mappingSchema = z.strictObject({
-  bindings: z.array(bindingSchema).check(z.maxLength(256)),
+export const mappingSchema = v.strictObject({
+  bindings: v.pipe(v.array(bindingSchema), v.maxLength(256)),
   feel: feelSchema,
 });
 
-export type Input = Readonly<z.infer<typeof inputSchema>>;
-export type Action = Readonly<z.infer<typeof actionSchema>>;
-export type Feel = Readonly<z.infer<typeof feelSchema>>;
+export type Input = Readonly<v.InferOutput<typeof inputSchema>>;
+export type Action = Readonly<v.InferOutput<typeof actionSchema>>;
+export type Feel = Readonly<v.InferOutput<typeof feelSchema>>;
 export interface Binding {
   readonly input: Input;
   readonly action: Action;

@@ -1,14 +1,14 @@
 // A mapping as text with a version, and back; for storage. Reading trusts nothing. Knows no place to store anything.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { mappingSchema, type Mapping } from './mapping.ts';
 import { readVersioned, versionedText, type Read } from '../versionedText.ts';
 
 const FORMAT = 'servodeck-mapping';
 
-const fileSchema = z.strictObject({
-  format: z.literal(FORMAT),
-  version: z.literal(1),
+const fileSchema = v.strictObject({
+  format: v.literal(FORMAT),
+  version: v.literal(1),
   content: mappingSchema,
 });
 

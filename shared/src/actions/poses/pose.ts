@@ -1,7 +1,7 @@
 // Named poses of one robot: where some or all of its servos are, in the person's own positions and in the unit they were
 // captured in. One immutable book, checked by one schema; applying a pose is only noted here. Knows no session, no storage.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import type { ServoTarget } from '../../protocol/commands.ts';
 import { NAME_LENGTH } from '../robot/robot.ts';
 import type { TextFlaw } from '../versionedText.ts';
@@ -13,30 +13,30 @@ export const POSE_VERBS = ['home', 'rest'] as const;
 /** How long the way to a pose may be asked to take. */
 export const POSE_MS = { min: 0, max: 30_000 } as const;
 
-export const poseRefSchema = z.union([z.enum(POSE_VERBS), runningId]);
-export type PoseRef = z.infer<typeof poseRefSchema>;
+export const poseRefSchema = v.union([v.picklist(POSE_VERBS), runningId]);
+export type PoseRef = v.InferOutput<typeof poseRefSchema>;
 
-const poseSchema = z.strictObject({
+const poseSchema = v.strictObject({
   /** Never used twice, so an undone pose comes back as itself; means nothing outside its book. */
   id: runningId,
-  name: z.string().check(z.trim(), z.minLength(1), z.maxLength(NAME_LENGTH)),
-  unit: z.enum(['us', 'steps']),
-  targets: z.array(targetSchema).check(z.minLength(1), z.maxLength(253)),
+  name: v.pipe(v.string(), v.trim(), v.minLength(1), v.maxLength(NAME_LENGTH)),
+  unit: v.picklist(['us', 'steps']),
+  targets: v.pipe(v.array(targetSchema), v.minLength(1), v.maxLength(253)),
 });
 
-export const poseBookSchema = z.strictObject({
-  poses: z.array(poseSchema).check(z.maxLength(1000)),
-  restId: z.nullable(runningId),
+export const poseBookSchema = v.strictObject({
+  poses: v.pipe(v.array(poseSchema), v.maxLength(1000)),
+  restId: v.nullable(runningId),
   /** What the robot was sent to last by a pose; it may have moved since. */
-  applied: z.nullable(poseRefSchema),
+  applied: v.nullable(poseRefSchema),
   nextId: runningId,
 });
 
-export type Pose = Readonly<Omit<z.infer<typeof poseSchema>, 'targets'>> & {
+export type Pose = Readonly<Omit<v.InferOutput<typeof poseSchema>, 'targets'>> & {
   readonly targets: readonly ServoTarget[];
 };
 
-export type PoseBook = Readonly<Omit<z.infer<typeof poseBookSchema>, 'poses'>> & {
+export type PoseBook = Readonly<Omit<v.InferOutput<typeof poseBookSchema>, 'poses'>> & {
   readonly poses: readonly Pose[];
 };
 

@@ -1,15 +1,15 @@
 // A book of poses as text with a version, and back; the same for storage and files. Reading trusts nothing and says what is
 // wrong. Knows no place to store anything and no robot's limits.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { flawOfBook, poseBookSchema, type PoseBook } from './pose.ts';
 import { readVersioned, versionedText, type Read } from '../versionedText.ts';
 
 const FORMAT = 'servodeck-poses';
 
-const fileSchema = z.strictObject({
-  format: z.literal(FORMAT),
-  version: z.literal(1),
+const fileSchema = v.strictObject({
+  format: v.literal(FORMAT),
+  version: v.literal(1),
   content: poseBookSchema,
 });
 

@@ -1,6 +1,6 @@
 // How far the calibration of a robot has come, as a text that is kept until it goes on. What is none is not taken.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { CALIBRATION_STEPS, type Calibration } from './robotCalibration.ts';
 
 /** Of which robot, by its number among those of this browser. */
@@ -9,15 +9,17 @@ export interface KeptCalibration {
   readonly progress: Calibration;
 }
 
-const whole = z.number().check(z.int());
-const place = { servo: whole, step: z.enum(CALIBRATION_STEPS) };
+const whole = v.pipe(v.number(), v.safeInteger());
+const place = { servo: whole, step: v.picklist(CALIBRATION_STEPS) };
 
-const keptSchema = z.strictObject({
+const keptSchema = v.strictObject({
   robotId: whole,
-  progress: z.strictObject({
+  progress: v.strictObject({
     ...place,
-    done: z.array(z.strictObject(place)),
-    found: z.optional(z.strictObject({ servo: whole, end: z.enum(['min', 'max']), at: whole, home: whole })),
+    done: v.array(v.strictObject(place)),
+    found: v.optional(
+      v.strictObject({ servo: whole, end: v.picklist(['min', 'max']), at: whole, home: whole }),
+    ),
   }),
 });
 
@@ -26,7 +28,7 @@ export const calibrationToText = (kept: KeptCalibration | null): string => JSON.
 /** null where it tells of none. */
 export function calibrationFromText(text: string): KeptCalibration | null {
   try {
-    return keptSchema.parse(JSON.parse(text));
+    return v.parse(keptSchema, JSON.parse(text));
   } catch {
     return null;
   }

@@ -1,17 +1,17 @@
 // A robot with all that belongs to it, as one text of the library: what it is made of is texts of their own. Two that were
 // changed at the same time go together where they were changed in different parts. Knows nothing of what a part says.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { readJson } from '../versionedText.ts';
 
 const FORMAT = 'servodeck-robot-kit';
-const part = z.nullable(z.string());
+const part = v.nullable(v.string());
 
-const kitSchema = z.strictObject({ robot: z.string(), poses: part, buttons: part, pad: part });
-const fileSchema = z.strictObject({ format: z.literal(FORMAT), version: z.literal(1), kit: kitSchema });
+const kitSchema = v.strictObject({ robot: v.string(), poses: part, buttons: part, pad: part });
+const fileSchema = v.strictObject({ format: v.literal(FORMAT), version: v.literal(1), kit: kitSchema });
 
 /** null: as it comes with every robot. */
-export type Kit = Readonly<z.infer<typeof kitSchema>>;
+export type Kit = Readonly<v.InferOutput<typeof kitSchema>>;
 
 export const KIT_PARTS = ['robot', 'poses', 'buttons', 'pad'] as const satisfies readonly (keyof Kit)[];
 

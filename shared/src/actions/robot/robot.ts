@@ -3,7 +3,7 @@
 //
 // A servo's position is what the person means by it; the board gets it plus the servo's trim. Both in board units.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import type { ServoTarget } from '../../protocol/commands.ts';
 import { FAMILIES, positionRange, type FamilyId, type Range } from '../../protocol/families.ts';
 import { shapeFlaw, type ShapeFlaw } from './robotShape.ts';
@@ -26,54 +26,57 @@ export const TRIM: Range = { min: -125, max: 125 };
 /** From a USB port to a pack of three full cells. */
 export const BATTERY_MV: Range = { min: 4000, max: 13_000 };
 
-const name = z.string().check(z.trim(), z.minLength(1), z.maxLength(NAME_LENGTH));
-const whole = (range: Range) => z.number().check(z.int(), z.gte(range.min), z.lte(range.max));
+const name = v.pipe(v.string(), v.trim(), v.minLength(1), v.maxLength(NAME_LENGTH));
+const whole = (range: Range) => v.pipe(v.number(), v.integer(), v.minValue(range.min), v.maxValue(range.max));
 const position = whole({ min: 0, max: 2500 });
 const familyIds = Object.keys(FAMILIES) as [FamilyId, ...FamilyId[]];
 
-const servoSchema = z.strictObject({
+const servoSchema = v.strictObject({
   servo: whole({ min: 1, max: 253 }),
   name,
   /** Limbs and the like, e.g. `Left leg`; empty for none. */
-  group: z.string().check(z.maxLength(NAME_LENGTH)),
+  group: v.pipe(v.string(), v.maxLength(NAME_LENGTH)),
   min: position,
   max: position,
   /** Where it rests, and 0 degrees. */
   home: position,
   /** A growing position turns it the other way than the body's picture does. */
-  isReversed: z.boolean(),
+  isReversed: v.boolean(),
   trim: whole(TRIM),
-  degreesPerUnit: z.number().check(z.gt(0), z.lte(2)),
+  degreesPerUnit: v.pipe(v.number(), v.gtValue(0), v.maxValue(2)),
   /** The servo that does the same on the other side of the body. */
-  mirror: z.nullable(whole({ min: 1, max: 253 })),
+  mirror: v.nullable(whole({ min: 1, max: 253 })),
   /** Its place on the body's picture, in percent of width and height. */
-  place: z.strictObject({ x: whole({ min: 0, max: 100 }), y: whole({ min: 0, max: 100 }) }),
+  place: v.strictObject({ x: whole({ min: 0, max: 100 }), y: whole({ min: 0, max: 100 }) }),
 });
 
-const batteryCareSchema = z.strictObject({
-  policy: z.enum(BATTERY_POLICIES),
+const batteryCareSchema = v.strictObject({
+  policy: v.picklist(BATTERY_POLICIES),
   /** In millivolts; null: as usual for what feeds it. */
-  thresholds: z.nullable(z.strictObject({ warnMv: whole(BATTERY_MV), alarmMv: whole(BATTERY_MV) })),
+  thresholds: v.nullable(v.strictObject({ warnMv: whole(BATTERY_MV), alarmMv: whole(BATTERY_MV) })),
 });
 
-export const robotSchema = z.strictObject({
+export const robotSchema = v.strictObject({
   name,
-  board: z.enum(familyIds),
-  body: z.enum(BODIES),
-  battery: z.enum(BATTERY_KINDS),
+  board: v.picklist(familyIds),
+  body: v.picklist(BODIES),
+  battery: v.picklist(BATTERY_KINDS),
   batteryCare: batteryCareSchema,
-  servos: z.array(servoSchema).check(z.minLength(1), z.maxLength(253)),
+  servos: v.pipe(v.array(servoSchema), v.minLength(1), v.maxLength(253)),
 });
 
-const anyWhole = z.number().check(z.int());
+const anyWhole = v.pipe(v.number(), v.safeInteger());
 
 /** With any numbers for what a servo's reach is made of: one that is out of range has a servo to be named, see `flawOf`. */
-export const roughRobotSchema = z.extend(robotSchema, {
-  servos: z.array(z.extend(servoSchema, { min: anyWhole, max: anyWhole, home: anyWhole, trim: anyWhole })),
+export const roughRobotSchema = v.strictObject({
+  ...robotSchema.entries,
+  servos: v.array(
+    v.strictObject({ ...servoSchema.entries, min: anyWhole, max: anyWhole, home: anyWhole, trim: anyWhole }),
+  ),
 });
 
-export type RobotServo = Readonly<z.infer<typeof servoSchema>>;
-export type Robot = Readonly<Omit<z.infer<typeof robotSchema>, 'servos'>> & {
+export type RobotServo = Readonly<v.InferOutput<typeof servoSchema>>;
+export type Robot = Readonly<Omit<v.InferOutput<typeof robotSchema>, 'servos'>> & {
   readonly servos: readonly RobotServo[];
 };
 
@@ -102,8 +105,8 @@ export function flawOf(robot: Robot): RobotFlaw | null {
     const flaw = flawOfServo(servo, robot);
     if (flaw !== null) return { code: 'servo', servo: { servo: servo.servo, name: servo.name }, flaw };
   }
-  const { error } = robotSchema.safeParse(robot);
-  return error === undefined ? null : shapeFlaw(error, robot);
+  const { issues } = v.safeParse(robotSchema, robot);
+  return issues === undefined ? null : shapeFlaw(issues[0], robot);
 }
 
 function flawOfServo({ servo, min, max, home, trim, mirror }: RobotServo, robot: Robot): ServoFlaw | null {

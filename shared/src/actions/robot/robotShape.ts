@@ -1,6 +1,7 @@
 // Where something has not the shape of a robot: which of its fields, and of which servo, for whoever has the words. Knows no schema.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
+import { placeOf } from '../schemas.ts';
 
 export const ROBOT_FIELDS = [
   ...(['robot', 'name', 'board', 'body', 'servos'] as const),
@@ -22,22 +23,23 @@ export interface ServoInList {
   readonly name: string;
 }
 
-/** Paths of the error begin at the robot, or at a file with a `robot` in it. */
-export function shapeFlaw({ issues: [first] }: z.core.$ZodError, robot: unknown): ShapeFlaw {
-  const path = first?.path ?? [];
+/** The issue’s path begins at the robot, or at a file with a `robot` in it. */
+export function shapeFlaw(issue: v.BaseIssue<unknown>, robot: unknown): ShapeFlaw {
+  const path = placeOf(issue);
   const of = servoOn(path, robot);
-  if (first?.code === 'unrecognized_keys') return { code: 'strangeField', field: first.keys[0] ?? '', of };
+  if (issue.expected === 'never') return { code: 'strangeField', field: String(issue.path?.at(-1)?.key), of };
   return { code: 'field', field: path.findLast(isField) ?? 'robot', of };
 }
 
-const isField = (step: PropertyKey): step is RobotField => ROBOT_FIELDS.some((field) => field === step);
+const isField = (step: unknown): step is RobotField => ROBOT_FIELDS.some((field) => field === step);
 
-const named = z.catch(z.object({ name: z.catch(z.string(), '') }), { name: '' });
-const namedServos = z.object({ servos: z.array(named) });
+const named = v.fallback(v.object({ name: v.fallback(v.string(), '') }), { name: '' });
+const namedServos = v.object({ servos: v.array(named) });
 
-function servoOn(path: readonly PropertyKey[], robot: unknown): ServoInList | null {
+function servoOn(path: readonly unknown[], robot: unknown): ServoInList | null {
   const at = path[path.indexOf('servos') + 1];
   if (typeof at !== 'number') return null;
-  const { data } = namedServos.safeParse(robot);
-  return { place: at + 1, name: data?.servos[at]?.name ?? '' };
+  const read = v.safeParse(namedServos, robot);
+  const servos = read.success ? read.output.servos : [];
+  return { place: at + 1, name: servos[at]?.name ?? '' };
 }

@@ -1,20 +1,22 @@
 // A robot as a file, and back: JSON that carries its version and follows the published schema, docs/robot.schema.json. Reading
 // trusts nothing and says what is wrong. Knows no place to store anything.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import { flawOf, robotSchema, roughRobotSchema, type Robot, type RobotFlaw } from './robot.ts';
+import { placeOf } from '../schemas.ts';
 import { shapeFlaw } from './robotShape.ts';
 
 const FORMAT = 'servodeck-robot';
 const VERSION = 1;
 
-const fileSchema = z.strictObject({
-  format: z.literal(FORMAT),
-  version: z.literal(VERSION),
+/** Other programs may use it. */
+export const robotFileSchema = v.strictObject({
+  format: v.literal(FORMAT),
+  version: v.literal(VERSION),
   robot: robotSchema,
 });
 
-const roughSchema = z.extend(fileSchema, { robot: roughRobotSchema });
+const roughSchema = v.strictObject({ ...robotFileSchema.entries, robot: roughRobotSchema });
 
 export function robotToText(robot: Robot): string {
   return `${JSON.stringify({ format: FORMAT, version: VERSION, robot }, null, 2)}\n`;
@@ -27,16 +29,11 @@ export type ReadRobot = { readonly robot: Robot } | { readonly problem: RobotFil
 
 export function robotFromText(text: string): ReadRobot {
   const found = jsonIn(text);
-  const parsed = fileSchema.safeParse(found);
-  if (!parsed.success) return { problem: reachFlaw(found) ?? problemOf(parsed.error, found) };
-  const { robot } = parsed.data;
+  const parsed = v.safeParse(robotFileSchema, found);
+  if (!parsed.success) return { problem: reachFlaw(found) ?? problemOf(parsed.issues[0], found) };
+  const { robot } = parsed.output;
   const flaw = flawOf(robot);
   return flaw === null ? { robot } : { problem: flaw };
-}
-
-/** The schema that other programs may use. */
-export function publishedSchema(): object {
-  return z.toJSONSchema(fileSchema, { target: 'draft-2020-12' });
 }
 
 function jsonIn(text: string): unknown {
@@ -49,15 +46,15 @@ function jsonIn(text: string): unknown {
 
 /** A number out of range, with its servo's name and what it may be. */
 function reachFlaw(found: unknown): RobotFlaw | null {
-  const { data } = roughSchema.safeParse(found);
-  return data === undefined ? null : flawOf(data.robot);
+  const read = v.safeParse(roughSchema, found);
+  return read.success ? flawOf(read.output.robot) : null;
 }
 
-const anyRobot = z.object({ robot: z.unknown() });
+const anyRobot = v.object({ robot: v.unknown() });
 
-function problemOf(error: z.core.$ZodError, found: unknown): RobotFileFlaw {
-  const { data: file } = anyRobot.safeParse(found);
-  const [part = 'format'] = error.issues[0]?.path ?? [];
-  if (part === 'format' || file === undefined) return { code: 'notOurs' };
-  return part === 'version' ? { code: 'otherVersion' } : shapeFlaw(error, file.robot);
+function problemOf(issue: v.BaseIssue<unknown>, found: unknown): RobotFileFlaw {
+  const file = v.safeParse(anyRobot, found);
+  const [part = 'format'] = placeOf(issue);
+  if (part === 'format' || !file.success) return { code: 'notOurs' };
+  return part === 'version' ? { code: 'otherVersion' } : shapeFlaw(issue, file.output.robot);
 }

@@ -1,40 +1,40 @@
 // What is remembered of one board's slots, because boards cannot be read: what was downloaded there from here, and what an erase
 // took. Immutable; knows no storage, no session and no time of its own.
 
-import * as z from 'zod/mini';
+import * as v from 'valibot';
 import type { Frame } from '../../protocol/commands.ts';
 import { GROUP_NAME_LENGTH } from '../group/group.ts';
 import { readVersioned, type Read } from '../versionedText.ts';
 import { whole } from '../schemas.ts';
 
-const recordSchema = z.strictObject({
+const recordSchema = v.strictObject({
   slot: whole(0, 255),
   /** The group's. */
-  name: z.string().check(z.maxLength(GROUP_NAME_LENGTH)),
+  name: v.pipe(v.string(), v.maxLength(GROUP_NAME_LENGTH)),
   /** The library's; books of earlier versions name none. */
-  documentId: z.optional(z.string()),
+  documentId: v.optional(v.string()),
   /** Since 1970. */
-  storedAtMs: z.number(),
-  by: z.optional(z.string()),
+  storedAtMs: v.pipe(v.number(), v.finite()),
+  by: v.optional(v.string()),
   /** Of the frames as the board got them, with the trims of that day. */
-  fingerprint: z.string(),
+  fingerprint: v.string(),
   /** As the person means them: each is its duration, then servo and position by turns. */
-  frames: z.array(z.array(whole(0, 0xffff)).check(z.minLength(1))),
+  frames: v.array(v.pipe(v.array(whole(0, 0xffff)), v.minLength(1))),
 });
 
-const bookSchema = z.strictObject({
-  stored: z.array(recordSchema),
-  erased: z.array(recordSchema),
+const bookSchema = v.strictObject({
+  stored: v.array(recordSchema),
+  erased: v.array(recordSchema),
   /** Every other slot was empty then. */
-  isEmptied: z.boolean(),
+  isEmptied: v.boolean(),
   /** Books of earlier versions name one, or none. */
-  begun: z.optional(z.union([recordSchema, z.array(recordSchema)])),
+  begun: v.optional(v.union([recordSchema, v.array(recordSchema)])),
 });
 
 const FORMAT = 'servodeck-slots';
-const fileSchema = z.strictObject({
-  format: z.literal(FORMAT),
-  version: z.literal(1),
+const fileSchema = v.strictObject({
+  format: v.literal(FORMAT),
+  version: v.literal(1),
   content: bookSchema,
 });
 
@@ -193,7 +193,7 @@ export function slotBookFromText(text: string): Read<SlotBook> {
   return { value: { ...lists, isEmptied, begun: [begun].flat().map(unpacked) } };
 }
 
-function unpacked({ by, documentId, frames, ...record }: z.infer<typeof recordSchema>): SlotRecord {
+function unpacked({ by, documentId, frames, ...record }: v.InferOutput<typeof recordSchema>): SlotRecord {
   const named = { documentId: documentId ?? null, ...(by !== undefined && { by }) };
   return { ...record, ...named, frames: frames.map(frameOf) };
 }
