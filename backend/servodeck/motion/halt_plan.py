@@ -171,10 +171,11 @@ def hold_ms(motion: Motion, held: list[Held], at_ms: float, family: Family) -> i
     unknown one snaps to its target.
     """
     is_guess = any(one.is_under_way and one.way == 0 for one in held)
-    way = max(one.way for one in held)
+    way_range = family.position.max - family.position.min
+    way = min(way_range, max(one.way for one in held))
     needs_ms = max(
         family.shortest_move_ms,
-        FIRST_MOVE_MS * way / (family.position.max - family.position.min),
+        FIRST_MOVE_MS * way / way_range,
         UNKNOWN_FRAME_MS if is_guess else 0,
         unknown_ms(motion, at_ms, family.motion.tick_ms) if family.motion.timing == "shared" else 0,
     )

@@ -45,7 +45,8 @@ class DeadlineRun:
 @dataclass(frozen=True, slots=True)
 class PolledRun:
     """Known until `rest_at_ms`; behind it `rest` is where the servos of the later frames end, somewhen before
-    `end_ms`. `is_blurred`: `rest` stands in the tracks already.
+    `end_ms`. `rested_ms`: what moved before the first frame has arrived by then; no frame takes longer than
+    `longest_ms`. `is_blurred`: `rest` stands in the tracks already.
     """
 
     slot: int
@@ -53,6 +54,8 @@ class PolledRun:
     rest_at_ms: float
     surely_until_ms: float
     end_ms: float
+    rested_ms: float
+    longest_ms: float
     is_blurred: bool = False
 
 

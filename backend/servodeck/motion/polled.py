@@ -6,15 +6,16 @@ where it ends. Knows runs; no servo's way. Twin of shared/src/motion/polled.ts.
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 
-from servodeck.motion.model import KnownBoard, Motion, PolledRun, UnknownRun, running_unknown
+from servodeck.motion.model import KnownBoard, Motion, PolledRun, running_unknown
 from servodeck.motion.tracks import (
     LONGEST_MOVE_MS,
     Track,
+    Tracks,
     board_duration_ms,
     frozen,
     last_end_ms,
-    only,
     retarget,
 )
 from servodeck.protocol.values import Frame, Run
@@ -102,6 +103,8 @@ def run_of(
         rest=last_targets((*this_pass, *order.frames) if order.passes_left > 0 else this_pass),
         rest_at_ms=rest_at_ms,
         surely_until_ms=surely_so_far_ms + total(lambda frame: surely_ms(frame, board)),
+        rested_ms=counted_ms,
+        longest_ms=max(surely_ms(frame, board) for frame in order.frames),
         end_ms=counted_ms + SPARE_POLLS * POLL_MS + total(latest_ms),
     )
 
@@ -118,14 +121,18 @@ def cut(motion: Motion, at_ms: float) -> Motion:
     run = motion.run
     if run is None:
         return motion
-    restless_until_ms = at_ms + LONGEST_MOVE_MS
-    if isinstance(run, UnknownRun):
-        return replace(motion, run=None, restless_until_ms=restless_until_ms)
-    if isinstance(run, PolledRun) and (at_ms < run.rest_at_ms or not run.rest):
+    if not isinstance(run, PolledRun):
+        return replace(motion, run=None, restless_until_ms=at_ms + LONGEST_MOVE_MS)
+    if at_ms < run.rest_at_ms or not run.rest:
         return replace(motion, run=None)
-    named = run.rest if isinstance(run, PolledRun) else motion.tracks
-    tracks = only(motion.tracks, lambda _, servo: servo not in named)
-    return replace(motion, tracks=tracks, run=None, restless_until_ms=restless_until_ms)
+    until_ms = min(run.end_ms, max(run.rested_ms, at_ms + run.longest_ms))
+    return replace(motion, run=None, tracks={**motion.tracks, **lost_ways(run, until_ms)})
+
+
+def lost_ways(run: PolledRun, until_ms: float) -> Tracks:
+    """On their way to one of its places, nobody knows which."""
+    duration_ms = until_ms - run.rest_at_ms
+    return {servo: Track(None, to, run.rest_at_ms, duration_ms, inf, inf) for servo, to in run.rest.items()}
 
 
 class Polled:

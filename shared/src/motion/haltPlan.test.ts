@@ -140,3 +140,24 @@ test('of LeArm only the base goes on: a stop halts the others (L9)', () => {
   const { unheld } = plan('learm-esp32', 300, [0, run(7)]);
   expect(unheld?.servos).toEqual([6]);
 });
+
+test('of a known group of LeArm the base goes on with a frame, no longer than the longest of them takes', () => {
+  const frame = (durationMs: number, ...targets: Targets): Frame => ({
+    durationMs,
+    targets: move(durationMs, ...targets).targets,
+  });
+  const groups = {
+    3: [frame(300, [1, 2_000]), frame(2_000, [1, 1_000], [6, 2_000])],
+    4: [frame(300, [1, 2_000]), frame(2_000, [2, 2_000])],
+  };
+  expect(planWith(groups, 'learm-esp32', 1_000, [0, run(3)]).unheld?.servos).toEqual([6]);
+  expect(planWith(groups, 'learm-esp32', 1_000, [0, run(3)]).unheld?.forMs).toBe(1_950);
+  expect(planWith(groups, 'learm-esp32', 1_000, [0, run(4)]).unheld).toBeNull();
+});
+
+test('no hold is slower than a first move over the whole range, however little is sure', () => {
+  const groups = { 5: [{ durationMs: 2, targets: [{ servo: 1, position: 504 }] }] };
+  const { hold } = planWith(groups, 'openarm-old', 2_000, [0, { kind: 'run', slot: 5, times: 0 }]);
+  expect(hold?.durationMs).toBeGreaterThan(1_000);
+  expect(hold?.durationMs).toBeLessThanOrEqual(1_500);
+});

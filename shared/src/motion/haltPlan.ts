@@ -163,10 +163,11 @@ function heldAhead(at: number, to: number, leeway: number): Omit<Held, 'servo'> 
 function holdMs(motion: Motion, held: readonly Held[], atMs: number, family: Family): number {
   const { motion: traits, position, shortestMoveMs } = family;
   const isGuess = held.some(({ isUnderWay, way }) => isUnderWay && way === 0);
-  const way = Math.max(...held.map((one) => one.way));
+  const range = position.max - position.min;
+  const way = Math.min(range, Math.max(...held.map((one) => one.way)));
   const needsMs = Math.max(
     shortestMoveMs,
-    (FIRST_MOVE_MS * way) / (position.max - position.min),
+    (FIRST_MOVE_MS * way) / range,
     isGuess ? UNKNOWN_FRAME_MS : 0,
     traits.timing === 'shared' ? unknownMs(motion, atMs, traits.tickMs) : 0,
   );

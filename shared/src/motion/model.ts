@@ -36,6 +36,9 @@ export interface PolledRun {
   readonly restAtMs: number;
   readonly surelyUntilMs: number;
   readonly endMs: number;
+  /** What moved before the first frame has arrived by then; no frame takes longer than `longestMs`. */
+  readonly restedMs: number;
+  readonly longestMs: number;
   /** `rest` stands in the tracks already. */
   readonly isBlurred: boolean;
 }

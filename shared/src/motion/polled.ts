@@ -11,7 +11,7 @@ import {
   type PolledRun,
   type RunRequest,
 } from './model.ts';
-import { boardDurationMs, frozen, lastEndMs, LONGEST_MOVE_MS, only, retarget } from './tracks.ts';
+import { boardDurationMs, frozen, lastEndMs, LONGEST_MOVE_MS, retarget, type Tracks } from './tracks.ts';
 
 /** About, and jittering (L7). */
 const POLL_MS = 110;
@@ -19,6 +19,7 @@ const POLL_MS = 110;
 const STEP_MS = 100;
 /** One until it looks, one for the jitter. */
 const SPARE_POLLS = 2;
+const NOWHERE = { fromLeeway: Infinity, toLeeway: Infinity };
 
 /** By then the next frame has begun; the first servo may not have moved before. */
 function latestMs(frame: Frame): number {
@@ -99,6 +100,8 @@ function runOf(
     rest: lastTargets(passesLeft > 0 ? [...pass, ...frames] : pass),
     restAtMs,
     surelyUntilMs: surelyMsSoFar + total((frame) => surelyMs(frame, board)),
+    restedMs: countedMs,
+    longestMs: Math.max(...frames.map((frame) => surelyMs(frame, board))),
     endMs: countedMs + SPARE_POLLS * POLL_MS + total(latestMs),
     isBlurred: false,
   };
@@ -123,16 +126,16 @@ function advance(motion: Motion, nowMs: number): Motion {
 function cut(motion: Motion, atMs: number): Motion {
   const { run } = motion;
   if (run === null) return motion;
-  const restlessUntilMs = atMs + LONGEST_MOVE_MS;
-  if (run.kind === 'unknown') return { ...motion, run: null, restlessUntilMs };
-  if (run.kind === 'polled' && (atMs < run.restAtMs || run.rest.size === 0)) return { ...motion, run: null };
-  const named = run.kind === 'polled' ? run.rest : motion.tracks;
-  return {
-    ...motion,
-    tracks: only(motion.tracks, (_, servo) => !named.has(servo)),
-    run: null,
-    restlessUntilMs,
-  };
+  if (run.kind !== 'polled') return { ...motion, run: null, restlessUntilMs: atMs + LONGEST_MOVE_MS };
+  if (atMs < run.restAtMs || run.rest.size === 0) return { ...motion, run: null };
+  const untilMs = Math.min(run.endMs, Math.max(run.restedMs, atMs + run.longestMs));
+  return { ...motion, run: null, tracks: new Map([...motion.tracks, ...lostWays(run, untilMs)]) };
+}
+
+/** On their way to one of its places, nobody knows which. */
+function lostWays({ rest, restAtMs }: PolledRun, untilMs: number): Tracks {
+  const way = { from: null, startMs: restAtMs, durationMs: untilMs - restAtMs };
+  return new Map([...rest].map(([servo, to]) => [servo, { ...way, to, ...NOWHERE }]));
 }
 
 /** The group dies, unsaid (L8), and leaves its place in the frames behind (L11). */

@@ -66,6 +66,34 @@ function someHaltStep(family: Family): fc.Arbitrary<HaltStep> {
   );
 }
 
+function both(position: number, durationMs: number): Frame {
+  return { durationMs, targets: [1, 6].map((servo) => ({ servo, position })) };
+}
+
+/** Of LeArm's groups the frames behind the first come nobody knows when, and a stop lets the base go on (L7, L9). */
+function behindTheFirstFrame(): Promise<HaltHistory> {
+  const frames = [both(1_000, 300), both(1_400, 2_000)];
+  return ranFor(1_000, 'learm-esp32', frames, 2);
+}
+
+/** Each frame leaves a tick more open, until nothing is sure. */
+function ofShortestFrames(): Promise<HaltHistory> {
+  return ranFor(2_000, 'openarm-old', [both(504, 2)], 0);
+}
+
+function ranFor(
+  ms: number,
+  profile: ProfileName,
+  frames: readonly Frame[],
+  times: number,
+): Promise<HaltHistory> {
+  const steps: HaltStep[] = [
+    { kind: 'run', slot: STORED_SLOTS[1], times },
+    { kind: 'wait', ms },
+  ];
+  return recorded(profile, frames, [both(1_200, 100)], steps, 10_000);
+}
+
 /** The same ones in each run. */
 export async function generateHaltHistories(): Promise<readonly HaltHistory[]> {
   const histories: HaltHistory[] = [];
@@ -83,7 +111,7 @@ export async function generateHaltHistories(): Promise<readonly HaltHistory[]> {
     }))
       histories.push(await recorded(profile, frames, foreign, steps, onForMs));
   }
-  return histories;
+  return [...histories, await behindTheFirstFrame(), await ofShortestFrames()];
 }
 
 async function recorded(

@@ -116,3 +116,25 @@ export function someStopHistory(profile: ProfileName): fc.Arbitrary<StopHistory>
     steps: fc.array(someStopStep(family), { minLength: 1, maxLength: 9 }),
   });
 }
+
+/** These take a board away from what is known of it: by flash, by talk, or for good. */
+const DISTURBING: ReadonlySet<StopStep['kind']> = new Set(['loss', 'erase', 'download', 'read']);
+
+/** The same ones as far as the session knows all that moves the robot: no slot of others, no deaf board. */
+export function somePlainHistory(profile: ProfileName): fc.Arbitrary<StopHistory> {
+  const { motion, commands } = familyOf(profile);
+  return someStopHistory(profile).map((history) => {
+    const isKnown = (step: StopStep): boolean =>
+      !DISTURBING.has(step.kind) && (step.kind !== 'run' || step.slot === KNOWN_SLOT);
+    const steps = history.steps.filter(isKnown);
+    const runs = steps.filter(({ kind }) => kind === 'run');
+    // What becomes of LeArm's run behind another nobody has read (L11).
+    const refused = commands.includes('download') ? (motion.groups === 'polled' ? runs.slice(1) : []) : runs;
+    return {
+      ...{ ...history, isSlow: false },
+      // A group without any time goes round as fast as the board's loop, and nobody knows how fast that is.
+      known: history.known.map((frame) => ({ ...frame, durationMs: Math.max(1, frame.durationMs) })),
+      steps: steps.filter((step) => !refused.includes(step)),
+    };
+  });
+}

@@ -5,7 +5,7 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { SIMULATED } from './estimateUnderTest.ts';
 import { TIMES } from './faults/amount.ts';
-import { SERVOS, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
+import { SERVOS, somePlainHistory, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
 import { SELDOM_MS, stopped, type StopOutcome } from './stopUnderTest.ts';
 
 const HELD_WITHIN_MS = 150;
@@ -62,6 +62,44 @@ describe.each(SIMULATED)('$profile', ({ profile }) => {
     TIMEOUT_MS,
   );
 });
+
+/** A hold where nobody knows the place takes the time of a first move; the last one leaves 160 ms behind the press. */
+const SLOWEST_HOLD_MS = 1_800;
+
+/** What is named though nothing that the history knows can move it, or can move it that long. */
+function tooMuch({ known, steps }: StopHistory, { unheld }: StopOutcome): readonly string[] {
+  if (unheld === null) return [];
+  if (unheld.servos === null) return ['any servo'];
+  const isRun = steps.some(({ kind }) => kind === 'run');
+  const moves = steps.filter((step) => step.kind === 'move');
+  const asked = [...moves, ...(isRun ? known : [])];
+  const movable = new Set([
+    ...SERVOS.slice(0, 2),
+    ...asked.flatMap(({ targets }) => targets.map(({ servo }) => servo)),
+  ]);
+  const limitMs = Math.max(...asked.map(({ durationMs }) => durationMs), 0) + SLOWEST_HOLD_MS;
+  return [
+    ...unheld.servos
+      .filter((servo) => !movable.has(servo))
+      .map((servo) => `servo ${servo} was not asked to move`),
+    ...(unheld.forMs > limitMs ? [`for ${unheld.forMs} ms, longest ${limitMs}`] : []),
+  ];
+}
+
+test.each(SIMULATED)(
+  '$profile: names no more than what may move, where all that moves it is known',
+  async ({ profile }) => {
+    await fc.assert(
+      fc.asyncProperty(somePlainHistory(profile), async (history) => {
+        const outcome = await stopped(profile, history);
+        expect(tooMuch(history, outcome), JSON.stringify(outcome)).toEqual([]);
+        expect(broken(outcome), JSON.stringify(outcome)).toEqual([]);
+      }),
+      { numRuns: 15 * TIMES },
+    );
+  },
+  TIMEOUT_MS,
+);
 
 const PLAIN = { hasPad: true, isSlow: false, wasErased: false };
 
