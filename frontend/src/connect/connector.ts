@@ -14,12 +14,8 @@ import type { TextStorage } from '../stores/textStorage.ts';
 import type { Notices } from '../stores/notices.ts';
 import type { You } from '../stores/people/people.generated.ts';
 import { createGatewayTransport } from '../transports/gateway.ts';
-import {
-  choosePort,
-  createWebSerialTransport,
-  grantedPorts,
-  webSerialObstacle,
-} from '../transports/webSerial.ts';
+import { choosePort, grantedPorts, portLabel, webSerialObstacle } from '../transports/serialPorts.ts';
+import { later } from '../ui/later.tsx';
 import { words } from '../words/words.ts';
 import {
   gatewayUrl,
@@ -66,7 +62,7 @@ export interface Connector {
   useGateway(): void;
   /** Has the gateway open that port first. Rejects with a LinkError. */
   useGatewayPort(device: string): Promise<void>;
-  useSerialPort(port: SerialPort): void;
+  useSerialPort(port: SerialPort): Promise<void>;
   /** Opens the browser's chooser. Rejects with a LinkError. */
   chooseSerialPort(): Promise<void>;
   disconnect(): void;
@@ -92,6 +88,12 @@ export interface ConnectorOptions {
   isWatched(): boolean;
 }
 
+const loadSerial = () => import('../transports/webSerial.ts');
+const loadSimulated = () => import('../transports/simulated.ts');
+// Connecting needs no gateway: both are there before they are wanted.
+later(loadSerial, 'guards');
+later(loadSimulated);
+
 export function createConnector(options: ConnectorOptions): Connector {
   const { device, notices, boards, storage, role, isWatched } = options;
   const store = createStore<ConnectState>(() => ({
@@ -106,18 +108,19 @@ export function createConnector(options: ConnectorOptions): Connector {
 
   let current: { readonly transport: Transport; readonly session: Session } | null = null;
 
-  function openSerial(port: SerialPort): Transport {
+  async function openSerial(port: SerialPort): Promise<Transport> {
+    const { createWebSerialTransport } = await loadSerial();
     store.setState({ openPort: port });
     return createWebSerialTransport(port, () => current?.session.halt() ?? Promise.resolve());
   }
 
   /** What is open already is left alone, and that is said: the browser's chooser does not know it. */
-  function openOnce(port: SerialPort): void {
+  async function openOnce(port: SerialPort): Promise<void> {
     const { openPort } = store.getState();
     const isOpen = current?.transport.kind === 'webSerial' && current.session.state.link.status === 'ready';
     if (isOpen && port === openPort)
       notices.tell('info', words.connect.isOpen(current?.transport.label ?? ''));
-    else chosen(openSerial(port));
+    else chosen(await openSerial(port));
   }
 
   /** A board in the page is what it was made as; any other is asked, and taken for what it was the last time. */
@@ -169,7 +172,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     store.setState({
       gateway: gateway ?? 'absent',
       gatewayPorts: ports,
-      granted: granted.map((port) => ({ port, label: createWebSerialTransport(port).label })),
+      granted: granted.map((port) => ({ port, label: portLabel(port) })),
     });
   }
 
@@ -183,7 +186,7 @@ export function createConnector(options: ConnectorOptions): Connector {
       await connect(await simulated());
       if (last === null) greet();
     } else if (!reconnects) return;
-    else if (last?.kind === 'webSerial' && port !== undefined) await connect(openSerial(port.port));
+    else if (last?.kind === 'webSerial' && port !== undefined) await connect(await openSerial(port.port));
     else if (typeof gateway === 'object') await connect(gatewayTransport());
     else await connect(await simulated());
     if (gateway === 'absent') void offerLateGateway();
@@ -203,7 +206,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     createGatewayTransport(gatewayUrl(), { mayDrive: role !== 'viewer' });
 
   async function simulated(): Promise<Transport> {
-    const { createSimulatedTransport } = await import('../transports/simulated.ts');
+    const { createSimulatedTransport } = await loadSimulated();
     return createSimulatedTransport(simulatedAs(store.getState().board));
   }
 
@@ -236,7 +239,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     },
     useSerialPort: openOnce,
     async chooseSerialPort() {
-      openOnce(await choosePort());
+      await openOnce(await choosePort());
     },
     disconnect: () => void device.detach().catch(notices.tellError),
     async moveHere() {

@@ -13,8 +13,6 @@ import { createDevice } from '../stores/device/device.ts';
 import { createDocument } from '../stores/group/document.ts';
 import type { TextStorage } from '../stores/textStorage.ts';
 import type { Keeper } from '#shared/actions/library/keeper.ts';
-import { createBrowserKeeper } from '../keepers/browserKeeper.ts';
-import { gatewayKeeper } from '../keepers/gatewayKeeper.ts';
 import { watchInputs } from '../pad/watchInputs.ts';
 import { followLanguage } from '../stores/language.ts';
 import { createLibrary } from '../stores/library/library.ts';
@@ -87,7 +85,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   const mayWrite = me?.you?.role !== 'viewer';
   const keeping = createRobotKeeping({
     ...{ robots, poses: poses.book, buttons: macros, pad: mappings, storage, notices, clock: pageClock },
-    ...{ keeper: mayWrite ? keeper : Promise.resolve(gatewayKeeper), mayWrite, epochMs: Date.now, newId },
+    ...{ keeper: mayWrite ? keeper : gatewaysKeeper(), mayWrite, epochMs: Date.now, newId },
   });
   const noteRobot = followRobot({ robots, keeping, notices, mayWrite, putOnBoard });
   device.store.subscribe(({ snapshot }, before) => {
@@ -162,8 +160,14 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
 async function chooseKeeper(me: Me | null): Promise<Keeper> {
   const isViewer = me?.you?.role === 'viewer';
   const isKept = !isViewer && (me !== null || (await hasGateway(pageClock)));
-  return isKept ? gatewayKeeper : createBrowserKeeper('servodeck', Date.now);
+  if (isKept) return gatewaysKeeper();
+  const { createBrowserKeeper } = await import('../keepers/browserKeeper.ts');
+  return createBrowserKeeper('servodeck', Date.now);
 }
+
+/** Which of them is wanted is known only later: neither is in the first load. */
+const gatewaysKeeper = async (): Promise<Keeper> =>
+  (await import('../keepers/gatewayKeeper.ts')).gatewayKeeper;
 
 /** Not `randomUUID`, which is there only at secure addresses. */
 function newId(): string {

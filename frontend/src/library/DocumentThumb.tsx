@@ -1,7 +1,7 @@
 // The picture of a group: its robot in the pose of the middle frame, or bars where that robot is not known here.
 
 import { useStore } from 'zustand';
-import type { GroupFacts } from '#shared/actions/library/keeper.ts';
+import type { GroupFacts } from '#shared/actions/library/factsShape.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { BarThumb, RobotThumb } from '../body/PoseThumb.tsx';
 import { useStores } from '../stores/stores.ts';

@@ -1,13 +1,13 @@
 // Live control: the picture of the robot and a row per servo, or the servos on the body and a row for the one at hand. Where moving is not possible now it says why, and keeps every
 // control in its place.
 
-import { BodyMap } from '../body/BodyMap.tsx';
 import { Body } from '../body/Body.tsx';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useIsTeaching, useRobot, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
+import { laterComponent } from '../ui/later.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Choice } from '../ui/Toggle.tsx';
 import { useLayout } from '../ui/useLayout.ts';
@@ -20,6 +20,8 @@ import { ServoList } from './ServoList.tsx';
 import { ServoTalk } from './ServoTalk.tsx';
 import { useHand } from './useHand.ts';
 import styles from './ServosPanel.module.css';
+
+const BodyMap = laterComponent(async () => (await import('../body/BodyMap.tsx')).BodyMap, '100%');
 
 export function ServosPanel() {
   const hindrance = useSnapshot(motionHindrance);
@@ -39,7 +41,13 @@ export function ServosPanel() {
         </>
       }
     >
-      {layout === 'list' ? <Body /> : <BodyMap />}
+      {layout === 'list' ? (
+        <Body />
+      ) : (
+        <div className={styles.map}>
+          <BodyMap />
+        </div>
+      )}
       <Legend />
       <SelectionBar
         hint={isTeaching ? words.teach.on : isPhone && why !== '' ? why : words.servoPanel.selectHint}

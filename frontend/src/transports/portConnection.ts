@@ -7,6 +7,7 @@ import { LinkError, type LinkErrorCode } from '#shared/session/linkError.ts';
 import { LINE_IDLE_MS } from '#shared/session/timings.ts';
 import { browserClock } from './browserClock.ts';
 import { isGone } from './portFinder.ts';
+import { nameOf } from './serialPorts.ts';
 
 export interface ConnectionEvents {
   received(bytes: Uint8Array): void;
@@ -161,10 +162,6 @@ function gone(cause?: unknown): LinkError {
 /** These leave the port usable with a fresh stream; everything else means that the device is gone. */
 function isLineError(error: unknown): boolean {
   return ['BreakError', 'BufferOverrunError', 'FramingError', 'ParityError'].includes(nameOf(error));
-}
-
-export function nameOf(error: unknown): string {
-  return error instanceof DOMException ? error.name : '';
 }
 
 /** What fails here was about to end anyway. */

@@ -15,7 +15,7 @@ import {
   freshBrowser,
   type Tab,
 } from './tabUnderTest.ts';
-import { choosePort } from './webSerial.ts';
+import { choosePort } from './serialPorts.ts';
 
 const NAMES = [
   'NetworkError',

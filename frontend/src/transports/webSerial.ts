@@ -1,34 +1,14 @@
-// A board on this computer's serial port, through the browser's Web Serial. Knows the browser's permissions, and in which
-// order a port is claimed, found, opened and given back; no packets.
+// A board on this computer's serial port, through the browser's Web Serial. Knows in which order a port is claimed, found, opened
+// and given back; no packets.
 
 import { sleep } from '#shared/clock.ts';
-import { LinkError, type LinkErrorCode } from '#shared/session/linkError.ts';
+import { LinkError } from '#shared/session/linkError.ts';
 import type { Transport, TransportEvents } from '#shared/session/transport.ts';
 import { browserClock } from './browserClock.ts';
-import { nameOf, openPort, type PortConnection } from './portConnection.ts';
+import { openPort, type PortConnection } from './portConnection.ts';
 import { createPortFinder } from './portFinder.ts';
 import { createPortLock } from './portLock.ts';
-
-/** Why Web Serial cannot be used here, or null when it can. An insecure address hides it in every browser. */
-export function webSerialObstacle(): Extract<LinkErrorCode, 'insecureAddress' | 'unsupported'> | null {
-  if (!window.isSecureContext) return 'insecureAddress';
-  return 'serial' in navigator ? null : 'unsupported';
-}
-
-/** Ports the person has allowed before; opening them needs no chooser. */
-export async function grantedPorts(): Promise<readonly SerialPort[]> {
-  return webSerialObstacle() === null ? navigator.serial.getPorts().catch(() => []) : [];
-}
-
-/** Opens the browser's chooser; needs a click. Rejects with `notChosen` when it is closed without a choice. */
-export async function choosePort(): Promise<SerialPort> {
-  try {
-    return await navigator.serial.requestPort();
-  } catch (error) {
-    const code = ['NotFoundError', 'AbortError'].includes(nameOf(error)) ? 'notChosen' : 'portDenied';
-    throw new LinkError(code, 'no port was chosen', { cause: error });
-  }
-}
+import { portLabel } from './serialPorts.ts';
 
 /** A robot that does not let itself be stopped in that time is past helping; the other tab shall get it. */
 const HALT_WITHIN_MS = 2000;
@@ -128,11 +108,4 @@ export function createWebSerialTransport(
 function createQueue(): (work: () => Promise<void>) => Promise<void> {
   let last: Promise<void> = Promise.resolve();
   return (work) => (last = last.then(work, work));
-}
-
-function portLabel(port: SerialPort): string {
-  const { usbVendorId, usbProductId } = port.getInfo();
-  if (usbVendorId === undefined) return 'Serial port';
-  const hex = (id: number | undefined): string => (id ?? 0).toString(16).toUpperCase().padStart(4, '0');
-  return `USB serial ${hex(usbVendorId)}:${hex(usbProductId)}`;
 }

@@ -9,10 +9,10 @@ import { rename } from '#shared/actions/group/groupEdits.ts';
 import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
 import type { Label } from '#shared/actions/history.ts';
 import { factsOf } from '#shared/actions/library/facts.ts';
+import type { GroupFacts } from '#shared/actions/library/factsShape.ts';
 import {
   asLibraryError,
   listedOf,
-  type GroupFacts,
   type Keeper,
   type Listed,
   type Listing,

@@ -3,11 +3,11 @@
 import type { Clock } from '#shared/clock.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { groupToText, sameGroup } from '#shared/actions/group/groupText.ts';
+import type { GroupFacts } from '#shared/actions/library/factsShape.ts';
 import {
   asLibraryError,
   LibraryError,
   listedOf,
-  type GroupFacts,
   type Keeper,
   type LibraryErrorCode,
   type Listed,

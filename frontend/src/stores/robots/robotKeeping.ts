@@ -4,13 +4,13 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
+import type { RobotFacts } from '#shared/actions/library/factsShape.ts';
 import {
   asLibraryError,
   LibraryError,
   listedOf,
   type Keeper,
   type Listed,
-  type RobotFacts,
 } from '#shared/actions/library/keeper.ts';
 import { robotFactsOf } from '#shared/actions/library/robotFacts.ts';
 import type { MacroPage } from '#shared/actions/macros/macro.ts';

@@ -1,7 +1,7 @@
 // What a list says of an action group, worked out from the group. Knows no keeper's place.
 
 import { poseAt, totalDurationMs, type ActionGroup } from '../group/group.ts';
-import type { GroupFacts } from './keeper.ts';
+import type { GroupFacts } from './factsShape.ts';
 
 export interface FactsContext {
   readonly updatedAtMs: number;

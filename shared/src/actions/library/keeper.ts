@@ -1,48 +1,8 @@
 // A keeper of documents as texts: what a list says of each, revisions, a trash, named versions. One interface for every place
 // they may lie, and the one rule about writing that all of them follow. Knows no group, no robot and no place.
 
-import * as v from 'valibot';
-import { count, targetSchema, whole } from '../schemas.ts';
+import type { GroupFacts, RobotFacts } from './factsShape.ts';
 
-const name = v.pipe(v.string(), v.maxLength(64));
-
-const groupFactsSchema = v.strictObject({
-  kind: v.literal('group'),
-  name,
-  robot: name,
-  tags: v.pipe(v.array(name), v.maxLength(20)),
-  /** Milliseconds since 1970. */
-  updatedAtMs: count,
-  frames: count,
-  durationMs: count,
-  unit: v.picklist(['us', 'steps']),
-  /** Its picture. */
-  pose: v.pipe(v.array(targetSchema), v.maxLength(256)),
-});
-
-/** What its keeper goes by itself: limits and poses are as the board counts. */
-const robotFactsSchema = v.strictObject({
-  kind: v.literal('robot'),
-  name,
-  board: name,
-  updatedAtMs: count,
-  limits: v.array(
-    v.strictObject({ servo: whole(0, 0xff), name: v.string(), min: whole(0, 0xffff), max: whole(0, 0xffff) }),
-  ),
-  poses: v.array(
-    v.strictObject({
-      id: count,
-      name: v.string(),
-      unit: v.picklist(['us', 'steps']),
-      targets: v.array(targetSchema),
-    }),
-  ),
-});
-
-export const factsSchema = v.variant('kind', [groupFactsSchema, robotFactsSchema]);
-
-export type GroupFacts = v.InferOutput<typeof groupFactsSchema>;
-export type RobotFacts = v.InferOutput<typeof robotFactsSchema>;
 /** What a list says of a document without reading it. */
 export type Facts = GroupFacts | RobotFacts;
 

@@ -3,7 +3,7 @@ import { expect, test } from 'vitest';
 import { EMPTY_BOOK, type PoseBook } from '../poses/pose.ts';
 import { readyRobot } from '../robot/readyRobots.ts';
 import { changeServo } from '../robot/robotEdits.ts';
-import { factsSchema } from './keeper.ts';
+import { factsSchema } from './factsShape.ts';
 import { robotFactsOf } from './robotFacts.ts';
 
 const ARM = changeServo(

@@ -5,7 +5,7 @@ import type { PoseBook } from '../poses/pose.ts';
 import { homeTargets } from '../poses/poseShapes.ts';
 import { limitsOnBoard, onBoard, type Robot } from '../robot/robot.ts';
 import { FAMILIES } from '../../protocol/families.ts';
-import type { RobotFacts } from './keeper.ts';
+import type { RobotFacts } from './factsShape.ts';
 
 const MAX_POSITION = 0xffff;
 
