@@ -6,7 +6,7 @@ import { Fragment, useCallback } from 'react';
 import { rename } from '#shared/actions/group/groupEdits.ts';
 import { convertGroup } from '#shared/actions/robot/counterpart.ts';
 import { BodyPicture } from '../body/Body.tsx';
-import { FilesButton } from '../files/FilesArea.tsx';
+import { FilesButton } from '../files/FilesButton.tsx';
 import { LibraryButton } from '../library/LibraryButton.tsx';
 import { useDocument, useGroupBoard, useKnownFamily, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

@@ -1,70 +1,65 @@
 // Around a panel that takes files: files are dropped anywhere on it, and its button opens the dialog. A drop beside it does
-// nothing, instead of leaving the page while a robot is connected. What was opened waits beyond the panel, which may go.
+// nothing, instead of leaving the page while a robot is connected. What was opened waits beyond the panel, which may go. The dialog
+// and what reads files come later.
 
 import { createContext, use, useCallback, useEffect, useState, type DragEvent, type ReactNode } from 'react';
-import { useStore } from 'zustand';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { useStores } from '../stores/stores.ts';
-import { Button } from '../ui/Button.tsx';
+import { Dialog } from '../ui/Dialog.tsx';
+import { later, Missing, usePart } from '../ui/later.tsx';
 import { words } from '../words/words.ts';
-import { FilesDialog } from './FilesDialog.tsx';
-import { countsOf, type ReadyGroup } from './answers.ts';
-import { createFileReader } from './fileReader.ts';
-import { createOpenedFiles } from './openedFiles.ts';
-import { takeGroup, takeGroups } from './takeGroups.ts';
 import styles from './FilesArea.module.css';
 
-interface Files {
-  /** Not yet taken over. */
+/** Not yet taken over. */
+export interface FileCounts {
   readonly opened: number;
   readonly refused: number;
+}
+
+const NO_COUNTS: FileCounts = { opened: 0, refused: 0 };
+
+interface Files {
+  readonly counts: FileCounts;
   show(): void;
   open(files: readonly File[]): void;
 }
 
+const NO_FILES: readonly File[] = [];
 const nothing = (): void => undefined;
-const FilesContext = createContext<Files>({ opened: 0, refused: 0, show: nothing, open: nothing });
+const FilesContext = createContext<Files>({ counts: NO_COUNTS, show: nothing, open: nothing });
+
+const dialog = later(async () => (await import('./FilesDialog.tsx')).FilesDialog);
 
 /** Around everything that shows files: keeps them, and the dialog, while panels come and go. */
 export function FilesDesk({ children }: { readonly children: ReactNode }) {
-  const stores = useStores();
-  const [files] = useState(() => createOpenedFiles(createFileReader()));
-  const opened = useStore(files.store, ({ list }) => countsOf(list).opened);
-  const refused = useStore(files.store, ({ list }) => countsOf(list).refused);
+  const [counts, setCounts] = useState(NO_COUNTS);
+  const [dropped, setDropped] = useState(NO_FILES);
   const [isOpen, setOpen] = useState(false);
+  const { part: FilesDialog, isMissing } = usePart(dialog, isOpen);
   useEffect(ignoreStrayDrops, []);
   const show = (): void => setOpen(true);
-  const open = (dropped: readonly File[]): void => {
-    files.open(dropped);
+  const close = useCallback(() => setOpen(false), []);
+  const open = (files: readonly File[]): void => {
+    setDropped(files);
     show();
   };
-  const take = useCallback(
-    (group: ActionGroup): void => {
-      takeGroup(stores, group);
-      setOpen(false);
-    },
-    [stores],
-  );
-  async function takeAll(ready: readonly ReadyGroup[]): Promise<void> {
-    const isDone = await files.take(ready, (groups, course) => takeGroups(stores, groups, course));
-    if (isDone) setOpen(false);
-  }
   return (
-    <FilesContext value={{ opened, refused, show, open }}>
+    <FilesContext value={{ counts, show, open }}>
       {children}
-      <FilesDialog
-        files={files}
-        isOpen={isOpen}
-        onClose={() => setOpen(false)}
-        onTake={take}
-        onTakeAll={(ready) => void takeAll(ready)}
-      />
+      {FilesDialog !== null && (
+        <FilesDialog dropped={dropped} isOpen={isOpen} onClose={close} onCounts={setCounts} />
+      )}
+      {isMissing && (
+        <Dialog title={words.later.missing} closeLabel={words.close} isOpen={isOpen} onClose={close}>
+          <Missing part={dialog} />
+        </Dialog>
+      )}
     </FilesContext>
   );
 }
 
+export const useFiles = (): Files => use(FilesContext);
+
 export function FilesArea({ children }: { readonly children: ReactNode }) {
-  const { open } = use(FilesContext);
+  const { open } = useFiles();
   const [isDropping, setDropping] = useState(false);
   return (
     <div
@@ -86,15 +81,6 @@ export function FilesArea({ children }: { readonly children: ReactNode }) {
     >
       {children}
     </div>
-  );
-}
-
-export function FilesButton() {
-  const { opened, refused, show } = use(FilesContext);
-  return (
-    <Button tone="quiet" icon="file" onPress={show}>
-      {words.files.button(opened, refused)}
-    </Button>
   );
 }
 

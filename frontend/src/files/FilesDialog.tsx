@@ -1,21 +1,51 @@
-// The dialog about files; what stands in it comes when it is wanted.
+// The dialog about files, with those that were opened and not yet taken over: it is there while it is closed.
 
+import { useCallback, useEffect, useRef, useState } from 'react';
+import { useStore } from 'zustand';
+import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { useStores } from '../stores/stores.ts';
 import { Dialog } from '../ui/Dialog.tsx';
-import { laterComponent } from '../ui/later.tsx';
-import { words } from '../words/words.ts';
-import type { FilesContentProps } from './FilesContent.tsx';
+import { words } from '../words/whole.ts';
+import { countsOf, type ReadyGroup } from './answers.ts';
+import { createFileReader } from './fileReader.ts';
+import type { FileCounts } from './FilesArea.tsx';
+import { FilesContent } from './FilesContent.tsx';
+import { createOpenedFiles } from './openedFiles.ts';
+import { takeGroup, takeGroups } from './takeGroups.ts';
 
-const FilesContent = laterComponent(async () => (await import('./FilesContent.tsx')).FilesContent, '40vh');
-
-interface FilesDialogProps extends FilesContentProps {
+interface FilesDialogProps {
+  /** Each list of them is opened once. */
+  readonly dropped: readonly File[];
   readonly isOpen: boolean;
   onClose(): void;
+  onCounts(counts: FileCounts): void;
 }
 
-export function FilesDialog({ isOpen, onClose, ...content }: FilesDialogProps) {
+export function FilesDialog({ dropped, isOpen, onClose, onCounts }: FilesDialogProps) {
+  const stores = useStores();
+  const [files] = useState(() => createOpenedFiles(createFileReader()));
+  const opened = useStore(files.store, ({ list }) => countsOf(list).opened);
+  const refused = useStore(files.store, ({ list }) => countsOf(list).refused);
+  useEffect(() => onCounts({ opened, refused }), [opened, refused, onCounts]);
+  const seen = useRef<readonly File[]>(null);
+  useEffect(() => {
+    if (seen.current !== dropped) files.open(dropped);
+    seen.current = dropped;
+  }, [files, dropped]);
+  const take = useCallback(
+    (group: ActionGroup): void => {
+      takeGroup(stores, group);
+      onClose();
+    },
+    [stores, onClose],
+  );
+  async function takeAll(ready: readonly ReadyGroup[]): Promise<void> {
+    const isDone = await files.take(ready, (groups, course) => takeGroups(stores, groups, course));
+    if (isDone) onClose();
+  }
   return (
     <Dialog title={words.files.title} closeLabel={words.close} wide isOpen={isOpen} onClose={onClose}>
-      <FilesContent {...content} />
+      <FilesContent files={files} onTake={take} onTakeAll={(ready) => void takeAll(ready)} />
     </Dialog>
   );
 }

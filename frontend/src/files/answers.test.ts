@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import type { Reading } from '#shared/actions/files/reading.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { emptyGroup } from '#shared/actions/group/group.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import { countsOf, firstAnswers, readyGroups, takenAs, type Answer } from './answers.ts';
 
 const group = (name: string, ...positions: readonly number[]) =>

@@ -3,7 +3,7 @@
 
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Stores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../words/whole.ts';
 import type { Course } from './openedFiles.ts';
 
 type Needed = Pick<Stores, 'document' | 'library' | 'view' | 'notices'>;

@@ -7,7 +7,6 @@ import { counted, formatAge, formatCount, formatRoughly, formatWhole, numbers } 
 import { actionWords } from './actions.ts';
 import { batteryWords } from './battery.ts';
 import { errorSentence } from './errors.ts';
-import { fileWords } from './files.ts';
 import { firstMoveWords } from './firstMoves.ts';
 import { identityWords } from './identity.ts';
 import { leaseWords } from './lease.ts';
@@ -92,7 +91,6 @@ export const english = {
   lease: leaseWords,
   record: recordWords,
   poses: poseWords,
-  files: fileWords,
   macros: macroWords,
 
   stop: stopWords,

@@ -2,7 +2,7 @@
 
 import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
 import type { TextFlaw } from '#shared/actions/versionedText.ts';
-import { PROBLEMS as FLAWS } from './files.ts';
+import { FLAWS } from './flaws.ts';
 import { counted, formatNames } from './numbers.ts';
 
 const groups = (count: number): string => counted(count, 'group');

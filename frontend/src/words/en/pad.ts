@@ -1,12 +1,12 @@
 // Words about driving by pad and keys: names of inputs, what they do, and what the panel says.
 
 import type { TextFlaw } from '#shared/actions/versionedText.ts';
-import { PROBLEMS } from './files.ts';
+import { FLAWS } from './flaws.ts';
 import { formatWhole } from './numbers.ts';
 
 export const padWords = {
   unreadable: ({ code, at }: TextFlaw): string =>
-    `The saved keys and pad could not be read and were set aside unharmed. ${PROBLEMS[code](at)}`,
+    `The saved keys and pad could not be read and were set aside unharmed. ${FLAWS[code](at)}`,
   notSaved: 'The browser does not store keys and pad; they are kept until the page is closed.',
   gone: 'The pad is gone. Driving is switched off.',
   unknown: (servo: string): string =>

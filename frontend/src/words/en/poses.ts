@@ -1,7 +1,7 @@
 // Words about poses: capturing, changing and going to them.
 
 import type { TextFlaw } from '#shared/actions/versionedText.ts';
-import { PROBLEMS } from './files.ts';
+import { FLAWS } from './flaws.ts';
 import { formatList, formatWhole } from './numbers.ts';
 
 export const poseWords = {
@@ -9,7 +9,7 @@ export const poseWords = {
   gone: 'This pose is gone, or it was made for a board that counts otherwise.',
   notSaved: 'The browser does not store poses; they are kept until the page is closed.',
   unreadable: ({ code, at }: TextFlaw): string =>
-    `The saved poses could not be read and were set aside unharmed. ${PROBLEMS[code](at)}`,
+    `The saved poses could not be read and were set aside unharmed. ${FLAWS[code](at)}`,
 
   verbs: { home: 'Home', rest: 'Rest' },
 
@@ -17,7 +17,7 @@ export const poseWords = {
   captured: (name: string): string => `${name} is captured.`,
   captureHint: 'Keeps the commanded or reported pose under a name',
   newName: (number: number): string => `Pose ${formatWhole(number)}`,
-  importFailed: ({ code, at }: TextFlaw): string => `No pose was taken from the file. ${PROBLEMS[code](at)}`,
+  importFailed: ({ code, at }: TextFlaw): string => `No pose was taken from the file. ${FLAWS[code](at)}`,
   strangers: (servos: readonly number[]): string =>
     `These poses also move servos that this robot does not have, within the limits of the board alone: ${formatList(servos)}.`,
 

@@ -2,12 +2,36 @@
 
 import type { Loss, LossCode } from '#shared/actions/files/losses.ts';
 import type { Misfit, MisfitCode } from '#shared/actions/files/fit.ts';
-import type { Problem, Remark, RemarkCode } from '#shared/actions/files/reading.ts';
+import type { Problem, ProblemCode, Remark, RemarkCode } from '#shared/actions/files/reading.ts';
 import type { SaveFormat } from '#shared/actions/files/writeGroupFile.ts';
 import { UNIT_RANGE, type Meaning } from '#shared/actions/files/units.ts';
 import type { PositionUnit } from '../../numbers.ts';
 import { counted, formatList, formatSeconds, formatWhole, unitSymbol } from '../numbers.ts';
-import { fileWords, PROBLEMS } from '../files.ts';
+import { FLAWS } from '../flaws.ts';
+
+const PROBLEMS: Readonly<Record<ProblemCode, (found: string) => string>> = {
+  ...FLAWS,
+  empty: () => 'The file is empty.',
+  tooLarge: () => 'The file is larger than 8 MB, and no action group is.',
+  unreadable: () => 'The browser could not read it. Perhaps it is a folder.',
+  unknownFormat: () => 'This is none of the formats that can be opened here.',
+  noFrames: () => 'There is no frame in it.',
+  tooManyFrames: (found) => `It has ${found} frames; a group has 10000 at most.`,
+  cutShort: () => 'The file ends too early; a part of it is missing.',
+  badMove: (found) => `“${found}” names no servo and position, as “#1 P1500” does.`,
+  badTime: (found) => `“${found}” is no time: whole milliseconds from 0 to 65535.`,
+  badServo: (found) => `“${found}” is no servo number: 0 to 255.`,
+  badPosition: (found) => `“${found}” is no position: a whole number from 0 to 65535.`,
+  unpaired: (found) => `Each frame needs one ID, one Move and one Time; there are ${found}.`,
+  notClosed: (found) => `<${found}> has no end.`,
+  encrypted: () => 'It is encrypted. The program that wrote it can save it again without.',
+  unknownTag: (found) => `Its kind, “${found}”, is unknown.`,
+  noColumn: (found) => `The column ${found} is missing.`,
+  columnTwice: (found) => `The column ${found} is there twice.`,
+  cellCount: (found) => `It has another number of cells than the first line: ${found}.`,
+  noTable: (found) => `The database has no table ${found}.`,
+  damagedDatabase: (found) => `The database cannot be read: ${found}.`,
+};
 
 const REMARKS: Readonly<Record<RemarkCode, (found: string) => string>> = {
   otherEncoding: (found) => `Its text is not UTF-8; it was read as ${found}.`,
@@ -79,7 +103,19 @@ const UNITS: Readonly<Record<PositionUnit, string>> = {
 };
 
 export const wholeFileWords = {
-  ...fileWords,
+  title: 'Files',
+  button: (opened: number, refused: number): string =>
+    [
+      'Files',
+      ...(opened === 0 ? [] : [`${formatWhole(opened)} opened`]),
+      ...(refused === 0 ? [] : [`${formatWhole(refused)} not opened`]),
+    ].join(', '),
+  inLibrary: (count: number): string =>
+    count === 1
+      ? 'One more group is in the library.'
+      : `${formatWhole(count)} more groups are in the library.`,
+  taken: (name: string, frames: number): string => `${name} is open, ${counted(frames, 'frame')}.`,
+  step: (name: string): string => `open ${name}`,
   open: 'Open',
   choose: 'Choose files',
   hint: 'XML, .rob, .d6a, CSV and Servodeck’s own. Or drop them here.',
