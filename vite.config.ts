@@ -5,6 +5,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { brotliCompressSync, gzipSync } from 'node:zlib';
 import react from '@vitejs/plugin-react';
+import { minify } from 'terser';
 import { defineConfig, type Plugin } from 'vite';
 import { shortClassNames } from './scripts/class_names.mjs';
 
@@ -47,6 +48,19 @@ function readsFirstLoad(): Plugin {
   };
 }
 
+/** The bundler minifies all; what terser has been over before is 2 KiB smaller. */
+function squeezed(): Plugin {
+  return {
+    name: 'squeezed',
+    apply: 'build',
+    async renderChunk(text, { isEntry }) {
+      if (!isEntry) return null;
+      const { code = text } = await minify(text, { module: true, ecma: 2020, compress: { passes: 2 } });
+      return { code, map: null };
+    },
+  };
+}
+
 export default defineConfig({
   root: 'frontend',
   base: './',
@@ -54,6 +68,7 @@ export default defineConfig({
     shortClassNames(path.resolve(import.meta.dirname, 'frontend/src')),
     react(),
     readsFirstLoad(),
+    squeezed(),
     compressed(),
   ],
   server: {

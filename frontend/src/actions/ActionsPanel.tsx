@@ -16,6 +16,7 @@ import { useLayout } from '../ui/useLayout.ts';
 import { NameField } from '../ui/NameField.tsx';
 import type { PanelParts } from '../ui/Panel.tsx';
 import { PlayBar } from '../play/PlayBar.tsx';
+import { usePlayer } from '../play/usePlayer.ts';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { words } from '../words/whole.ts';
 import { CaptureBar } from './CaptureBar.tsx';
@@ -60,12 +61,12 @@ function Tools() {
 
 function Content() {
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
-  const { playback } = useStores();
+  const player = usePlayer();
   const isPhone = useLayout() === 'phone';
   const isPainted = useIsPainted();
   const play = useCallback(
-    (isPreview: boolean) => (isPreview ? playback.togglePreview() : playback.toggle()),
-    [playback],
+    (isPreview: boolean) => (isPreview ? player.togglePreview() : player.toggle()),
+    [player],
   );
   const timeline = <Timeline key="timeline" onPlay={play} />;
   const capture = <CaptureBar key="capture" />;

@@ -6,13 +6,8 @@ import { createContext, use, useCallback, useEffect, useState, type DragEvent, t
 import { Dialog } from '../ui/Dialog.tsx';
 import { later, Missing, usePart } from '../ui/later.tsx';
 import { words } from '../words/words.ts';
+import type { FileCounts } from './answers.ts';
 import styles from './FilesArea.module.css';
-
-/** Not yet taken over. */
-export interface FileCounts {
-  readonly opened: number;
-  readonly refused: number;
-}
 
 const NO_COUNTS: FileCounts = { opened: 0, refused: 0 };
 

@@ -46,7 +46,12 @@ export interface ReadyGroup {
 }
 
 /** Files with groups, and those that could not be opened. */
-export function countsOf(files: readonly Pick<AnsweredFile, 'reading'>[]) {
+export interface FileCounts {
+  readonly opened: number;
+  readonly refused: number;
+}
+
+export function countsOf(files: readonly Pick<AnsweredFile, 'reading'>[]): FileCounts {
   const opened = files.filter(({ reading }) => 'groups' in reading).length;
   return { opened, refused: files.length - opened };
 }

@@ -1,5 +1,7 @@
 // A new group, and the whole library to a file and from one. An import adds to what is there.
 
+import { useState } from 'react';
+import { createLibraryFiles } from '../stores/library/libraryFiles.ts';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { FileButton } from '../ui/FileButton.tsx';
@@ -9,13 +11,14 @@ import styles from './Library.module.css';
 
 export function LibraryFiles({ onDone }: { onDone(): void }) {
   const { library, notices } = useStores();
+  const [files] = useState(() => createLibraryFiles(library.forFiles));
   const isEmpty = useLibrary(({ documents }) => documents.every(({ isRemoved }) => isRemoved));
 
   const take = ([file]: readonly File[]): void =>
-    void file?.text().then(library.importText, () => notices.tell('warning', words.library.unreadableFile));
+    void file?.text().then(files.importText, () => notices.tell('warning', words.library.unreadableFile));
 
   async function save(): Promise<void> {
-    const text = await library.exportText();
+    const text = await files.exportText();
     if (text !== null) saveFile({ name: `${words.library.fileName}.json`, text });
   }
 

@@ -4,7 +4,8 @@
 import { useShallow } from 'zustand/react/shallow';
 import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
 import { chosenTimes } from '../stores/slots/groupPlace.ts';
-import { SPEED_PERCENT, type PlaybackPhase } from '../stores/playing/playback.ts';
+import type { PlaybackPhase } from '../stores/playing/playback.ts';
+import { SPEED_PERCENT } from '../stores/playing/player.ts';
 import { useFates } from '../slots/useFates.ts';
 import { motionHindrance, startHindrance } from '../stores/device/readiness.ts';
 import { isSilent } from '../stores/servoView.ts';
@@ -26,11 +27,12 @@ import { LiveText } from '../ui/LiveText.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { words } from '../words/whole.ts';
+import { usePlayer } from './usePlayer.ts';
 import styles from './PlayBar.module.css';
 
 export function PlayBar() {
   const phase = usePlayback((state) => state.phase);
-  const { playback } = useStores();
+  const player = usePlayer();
   const mayPlay = useMayPlay();
   const isIdle = phase === null;
   const mayStep = useDocument(({ present }) => present.frames.length > 0) && isIdle;
@@ -40,14 +42,14 @@ export function PlayBar() {
         icon="earlier"
         label={words.play.back}
         isDisabled={!mayStep}
-        onPress={() => playback.step(-1)}
+        onPress={() => player.step(-1)}
       />
       <PlayButton phase={phase} />
       <IconButton
         icon="later"
         label={words.play.forth}
         isDisabled={!mayStep}
-        onPress={() => playback.step(1)}
+        onPress={() => player.step(1)}
       />
       <PreviewButton phase={phase} />
       <RunOnBoard isDisabled={!mayPlay || !isIdle} />
@@ -70,14 +72,14 @@ function useMayPlay(): boolean {
 
 /** One button to begin and to end: the focus is still on it when what it began is to end. */
 function PlayButton({ phase }: { readonly phase: PlaybackPhase | null }) {
-  const { playback } = useStores();
+  const player = usePlayer();
   const mayPlay = useMayPlay();
   const ends = phase === null || phase === 'previewing' ? null : phase;
   return (
     <Button
       icon={ends === null ? 'play' : END_ICONS[ends]}
       isDisabled={ends === null && (!mayPlay || phase !== null)}
-      onPress={() => (ends === null ? playback.play() : playback.pause())}
+      onPress={() => (ends === null ? player.play() : player.pause())}
     >
       <PlayWords ends={ends} />
     </Button>
@@ -99,7 +101,7 @@ function endWord(phase: keyof typeof END_ICONS): string {
 
 /** As the one to play. */
 function PreviewButton({ phase }: { readonly phase: PlaybackPhase | null }) {
-  const { playback } = useStores();
+  const player = usePlayer();
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const isOn = phase === 'previewing';
   return (
@@ -107,7 +109,7 @@ function PreviewButton({ phase }: { readonly phase: PlaybackPhase | null }) {
       icon={isOn ? 'pause' : 'eye'}
       hint={words.play.previewHint}
       isDisabled={isEmpty || (phase !== null && !isOn)}
-      onPress={() => playback.togglePreview()}
+      onPress={() => player.togglePreview()}
     >
       <span className={cx(styles.words, styles.preview)} data-longest={words.play.preview}>
         <span className={styles.now}>{isOn ? words.play.pause : words.play.preview}</span>
@@ -121,7 +123,7 @@ const SAID_EACH_MS = 500;
 
 /** From where, as the playhead goes, or how often; or what ends it. With room for the longest: what follows stays in its place. */
 function PlayWords({ ends }: { readonly ends: keyof typeof END_ICONS | null }) {
-  const { playback } = useStores();
+  const player = usePlayer();
   const loops = usePlayback((state) => state.loops);
   const times = useView(chosenTimes);
   const fromEnd = words.play.playFrom(useDocument(({ present }) => timesOf(present).lengthMs));
@@ -134,7 +136,7 @@ function PlayWords({ ends }: { readonly ends: keyof typeof END_ICONS | null }) {
         eachMs={SAID_EACH_MS}
         text={() => {
           if (ends !== null) return endWord(ends);
-          const { fromMs, times: passes } = playback.next();
+          const { fromMs, times: passes } = player.next();
           return fromMs === null ? words.play.play(loops ? 1 : passes) : words.play.playFrom(fromMs);
         }}
       />
@@ -143,7 +145,8 @@ function PlayWords({ ends }: { readonly ends: keyof typeof END_ICONS | null }) {
 }
 
 function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
-  const { playback, notices } = useStores();
+  const { notices } = useStores();
+  const player = usePlayer();
   const { speedPercent, loops, isLive } = usePlayback((state) => state);
   const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
   const { min, max } = SPEED_PERCENT;
@@ -153,7 +156,7 @@ function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
         label={words.play.loop}
         isOn={loops}
         isDisabled={isDisabled}
-        onChange={(isOn) => playback.set({ loops: isOn })}
+        onChange={(isOn) => player.set({ loops: isOn })}
       />
       <NumberField
         label={words.play.speedField}
@@ -164,21 +167,21 @@ function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
         unit={words.play.percent}
         size="small"
         isDisabled={isDisabled}
-        onChange={(percent) => playback.set({ speedPercent: percent })}
+        onChange={(percent) => player.set({ speedPercent: percent })}
         onRefused={(percent) => notices.refuse(words.refused(words.play.speedField, percent, min, max))}
       />
       <Toggle
         label={words.play.live}
         isOn={isLive}
         isDisabled={isDisabled || !mayMove}
-        onChange={(isOn) => playback.set({ isLive: isOn })}
+        onChange={(isOn) => player.set({ isLive: isOn })}
       />
     </div>
   );
 }
 
 function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
-  const { playback } = useStores();
+  const player = usePlayer();
   const commands = useDevice((state) => state.family.commands);
   const slot = useSlot();
   const fate = useFates()(slot);
@@ -188,7 +191,7 @@ function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
       icon="board"
       isDisabled={isDisabled}
       hint={boardHint(slot, fate)}
-      onPress={() => playback.runOnBoard()}
+      onPress={() => player.runOnBoard()}
     >
       {words.play.onBoard}
     </Button>

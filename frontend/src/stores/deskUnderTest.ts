@@ -12,6 +12,7 @@ import { createMacros } from './robots/macros.ts';
 import { createMotionTape } from './playing/motionTape.ts';
 import { createNotices } from './notices.ts';
 import { createPlayback } from './playing/playback.ts';
+import { playerOf } from './playing/player.ts';
 import { createPlayhead } from './playing/playhead.ts';
 import { createPoses } from './driving/poses.ts';
 import { createRobots } from './robots/robots.ts';
@@ -47,10 +48,11 @@ export async function createDesk(
   const opened = createStore(() => ({ openId: 'at hand' }));
   const place = createGroupPlace({ document, opened, view, slots, device });
   const replacing = createReplacing({ device, robots, slots, place });
-  const playback = createPlayback({
+  const prepared = createPlayback({
     ...{ device, document, compiled, slots, place, replacing, notices, view, playhead, robots },
     documentId: () => opened.getState().openId,
   });
+  const playback = { ...prepared, ...playerOf(prepared) };
   device.attach(rig.session, way);
   const tape = createMotionTape({ device, robots, clock });
   const poses = createPoses({ storage, notices, robots, device, view });

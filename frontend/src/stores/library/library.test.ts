@@ -6,7 +6,7 @@ import { LibraryError, type Keeper } from '#shared/actions/library/keeper.ts';
 import { libraryFromText, type BundledDocument } from '#shared/actions/library/libraryText.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/simulator/virtualClock.ts';
 import { createMemoryKeeper } from '../../keepers/memoryKeeper.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../words/whole.ts';
 import { createVisit } from './libraryUnderTest.ts';
 
 const called = (name: string) => (group: Parameters<typeof rename>[0]) => rename(group, name);

@@ -27,7 +27,7 @@ import type { RobotStore } from '../robots/robots.ts';
 import type { View } from '../view.ts';
 import { longerName } from '../longerName.ts';
 import { groupOf } from './groupOf.ts';
-import { createLibraryFiles, type LibraryFiles } from './libraryFiles.ts';
+import type { LibraryFilesOptions } from './libraryFiles.ts';
 import { createLibraryVersions, type LibraryVersions } from './libraryVersions.ts';
 import { createOpenDocument } from './openDocument.ts';
 import { createOutbox } from './outbox.ts';
@@ -47,8 +47,10 @@ export interface LibraryState {
 }
 
 /** What cannot be done is told to the person; nothing rejects. */
-export interface Library extends LibraryFiles, LibraryVersions {
+export interface Library extends LibraryVersions {
   readonly store: StoreApi<LibraryState>;
+  /** What `createLibraryFiles` needs of it: files come with the panel that opens and saves them. */
+  readonly forFiles: LibraryFilesOptions;
   /** Looks what others have changed; the group that is shown follows, if nothing of it waits here. */
   refresh(): Promise<void>;
   create(): void;
@@ -335,10 +337,10 @@ export function createLibrary(options: LibraryOptions): Library {
   void attempt(start());
 
   return {
-    ...createLibraryFiles({
+    forFiles: {
       ...{ keeper: options.keeper, clock: options.clock, notices, newId, tell, refresh, settle },
       factsOf: (group, updatedAtMs) => factsOf(group, { updatedAtMs, robot: '' }),
-    }),
+    },
     ...createLibraryVersions({
       ...{ keeper: options.keeper, document, notices, epochMs, newId },
       ...{ attempt, read, open, settle, refresh },

@@ -18,7 +18,7 @@ import {
   type BundledDocument,
   type BundledVersion,
 } from '#shared/actions/library/libraryText.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../words/whole.ts';
 import type { Notices } from '../notices.ts';
 import { groupOf } from './groupOf.ts';
 

@@ -8,6 +8,7 @@ import { createNotices } from '../notices.ts';
 import { createRobots } from '../robots/robots.ts';
 import { createView } from '../view.ts';
 import { createLibrary } from './library.ts';
+import { createLibraryFiles } from './libraryFiles.ts';
 
 export const EPOCH_MS = 1_790_000_000_000;
 
@@ -30,11 +31,12 @@ export function createVisit(
   const document = createDocument(storage, notices, clock);
   const view = createView({ browser: storage, tab: storage });
   const robots = createRobots(storage, notices);
-  const library = createLibrary({
+  const begun = createLibrary({
     ...{ keeper: Promise.resolve(keeper), document, storage, notices, robots, view, clock },
     epochMs: () => EPOCH_MS,
     newId: nextId,
   });
+  const library = { ...begun, ...createLibraryFiles(begun.forFiles) };
   const names = () =>
     library.store
       .getState()

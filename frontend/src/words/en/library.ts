@@ -1,11 +1,7 @@
 // Words about the library: where action groups are kept, found again and brought back.
 
 import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
-import type { TextFlaw } from '#shared/actions/versionedText.ts';
-import { FLAWS } from './flaws.ts';
-import { counted, formatNames } from './numbers.ts';
-
-const groups = (count: number): string => counted(count, 'group');
+import { formatNames } from './numbers.ts';
 
 const PROBLEMS: Readonly<Record<LibraryErrorCode, string>> = {
   conflict: 'Somebody else has changed this group meanwhile. Try again.',
@@ -19,7 +15,7 @@ const PROBLEMS: Readonly<Record<LibraryErrorCode, string>> = {
   failed: 'The library cannot be used',
 };
 
-const problem = (code: LibraryErrorCode, detail: string): string => {
+export const libraryProblem = (code: LibraryErrorCode, detail: string): string => {
   if (code === 'damaged') return `${PROBLEMS.damaged}: ${detail}`;
   return code === 'failed' ? `${PROBLEMS.failed}: ${detail}.` : PROBLEMS[code];
 };
@@ -44,24 +40,7 @@ export const libraryWords = {
     `The library’s file was damaged. It was set aside unharmed as ${file}, and a new library begun.`,
   changesLost:
     'The library’s journal was damaged: what was changed last before the gateway’s start may be missing.',
-  problem,
-
-  notImported: ({ code, at }: TextFlaw): string => `Nothing was taken from the file. ${FLAWS[code](at)}`,
-  importWaits: 'The library is waited for. What is in the file comes in as soon as it answers.',
-  importFailed: (code: LibraryErrorCode, detail: string): string =>
-    `${problem(code, detail)} Nothing was taken from the file; import it again then.`,
-  imported: (added: number, changed: number, same: number): string =>
-    [
-      `${groups(added)} added.`,
-      changed === 0 ? '' : ` ${groups(changed)} differ from yours and stand beside them.`,
-      same === 0 ? '' : ` ${groups(same)} were here already.`,
-    ].join(''),
-  exported: (count: number): string => `${groups(count)} exported.`,
-  notExported: (names: readonly string[]): string =>
-    `Not in the file, because it cannot be read: ${formatNames(names)}.`,
-  versionOf: (name: string, version: string): string => `version ${version} of ${name}`,
-  versionsOf: (name: string): string => `the versions of ${name}`,
-  standsFor: (name: string, version: string): string => `${name} (its version ${version} stands for it)`,
+  problem: libraryProblem,
 
   steps: {
     rename: 'rename group',

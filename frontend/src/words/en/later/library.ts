@@ -1,8 +1,12 @@
 // Words about the library: where action groups are kept, found again and brought back.
 
-import { counted, formatLongAge, formatSeconds, formatWhen } from '../numbers.ts';
-import { libraryWords } from '../library.ts';
+import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
+import type { TextFlaw } from '#shared/actions/versionedText.ts';
+import { FLAWS } from '../flaws.ts';
+import { counted, formatLongAge, formatNames, formatSeconds, formatWhen } from '../numbers.ts';
+import { libraryProblem, libraryWords } from '../library.ts';
 
+const groups = (count: number): string => counted(count, 'group');
 const frames = (count: number): string => counted(count, 'frame');
 
 export const wholeLibraryWords = {
@@ -58,4 +62,21 @@ export const wholeLibraryWords = {
   removeVersion: (name: string): string => `Delete version ${name}`,
   at: (epochMs: number): string => formatWhen(epochMs),
   unreadableFile: 'The file could not be read.',
+
+  notImported: ({ code, at }: TextFlaw): string => `Nothing was taken from the file. ${FLAWS[code](at)}`,
+  importWaits: 'The library is waited for. What is in the file comes in as soon as it answers.',
+  importFailed: (code: LibraryErrorCode, detail: string): string =>
+    `${libraryProblem(code, detail)} Nothing was taken from the file; import it again then.`,
+  imported: (added: number, changed: number, same: number): string =>
+    [
+      `${groups(added)} added.`,
+      changed === 0 ? '' : ` ${groups(changed)} differ from yours and stand beside them.`,
+      same === 0 ? '' : ` ${groups(same)} were here already.`,
+    ].join(''),
+  exported: (count: number): string => `${groups(count)} exported.`,
+  notExported: (names: readonly string[]): string =>
+    `Not in the file, because it cannot be read: ${formatNames(names)}.`,
+  versionOf: (name: string, version: string): string => `version ${version} of ${name}`,
+  versionsOf: (name: string): string => `the versions of ${name}`,
+  standsFor: (name: string, version: string): string => `${name} (its version ${version} stands for it)`,
 };
