@@ -54,6 +54,8 @@ PASSER_BY = Caller("link", "Stop link", "stopper")
 KNOWN_SLOT = 5
 # Whoever had the port before may have set something in motion: all of that has ended.
 OPENED_LONG_AGO_S = 31.0
+# What moves no longer than that needs no stop.
+SILENCE_S = {"silent driver": 2.0}
 STOP_REPEATS_S = (0.07, 0.14)
 LOST_FOR_S = 0.1
 ERASED_WITHIN_S = 3.0
@@ -78,6 +80,8 @@ class Said:
 class Outcome:
     said: list[Said]
     moved_s: Sequence[float]
+    due_s: float
+    was_latched: bool
 
     @property
     def moved_on(self) -> bool:
@@ -85,7 +89,13 @@ class Outcome:
         return max(self.moved_s) > self.said[0].left_s + HELD_WITHIN_S
 
     def broken(self) -> list[str]:
-        """Servos that moved longer than STOP said."""
+        """Servos that moved longer than STOP said, or though nothing was said."""
+        if not (self.said or self.was_latched):
+            return [
+                f"servo {servo} moved for {1000 * (moved_s - self.due_s):.1f} ms, and no stop came"
+                for servo, moved_s in zip(SERVOS, self.moved_s, strict=True)
+                if moved_s > self.due_s + HELD_WITHIN_S
+            ]
         return [
             f"servo {servo} moved for {1000 * (moved_s - said.pressed_s):.1f} ms, limit "
             f"{1000 * (limit_s - said.pressed_s):.1f}: {said.unheld}"
@@ -262,7 +272,8 @@ async def outcome_of(simulator: Simulator, family: str, history: History, door: 
     await here.prepare(history)
     for step in history["steps"]:
         await here.take(step)
-    pressed_before = len(control.pressed_s)
+    pressed_before, was_latched = len(control.pressed_s), control.latch
+    due_s = now() + SILENCE_S.get(door, 0)
     with contextlib.suppress(GatewayError):
         await DOORS[door](here)
     await asyncio.sleep(SETTLES_S)
@@ -273,7 +284,7 @@ async def outcome_of(simulator: Simulator, family: str, history: History, door: 
     # Pressed again while it stops it joins the STOP under way.
     pressed_s = min(control.pressed_s[pressed_before:], default=inf)
     said = [one for one in control.said if one.left_s >= pressed_s]
-    outcome = Outcome(said, board.moved_s)
+    outcome = Outcome(said, board.moved_s, due_s, was_latched)
     await control.board.link.close()
     return outcome
 

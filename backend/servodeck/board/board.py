@@ -124,6 +124,10 @@ class Board:
     def may_move(self) -> bool:
         return self.motion.group_may_run(self._now()) or self.motion.is_moving(self._now())
 
+    def may_move_on(self) -> bool:
+        """Also with the last frame of a group that its driver has ended."""
+        return self.may_move() or self.motion.last_frame_may_go_on(self._now())
+
     def take_for(self, family: str) -> None:
         """What was asked of the one it was taken for does not leave. Raises MovingError while it stores."""
         self.jobs.judge_idle()

@@ -71,6 +71,8 @@ class Estimate:
         """The board may still say until then that its group has ended, and is taken to play it."""
         self._unheard_until_ms = -inf
         """A move that the board may take up late has ended by then."""
+        self._last_frame_until_ms = -inf
+        """The last frame of a group that was ended, and that nobody knows, is over by then."""
 
     def played_frames(self, slot: int) -> Sequence[Frame] | None:
         return self._memory.played_frames(slot)
@@ -87,9 +89,14 @@ class Estimate:
             return
         at_ms = self._advance(at_s)
         self._at_ms = at_ms
-        is_heard = hears(self._motion, at_ms)
+        is_heard, ran = hears(self._motion, at_ms), self._motion.run
         self._change_memory(command, is_heard=is_heard)
         self._motion = after_command(self._motion, command, at_ms, self)
+        if isinstance(ran, UnknownRun) and self._motion.run is None:
+            self._last_frame_until_ms = self._motion.restless_until_ms
+        if isinstance(command, Download):
+            # A stop would break its slot, for what its driver let go on.
+            self._last_frame_until_ms = -inf
         if isinstance(command, Run) and self._motion.run:
             self._run = self._asked = command
             self._run_at_ms, self._over_ms = at_ms, -inf
@@ -170,6 +177,11 @@ class Estimate:
         now_ms = self._advance(now)
         is_on_its_way = self._run is None and remaining_ms(self._motion, now_ms) > CLOCK_GRAIN_MS
         return is_on_its_way or now_ms < self._unheard_until_ms
+
+    def last_frame_may_go_on(self, now: float) -> bool:
+        """Of a group that was ended, where nobody knows how long that takes."""
+        now_ms = self._advance(now)
+        return now_ms < min(self._last_frame_until_ms, self._motion.restless_until_ms)
 
     def is_unknown(self, servo: int, now: float) -> bool:
         """Nobody has moved it, and the board has not said where it stands."""

@@ -28,7 +28,7 @@ class Watch:
             self._stop_for_nobody()
 
     def driver_silent(self) -> None:
-        if self._control.board.may_move() and not self._control.board.unattended.by:
+        if self._control.board.may_move_on() and not self._control.board.unattended.by:
             self._stop_for_nobody()
 
     def driver_lost(self) -> None:
@@ -58,7 +58,7 @@ class Watch:
             board.unattended.end()
         elif not is_of(driver, caller_id):
             return
-        if board.may_move():
+        if board.may_move_on():
             with contextlib.suppress(GatewayError):
                 self._control.stop(None, cause=Cause("person", by))
 
