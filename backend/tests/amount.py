@@ -8,11 +8,14 @@ from contextlib import contextmanager
 ONLY_SEED = os.environ.get("FAULT_SEED")
 # `npm run test:all -- --long` sets it for every property, here and in TypeScript.
 TIMES = 10 if int(os.environ.get("PROPERTY_RUNS", "0")) > 0 else 1
+IS_EXHAUSTIVE = os.environ.get("EXHAUSTIVE") == "1" or TIMES > 1
 
 
-def seeds(count: int) -> Sequence[int]:
-    """`count` of them, ten times that in a long run, or the one asked for."""
-    return range(count * TIMES) if ONLY_SEED is None else (int(ONLY_SEED),)
+def seeds(count: int, sample: int | None = None) -> Sequence[int]:
+    """`sample` of them, evenly spread, or all `count`, ten times that in a long run, or the one asked for."""
+    if ONLY_SEED is not None:
+        return (int(ONLY_SEED),)
+    return range(0, count * TIMES, 1 if IS_EXHAUSTIVE or sample is None else max(1, count // sample))
 
 
 def replay(file: str, seed: int) -> str:

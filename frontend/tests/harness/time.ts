@@ -4,7 +4,8 @@
 import type { Clock } from '#shared/clock.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
 
-export const FRAME_MS = 16;
+/** A display of 30 frames a second. */
+export const FRAME_MS = 32;
 /** A weekday at noon, the same for every test. */
 const STARTED_AT_EPOCH_MS = Date.UTC(2026, 0, 14, 12);
 

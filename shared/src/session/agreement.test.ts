@@ -107,7 +107,7 @@ describe.each(SIMULATED)('$profile', ({ family, profile }) => {
           counts.sharp += known.filter(({ leeway }) => leeway <= SHARP * span).length;
           expect(samples.filter(isWrong)).toEqual([]);
         }),
-        { numRuns: 30 * TIMES },
+        { numRuns: 15 * TIMES },
       );
       expect(counts.known / counts.all).toBeGreaterThan(LEAST_KNOWN[family.motion.groups]);
       expect(counts.sharp / counts.known).toBeGreaterThan(LEAST_SHARP);
@@ -186,7 +186,7 @@ describe.each(TELLING)('$profile, which tells its positions,', ({ family, profil
           expect(robot.samples.filter(isWrong)).toEqual([]);
           known += robot.samples.filter(({ estimated }) => estimated !== null).length;
         }),
-        { numRuns: 30 * TIMES },
+        { numRuns: 15 * TIMES },
       );
       expect(known).toBeGreaterThan(0);
     },
