@@ -50,9 +50,6 @@ async function builtParts() {
 export const buildStamp = 'build/built-stamp';
 
 export function buildInputs() {
-  const sources = [
-    ...['frontend', 'shared/src', 'package-lock.json', 'vite.config.ts'],
-    ...['scripts/build.mjs', 'scripts/class_names.mjs'],
-  ];
+  const sources = ['frontend', 'shared/src', 'package-lock.json', 'vite.config.ts', 'scripts/build.mjs'];
   return fingerprint(sources, [process.version], (file) => !isTest.test(file));
 }

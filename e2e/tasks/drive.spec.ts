@@ -20,6 +20,8 @@ test('a slider stepped by key moves the servo, slowly at first, and the estimate
   dashboard,
   robot,
 }) => {
+  await expect(dashboard.stop).toBeInViewport({ ratio: 1 });
+  await expect(dashboard.slider(3)).toBeInViewport({ ratio: 1 });
   await expect(dashboard.estimate(3)).toBeHidden();
   await dashboard.slider(3).press('ArrowRight');
   await expect(dashboard.slider(3)).toHaveAttribute('aria-valuetext', '1501 µs, commanded');
