@@ -43,7 +43,7 @@ test('an owner comes in by the terminal’s link, lets a viewer in, who stops th
   await expect(people.person('Ben')).toBeHidden();
 });
 
-test('people come in by the digits, one after the other, until five were wrong', async ({
+test('people come in by the digits, one after the other, until five were wrong @exhaustive', async ({
   newGateway,
   ptyBoard,
   browser,

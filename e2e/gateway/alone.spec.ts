@@ -73,7 +73,7 @@ test('a pose that a page has captured can be gone to by a script @exhaustive', a
   await poll(() => lastTarget(robot.bus, 1)).toBe(1777);
 });
 
-test('a script drives under its name, and the page that is alone beside it sees that', async ({
+test('a script drives under its name, and the page that is alone beside it sees that @exhaustive', async ({
   dashboard,
   robot,
   request,

@@ -13,7 +13,7 @@ const SIX = [1, 2, 3, 4, 5, 6];
 test.describe('an xArm', () => {
   test.use({ boardSettings: { board: 'xarm' } });
 
-  test('says where its servos stand, and lets go of them after a warning', async ({
+  test('says where its servos stand, and lets go of them after a warning @exhaustive', async ({
     page,
     ptyBoard,
     newGateway,

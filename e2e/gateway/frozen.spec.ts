@@ -17,7 +17,7 @@ async function freeze(window: CDPSession): Promise<void> {
   await stands;
 }
 
-test('a window that froze while it played wakes, and moves nothing', async ({
+test('a window that froze while it played wakes, and moves nothing @exhaustive', async ({
   dashboard,
   robot,
   browser,

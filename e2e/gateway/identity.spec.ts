@@ -96,7 +96,7 @@ test.describe('another board under the name of a known one', () => {
 test.describe('a board that falls silent', () => {
   test.use({ boardSettings: { board: 'lsc-6', faults: ['brownOut=5000@14000'] } });
 
-  test('is called silent, then comes back latched', async ({ page, ptyBoard, newGateway }) => {
+  test('is called silent, then comes back latched @exhaustive', async ({ page, ptyBoard, newGateway }) => {
     const { url } = await newGateway({ serial: ptyBoard.device, board: 'lsc-6' });
     const dashboard = dashboardOf(page);
     await page.goto(url);

@@ -31,7 +31,7 @@ function hide(page: Page): Promise<void> {
   });
 }
 
-test('a hidden tab pauses; the next one is told who drives, moves the robot here, and gives it back', async ({
+test('a hidden tab pauses; the next one is told who drives, moves the robot here, and gives it back @exhaustive', async ({
   openPort,
   open,
   context,

@@ -4,7 +4,7 @@ import { ofKind } from '../fixtures/bus.ts';
 import { captureGroup, downloadGroup } from '../fixtures/group.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
-test('a group is made, put in order, kept over a reload, downloaded and run', async ({
+test('a group is made, put in order, kept over a reload, downloaded and run @exhaustive', async ({
   dashboard,
   page,
   robot,

@@ -1,7 +1,8 @@
 // Lowest, highest and home: the servo is crept there and the commanded position becomes the figure.
 
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
-import { endFound, noteFound, type Calibration } from '#shared/actions/robot/robotCalibration.ts';
+import type { Calibration } from '#shared/actions/robot/calibration.ts';
+import { endFound, noteFound } from '#shared/actions/robot/robotCalibration.ts';
 import { changeServo, reachOf } from '#shared/actions/robot/robotEdits.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { ReachBar } from '../robots/ReachBar.tsx';

@@ -1,6 +1,7 @@
 // The calibration at hand: which servo, which step, and what a finished step does to the robot. Each is one step to undo.
 
 import { useEffect, useState } from 'react';
+import type { Calibration, CalibrationStep } from '#shared/actions/robot/calibration.ts';
 import { flawOf, servoOf, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
 import {
   beginCalibration,
@@ -9,8 +10,6 @@ import {
   servoDone,
   settled,
   stepDone,
-  type Calibration,
-  type CalibrationStep,
 } from '#shared/actions/robot/robotCalibration.ts';
 import { useRobot, useServoView, useStores, useView } from '../stores/stores.ts';
 import { words } from '../words/whole.ts';

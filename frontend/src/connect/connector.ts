@@ -15,6 +15,7 @@ import type { Notices } from '../stores/notices.ts';
 import type { You } from '../stores/people/people.generated.ts';
 import { createGatewayTransport } from '../transports/gateway.ts';
 import { choosePort, grantedPorts, portLabel, webSerialObstacle } from '../transports/serialPorts.ts';
+import { createWebSerialTransport } from '../transports/webSerial.ts';
 import { later } from '../ui/later.tsx';
 import { words } from '../words/words.ts';
 import {
@@ -62,7 +63,7 @@ export interface Connector {
   useGateway(): void;
   /** Has the gateway open that port first. Rejects with a LinkError. */
   useGatewayPort(device: string): Promise<void>;
-  useSerialPort(port: SerialPort): Promise<void>;
+  useSerialPort(port: SerialPort): void;
   /** Opens the browser's chooser. Rejects with a LinkError. */
   chooseSerialPort(): Promise<void>;
   disconnect(): void;
@@ -88,10 +89,8 @@ export interface ConnectorOptions {
   isWatched(): boolean;
 }
 
-const loadSerial = () => import('../transports/webSerial.ts');
 const loadSimulated = () => import('../transports/simulated.ts');
-// Connecting needs no gateway: both are there before they are wanted.
-later(loadSerial, 'guards');
+// It needs no gateway: it is there before it is wanted.
 later(loadSimulated);
 
 export function createConnector(options: ConnectorOptions): Connector {
@@ -108,19 +107,18 @@ export function createConnector(options: ConnectorOptions): Connector {
 
   let current: { readonly transport: Transport; readonly session: Session } | null = null;
 
-  async function openSerial(port: SerialPort): Promise<Transport> {
-    const { createWebSerialTransport } = await loadSerial();
+  function openSerial(port: SerialPort): Transport {
     store.setState({ openPort: port });
     return createWebSerialTransport(port, () => current?.session.halt() ?? Promise.resolve());
   }
 
   /** What is open already is left alone, and that is said: the browser's chooser does not know it. */
-  async function openOnce(port: SerialPort): Promise<void> {
+  function openOnce(port: SerialPort): void {
     const { openPort } = store.getState();
     const isOpen = current?.transport.kind === 'webSerial' && current.session.state.link.status === 'ready';
     if (isOpen && port === openPort)
       notices.tell('info', words.connect.isOpen(current?.transport.label ?? ''));
-    else chosen(await openSerial(port));
+    else chosen(openSerial(port));
   }
 
   /** A board in the page is what it was made as; any other is asked, and taken for what it was the last time. */
@@ -186,7 +184,7 @@ export function createConnector(options: ConnectorOptions): Connector {
       await connect(await simulated());
       if (last === null) greet();
     } else if (!reconnects) return;
-    else if (last?.kind === 'webSerial' && port !== undefined) await connect(await openSerial(port.port));
+    else if (last?.kind === 'webSerial' && port !== undefined) await connect(openSerial(port.port));
     else if (typeof gateway === 'object') await connect(gatewayTransport());
     else await connect(await simulated());
     if (gateway === 'absent') void offerLateGateway();
@@ -239,7 +237,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     },
     useSerialPort: openOnce,
     async chooseSerialPort() {
-      await openOnce(await choosePort());
+      openOnce(await choosePort());
     },
     disconnect: () => void device.detach().catch(notices.tellError),
     async moveHere() {

@@ -1,7 +1,7 @@
 // How far the calibration of a robot has come, as a text that is kept until it goes on. What is none is not taken.
 
 import * as v from 'valibot';
-import { CALIBRATION_STEPS, type Calibration } from './robotCalibration.ts';
+import { CALIBRATION_STEPS, type Calibration } from './calibration.ts';
 
 /** Of which robot, by its number among those of this browser. */
 export interface KeptCalibration {

@@ -1,4 +1,5 @@
 import { describe, expect, test } from 'vitest';
+import type { Calibration } from './calibration.ts';
 import { readyRobot, type ReadyRobotId } from './readyRobots.ts';
 import {
   beginCalibration,
@@ -10,7 +11,6 @@ import {
   settled,
   stepDone,
   stepsOf,
-  type Calibration,
 } from './robotCalibration.ts';
 import { changeServo, removeServo } from './robotEdits.ts';
 import { servoOf, type Robot } from './robot.ts';

@@ -2,34 +2,15 @@
 // step does to the robot is robotEdits.ts.
 
 import { FAMILIES } from '../../protocol/families.ts';
+import {
+  CALIBRATION_STEPS,
+  type Calibration,
+  type CalibrationStep,
+  type End,
+  type FoundEnd,
+} from './calibration.ts';
 import { servoOf, type Robot, type RobotServo } from './robot.ts';
 import { setEnds } from './robotEdits.ts';
-
-export const CALIBRATION_STEPS = ['min', 'max', 'home', 'direction', 'partner', 'trim'] as const;
-export type CalibrationStep = (typeof CALIBRATION_STEPS)[number];
-
-export interface Calibration {
-  readonly servo: number;
-  readonly step: CalibrationStep;
-  readonly done: readonly Done[];
-  /** The end that was found last, with home as it was before any was. */
-  readonly found?: FoundEnd | undefined;
-}
-
-/** One of the two ends of a servo's way. */
-export type End = 'min' | 'max';
-
-interface FoundEnd {
-  readonly servo: number;
-  readonly end: End;
-  readonly at: number;
-  readonly home: number;
-}
-
-interface Done {
-  readonly servo: number;
-  readonly step: CalibrationStep;
-}
 
 /** What a partner takes over needs no looking for. */
 const MIRRORED_STEPS = ['min', 'max', 'home', 'direction', 'partner'] as const;

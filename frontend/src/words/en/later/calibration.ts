@@ -1,6 +1,6 @@
 // Words of the calibration: what to do with a servo at each step, and what each button sets.
 
-import type { CalibrationStep } from '#shared/actions/robot/robotCalibration.ts';
+import type { CalibrationStep } from '#shared/actions/robot/calibration.ts';
 import { counted, formatPosition, formatWhole, unitSymbol } from '../numbers.ts';
 import type { PositionUnit } from '../../numbers.ts';
 
