@@ -19,6 +19,7 @@ const unwantedFeatures = [
   'MediaRouter',
   'OptimizationHints',
   'PaintHolding',
+  'SpareRendererForSitePerProcess',
 ];
 
 export default defineConfig<object, { way: Way }>({

@@ -39,7 +39,7 @@ ENDLESS = "/api/events"
 DEFECT = 500
 # A refusal, too: what is wrong may be so large that nobody looks at it.
 TOO_LARGE = 413
-EXAMPLES = 6 * TIMES
+EXAMPLES = 3 * TIMES
 Operation = APIOperation[Any, Any, Any, Any]
 AnyCase = Case[Any]
 CHECKS = [content_type_conformance, response_schema_conformance, status_code_conformance]

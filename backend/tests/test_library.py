@@ -223,7 +223,7 @@ def test_whatever_is_damaged_no_document_is_another_and_nothing_is_raised_but_wh
 
 
 @given(seed=st.integers(0, 2**32), part=st.sampled_from(["", "-wal"]))
-@settings(max_examples=100 * TIMES, deadline=None)
+@settings(max_examples=30 * TIMES, deadline=None)
 def test_whichever_bit_is_flipped_all_is_as_it_was_or_said_to_be_damaged(seed: int, part: str) -> None:
     chance = Random(seed)
     with tempfile.TemporaryDirectory() as name:

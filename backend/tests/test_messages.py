@@ -115,7 +115,7 @@ messages = st.one_of(
 texts = st.one_of(st.text(max_size=200), messages.map(json.dumps))
 
 
-@settings(max_examples=200 * TIMES)
+@settings(max_examples=100 * TIMES)
 @given(st.lists(texts, max_size=5))
 def test_no_text_harms_the_gateway_and_a_stopped_robot_stays_stopped(asked: list[str]) -> None:
     say_while_latched(asked)

@@ -6,18 +6,16 @@ import * as libraries from '../../e2e/fixtures/library.ts';
 import { filesDialogOf, vector } from './filesDialog.ts';
 import type { Locator } from './harness/locator.ts';
 import type { Page } from './harness/page.ts';
-import { expectNoSidewaysScroll, expectSound, looks } from './harness/sound.ts';
+import { expectNoSidewaysScroll, expectSound, isExhaustive, looks } from './harness/sound.ts';
 import { dashboardOf, expect, here, poll, test, type Dashboard } from './harness/test.ts';
 import { advance } from './harness/time.ts';
 
 const { robotDialogOf } = here(robotDialog);
 const libraryOf = here(libraries.libraryOf);
 
-const SIZES = [
-  { width: 390, height: 844 },
-  { width: 820, height: 1180 },
-  { width: 1440, height: 900 },
-];
+const PHONE = { width: 390, height: 844 };
+const TABLET = { width: 820, height: 1180 };
+const DESKTOP = { width: 1440, height: 900 };
 const TABS = ['Actions', 'Board', 'Log', 'Buttons', 'Live'];
 
 interface Look {
@@ -100,7 +98,7 @@ async function expectLibrarySound({ page, isDark }: Look): Promise<void> {
 const heightOf = (place: Locator): Promise<number> => place.evaluate(({ clientHeight }) => clientHeight);
 
 for (const colorScheme of looks(['light', 'dark'])) {
-  for (const viewport of SIZES) {
+  for (const viewport of isExhaustive ? [PHONE, TABLET, DESKTOP] : [PHONE, DESKTOP]) {
     test.describe(`${viewport.width} px, ${colorScheme}`, () => {
       test.override({ viewport, media: { colorScheme } });
       const isDark = colorScheme === 'dark';
@@ -141,7 +139,7 @@ for (const colorScheme of looks(['light', 'dark'])) {
   }
 }
 
-for (const viewport of SIZES)
+for (const viewport of looks([PHONE, TABLET, DESKTOP]))
   test.describe(`${viewport.width} px`, () => {
     test.override({ viewport });
 

@@ -4,6 +4,7 @@
 import { vi } from 'vitest';
 import type { Page } from './harness/page.ts';
 import * as gallery from '../../e2e/fixtures/gallery.ts';
+import { isExhaustive } from './harness/sound.ts';
 import { dashboardOf, expect, here, test } from './harness/test.ts';
 
 const { walkGallery } = here(gallery);
@@ -92,9 +93,10 @@ async function expectChinese(page: Page, state: string): Promise<void> {
   expect.soft(left, state).toEqual([]);
 }
 
-test('no state of the gallery has an English sentence left', async ({ page, url }) => {
-  await walkGallery({ page, url, language: 'zh' }, (state) => expectChinese(page, state));
-});
+if (isExhaustive)
+  test('no state of the gallery has an English sentence left', async ({ page, url }) => {
+    await walkGallery({ page, url, language: 'zh' }, (state) => expectChinese(page, state));
+  });
 
 test.describe('in a Chinese browser', () => {
   test.beforeEach(() => void vi.spyOn(navigator, 'languages', 'get').mockReturnValue(['zh-CN']));

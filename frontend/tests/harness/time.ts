@@ -109,7 +109,7 @@ export const realFrame = (): Promise<void> =>
 
 const USUAL_WITHIN_MS = 5000;
 /** Work beside the page takes real time. */
-const REAL_WITHIN_MS = 2000;
+const REAL_WITHIN_MS = 5000;
 
 /** Lets time pass until `check` throws no more; rejects with what it threw last. */
 export async function eventually<T>(check: () => T | Promise<T>, withinMs = USUAL_WITHIN_MS): Promise<T> {

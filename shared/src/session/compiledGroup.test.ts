@@ -71,7 +71,7 @@ describe.each(STRAIGHT)('a group compiled for $profile', ({ family, profile }) =
           }
         },
       ),
-      { numRuns: numRuns ?? 30 },
+      { numRuns: numRuns ?? 15 },
     );
     expect(looked).toBeGreaterThan(0);
   }, 120_000);

@@ -8,7 +8,7 @@ const env = runner?.env ?? {};
 const ONLY_SEED = env.FAULT_SEED;
 /** `npm run test:all` sets it, `-- --long` to more: ten times the cases are tried then. */
 export const TIMES = Number(env.PROPERTY_RUNS ?? 0) > 0 ? 10 : 1;
-const IS_EXHAUSTIVE = env.EXHAUSTIVE === '1' || TIMES > 1;
+export const IS_EXHAUSTIVE = env.EXHAUSTIVE === '1' || TIMES > 1;
 /** What `npm test` tries of a longer table: enough to see each kind of fault, evenly spread. */
 const SAMPLE = 50;
 
