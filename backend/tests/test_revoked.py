@@ -120,12 +120,19 @@ async def test_the_pose_that_a_page_brought_with_its_stop_is_not_sent_any_more()
         assert move(77, s1=999) not in here.sent()[2:]
 
 
+@pytest.mark.parametrize("how", ["release", "silence", REVOKE, DEMOTE])
 @in_virtual_time
-async def test_every_loss_of_the_lease_raises_the_epoch() -> None:
+async def test_every_loss_of_the_lease_raises_the_epoch(how: str) -> None:
     async with script() as here:
         await here.move(1500, s1=2000)
         before = here.control.driving.epoch
-        await here.post("lease", action="release")
+        if how == "release":
+            await here.post("lease", action="release")
+        elif how == "silence":
+            await asyncio.sleep(60)
+        else:
+            await send_away(here, how)
+        assert here.control.driving.driver is None
         assert here.control.driving.epoch == before + 1
 
 
