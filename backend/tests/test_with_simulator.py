@@ -21,6 +21,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from servodeck.port.background import BackgroundPorts
 from tests.running import Running, server_on
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, MOVE_ELSEWHERE, RUN, STOP
+from tests.test_cli import run
 from tests.test_clients import drive, hear, hear_until, say
 
 ROOT = Path(__file__).parents[2]
@@ -153,9 +154,10 @@ async def ask_at_rest(client: AsyncClient, path: str, **body: Any) -> dict[str, 
 
 
 @pytest.mark.exhaustive
+@pytest.mark.parametrize("door", ["HTTP", "command line"])
 @pytest.mark.parametrize("board", ["openarm-old"], indirect=True)
 async def test_a_group_that_the_gateway_stored_is_held_where_its_frame_has_the_servo(
-    board: Board, gateway: Running
+    board: Board, gateway: Running, door: str
 ) -> None:
     async with AsyncClient(base_url=f"http://{gateway.host}") as client:
         await client.put("/api/port", json={"device": str(board.link), "board": board.name})
@@ -167,11 +169,14 @@ async def test_a_group_that_the_gateway_stored_is_held_where_its_frame_has_the_s
         assert state.json()["status"] == "done"
         await ask_at_rest(client, f"slots/{SLOT}/run", continueForMs=60_000)
         await asyncio.sleep(1)
-        stopped = await ask_at_rest(client, "stop")
+        if door == "HTTP":
+            assert (await ask_at_rest(client, "stop"))["unheld"] is None
+        else:
+            told = await asyncio.to_thread(run, "stop", "--url", f"http://{gateway.host}")
+            assert told.stdout.startswith("Stopped. ")
     taken = await ask_until(
         board.packets_taken, lambda packets: [packet for _, packet in packets][-6:-5] == [RUN_SLOT]
     )
-    assert stopped["unheld"] is None
     [(begun_ms, _), (_, first), (held_ms, hold), *repeats, (_, again)] = taken[-6:]
     assert [first, *(packet for _, packet in repeats)] == [STOP] * 3
     target, ran_ms = int.from_bytes(hold[8:10], "little"), held_ms - begun_ms
