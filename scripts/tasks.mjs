@@ -28,21 +28,27 @@ const colours = process.stdout.isTTY ? { FORCE_COLOR: '1' } : { FORCE_COLOR: und
 const lanes = Math.max(2, Math.min(4, availableParallelism()));
 
 /**
- * @param {readonly Task[]} tasks the longest first
+ * @param {readonly (Task | readonly Task[])[]} tasks the longest first; several together go one after the other
  * @returns {Promise<Result[]>} never rejects: a check that cannot run has failed
  */
 export async function runTasks(tasks) {
   /** @type {Result[]} */
   const results = [];
+  const attempt = async (/** @type {Task} */ task) => {
+    const { output, ...result } = await runTask(task);
+    results.push(result);
+    if (!result.ok) throw new Error(output);
+  };
   const list = new Listr(
-    tasks.map((task) => ({
-      title: task.name,
-      task: async () => {
-        const { output, ...result } = await runTask(task);
-        results.push(result);
-        if (!result.ok) throw new Error(output);
-      },
-    })),
+    tasks.map((one) => {
+      const chain = [one].flat();
+      return {
+        title: chain.map(({ name }) => name).join(', '),
+        task: async () => {
+          for (const task of chain) await attempt(task);
+        },
+      };
+    }),
     {
       concurrent: lanes,
       exitOnError: false,

@@ -17,7 +17,7 @@ async function otherScreen(browser: Browser, robot: Robot): Promise<Dashboard> {
   return dashboard;
 }
 
-test('limits set on one screen hold on the other, while it calibrates too', async ({
+test('limits set on one screen hold on the other, while it calibrates too @exhaustive', async ({
   dashboard,
   robot,
   browser,

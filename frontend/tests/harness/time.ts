@@ -109,7 +109,7 @@ export const realFrame = (): Promise<void> =>
 
 const USUAL_WITHIN_MS = 5000;
 /** Work beside the page takes real time. */
-const REAL_WITHIN_MS = 5000;
+const REAL_WITHIN_MS = 4000;
 
 /** Lets time pass until `check` throws no more; rejects with what it threw last. */
 export async function eventually<T>(check: () => T | Promise<T>, withinMs = USUAL_WITHIN_MS): Promise<T> {
@@ -125,7 +125,9 @@ export async function eventually<T>(check: () => T | Promise<T>, withinMs = USUA
     }
     const stepMs = passedMs < 10 * FRAME_MS || passedMs >= withinMs ? FRAME_MS : 3 * FRAME_MS;
     await advance(stepMs);
-    if (passedMs + stepMs >= withinMs || tries % 8 === 7) await realMoment();
+    // Then only work beside the page is waited for.
+    if (passedMs + stepMs >= withinMs) await realMoment(25);
+    else if (tries % 8 === 7) await realMoment();
   }
 }
 
