@@ -226,6 +226,8 @@ export function createPage() {
     },
     async end(): Promise<void> {
       await leave();
+      // Also of a test that opened none.
+      document.body.replaceChildren();
       files.end();
       await act(['move', 0, 0], ['leaveClipboard']);
     },
