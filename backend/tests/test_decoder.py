@@ -1,8 +1,6 @@
 """The gateway's decoder against the shared streams, three ways each, and what holds for any bytes."""
 
-import json
 from collections.abc import Iterable, Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -19,8 +17,8 @@ from servodeck.protocol.decoder import (
     PacketEvent,
     Shapes,
 )
+from tests.vectors import load_vectors
 
-STREAMS = Path(__file__).parents[2] / "shared" / "vectors" / "streams.json"
 SHAPES: dict[str, Shapes] = {"report": REPORT_SHAPES, "command": COMMAND_SHAPES}
 IDLE, PAUSE = "idle", "pause"
 Piece = bytes | str
@@ -29,8 +27,7 @@ both = pytest.mark.parametrize("shapes", SHAPES.values(), ids=SHAPES)
 
 
 def streams() -> list[Any]:
-    vectors = json.loads(STREAMS.read_text("utf-8"))
-    return [pytest.param(vector, id=vector["name"]) for vector in vectors]
+    return [pytest.param(vector, id=vector["name"]) for vector in load_vectors("streams")]
 
 
 def pieces(feed: list[str]) -> list[Piece]:

@@ -1,10 +1,9 @@
-"""The gateway's loop of a download against shared/vectors/downloads.json: when a board says what, and each
-packet that follows from it. The page's session (shared/src/session/downloads.test.ts) runs the same file.
+"""The gateway's loop of a download against shared/protocol/vectors/downloads.json: when a board says what,
+and each packet that follows from it. The page's session (shared/src/session/downloads.test.ts) runs the same
+file.
 """
 
-import json
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -19,9 +18,10 @@ from servodeck.told import JobState
 from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import STOP
+from tests.vectors import load_vectors
 from tests.virtual_time import at, in_virtual_time, now
 
-VECTORS = json.loads((Path(__file__).parents[2] / "shared/vectors/downloads.json").read_text("utf-8"))
+VECTORS = load_vectors("downloads")
 STORED = bytes.fromhex("55550219")
 GUEST = Caller("guest", "Bert", "viewer")
 

@@ -1,10 +1,8 @@
-"""The gateway's estimate against shared/vectors/halts.json: what a STOP holds and what not, in histories of a
-simulated board. The page's session (shared/src/session/halts.test.ts) runs the same file.
+"""The gateway's estimate against shared/protocol/vectors/halts.json: what a STOP holds and what not, in
+histories of a simulated board. The page's session (shared/src/session/halts.test.ts) runs the same file.
 """
 
-import json
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -15,9 +13,9 @@ from servodeck.protocol.decoder import Packet
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode, parse_command, parse_report
 from servodeck.protocol.values import Download, Frame, Move, ServoTarget
+from tests.vectors import load_vectors
 
-FILE = Path(__file__).parents[2] / "shared/vectors/halts.json"
-HISTORIES = json.loads(FILE.read_text("utf-8"))
+HISTORIES = load_vectors("halts")
 
 
 def replay(estimate: Estimate, event: dict[str, Any]) -> None:

@@ -1,9 +1,7 @@
 """The gateway's codec against the shared vectors, and what holds for all commands."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -45,13 +43,11 @@ from servodeck.protocol.values import (
     UnknownReport,
     Version,
 )
-
-VECTORS = Path(__file__).parents[2] / "shared" / "vectors"
+from tests.vectors import load_vectors
 
 
 def load(name: str) -> list[Any]:
-    vectors = json.loads((VECTORS / f"{name}.json").read_text("utf-8"))
-    return [pytest.param(vector, id=vector["name"]) for vector in vectors]
+    return [pytest.param(vector, id=vector["name"]) for vector in load_vectors(name)]
 
 
 def frame_of(value: Any) -> Frame:
@@ -148,7 +144,7 @@ def test_what_a_board_cannot_take_is_refused_by_name_value_and_range(vector: Any
 
 
 def test_the_family_table_is_the_shared_one() -> None:
-    shared = json.loads((VECTORS / "families.json").read_text("utf-8"))
+    shared = load_vectors("families")
     rows = {row["id"]: row for row in shared}
     assert list(FAMILIES) == list(rows)
     for family in FAMILIES.values():

@@ -7,7 +7,6 @@ shared/src/session/stopSays.test.ts.
 import json
 import random
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -15,8 +14,9 @@ import pytest
 from tests.amount import named, seeds
 from tests.lockstep import ENTRY, NODE, Simulator
 from tests.stop_under_test import DOORS, Outcome, stopped
+from tests.vectors import load_vectors
 
-CASES = json.loads((Path(__file__).parents[2] / "shared/vectors/stops.json").read_text("utf-8"))
+CASES = load_vectors("stops")
 BOARDS = ["doc", "openarm-old", "openarm-new", "lsc-6", "bus-ctrl", "xarm", "learm-esp32", "learm-esp32-bus"]
 HISTORIES = 30
 # Least share: without it, "may move on" for ever would be right.

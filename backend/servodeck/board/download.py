@@ -2,8 +2,8 @@
 work overwrites the first one's data (S11).
 
 Knows packets, answers and time; no lease, no port and nobody who looks on. The page's session does the same
-on its own links (shared/src/session/download.ts, frameStore.ts); shared/vectors/downloads.json holds both to
-each other.
+on its own links (shared/src/session/download.ts, frameStore.ts); shared/protocol/vectors/downloads.json
+holds both to each other.
 """
 
 from collections.abc import Callable, Sequence

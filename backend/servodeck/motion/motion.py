@@ -5,7 +5,7 @@ polled.py.
 None means that nobody can know: before the end of a servo's first move unless the board told where it stands
 (told.py), while a group runs whose frames are not ours, behind the first frame of LeArm's groups (L7), after
 a release, in a move that flash work froze (S29, S41), and after a command that came when the board may have
-been deaf. Twin of shared/src/motion/motion.ts; shared/vectors/halts.json holds both to each other.
+been deaf. Twin of shared/src/motion/motion.ts; shared/protocol/vectors/halts.json holds both to each other.
 """
 
 import math

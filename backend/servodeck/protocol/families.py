@@ -1,6 +1,7 @@
 """Board families as data: what a board of each kind takes and answers, as far as the gateway judges it.
 
-The same rows as shared/src/protocol/families.ts; shared/vectors/families.json holds both to each other.
+The same rows as shared/src/protocol/families.ts; shared/protocol/vectors/families.json holds both to
+each other.
 Sources: boards.md section 2, cited there row by row.
 """
 

@@ -12,7 +12,7 @@ import { emptyGroup } from '#shared/actions/group/group.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { fileMeans, type FileMeans, type Sqlite } from './means.ts';
 
-const folder = join(import.meta.dirname, '../../../shared/vectors/files');
+const folder = join(import.meta.dirname, '../../../shared/protocol/vectors/files');
 const bytesIn = (name: string): Uint8Array => new Uint8Array(readFileSync(join(folder, name)));
 
 let sqlite: Sqlite;

@@ -1,4 +1,4 @@
-// Runs every vector of shared/vectors. The gateway's own codec runs the same files (backend/tests).
+// Runs every vector of shared/protocol/vectors. The gateway's own codec runs the same files (backend/tests).
 
 import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
@@ -53,7 +53,7 @@ interface StreamVector {
 }
 
 function load(name: string): unknown {
-  return JSON.parse(readFileSync(new URL(`../../vectors/${name}.json`, import.meta.url), 'utf8'));
+  return JSON.parse(readFileSync(new URL(`../../protocol/vectors/${name}.json`, import.meta.url), 'utf8'));
 }
 
 function packetOf(hex: string): Packet {

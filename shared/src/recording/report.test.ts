@@ -1,5 +1,5 @@
-// Recordings of things that went wrong, each with what must come of it now: `shared/vectors/recordings/`. A new one needs no
-// new test.
+// Recordings of things that went wrong, each with what must come of it now: `shared/protocol/vectors/recordings/`. A new one
+// needs no new test.
 
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
@@ -7,7 +7,7 @@ import { describe, expect, test } from 'vitest';
 import { partsOf, replay } from './report.ts';
 import { readRecording } from './text.ts';
 
-const folder = join(import.meta.dirname, '../../vectors/recordings');
+const folder = join(import.meta.dirname, '../../protocol/vectors/recordings');
 const files = readdirSync(folder);
 
 function recordingOf(text: string) {

@@ -1,5 +1,5 @@
-// A download against shared/vectors/downloads.json: when a board says what, and each packet that follows from it. The gateway's
-// own loop (backend/servodeck/board/download.py) runs the same file.
+// A download against shared/protocol/vectors/downloads.json: when a board says what, and each packet that follows from it.
+// The gateway's own loop (backend/servodeck/board/download.py) runs the same file.
 
 import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
@@ -43,7 +43,7 @@ interface Vectors {
   readonly scenarios: readonly Scenario[];
 }
 
-const FILE = new URL('../../vectors/downloads.json', import.meta.url);
+const FILE = new URL('../../protocol/vectors/downloads.json', import.meta.url);
 const vectors = JSON.parse(readFileSync(FILE, 'utf8')) as Vectors;
 const STORED = fromHex('55550219');
 const GIVEN_UP_MS = 60_000;

@@ -1,11 +1,11 @@
-// shared/vectors/halts.json: what a STOP would hold and what not, in generated histories; the gateway's estimate answers the
-// same (backend/tests). After a change of the model: `npx vitest run shared/src/session/halts.test.ts -u`.
+// shared/protocol/vectors/halts.json: what a STOP would hold and what not, in generated histories; the gateway's estimate
+// answers the same (backend/tests). After a change of the model: `npx vitest run shared/src/session/halts.test.ts -u`.
 
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { generateHaltHistories, replayHalts, type HaltHistory } from './haltsUnderTest.ts';
 
-const FILE = new URL('../../vectors/halts.json', import.meta.url);
+const FILE = new URL('../../protocol/vectors/halts.json', import.meta.url);
 
 /** One event a line. */
 function written(histories: readonly HaltHistory[]): string {

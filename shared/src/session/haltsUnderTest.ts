@@ -1,5 +1,5 @@
 // Generated histories of a simulated board, written down as what a link saw of it, with the plan of a STOP at some instants:
-// shared/vectors/halts.json. Both languages replay them against their estimate. Knows no session and no file.
+// shared/protocol/vectors/halts.json. Both languages replay them against their estimate. Knows no session and no file.
 
 import fc from 'fast-check';
 import type { Clock } from '../clock.ts';

@@ -1,6 +1,6 @@
-// The made-up files of shared/vectors/files with what they mean, for tests.
+// The made-up files of shared/protocol/vectors/files with what they mean, for tests.
 
-import meanings from '../../../vectors/files/meanings.json' with { type: 'json' };
+import meanings from '../../../protocol/vectors/files/meanings.json' with { type: 'json' };
 import type { Reading } from './reading.ts';
 
 export const MEANINGS = meanings;

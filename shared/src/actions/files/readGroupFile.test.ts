@@ -11,7 +11,7 @@ import { meaningOf, MEANINGS } from './fileUnderTest.ts';
 import { MAX_FILE_BYTES, readGroupFile, type GroupFile, type Means } from './readGroupFile.ts';
 import type { Problem } from './reading.ts';
 
-const folder = join(import.meta.dirname, '../../../vectors/files');
+const folder = join(import.meta.dirname, '../../../protocol/vectors/files');
 const bytesIn = (name: string): Uint8Array => new Uint8Array(readFileSync(join(folder, name)));
 const textFile = (name: string, text: string): GroupFile => ({ name, bytes: new TextEncoder().encode(text) });
 
