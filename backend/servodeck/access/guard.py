@@ -4,7 +4,6 @@ unknown wait where many ask at once, adds the security headers.
 Pure ASGI, because ordinary middleware does not see WebSockets. Knows no route.
 """
 
-import asyncio
 import re
 import time
 
@@ -18,6 +17,7 @@ from servodeck.access.gate import asks_for_socket, judge_body_size, judge_body_t
 from servodeck.access.impatient import connection_of
 from servodeck.access.intake import Rate
 from servodeck.access.refusals import log_refusal
+from servodeck.access.turns import Turns
 from servodeck.errors import GatewayError, NotPairedError
 
 BODY_BYTES = 16 * 1024
@@ -53,8 +53,7 @@ class Guard:
         self.app = app
         self._entrance = entrance
         self._access = entrance.access
-        self._turn = asyncio.Lock()
-        self._of_unknown = Rate(*OF_UNKNOWN, time.monotonic)
+        self._turns = Turns(Rate(*OF_UNKNOWN, time.monotonic))
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
@@ -70,15 +69,16 @@ class Guard:
             if upgrades and not is_known:
                 raise NotPairedError("This device is not paired with the gateway.")
         except GatewayError as error:
-            await self._turn_of_unknown(scope)
+            if not await self._turn_of_unknown(scope):
+                return None
             log_refusal(scope, error)
             # The Host is not to be trusted here, so it does not appear in the policy.
             refusal = JSONResponse({"code": error.code, "detail": error.detail}, error.status)
             if upgrades:  # nobody reads what follows it
                 refusal.headers["Connection"] = "close"
             return await refusal(scope, receive, with_headers(send, "'self'"))
-        if not is_known:
-            await self._turn_of_unknown(scope)
+        if not is_known and not await self._turn_of_unknown(scope):
+            return None
         limited = limit_body(receive, body_bytes(scope["path"])) if scope["type"] == "http" else receive
         socket = f"{'wss' if self._access.is_secure else 'ws'}://{host}"
         return await self.app(scope, limited, with_headers(send, socket))
@@ -91,15 +91,10 @@ class Guard:
         except GatewayError:
             return False
 
-    async def _turn_of_unknown(self, scope: Scope) -> None:
-        """In the order in which they came, past those who have left."""
+    async def _turn_of_unknown(self, scope: Scope) -> bool:
+        """False where nobody hears an answer any more."""
         connection = connection_of(scope)
-        if connection is None:
-            return
-        async with self._turn:
-            if not connection.is_lost() and not self._of_unknown.take():
-                await asyncio.sleep(self._of_unknown.wait_s)
-                self._of_unknown.take()
+        return connection is None or await self._turns.wait(connection)
 
 
 def with_headers(send: Send, socket: str) -> Send:

@@ -51,8 +51,8 @@ class Connection(Protocol):
     def know(self) -> None:
         """Somebody has proved who they are."""
 
-    def is_lost(self) -> bool:
-        """Nobody hears an answer any more."""
+    def when_lost(self, lost: Callable[[], None]) -> None:
+        """Nobody hears an answer any more: once, and at once where it is so already."""
 
     def abort(self) -> None:
         """Cuts it, also where its other end does not read."""
@@ -77,11 +77,30 @@ class State(ServerState):
         self.may_upgrade = may_upgrade
 
 
+class Losable:
+    """Tells one who asked that the connection is gone."""
+
+    _is_lost = False
+    _lost: Callable[[], None] | None = None
+
+    def when_lost(self, lost: Callable[[], None]) -> None:
+        if self._is_lost:
+            lost()
+        else:
+            self._lost = lost
+
+    def _tell_lost(self) -> None:
+        self._is_lost = True
+        if self._lost:
+            self._lost()
+        self._lost = None
+
+
 class HeadTooLargeError(Exception):
     """Ends the parsing of a request."""
 
 
-class ImpatientProtocol(HttpToolsProtocol):
+class ImpatientProtocol(Losable, HttpToolsProtocol):
     _timer: asyncio.TimerHandle | None = None
     _head_bytes = 0
     _received_bytes = 0
@@ -99,6 +118,7 @@ class ImpatientProtocol(HttpToolsProtocol):
     def connection_lost(self, exc: Exception | None) -> None:
         self._end_in(None)
         self._shared.unauthenticated.remove(self.transport)
+        self._tell_lost()
         if self._answered:  # uvicorn looks at the request that came last, which may wait for its turn
             self._answered.disconnected = True
             self._answered.message_event.set()
@@ -118,9 +138,6 @@ class ImpatientProtocol(HttpToolsProtocol):
         self._shared.unauthenticated.remove(self.transport)
         if not self._in_body:
             self._end_in(None)
-
-    def is_lost(self) -> bool:
-        return self.parser is None
 
     def abort(self) -> None:
         self.transport.abort()
@@ -223,7 +240,7 @@ def shared(state: ServerState) -> State:
     return state
 
 
-class ImpatientSocket(WebSocketsSansIOProtocol):
+class ImpatientSocket(Losable, WebSocketsSansIOProtocol):
     """To close is not enough: what was written and is not read would keep the connection for good."""
 
     _end: asyncio.TimerHandle | None = None
@@ -231,23 +248,16 @@ class ImpatientSocket(WebSocketsSansIOProtocol):
     def __init__(self, config: Config, server_state: ServerState, *more: Any, **named: Any) -> None:
         super().__init__(config, server_state, *more, **named)
         self._unauthenticated = shared(server_state).unauthenticated
-        self._cut: asyncio.TimerHandle | None = None
-        self._is_lost = False
 
     def connection_lost(self, exc: Exception | None) -> None:
         self._unauthenticated.remove(self.transport)
-        self._is_lost = True
-        if self._cut:  # it would keep all of this in memory until then
-            self._cut.cancel()
-        if self._end:
+        self._tell_lost()
+        if self._end:  # it would keep all of this in memory until then
             self._end.cancel()
         super().connection_lost(exc)
 
     def know(self) -> None:
         self._unauthenticated.remove(self.transport)
-
-    def is_lost(self) -> bool:
-        return self.disconnected
 
     def abort(self) -> None:
         self.transport.abort()
