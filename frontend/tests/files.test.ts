@@ -198,9 +198,15 @@ test.describe('on a board that counts in steps', () => {
     await expect(dashboard.boardBar).toContainText('For another board');
     await expect(dashboard.boardBar, 'what the slot holds').toContainText('Unknown');
     await expect(key('Gripper, 0.50 s, 700 µs, linear')).toBeVisible();
+    const pictures = () =>
+      dashboard.frames.evaluateAll((cards) =>
+        cards.map((card) => [...card.querySelectorAll('svg path')].map((path) => path.getAttribute('d'))),
+      );
+    const ofPulseWidths = await pictures();
     await dashboard.button('Convert').click();
     await expect(question).toBeHidden();
     await expect(key('Gripper, 0.50 s, 100 steps, linear')).toBeVisible();
+    expect(await pictures(), 'the same pose, counted otherwise').toEqual(ofPulseWidths);
     await expect(dashboard.button('Play')).toBeEnabled();
     await dashboard.button('Undo: convert for this board').click();
     await expect(question).toBeVisible();

@@ -5,6 +5,7 @@ import { lastTarget, ofKind, type Bus } from '../../e2e/fixtures/bus.ts';
 import { READY } from '../../e2e/fixtures/dashboard.ts';
 import { plugInPad, type SyntheticPad } from '../../e2e/fixtures/padInPage.ts';
 import { expect, poll, test, type Dashboard } from './harness/test.ts';
+import { advance, FRAME_MS } from './harness/time.ts';
 
 /** Numbers of the standard pad, as the ready mapping uses them. */
 const STOP = 1;
@@ -37,6 +38,9 @@ async function startDriving(dashboard: Dashboard): Promise<void> {
 
 /** What was asked for longer ago moves nothing any more. */
 const OLDEST_MOVE_MS = 500;
+
+/** A field follows four times a second; a servo that comes to rest is noticed within a tenth of one, and a frame later written. */
+const LATEST_MS = 250 + 100 + 2 * FRAME_MS;
 
 /** Nothing more leaves than what is on its way already. */
 async function expectRest(bus: Bus): Promise<void> {
@@ -115,6 +119,22 @@ test('the curve shows where a stick is and what comes of it, without driving', a
   await expect.poll(at).toBe('4px');
   await pad.push(1);
   await expect.poll(at).toBe('40px -40px');
+});
+
+test('what a screen reader finds in a field is where the pad takes its servo', async ({
+  dashboard,
+  robot,
+}) => {
+  await startDriving(dashboard);
+  await pad.hold(RIGHT_TRIGGER);
+  const sent: number[] = [];
+  for (let looks = 0; looks < 8; looks += 1) {
+    await advance(LATEST_MS);
+    const field = Number(await dashboard.target(1).inputValue());
+    expect(field).toBeGreaterThanOrEqual(sent.at(-1) ?? 1500);
+    sent.push((await lastTarget(robot.bus, 1)) ?? NaN);
+  }
+  expect(sent.at(-1)).toBeGreaterThan(1700);
 });
 
 test('T keeps what the pad has just done, also while it drives', async ({ dashboard, robot, page }) => {

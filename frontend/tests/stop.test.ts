@@ -5,6 +5,7 @@ import * as group from '../../e2e/fixtures/group.ts';
 import { SLOW_FLASH } from '../../e2e/fixtures/robot.ts';
 import * as stopping from '../../e2e/fixtures/stopping.ts';
 import { expect, here, poll, test } from './harness/test.ts';
+import { advance } from './harness/time.ts';
 
 const { captureGroup, downloadGroup } = here(group);
 const { expectStillness, stopAndCheck } = here(stopping);
@@ -17,6 +18,26 @@ test('STOP ends a group that runs until stopped', async ({ dashboard, robot }) =
   await expect(dashboard.status).toContainText('received by the board');
   const since = await stopAndCheck(dashboard, robot.bus, () => dashboard.stop.click());
   await expectStillness(dashboard, robot.bus, since);
+});
+
+test('behind the end of a group that the board alone knows STOP says for how long the robot may move on', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  // What was under way before the page came is over by now.
+  await dashboard.type(dashboard.target(1), 1500);
+  await advance(31_000);
+  await stopAndCheck(dashboard, robot.bus, () => dashboard.stop.click());
+  await expect(page.getByText(/may move on/)).toHaveCount(0);
+  await dashboard.resume.click();
+  await dashboard.type(dashboard.slot, 77);
+  await dashboard.button('Run').click();
+  await expect(dashboard.status).toContainText('received by the board');
+  await dashboard.button('End group').click();
+  await poll(async () => ofKind(await robot.bus(), 'stop')).toHaveLength(6);
+  await dashboard.stop.click();
+  await expect(dashboard.status).toContainText(/The robot may move on for up to \d+\.\d s/);
 });
 
 test('STOP ends playing from the page', async ({ dashboard, robot }) => {

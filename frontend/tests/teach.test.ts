@@ -7,6 +7,12 @@ import { test as base, dashboardOf, expect, poll, type Dashboard } from './harne
 
 const test = base.extend({ boardSettings: { board: 'xarm' } });
 
+/** Steps a millisecond: the whole range in 0.7 s. */
+const SOFT_LIMIT = 1000 / 700;
+
+/** Of a slider under a mouse: its way is so much shorter than its box. */
+const THUMB_PX = 18;
+
 /** Chosen anew: nothing has been asked of it that tells where a servo is. */
 async function connect(page: Page, url: string): Promise<Dashboard> {
   const dashboard = dashboardOf(page);
@@ -83,6 +89,30 @@ test('what was read is the pose, without teaching: on the body, in a frame, as a
   await dashboard.button(/^Go to /).click();
   await poll(() => lastTarget(robot.bus, 3)).toBe(620);
   expect(ofKind(await robot.bus(), 'move')[0]?.durationMs).toBeGreaterThanOrEqual(1500);
+});
+
+test('a thumb stands where its servo was read, and dragged by 2 px it takes the servo along no faster than the soft limit', async ({
+  page,
+  robot,
+  url,
+}) => {
+  const dashboard = await connect(page, url);
+  await dashboard.button('Read positions').click();
+  await expect(dashboard.slider(3)).toHaveValue('400');
+  const { x, y, width, height } = await dashboard.slider(3).boundingBox();
+  const [least, most] = await dashboard
+    .slider(3)
+    .evaluate((slider) => [Number(slider.getAttribute('min')), Number(slider.getAttribute('max'))]);
+  const thumbX = x + THUMB_PX / 2 + ((width - THUMB_PX) * (400 - least)) / (most - least);
+  await page.mouse.move(thumbX, y + height / 2);
+  await page.mouse.down();
+  await page.mouse.move(thumbX + 2, y + height / 2);
+  await page.mouse.up();
+  await poll(() => lastTarget(robot.bus, 3)).toBeGreaterThan(400);
+  const moves = ofKind(await robot.bus(), 'move');
+  expect(moves.at(-1)?.targets[0]?.position).toBeLessThan(430);
+  for (const { targets, durationMs } of moves)
+    expect(((targets[0]?.position ?? NaN) - 400) / durationMs).toBeLessThan(SOFT_LIMIT);
 });
 
 test('on a phone it is said in sight, wherever one has scrolled to', async ({ page, dashboard }) => {

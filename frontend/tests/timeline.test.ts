@@ -405,6 +405,35 @@ test('a stretch is pulled at its beginning, the middle button pans, and the line
   expect(moved.x).toBeCloseTo(last.x - 150, -1);
 });
 
+test('a box takes the keys of one row, and a stretch of them leaves the other row alone', async ({
+  page,
+  dashboard,
+}) => {
+  await expect(dashboard.frames).toHaveCount(3);
+  const timeline = timelineOf(page);
+  const first = await timeline.middleOf(timeline.key('Gripper, 0.50 s, 1000 µs, linear'));
+  const second = await timeline.middleOf(timeline.key('Gripper, 1.00 s, 1200 µs, linear'));
+  const last = await timeline.middleOf(timeline.key('Gripper, 1.50 s, 1400 µs, linear'));
+  const frames = await timeline.middleOf(timeline.key('All servos, frame 3, 1.50 s, 2 keys'));
+  await page.mouse.move(first.x - 14, Math.max(first.y, last.y) + 9);
+  await page.mouse.down();
+  await page.mouse.move(last.x + 14, Math.min(first.y, last.y) - 9, { steps: 6 });
+  await page.mouse.up();
+  await expect(timeline.region).toContainText('3 keys');
+  await page.mouse.move(last.x + 12, frames.y);
+  await expect(timeline.region).toContainText('Ripple carries what is behind along.');
+  await page.mouse.down();
+  await page.mouse.move(last.x + 12 - (last.x - second.x) / 2, frames.y, { steps: 6 });
+  await page.mouse.up();
+  const stretched = timeline.grid.getByRole('gridcell', {
+    name: /^Gripper, 1\.2\d s, 1400 µs, linear$/,
+  });
+  await expect(stretched).toHaveAttribute('aria-selected', 'true');
+  await expect(timeline.key('Gripper, 0.50 s, 1000 µs, linear')).toBeVisible();
+  for (const at of ['0.50', '1.00', '1.50'])
+    await expect(timeline.key(`Elbow, ${at} s, 1500 µs, linear`)).toBeVisible();
+});
+
 test('the middle button pans and pastes nothing', async ({ page, dashboard }) => {
   await expect(dashboard.frames).toHaveCount(3);
   const timeline = timelineOf(page);
@@ -432,6 +461,26 @@ test('a muted row is not sent when the page plays', async ({ page, dashboard, ro
   await expect(dashboard.status).toHaveText('Idle');
   const moves = ofKind(await robot.bus(), 'move');
   expect(new Set(moves.flatMap(({ targets }) => targets.map(({ servo }) => servo)))).toEqual(new Set([1]));
+});
+
+test('a marked part that ends far from where it begins goes back gently and says so', async ({
+  page,
+  dashboard,
+  robot,
+}) => {
+  await expect(dashboard.frames).toHaveCount(3);
+  const timeline = timelineOf(page);
+  await timeline.click('Gripper, 1.00 s, 1200 µs, linear');
+  await timeline.click('Gripper, 1.50 s, 1400 µs, linear', ['Shift']);
+  await page.keyboard.press('l');
+  await page.getByRole('switch', { name: 'Loop' }).check();
+  await dashboard.button('Play').click();
+  await expect(page.getByRole('group', { name: 'Play the group' }).getByRole('status')).toHaveText(
+    'The loop ends far from where it begins: going back gently',
+  );
+  const moves = ofKind(await robot.bus(), 'move').filter(({ durationMs }) => durationMs === 1500);
+  expect(moves.length, 'to the first pose, and back to it').toBeGreaterThanOrEqual(2);
+  await dashboard.stop.click();
 });
 
 test('Space plays the group while the timeline has the focus', async ({ page, dashboard }) => {

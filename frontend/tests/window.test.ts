@@ -132,6 +132,9 @@ for (const viewport of looks(CLASS_ROOMS)) {
   });
 }
 
+/** Below the sliders on a tablet, so that the page is scrolled to them. */
+const OF_THE_GROUP = ['Play', 'Capture frame', 'Slot', 'Download', 'Run'];
+
 for (const hasTouch of [false, true]) {
   test.describe(`a tablet ${hasTouch ? 'under fingers' : 'with a mouse'}`, () => {
     test.override({ viewport: { width: 820, height: 1180 }, screen: { hasTouch } });
@@ -149,6 +152,11 @@ for (const hasTouch of [false, true]) {
         dashboard.button('Connect'),
       ])
         expect.soft(await whatIsCut(control)).toBeNull();
+      for (const [name, control] of Object.entries(controlsOf(page)))
+        if (OF_THE_GROUP.includes(name)) {
+          await control.scrollIntoViewIfNeeded();
+          expect.soft(await whatIsCut(control), name).toBeNull();
+        }
     });
   });
 }
