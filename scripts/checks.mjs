@@ -46,6 +46,8 @@ const messages = {
 /** @type {Task} */
 const locks = { name: 'lock files', command: [process.execPath, 'scripts/lock_check.mjs'] };
 /** @type {Task} */
+const links = { name: 'links of documents', command: [process.execPath, 'scripts/links_check.mjs'] };
+/** @type {Task} */
 const pythonLint = { name: 'lint, Python', command: pythonModule('ruff', 'check', '.') };
 /** @type {Task} */
 const pythonFormat = {
@@ -121,7 +123,7 @@ function endToEnd(amount) {
   };
 }
 
-const still = [lint, pythonTypes, layers, messages, format, pythonLint, pythonFormat];
+const still = [lint, pythonTypes, layers, messages, links, format, pythonLint, pythonFormat];
 
 /** @returns {Promise<number>} the exit code */
 export async function check() {
