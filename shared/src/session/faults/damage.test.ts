@@ -1,5 +1,5 @@
 // F2 of safety.md section 5: one byte of a stream is lost, doubled, changed, or one comes in between. What that costs: good
-// packets lost, and damaged ones believed. The figures stand in shared/README.md.
+// packets lost, and damaged ones believed. The figures stand in shared/protocol/README.md.
 
 import { describe, expect, test } from 'vitest';
 import { createDecoder } from '../../protocol/decoder.ts';
