@@ -92,5 +92,5 @@ async def test_each_piece_of_the_tutorial_runs(board: Board, gateway: Running, t
     got = bytes(byte for _, byte in board.taken())
     for position, time_ms in ((1500, 1500), (1200, 400), (1800, 400), (1700, 1500)):
         assert encode(Move(time_ms, (ServoTarget(1, position),)), DOC) in got
-    assert got.count(encode(Run(3, 2), DOC)) == 2
+    assert got.count(encode(Run(5, 2), DOC)) == 2
     assert got.count(bytes.fromhex("55550b190502")) == 2
