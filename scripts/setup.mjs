@@ -4,7 +4,7 @@
 import { pythonEnvironment } from './python.mjs';
 import { SetupProblem, fingerprint, mustRun, once, runNpm } from './steps.mjs';
 
-const isTest = /\.test\.tsx?$/;
+const isNotBuilt = /\.test\.tsx?$|\.md$|^shared\/protocol\/(vectors|scenarios)\//;
 
 /** Everything `npm start` needs. */
 export async function setUp() {
@@ -50,6 +50,6 @@ async function builtParts() {
 export const buildStamp = 'build/built-stamp';
 
 export function buildInputs() {
-  const sources = ['frontend', 'shared/src', 'package-lock.json', 'vite.config.ts', 'scripts/build.mjs'];
-  return fingerprint(sources, [process.version], (file) => !isTest.test(file));
+  const sources = ['frontend', 'shared', 'package-lock.json', 'vite.config.ts', 'scripts/build.mjs'];
+  return fingerprint(sources, [process.version], (file) => !isNotBuilt.test(file));
 }

@@ -22,7 +22,10 @@ from zipfile import ZipFile
 import httpx2
 from websockets.sync.client import connect
 
-NEEDED = ("servodeck/static/index.html", "servodeck/static/index.html.br", "servodeck/__main__.py")
+NEEDED = (
+    *("servodeck/static/index.html", "servodeck/static/index.html.br", "servodeck/__main__.py"),
+    "servodeck/protocol/families.json",
+)
 STOP = bytes.fromhex("55550207")
 # In KiB of gzipped JavaScript; see ADR 20. What makes it grow comes later, or pays for it.
 FIRST_LOAD_KIB = 182

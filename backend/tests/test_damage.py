@@ -16,7 +16,7 @@ from servodeck.protocol.decoder import (
     PacketEvent,
     Shapes,
 )
-from servodeck.protocol.families import DOC
+from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import (
     Command,
@@ -83,7 +83,7 @@ def command(random: Random) -> bytes:
         Erase(),
         ReadBattery(),
     )
-    return encode(random.choice(kinds), DOC)
+    return encode(random.choice(kinds), FAMILIES["doc"])
 
 
 def pool(speaker: Speaker) -> Sequence[bytes]:

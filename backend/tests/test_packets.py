@@ -9,9 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from servodeck.protocol.decoder import Decoder, DecoderEvent, Packet, PacketEvent
-from servodeck.protocol.families import DOC, FAMILIES, Family, MotionTraits, Range
+from servodeck.protocol.families import FAMILIES, Family, MotionTraits, Range
 from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import check_command, encode, parse_command, parse_report
+from servodeck.protocol.shared_data import snake
 from servodeck.protocol.values import (
     AllPositions,
     Battery,
@@ -44,6 +45,8 @@ from servodeck.protocol.values import (
     Version,
 )
 from tests.vectors import load_vectors
+
+DOC = FAMILIES["doc"]
 
 
 def load(name: str) -> list[Any]:
@@ -143,24 +146,20 @@ def test_what_a_board_cannot_take_is_refused_by_name_value_and_range(vector: Any
     )
 
 
-def test_the_family_table_is_the_shared_one() -> None:
-    shared = load_vectors("families")
-    rows = {row["id"]: row for row in shared}
-    assert list(FAMILIES) == list(rows)
-    for family in FAMILIES.values():
-        row = rows[family.id]
-        mine = {camel(name): plain(getattr(family, name)) for name in Family.__dataclass_fields__}
-        assert mine == {name: row[name] for name in mine}
+def test_the_family_table_is_read_as_the_page_reads_it() -> None:
+    read = [
+        {name: plain(getattr(row, name)) for name in Family.__dataclass_fields__} for row in FAMILIES.values()
+    ]
+    assert read == [snakes(row) for row in load_vectors("families")]
 
 
-def camel(name: str) -> str:
-    first, *rest = name.split("_")
-    return first + "".join(word.capitalize() for word in rest)
+def snakes(row: Any) -> Any:
+    return {snake(name): snakes(value) if name == "motion" else value for name, value in row.items()}
 
 
 def plain(value: object) -> object:
     if isinstance(value, Range | MotionTraits):
-        return {camel(name): plain(getattr(value, name)) for name in value.__dataclass_fields__}
+        return {name: plain(getattr(value, name)) for name in value.__dataclass_fields__}
     if isinstance(value, Mapping):
         return {str(servo): plain(span) for servo, span in value.items()}
     return list(value) if isinstance(value, tuple) else value

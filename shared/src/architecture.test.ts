@@ -4,6 +4,7 @@
 import { readFileSync, readdirSync } from 'node:fs';
 import { join, posix, resolve } from 'node:path';
 import { expect, test } from 'vitest';
+import families from '../protocol/families.json' with { type: 'json' };
 
 const root = resolve(import.meta.dirname, '../..');
 
@@ -80,7 +81,7 @@ test.each(Object.keys(mayKnow))('%s knows only what lies below it', (part) => {
 test('shared code imports nothing from outside shared but valibot, which is as pure', () => {
   const strangers = sourcesOf('shared').flatMap((file) =>
     importsOf(file)
-      .filter((imported) => !imported.startsWith('shared/src/') && imported !== 'valibot')
+      .filter((imported) => !imported.startsWith('shared/') && imported !== 'valibot')
       .map((imported) => `${file} imports ${imported}`),
   );
   expect(strangers).toEqual([]);
@@ -91,4 +92,18 @@ test('only connect knows the transports', () => {
     importsOf(file).some((imported) => partOf(imported) === 'frontend/transports'),
   );
   expect(users.map(partOf).filter((part) => !/^frontend\/(transports|connect)$/.test(part))).toEqual([]);
+});
+
+test('no `if` asks which family a board is of: what it would know is a field of shared/protocol/families.json', () => {
+  const ids = Object.keys(families.families).join('|');
+  const compared = new RegExp(
+    `(?:[=!]==?|\\bcase|\\bin)\\s*['"](?:${ids})['"]|['"](?:${ids})['"]\\s*(?:[=!]=|in\\b)`,
+  );
+  const python = readdirSync(join(root, 'backend/servodeck'), { recursive: true, encoding: 'utf8' })
+    .filter((file) => file.endsWith('.py'))
+    .map((file) => `backend/servodeck/${file}`);
+  const asking = [...sourcesOf('shared'), ...sourcesOf('frontend'), ...python].filter((file) =>
+    compared.test(readFileSync(join(root, file), 'utf8')),
+  );
+  expect(asking).toEqual([]);
 });

@@ -1,13 +1,15 @@
-"""Board families as data: what a board of each kind takes and answers, as far as the gateway judges it.
+"""Board families: what a board of each kind takes, answers and means.
 
-The same rows as shared/src/protocol/families.ts; shared/protocol/vectors/families.json holds both to
-each other.
-Sources: boards.md section 2, cited there row by row.
+The table is shared/protocol/families.json, with the source of each figure; the page reads the same
+(shared/src/protocol/families.ts, which says what each field means). What differs between boards is a field
+there, never an `if` on a family elsewhere.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from typing import Final, Literal
+from dataclasses import dataclass
+from typing import Any, Final, Literal
+
+from servodeck.protocol.shared_data import load_shared, snake
 
 CommandKind = Literal[
     "move",
@@ -46,9 +48,9 @@ class MotionTraits:
     # behind it (L7).
     groups: Literal["deadlines", "polled"]
     # A stop halts these where they are; the others go on to the end of their frame (S50, L9).
-    halted_by_stop: tuple[int, ...] = ()
+    halted_by_stop: tuple[int, ...]
     # When the group in this slot ends by itself, the next one is played once (S49).
-    chained_slot: int | None = None
+    chained_slot: int | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,215 +60,86 @@ class Family:
     unit: Literal["us", "steps"]
     position: Range
     # Servos that may turn less far than `position` says.
-    servo_position: Mapping[int, Range] = field(default_factory=dict)
+    servo_position: Mapping[int, Range]
+    # Centre of the position range, where a servo is at rest.
+    centre: int
     servo: Range
     usual_servo_count: int
     servos_per_move: int
     servos_per_frame: int
     duration_ms: Range
-    shortest_move_ms: int = 20
+    shortest_move_ms: int
     frames_per_group: int
     slot: Range
     run_times: Range
     # Where the group speed cannot be set, it is what it is.
-    speed_percent: Range = Range(100, 100)
+    speed_percent: Range
+    # What the board makes of `times` 0; where that is not endless, `run_times` leaves it out.
+    zero_times: Literal["endless", "once"]
     # Largest LEN that is safe to send.
     max_length: int
     commands: tuple[CommandKind, ...]
     # LEN of the erase command: with a reserved byte or without.
-    erase_length: Literal[2, 3] = 3
+    erase_length: Literal[2, 3]
     answers: tuple[CommandKind, ...]
+    # Harmless questions that every such board answers, the cheapest first.
+    certain_answers: tuple[CommandKind, ...]
     # 6 and 8 with LEN 5 tell slot and times, whoever asked for the run; otherwise they are empty.
     run_reports_name_slot: bool
     # What an empty packet 7 says: opposite things per family.
     empty_seven: Literal["runFinished", "runStopped", "unknown"]
+    # Any question ends a running group, unsaid (L8): ask only while nothing runs.
+    query_kills_run: bool
     # What ends a packet that was cut, on a board that bears it; None: nothing may be sent for that.
     resync_filler: int | None
+    # Command numbers that must not go out, not even by hand.
+    never_send: tuple[int, ...]
+    # Numbers it does not know do nothing at all there (S5); elsewhere nobody knows what they do.
+    ignores_unknown: bool
     # Pause after the last byte has left the wire.
     service_gap_ms: int
     motion: MotionTraits
+    # What the board tells of more than this is not measured.
+    battery_ceiling_mv: int | None
+    # What plays a slot besides a run: buttons of the pad for slots 0, 1 and so on, SELECT with one, the key.
+    pad_buttons: tuple[str | None, ...]
+    select_slots: tuple[int, ...]
+    key_slot: int | None
 
     def position_of(self, servo: int) -> Range:
         return self.servo_position.get(servo, self.position)
 
 
-PULSE_US = Range(500, 2500)
-DURATION_MS = Range(0, 30_000)
-RUN_TIMES = Range(0, 0xFFFF)
-# The longest packet that fits one HID report.
-HID_LENGTH = 62
-
-SHARED_TIME = MotionTraits(tick_ms=20, talk_ms=0, timing="shared", groups="deadlines")
-OPEN_FIRMWARE = replace(SHARED_TIME, talk_ms=4.2, chained_slot=100)
-
-DOC = Family(
-    id="doc",
-    name="Generic board",
-    unit="us",
-    position=PULSE_US,
-    servo=Range(1, 32),
-    usual_servo_count=6,
-    servos_per_move=32,
-    servos_per_frame=32,
-    duration_ms=DURATION_MS,
-    frames_per_group=255,
-    slot=Range(0, 255),
-    run_times=RUN_TIMES,
-    max_length=253,
-    commands=("move", "run", "stop", "erase", "readBattery", "download"),
-    answers=("run", "erase", "readBattery", "download"),
-    run_reports_name_slot=False,
-    empty_seven="runFinished",
-    resync_filler=0xFD,
-    service_gap_ms=10,
-    motion=replace(OPEN_FIRMWARE, talk_ms=20),
-)
-
-OPENARM_NEW = replace(
-    DOC,
-    id="openarm-new",
-    name="uHand 2.0 / OpenArm",
-    servo=Range(1, 6),
-    servos_per_move=6,
-    servos_per_frame=6,
-    commands=("move", "run", "stop", "erase", "download"),
-    answers=("run", "erase", "download"),
-    motion=replace(OPEN_FIRMWARE, talk_ms=23),
-)
-
-OPENARM_OLD = replace(
-    OPENARM_NEW,
-    id="openarm-old",
-    name="uHand 2.0 / OpenArm, old build",
-    answers=("erase", "download"),
-    empty_seven="unknown",
-    motion=replace(SHARED_TIME, talk_ms=16.5),
-)
-
-BUS_CTRL = Family(
-    id="bus-ctrl",
-    name="Bus Servo Controller",
-    unit="steps",
-    position=Range(0, 1000),
-    servo=Range(1, 253),
-    usual_servo_count=6,
-    servos_per_move=19,
-    servos_per_frame=19,
-    duration_ms=DURATION_MS,
-    frames_per_group=255,
-    slot=Range(0, 229),
-    run_times=RUN_TIMES,
-    speed_percent=Range(1, 300),
-    max_length=HID_LENGTH,
-    commands=("move", "run", "stop", "readBattery", "setSpeed", "release", "readPositions"),
-    answers=("readBattery", "readPositions"),
-    run_reports_name_slot=True,
-    empty_seven="runStopped",
-    resync_filler=None,
-    service_gap_ms=10,
-    motion=replace(SHARED_TIME, talk_ms=7.3, timing="perServo"),
-)
-
-XARM = replace(
-    BUS_CTRL,
-    id="xarm",
-    name="xArm",
-    servo=Range(1, 6),
-    servos_per_move=6,
-    servos_per_frame=6,
-    duration_ms=Range(0, 3000),
-)
+Row = dict[str, Any]
 
 
-def lsc(outputs: int) -> Family:
-    """One move may name every output, also where that is more than a HID report holds."""
-    return replace(
-        BUS_CTRL,
-        id=f"lsc-{outputs}",
-        name=f"LSC-{outputs}",
-        unit="us",
-        position=PULSE_US,
-        servo=Range(1, outputs),
-        usual_servo_count=outputs,
-        servos_per_move=outputs,
-        servos_per_frame=outputs,
-        max_length=max(HID_LENGTH, 3 * outputs + 5),
-        commands=("move", "run", "stop", "readBattery", "setSpeed"),
-        answers=("readBattery",),
-    )
+def _expanded(row: Row, bases: dict[str, Row]) -> Row:
+    """A row with all that it has from its bases."""
+    under = _expanded(bases[row["base"]], bases) if "base" in row else {"motion": {}}
+    own = {name: value for name, value in row.items() if name not in ("base", "why")}
+    return {**under, **own, "motion": {**under["motion"], **own.get("motion", {})}}
 
 
-LEARM_ESP32 = Family(
-    id="learm-esp32",
-    name="LeArm AI",
-    unit="us",
-    position=PULSE_US,
-    servo_position={1: Range(500, 1500)},
-    servo=Range(1, 6),
-    usual_servo_count=6,
-    servos_per_move=6,
-    servos_per_frame=6,
-    duration_ms=DURATION_MS,
-    frames_per_group=255,
-    slot=Range(0, 254),
-    run_times=Range(1, 255),
-    max_length=62,
-    commands=(
-        "move",
-        "run",
-        "stop",
-        "erase",
-        "download",
-        "readVersion",
-        "readAllPositions",
-        "readOffsets",
-    ),
-    erase_length=2,
-    answers=("erase", "download", "readVersion", "readAllPositions", "readOffsets"),
-    run_reports_name_slot=False,
-    empty_seven="unknown",
-    resync_filler=None,
-    service_gap_ms=10,
-    motion=MotionTraits(
-        tick_ms=10, talk_ms=0, timing="perServo", groups="polled", halted_by_stop=(1, 2, 3, 4, 5)
-    ),
-)
+def _value(value: object) -> Any:
+    if isinstance(value, dict):
+        return Range(**value)
+    return tuple(value) if isinstance(value, list) else value
 
-LEARM_ESP32_BUS = replace(
-    LEARM_ESP32,
-    id="learm-esp32-bus",
-    name="LeArm AI, bus servos",
-    unit="steps",
-    position=Range(125, 875),
-    servo_position={1: Range(200, 700)},
-)
 
+def _family(family_id: str, row: Row) -> Family:
+    """A field that is missing or that nobody knows is an error at once."""
+    ranges = {int(servo): Range(**allowed) for servo, allowed in row.pop("servoPosition").items()}
+    motion = MotionTraits(**{snake(name): _value(value) for name, value in row.pop("motion").items()})
+    rest = {snake(name): _value(value) for name, value in row.items()}
+    return Family(id=family_id, servo_position=ranges, motion=motion, **rest)
+
+
+def _table() -> dict[str, Family]:
+    data = load_shared("families")
+    rows = {**data["families"], "unknown": data["unknown"]}
+    return {name: _family(name, _expanded(row, data["bases"])) for name, row in rows.items()}
+
+
+FAMILIES: Final = _table()
 # A board nobody has identified yet: harmless questions and the stop, nothing that moves or stores.
-UNKNOWN = replace(
-    DOC,
-    id="unknown",
-    name="Unknown board",
-    servo=Range(1, 1),
-    usual_servo_count=0,
-    servos_per_move=1,
-    servos_per_frame=0,
-    max_length=6,
-    commands=("stop", "readBattery", "readVersion", "readPositions"),
-    answers=("readBattery", "readVersion", "readPositions"),
-    empty_seven="unknown",
-    resync_filler=None,
-    motion=OPEN_FIRMWARE,
-)
-
-ROWS: Final = (
-    DOC,
-    OPENARM_OLD,
-    OPENARM_NEW,
-    *(lsc(outputs) for outputs in (6, 16, 24, 32)),
-    BUS_CTRL,
-    XARM,
-    LEARM_ESP32,
-    LEARM_ESP32_BUS,
-    UNKNOWN,
-)
-FAMILIES: dict[str, Family] = {row.id: row for row in ROWS}
+UNKNOWN: Final = FAMILIES["unknown"]

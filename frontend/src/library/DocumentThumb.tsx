@@ -2,6 +2,7 @@
 
 import { useStore } from 'zustand';
 import type { GroupFacts } from '#shared/actions/library/factsShape.ts';
+import { familyOfUnit } from '#shared/actions/robot/counterpart.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { BarThumb, RobotThumb } from '../body/PoseThumb.tsx';
 import { useStores } from '../stores/stores.ts';
@@ -14,15 +15,10 @@ export function DocumentThumb({ facts }: { readonly facts: GroupFacts }) {
   );
   const pose = new Map(facts.pose.map(({ servo, position }) => [servo, position]));
   const isFitting = robot !== undefined && FAMILIES[robot.board].unit === facts.unit;
-  const rest = { pose, changed: [...pose.keys()], family: familyOf(facts.unit) };
+  const rest = { pose, changed: [...pose.keys()], family: familyOfUnit(facts.unit) };
   return isFitting ? (
     <RobotThumb {...rest} robot={robot} family={FAMILIES[robot.board]} />
   ) : (
     <BarThumb {...rest} />
   );
-}
-
-/** Any that counts like that. */
-function familyOf(unit: GroupFacts['unit']) {
-  return Object.values(FAMILIES).find((family) => family.unit === unit) ?? FAMILIES.doc;
 }

@@ -1,7 +1,7 @@
 // Which slots a board plays by itself, and what makes it: buttons of the wireless pad, the board's own key, the end of another
 // group. Source: S49, S55, S56, X8, L2 in boards.md.
 
-import type { BoardId, Range } from './families.ts';
+import { family, type BoardId, type PadButton, type Range } from './families.ts';
 
 export type SlotTrigger =
   | { readonly kind: 'pad'; readonly button: PadButton }
@@ -10,41 +10,6 @@ export type SlotTrigger =
   | { readonly kind: 'key' }
   /** Played once when the slot before it has ended by itself. */
   | { readonly kind: 'chain'; readonly after: number };
-
-export const PAD_BUTTONS = [
-  ...(['start', 'up', 'down', 'left', 'right', 'triangle', 'cross', 'square', 'circle'] as const),
-  ...(['l1', 'r1', 'l2', 'r2'] as const),
-] as const;
-export type PadButton = (typeof PAD_BUTTONS)[number];
-
-const KEY_SLOT = 100;
-
-type Meaning = readonly [slot: number, trigger: SlotTrigger];
-
-const pad = (buttons: readonly PadButton[]): readonly Meaning[] =>
-  buttons.map((button) => [PAD_BUTTONS.indexOf(button), { kind: 'pad', button }]);
-
-const select = [13, 14, 15, 16, 17, 18].map((slot): Meaning => [slot, { kind: 'select' }]);
-const key: Meaning = [KEY_SLOT, { kind: 'key' }];
-const chain: Meaning = [KEY_SLOT + 1, { kind: 'chain', after: KEY_SLOT }];
-
-const open = [...pad(PAD_BUTTONS), key, chain];
-const closed = [...pad(PAD_BUTTONS), ...select, key];
-const leArm: readonly Meaning[] = [[17, { kind: 'key' }]];
-
-const MEANINGS: Readonly<Partial<Record<BoardId, readonly Meaning[]>>> = {
-  doc: open,
-  'openarm-old': [...pad(PAD_BUTTONS.filter((button) => button !== 'square')), key],
-  'openarm-new': open,
-  'lsc-6': closed,
-  'lsc-16': closed,
-  'lsc-24': closed,
-  'lsc-32': closed,
-  'bus-ctrl': closed,
-  xarm: closed,
-  'learm-esp32': leArm,
-  'learm-esp32-bus': leArm,
-};
 
 /**
  * What some board plays without being asked, or comes filled with from its maker: pad buttons and factory groups (S56, X8, boards.md
@@ -59,5 +24,11 @@ export const isLiveSlot = (slot: number): boolean => LIVE.some(({ min, max }) =>
 
 /** null: only a run on purpose plays it. */
 export function slotTrigger(board: BoardId, slot: number): SlotTrigger | null {
-  return MEANINGS[board]?.find(([number]) => number === slot)?.[1] ?? null;
+  const { padButtons, selectSlots, keySlot, motion } = family(board);
+  const button = padButtons[slot] ?? null;
+  if (button !== null) return { kind: 'pad', button };
+  if (selectSlots.includes(slot)) return { kind: 'select' };
+  if (keySlot === null) return null;
+  if (slot === keySlot) return { kind: 'key' };
+  return keySlot === motion.chainedSlot && slot === keySlot + 1 ? { kind: 'chain', after: keySlot } : null;
 }

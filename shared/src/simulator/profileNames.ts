@@ -1,19 +1,8 @@
 // Which boards there are to simulate, by name: all that a page knows of them before it simulates one.
 
-const NAMES = [
-  'doc',
-  'openarm-old',
-  'openarm-new',
-  'lsc-6',
-  'lsc-16',
-  'lsc-24',
-  'lsc-32',
-  'bus-ctrl',
-  'xarm',
-  'learm-esp32',
-  'learm-esp32-bus',
-] as const;
+import { FAMILIES, type FamilyId } from '../protocol/families.ts';
 
-export type ProfileName = (typeof NAMES)[number];
+/** There is one of each family. */
+export type ProfileName = FamilyId;
 
-export const isProfileName = (text: string): text is ProfileName => NAMES.some((name) => name === text);
+export const isProfileName = (text: string): text is ProfileName => Object.hasOwn(FAMILIES, text);

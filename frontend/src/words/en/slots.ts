@@ -1,7 +1,8 @@
 // Words about the board's slots: what is in them, as far as anybody can know, and what plays them.
 
 import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
-import type { PadButton, SlotTrigger } from '#shared/protocol/slotMeanings.ts';
+import type { PadButton } from '#shared/protocol/families.ts';
+import type { SlotTrigger } from '#shared/protocol/slotMeanings.ts';
 import { counted, formatCount, formatNames, formatWhole } from './numbers.ts';
 
 export const slotName = (slot: number): string => `Slot ${formatWhole(slot)}`;

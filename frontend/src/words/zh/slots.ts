@@ -1,7 +1,7 @@
 // Words about the board's slots: what is in them, as far as anybody can know, and what plays them.
 
 import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
-import type { PadButton } from '#shared/protocol/slotMeanings.ts';
+import type { PadButton } from '#shared/protocol/families.ts';
 import type { Words } from '../en/whole.ts';
 import { formatCount, formatNames, formatRoughly, formatSeconds, formatWhole } from './numbers.ts';
 

@@ -19,10 +19,6 @@ export interface Supply {
 
 const CELLS: Readonly<Record<BatteryKind, Supply['cells']>> = { adapter: 0, '2s': 2, '3s': 3 };
 
-/** Boards with the divider and converter of S60, or taken for such ones. */
-const SATURATING: readonly FamilyId[] = ['doc', 'openarm-old', 'openarm-new'];
-const SATURATION_MV = 9800;
-
 const CELL = { lowMv: 3100, highMv: 4200, warnMv: 3500, alarmMv: 3300 };
 /** 5 V USB to 8.4 V; the usual adapter gives 7.5 V, and such boards want 6.4 V at least. */
 const ADAPTER = { lowMv: 5000, highMv: 8400, warnMv: 7000, alarmMv: 6400 };
@@ -32,8 +28,7 @@ const BUS_ADAPTER = { lowMv: 5000, highMv: 12_600, warnMv: 6200, alarmMv: 5600 }
 export function supplyOf({ battery, board, batteryCare }: Robot): Supply {
   const cells = CELLS[battery];
   const usual = usualSupply(cells, board);
-  const ceilingMv = SATURATING.includes(board) ? SATURATION_MV : null;
-  return { cells, ...usual, ...batteryCare.thresholds, ceilingMv };
+  return { cells, ...usual, ...batteryCare.thresholds, ceilingMv: FAMILIES[board].batteryCeilingMv };
 }
 
 function usualSupply(cells: Supply['cells'], board: FamilyId): typeof CELL {

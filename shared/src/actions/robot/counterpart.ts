@@ -2,7 +2,7 @@
 // (boards.md chapter 7): steps = (µs − 500) ÷ 2. For drawing what was made for another board, and for converting it, so that a pose
 // looks alike before and after. A group holds no ranges of the robot it was made for, so angles would have no beginning. Pure.
 
-import { FAMILIES, type Family } from '../../protocol/families.ts';
+import { FAMILIES, UNKNOWN_BOARD, type Family, type FamilyId } from '../../protocol/families.ts';
 import { MOST_ERROR_UNITS, type ActionGroup } from '../group/group.ts';
 import type { Robot, RobotServo } from './robot.ts';
 
@@ -17,8 +17,9 @@ export function rescaled(position: number, from: Unit, to: Unit): number {
   return to === 'steps' ? (position - PULSE_AT_0) / PULSE_PER_STEP : position * PULSE_PER_STEP + PULSE_AT_0;
 }
 
-/** Any board that counts like that. */
-export const familyOfUnit = (unit: Unit): Family => FAMILIES[unit === 'us' ? 'doc' : 'bus-ctrl'];
+/** The first board of the table that counts like that: any would do. */
+export const familyOfUnit = (unit: Unit): Family =>
+  Object.values(FAMILIES).find((family) => family.unit === unit) ?? UNKNOWN_BOARD;
 
 const counterparts = new WeakMap<Robot, Robot>();
 
@@ -36,7 +37,7 @@ export function robotInUnit(robot: Robot, unit: Unit): Robot {
     trim: Math.round(servo.trim * per),
     degreesPerUnit: servo.degreesPerUnit / per,
   }));
-  const made: Robot = { ...robot, board: unit === 'us' ? 'doc' : 'bus-ctrl', servos };
+  const made: Robot = { ...robot, board: familyOfUnit(unit).id as FamilyId, servos };
   counterparts.set(robot, made);
   return made;
 }
