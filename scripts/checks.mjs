@@ -1,7 +1,7 @@
 // Every check and test of the project, and which of them `npm test` and `npm run check` take. Knows how each tool is called.
 
 import { availableParallelism } from 'node:os';
-import { browserForTests, findBrowser } from './browser.mjs';
+import { browserForTests } from './browser.mjs';
 import { python } from './python.mjs';
 import { clearReports, reportOf, testsOf } from './reports.mjs';
 import { at } from './steps.mjs';
@@ -115,7 +115,6 @@ function endToEnd(amount) {
     env: {
       ...tried(amount).env,
       PLAYWRIGHT_JUNIT_OUTPUT_FILE: at(reportOf('playwright')),
-      CHROMIUM_PATH: findBrowser() ?? '',
       NO_COLOR: undefined, // its workers are told to colour, and Node warns of the contradiction
     },
     limitMs: 45 * 60_000, // it ends itself before that
@@ -123,7 +122,12 @@ function endToEnd(amount) {
   };
 }
 
-const still = [lint, pythonTypes, layers, messages, links, format, pythonLint, pythonFormat];
+const still = [lint, pythonTypes, layers, messages, format, pythonLint, pythonFormat];
+
+/** @param {Task} task @returns {Task} */
+function givingWay(task) {
+  return { ...task, givesWay: true };
+}
 
 /** @returns {Promise<number>} the exit code */
 export async function check() {
@@ -134,12 +138,16 @@ export async function check() {
 /** @param {Amount} amount @returns {Promise<number>} the exit code */
 export async function test(amount) {
   clearReports();
-  // Fetching a browser waits for the network; the checks use that time.
-  const [checked] = await Promise.all([
-    runTasks([[build, gateway(amount), wheel], unit(amount), ...still, unused, locks]),
-    browserForTests(),
-  ]);
-  const panels = await runTasks([components(amount)]);
-  const journeys = await runTasks([endToEnd(amount)]);
-  return conclude([...checked, ...panels, ...journeys], { slowest: amount !== 'usual' });
+  // Fetching a browser waits for the network; what needs none uses that time.
+  const browser = browserForTests();
+  const withBrowser = (/** @type {Task} */ task) => ({ ...task, waitsFor: () => browser });
+  // Journeys and gateway wait for real clocks, which leaves a quarter of two processors to all that does not.
+  const inRealTime = [build, withBrowser(endToEnd(amount)), gateway(amount), wheel];
+  const inVirtualTime = [unit(amount), ...still, unused, locks, links, withBrowser(components(amount))];
+  const chains = [
+    { title: 'in real time', tasks: inRealTime },
+    { title: 'beside it', tasks: inVirtualTime.map(givingWay) },
+  ];
+  const [results] = await Promise.all([runTasks(chains), browser]);
+  return conclude(results, { slowest: amount !== 'usual' });
 }

@@ -1,7 +1,7 @@
 // Runs checks side by side and closes with one table: each step with its seconds and tests, then what failed or was
 // skipped. Knows no particular check.
 
-import { availableParallelism } from 'node:os';
+import { availableParallelism, constants, setPriority } from 'node:os';
 import { execa } from 'execa';
 import { Listr } from 'listr2';
 import { at, say } from './steps.mjs';
@@ -14,6 +14,8 @@ import { at, say } from './steps.mjs';
  * @property {readonly [string, ...string[]]} command
  * @property {NodeJS.ProcessEnv} [env]
  * @property {number} [limitMs] where twenty minutes are not enough
+ * @property {boolean} [givesWay] takes what processor time others leave: it waits for no real clock
+ * @property {() => Promise<void>} [waitsFor] what has to be there before it starts
  * @property {() => Tests} [tests] reads the report of a test run; absent for checks that are no tests
  * @typedef {{task: Task, ok: boolean, tests: Tests | null, seconds: number}} Result
  */
@@ -28,32 +30,36 @@ const colours = process.stdout.isTTY ? { FORCE_COLOR: '1' } : { FORCE_COLOR: und
 const lanes = Math.max(2, Math.min(4, availableParallelism()));
 
 /**
- * @param {readonly (Task | readonly Task[])[]} tasks the longest first; several together go one after the other
+ * @typedef {{title: string, tasks: readonly Task[]}} Chain done one after the other
+ * @param {readonly (Task | Chain)[]} tasks the longest first
  * @returns {Promise<Result[]>} never rejects: a check that cannot run has failed
  */
 export async function runTasks(tasks) {
   /** @type {Result[]} */
   const results = [];
-  const attempt = async (/** @type {Task} */ task) => {
-    const { output, ...result } = await runTask(task);
-    results.push(result);
-    if (!result.ok) throw new Error(output);
-  };
+  const options = /** @type {const} */ ({ exitOnError: false });
+  const shown = (/** @type {Task} */ task) => ({
+    title: task.name,
+    task: async () => {
+      const { output, ...result } = await runTask(task);
+      results.push(result);
+      if (!result.ok) throw new Error(output);
+    },
+  });
   const list = new Listr(
-    tasks.map((one) => {
-      const chain = [one].flat();
-      return {
-        title: chain.map(({ name }) => name).join(', '),
-        task: async () => {
-          for (const task of chain) await attempt(task);
-        },
-      };
-    }),
+    tasks.map((one) =>
+      'tasks' in one
+        ? {
+            title: one.title,
+            task: (_, wrapper) => wrapper.newListr(one.tasks.map(shown), { ...options, concurrent: false }),
+          }
+        : shown(one),
+    ),
     {
+      ...options,
       concurrent: lanes,
-      exitOnError: false,
       fallbackRenderer: 'simple',
-      rendererOptions: { collapseErrors: false },
+      rendererOptions: { collapseErrors: false, collapseSubtasks: false },
     },
   );
   await list.run();
@@ -62,8 +68,9 @@ export async function runTasks(tasks) {
 
 /** @param {Task} task @returns {Promise<Result & {output: string}>} */
 async function runTask(task) {
+  await task.waitsFor?.();
   const [command, ...args] = task.command;
-  const { exitCode, all, durationMs, shortMessage } = await execa(command, args, {
+  const running = execa(command, args, {
     cwd: at(''),
     env: { ...colours, ...task.env },
     stdin: 'ignore',
@@ -71,6 +78,8 @@ async function runTask(task) {
     reject: false,
     timeout: task.limitMs ?? usualLimitMs,
   });
+  if (task.givesWay && running.pid !== undefined) setPriority(running.pid, constants.priority.PRIORITY_LOW);
+  const { exitCode, all, durationMs, shortMessage } = await running;
   const tests = task.tests?.() ?? null;
   const proved = tests === null || tests.passed > 0;
   const ok = exitCode === 0 && proved && !tests?.failures.length;
