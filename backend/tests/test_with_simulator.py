@@ -106,10 +106,13 @@ async def test_moves_battery_and_stop_reach_the_board_in_order(board: Board, gat
         await hear_until(client, "halted")
         await asyncio.sleep(0.05)  # the board takes its last byte one byte time after we counted it
     got = bytes(byte for _, byte in board.taken())
-    assert got in (
-        STOP + MOVE + BATTERY + RUN + HALT,
-        STOP + MOVE + BATTERY + HALT,
-    )
+    begin = STOP + MOVE + BATTERY
+    run, halt, again = got.removeprefix(begin).partition(HALT)
+    assert got.startswith(begin)
+    assert halt == HALT
+    # The stop may overtake the run; where it does not, the board's word of it may come behind the stops.
+    assert run in (b"", RUN)
+    assert HALT.startswith(again)
 
 
 @pytest.mark.exhaustive

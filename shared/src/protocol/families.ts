@@ -2,7 +2,7 @@
 // the gateway: shared/protocol/families.json, with the source of each figure. What differs between boards is a field there, never
 // an `if` on a family elsewhere.
 
-import data from '../../protocol/families.json';
+import data from '../../protocol/families.json' with { type: 'json' };
 import type { CommandKind } from './commands.ts';
 
 export interface Range {
