@@ -89,7 +89,7 @@ function figuresOf(
 
 /** All are brought to the centre first, for `restMs`. */
 async function dragsOver(address: string, board: BoardOnPort, restMs: number): Promise<readonly Drag[]> {
-  const transport = createGatewayTransport(`ws://${address}/ws`);
+  const transport = createGatewayTransport(`ws://${address}/ws`, realClock);
   const session = createSession({ transport, family, clock: realClock });
   try {
     await session.open();

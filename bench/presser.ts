@@ -64,7 +64,7 @@ async function comesTo(socket: WebSocket) {
       const id = (lastId += 1);
       const sent = hear((message) => message.type === 'sent' && message.id === id, `sent ${id}`);
       const packet = Buffer.from(encodeCommand(command, family('doc'))).toString('hex');
-      say({ type: 'send', id, packet, nonce, newest: false });
+      say({ type: 'send', id, packet, nonce });
       await sent;
     },
     /** When, in milliseconds since the epoch; the sequence goes on behind it. */

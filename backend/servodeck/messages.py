@@ -39,17 +39,34 @@ LeaseAction = Literal["request", "release", "take", "refuse"]
 Nonce = Annotated[str, Field(max_length=40, description="Of the latest `tick`: shows how old this is.")]
 
 
-class SendMessage(Message):
-    """Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none.
-    `newest`: a move that a later one like it takes the place of while it waits; each says anew where all
-    servos shall go that may still wait.
+class Target(Message):
+    """Where a servo shall go, in its board's unit."""
+
+    servo: ServoNumber
+    position: Annotated[int, Field(ge=0, le=0xFFFF)]
+
+
+class MoveMessage(Message):
+    """Move servos. Of each the newest value counts; what waits for the wire leaves together, servos whose
+    place nobody knows slowly and one after another. `durationMs` 0: as fast as the servos and the link allow.
+    `nonce` shows that the driver says it, and now. Answered only where it is refused: `left` tells what has
+    left.
     """
+
+    type: Literal["move"]
+    id: MessageId
+    targets: Annotated[list[Target], Field(min_length=1, max_length=253)]
+    duration_ms: Annotated[int, Field(ge=0, le=30_000)]
+    nonce: Nonce | None
+
+
+class SendMessage(Message):
+    """Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none."""
 
     type: Literal["send"]
     id: MessageId
     packet: Hex
     nonce: Nonce | None
-    newest: bool = False
 
 
 class StopMessage(Message):
@@ -123,7 +140,8 @@ class BeatMessage(Message):
 
 
 AnyClientMessage = (
-    SendMessage
+    MoveMessage
+    | SendMessage
     | StopMessage
     | ResumeMessage
     | BoardMessage
@@ -140,6 +158,8 @@ class Standing(Message):
     """How the gateway stands, for everybody alike. `brokenSlots` hold half a group: nobody may run them.
     `slotVersions` tell what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
     people call whoever pressed STOP, or whose page did it for the battery, where that is known.
+    `waitingToStart`: servos that were asked to move, but nobody knows where they stand, so they start one
+    after another, in this order.
     """
 
     board: str
@@ -151,6 +171,7 @@ class Standing(Message):
     unattended: UnattendedRun | None
     broken_slots: list[int]
     slot_versions: dict[str, StoredGroup]
+    waiting_to_start: list[int]
 
 
 class WelcomeMessage(Standing):
@@ -168,13 +189,6 @@ class SentMessage(Message):
     """The packet's last bit has left the wire."""
 
     type: Literal["sent"] = "sent"
-    id: MessageId
-
-
-class ReplacedMessage(Message):
-    """That `newest` move has not left: a newer one has taken its place."""
-
-    type: Literal["replaced"] = "replaced"
     id: MessageId
 
 
@@ -243,7 +257,9 @@ class LeaseToldMessage(Message):
 
 
 class LeftMessage(Message):
-    """What others have put on the wire since the last of these, or the gateway itself; no questions."""
+    """What others have put on the wire since the last of these, or the gateway itself, moves among it; no
+    questions.
+    """
 
     type: Literal["left"] = "left"
     packets: list[str]
@@ -259,7 +275,6 @@ class TickMessage(Message):
 GatewayMessage = Annotated[
     WelcomeMessage
     | SentMessage
-    | ReplacedMessage
     | RefusedMessage
     | ReceivedMessage
     | NoiseMessage

@@ -19,6 +19,7 @@ from servodeck.errors import (
     NotSupportedError,
     OutOfRangeError,
 )
+from servodeck.protocol.decoder import COMMAND_AT
 from tests.samples import BATTERY, DOWNLOAD, ERASE, MOVE, RUN, STOP
 
 PORT = 8300
@@ -191,9 +192,9 @@ def test_only_a_move_can_hold_a_pose() -> None:
     ],
 )
 def test_the_latch_lets_only_stop_and_questions_through(packet: bytes, passes: bool) -> None:
-    judge_latch(packet, latch=False)
+    judge_latch(packet[COMMAND_AT], latch=False)
     if passes:
-        judge_latch(packet, latch=True)
+        judge_latch(packet[COMMAND_AT], latch=True)
     else:
         with pytest.raises(LatchedError):
-            judge_latch(packet, latch=True)
+            judge_latch(packet[COMMAND_AT], latch=True)

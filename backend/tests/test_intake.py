@@ -6,7 +6,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from servodeck.access.intake import Intake, Rate
-from servodeck.messages import AnyClientMessage, ResumeMessage, SendMessage, StopMessage
+from servodeck.messages import (
+    AnyClientMessage,
+    MoveMessage,
+    ResumeMessage,
+    SendMessage,
+    StopMessage,
+    Target,
+)
+from servodeck.web.clients import merged
 from tests.virtual_time import in_virtual_time, now
 
 STOP = StopMessage(type="stop", hold=None)
@@ -19,7 +27,8 @@ class Listener:
         self.taken: list[tuple[float, AnyClientMessage]] = []
         self.replaced: list[AnyClientMessage] = []
         self.overruns = 0
-        self.intake = Intake(Rate(per_second, burst, now), self._take, self.replaced.append, self._overrun)
+        rate = Rate(per_second, burst, now)
+        self.intake = Intake(rate, self._take, merged, self.replaced.append, self._overrun)
 
     def _take(self, message: AnyClientMessage) -> None:
         self.taken.append((round(now(), 3), message))
@@ -30,6 +39,11 @@ class Listener:
     def send(self, *ids: int) -> None:
         for each in ids:
             self.intake.offer(sent(each))
+
+
+def moved(number: int, *servos: int, duration_ms: int = 0) -> MoveMessage:
+    targets = [Target(servo=servo, position=number) for servo in servos]
+    return MoveMessage(type="move", id=number, targets=targets, duration_ms=duration_ms, nonce="1-1")
 
 
 def sent(number: int) -> SendMessage:
@@ -65,6 +79,21 @@ async def test_a_little_above_for_long_only_loses_what_is_too_much() -> None:
         await asyncio.sleep(0.8)
     assert listener.overruns == 0
     assert len(listener.taken) >= 32
+
+
+@in_virtual_time
+async def test_above_the_rate_no_servos_last_value_is_lost() -> None:
+    listener = Listener()
+    for message in (moved(1, 1), moved(2, 1), moved(3, 1, 2), moved(4, 2, 3)):
+        listener.intake.offer(message)
+    assert listener.replaced == []
+    await asyncio.sleep(2)
+    [_, _, (_, last)] = listener.taken
+    assert isinstance(last, MoveMessage)
+    assert (last.id, {target.servo: target.position for target in last.targets}) == (4, {1: 3, 2: 4, 3: 4})
+    for message in (moved(5, 1), moved(6, 1), moved(7, 1), moved(8, 2, duration_ms=500)):
+        listener.intake.offer(message)
+    assert listener.replaced == [moved(7, 1)]  # who has asked hears of it
 
 
 @in_virtual_time

@@ -22,6 +22,7 @@ from tests.virtual_time import in_virtual_time
 MESSAGES = 20_000 * TIMES
 WELL_FORMED: list[dict[str, Any]] = [
     *({"type": "send", "id": 7, "packet": packet.hex()} for packet in (MOVE, RUN, ERASE, DOWNLOAD)),
+    {"type": "move", "id": 7, "targets": [{"servo": 1, "position": 1500}], "durationMs": 0},
     {"type": "stop", "hold": MOVE.hex()},
     {"type": "resume"},
     {"type": "board", "board": "doc"},
@@ -90,7 +91,7 @@ def is_sound(text: str) -> bool:
 def malformed(chance: random.Random, nonce: str | None) -> Iterator[str]:
     while True:
         message = dict(chance.choice(WELL_FORMED))
-        if message["type"] == "send":
+        if message["type"] in ("move", "send"):
             message["nonce"] = nonce
         text = chance.choice(SPOILERS)(chance, message)
         if not is_sound(text):

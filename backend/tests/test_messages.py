@@ -12,11 +12,13 @@ from servodeck.access.hub import Seat
 from servodeck.callers import THIS_COMPUTER
 from servodeck.driving.control import Control
 from servodeck.messages import (
+    MoveMessage,
     ResumeMessage,
     SendMessage,
     SentMessage,
     StateMessage,
     StopMessage,
+    Target,
     client_message,
     encode,
     gateway_message,
@@ -35,6 +37,9 @@ def test_each_client_message_is_read_as_what_it_is() -> None:
     assert client_message.validate_json(
         '{"type":"send","id":7,"packet":"55550207","nonce":null}'
     ) == SendMessage(type="send", id=7, packet="55550207", nonce=None)
+    assert client_message.validate_json(
+        '{"type":"move","id":7,"targets":[{"servo":1,"position":1500}],"durationMs":0,"nonce":"1-1"}'
+    ) == MoveMessage(type="move", id=7, targets=[Target(servo=1, position=1500)], duration_ms=0, nonce="1-1")
     assert client_message.validate_json('{"type":"stop","hold":null}') == StopMessage(type="stop", hold=None)
     assert client_message.validate_json('{"type":"resume"}') == ResumeMessage(type="resume")
 
@@ -57,6 +62,10 @@ def test_each_client_message_is_read_as_what_it_is() -> None:
         '{"type":"send","id":1,"packet":"55550207","nonce":null,"more":0}',
         '{"type":"send","id":1,"packet":"' + "5" * 600 + '","nonce":null}',
         '{"type":"stop"}',
+        '{"type":"move","id":1,"targets":[],"durationMs":0,"nonce":"1-1"}',
+        '{"type":"move","id":1,"targets":[{"servo":0,"position":1500}],"durationMs":0,"nonce":"1-1"}',
+        '{"type":"move","id":1,"targets":[{"servo":1,"position":-1}],"durationMs":0,"nonce":"1-1"}',
+        '{"type":"move","id":1,"targets":[{"servo":1,"position":1500}],"durationMs":30001,"nonce":"1-1"}',
         '{"type":"resume","hold":null}',
         "[" * 5000,
     ],
@@ -78,6 +87,7 @@ def test_names_on_the_wire_are_camel_case() -> None:
         unattended=None,
         broken_slots=[],
         slot_versions={},
+        waiting_to_start=[],
     )
     state = json.loads(encode(told))
     assert state["port"]["retryInMs"] == 250
@@ -88,8 +98,8 @@ def test_names_on_the_wire_are_camel_case() -> None:
 def test_the_schema_names_both_directions_and_leaves_nothing_open() -> None:
     definitions = json_schema()["$defs"]
     assert {"ClientMessage", "GatewayMessage", "PortState"} <= set(definitions)
-    assert len(definitions["ClientMessage"]["oneOf"]) == 9
-    assert len(definitions["GatewayMessage"]["oneOf"]) == 14
+    assert len(definitions["ClientMessage"]["oneOf"]) == 10
+    assert len(definitions["GatewayMessage"]["oneOf"]) == 13
     for name, definition in definitions.items():
         if "properties" in definition:
             assert definition["additionalProperties"] is False, name
@@ -106,6 +116,17 @@ scalars = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.tex
 messages = st.one_of(
     st.fixed_dictionaries(
         {"type": st.just("send"), "id": st.integers() | scalars, "packet": packets, "nonce": scalars}
+    ),
+    st.fixed_dictionaries(
+        {
+            "type": st.just("move"),
+            "id": st.integers() | scalars,
+            "targets": st.lists(st.fixed_dictionaries({"servo": scalars, "position": scalars}), max_size=2)
+            | scalars
+            | st.just([{"servo": 1, "position": 1500}]),
+            "durationMs": st.just(0) | scalars,
+            "nonce": scalars,
+        }
     ),
     st.fixed_dictionaries({"type": st.just("stop"), "hold": st.none() | packets}),
     st.fixed_dictionaries({"type": st.just("board"), "board": st.sampled_from(list(FAMILIES)) | scalars}),

@@ -1,7 +1,7 @@
 """Several callers ask for anything through every door, and are revoked, demoted or dropped at any instant.
 
-The oracle is what the port was given: each request moves for a time, or runs or fills a slot, that no other
-one has, so that a packet says whose it is.
+The oracle is what the port was given: each request moves for a time or to a place, or runs or fills a slot,
+that no other one has, so that a packet says whose it is.
 """
 
 import asyncio
@@ -15,13 +15,21 @@ from hypothesis import strategies as st
 
 from servodeck.access.intake import Intake, Rate
 from servodeck.callers import THIS_COMPUTER, Caller
-from servodeck.messages import AnyClientMessage, ContinueMessage, LeaseMessage, SendMessage, StopMessage
+from servodeck.messages import (
+    AnyClientMessage,
+    ContinueMessage,
+    LeaseMessage,
+    MoveMessage,
+    SendMessage,
+    StopMessage,
+    Target,
+)
 from servodeck.port.wire import wire_s
 from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode, parse_command
 from servodeck.protocol.values import Command, Download, Move, Run
-from servodeck.web.clients import take
+from servodeck.web.clients import merged, take
 from tests.amount import TIMES
 from tests.client import Client
 from tests.fake_port import FakePort
@@ -77,7 +85,8 @@ class Page(Client):
 
     def __init__(self, here: Scripted, caller: Caller) -> None:
         super().__init__(here.control, caller)
-        self._intake = Intake(Rate(20, 2, here.control.now), self._take, lambda _: None, lambda: None)
+        rate = Rate(20, 2, here.control.now)
+        self._intake = Intake(rate, self._take, merged, lambda _: None, lambda: None)
 
     def say(self, message: AnyClientMessage) -> None:
         if isinstance(message, StopMessage):
@@ -85,10 +94,19 @@ class Page(Client):
         else:
             self._intake.offer(message)
 
-    def say_packet(self, packet: bytes, *, newest: bool = False) -> None:
+    def say_packet(self, packet: bytes) -> None:
+        self._claim()
+        self.say(SendMessage(type="send", id=1, packet=packet.hex(), nonce=self.nonce))
+
+    def say_move(self, duration_ms: int, positions: Mapping[int, int]) -> None:
+        self._claim()
+        targets = [Target(servo=servo, position=position) for servo, position in positions.items()]
+        move = MoveMessage(type="move", id=1, targets=targets, duration_ms=duration_ms, nonce=self.nonce)
+        self.say(move)
+
+    def _claim(self) -> None:
         if self.control.driving.driver is None:
             self.say(LeaseMessage(type="lease", action="request"))
-        self.say(SendMessage(type="send", id=1, packet=packet.hex(), nonce=self.nonce, newest=newest))
 
     def _take(self, message: AnyClientMessage) -> None:
         take(message, self, self.control)
@@ -150,8 +168,8 @@ class History:
     def _say(self, party: Party, what: What, number: int) -> None:
         page, sender = party.page, f"{party.name} on a page"
         if what == "page moves":
-            time_ms = self._mark("move", FIRST_MOVE_MS + number, sender)
-            page.say_packet(move(time_ms, s1=1000), newest=number % 2 == 0)
+            position = self._mark("position", 1100 + number, sender)
+            page.say_move(FIRST_MOVE_MS * (number % 2), dict.fromkeys(range(1, 2 + number % 4), position))
         elif what == "page runs":
             page.say_packet(encode(Run(self._mark("run", number, sender), 1), FAMILIES["doc"]))
             page.say(ContinueMessage(type="continue", for_ms=5000))
@@ -206,8 +224,9 @@ class History:
 
     def _sender_of(self, command: Command | None) -> str | None:
         match command:
-            case Move(duration_ms, _):
-                return self._senders.get(("move", duration_ms))
+            case Move(duration_ms, targets) if duration_ms >= FIRST_MOVE_MS:  # no hold takes so long
+                of_page = self._senders.get(("position", targets[0].position))
+                return of_page or self._senders.get(("move", duration_ms))
             case Run(slot, _):
                 return self._senders.get(("run", slot))
             case Download(slot=slot):

@@ -148,12 +148,6 @@ def judge_by_hand(packet: bytes) -> None:
         raise NotSupportedError("Groups are stored as a whole: POST /api/download.")
 
 
-def judge_newest(packet: bytes, newest: bool) -> None:
-    """Nothing but a move is made void by a later one. Raises MalformedError."""
-    if newest and packet[COMMAND_AT] != MOVE:
-        raise MalformedError("Only a move can give way to a newer one.")
-
-
 def judge_known(board: str) -> None:
     """Raises NotSupportedError while nobody has said which board it is: none of its limits is known."""
     if board == UNKNOWN.id:
@@ -195,7 +189,7 @@ def role_for(packet: bytes) -> Role:
     return "owner" if command == ERASE else "driver"
 
 
-def judge_latch(packet: bytes, latch: bool) -> None:
+def judge_latch(command: int, latch: bool) -> None:
     """While stopped, only what moves nothing and stores nothing passes. Raises LatchedError."""
-    if latch and not is_harmless(packet):
+    if latch and command not in HARMLESS:
         raise LatchedError("Stopped. Motion waits for Resume.")

@@ -47,11 +47,16 @@ class Intake:
         self,
         rate: Rate,
         take: Callable[[AnyClientMessage], None],
+        merged: Callable[[AnyClientMessage, AnyClientMessage], AnyClientMessage | None],
         replaced: Callable[[AnyClientMessage], None],
         overrun: Callable[[], None],
     ) -> None:
+        """`merged` gives what an older and a newer message say together, None where the newer one makes the
+        older one void.
+        """
         self._rate = rate
         self._take = take
+        self._merged = merged
         self._replaced = replaced
         self._overrun = overrun
         self._excess = 0
@@ -69,6 +74,9 @@ class Intake:
             return
         if self._waiting is not None:
             self._exceed()
+            if together := self._merged(self._waiting, message):
+                self._waiting = together
+                return
         self._replace(message)
 
     def count(self) -> bool:

@@ -16,6 +16,7 @@ from servodeck.board.battery import BatteryWatch
 from servodeck.board.estimate import Estimate
 from servodeck.board.hold import hold_packet, untraced
 from servodeck.board.jobs import Jobs
+from servodeck.board.moves import Moves
 from servodeck.board.parts import Part
 from servodeck.board.resync import filler_for
 from servodeck.board.slot_memory import SlotMemory
@@ -45,7 +46,7 @@ class BoardEvents(Protocol):
         """It was open and is gone, unasked; `board_changed` follows."""
 
     def board_changed(self) -> None:
-        """The port, what a slot holds or what goes on alone is another now."""
+        """The port, what a slot holds, what goes on alone or what waits to start is another now."""
 
     def job_changed(self, state: JobState) -> None: ...
 
@@ -83,6 +84,7 @@ class Board:
         self.answers = Answers()
         self.battery = BatteryWatch(self.answers, self._ask, now)
         self.jobs = Jobs(self, self.answers, now, slot_memory)
+        self.moves = Moves(self, now, events.board_changed)
         self._motion = Estimate(self.family)
         self._page_hold: Move | None = None
         self._page_hold_of: Owner = None
@@ -134,16 +136,20 @@ class Board:
         self.taken_for = family
         self.battery.forget()
         self._forget_motion()
-        self.drop(is_no_stop, CancelledError("The board is taken for another one now."))
-
-    def drop(self, which: Callable[[Job], bool], reason: GatewayError) -> None:
-        """What waits for the wire, if there is one."""
+        reason = CancelledError("The board is taken for another one now.")
+        self.moves.drop(reason)
         with contextlib.suppress(GatewayError):
-            self.link.wire().purge(which, reason)
+            self.link.wire().purge(is_no_stop, reason)
+
+    def drop(self, owner: Owner, reason: GatewayError) -> None:
+        """What that one asked for and waits for the wire does not leave any more."""
+        self.moves.drop(reason, owner)
+        with contextlib.suppress(GatewayError):
+            self.link.wire().purge(lambda job: job.owner is owner, reason)
 
     def disown(self, owner: Owner, reason: GatewayError) -> None:
-        """What that one asked for does not leave any more. A stop of theirs does, without their pose."""
-        self.drop(lambda job: job.owner is owner, reason)
+        """As `drop`. A stop of theirs leaves, without their pose."""
+        self.drop(owner, reason)
         if self._page_hold_of is owner:
             self._page_hold = None
 
@@ -152,6 +158,7 @@ class Board:
         a page believes the servos, for those of which the gateway knows nothing.
         """
         self.halts += 1
+        self.moves.drop(reason)
         wire = self.link.wire()
         if page_hold or not wire.is_halting:
             self._page_hold = untraced(page_hold, self.motion.is_traced)
@@ -210,6 +217,7 @@ class Board:
 
     def port_changed(self) -> None:
         if self.link.state.status != "open":
+            self.moves.drop(PortLostError("The serial port is not open any more."))
             self._lose_motion()  # also what left with the last breath of the port
         self._events.board_changed()
 
@@ -311,4 +319,4 @@ class Board:
 
 
 def is_no_stop(job: Job) -> bool:
-    return job.packet[COMMAND_AT] != STOP
+    return job.command != STOP

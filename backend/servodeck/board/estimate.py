@@ -16,6 +16,7 @@ from servodeck.motion.motion import (
     after_command,
     after_cut_packet,
     either_of,
+    farthest_from,
     forgotten,
     gentle_ms,
     hears,
@@ -23,6 +24,7 @@ from servodeck.motion.motion import (
     position_at,
     remaining_ms,
     target_of,
+    without_servos,
 )
 from servodeck.motion.reports import after_cut, after_end, after_report
 from servodeck.motion.told import held_at, only_let_go
@@ -41,6 +43,7 @@ from servodeck.protocol.values import (
     RunFinished,
     RunStarted,
     RunStopped,
+    ServoTarget,
     SetSpeed,
     Stop,
 )
@@ -195,6 +198,16 @@ class Estimate:
     def first_moves_ms(self, servos: Collection[int], now: float) -> float:
         """How long first moves still take that a move of those servos would make faster or slower."""
         return gentle_ms(self._motion, servos, self._advance(now), self.family)
+
+    def others_ms(self, servos: Collection[int], now: float) -> float:
+        """How long those still move that a move of `servos` does not name."""
+        now_ms = self._advance(now)
+        return remaining_ms(without_servos(self._motion, servos), now_ms)
+
+    def farthest_from(self, target: ServoTarget, now: float, at_s: float) -> float:
+        """How far its servo may be from there then, in board units."""
+        self._advance(now)
+        return farthest_from(self._motion, target.servo, target.position, at_s * 1000, self.family)
 
     def halt_plan(self, now: float) -> HaltPlan:
         """What a STOP pressed now holds and what not."""

@@ -5,20 +5,26 @@ Knows what is asked and what may be done now. Must not know HTTP, WebSockets or 
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from servodeck.access.gate import (
+    DOWNLOAD,
+    HARMLESS,
+    MOVE,
     RUN,
     STOP,
     is_harmless,
     judge_by_hand,
     judge_command,
+    judge_known,
     judge_latch,
-    judge_newest,
     role_for,
 )
 from servodeck.access.hub import AGAINST_THE_RULES, Hub, Seat
 from servodeck.board.board import Board
 from servodeck.board.estimate import Estimate
+from servodeck.board.move_plan import judge_targets
+from servodeck.board.moves import Asked
 from servodeck.board.parts import Part, judge_parts
 from servodeck.board.recalled_board import RecalledBoard
 from servodeck.board.robot import RobotLimits
@@ -52,6 +58,7 @@ from servodeck.port.link import Ports
 from servodeck.port.wire import Job, Left, Owner, always
 from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.values import Move, ServoTarget
 from servodeck.told import JobState, UnheldServos
 
 SOMEBODY = Cause("person")
@@ -90,7 +97,7 @@ class Control:
         self.driving = Driving(self.hub, now, epoch, self._watch)
         simulated_device = named_device if simulated else None
         self.board = Board(ports, now, board, simulated_device, slot_memory or SlotMemory(), self)
-        self._relay = Relay(self.hub, now)
+        self._relay = Relay(self.hub, now, lambda: self.driving.driver)
         self._telling = Telling(self.hub, self.board, self._latch, self.robot, self.driving, now)
         self._halting: Left | None = None
         self._pressed_s = 0.0
@@ -124,7 +131,7 @@ class Control:
     def leave(self, seat: Seat) -> None:
         """What waits of it does not leave, and what it still says is not heard. Twice is harmless."""
         seat.ended.set()
-        self.board.drop(lambda job: job.owner is seat, CancelledError("The client has left."))
+        self.board.drop(seat, CancelledError("The client has left."))
         self.limits.forget(seat)
         self.hub.leave(seat)
         self.driving.leave(seat)
@@ -155,17 +162,39 @@ class Control:
                 self.board.disown(seat, CancelledError(reason))
                 self.leave(seat)
 
-    def send(self, seat: Seat, packet_hex: str, nonce: str | None = None, *, newest: bool = False) -> Left:
+    def move(self, seat: Seat, targets: Sequence[ServoTarget], duration_ms: int, nonce: str | None) -> Left:
+        """The newest value of each servo counts; they leave together when the wire is free. `duration_ms` 0:
+        as fast as the soft limit and the link allow. Resolves when each has left or a newer one has taken its
+        place. Raises, or fails with, what keeps one from leaving.
+        """
+        board, driving = self.board, self.driving
+        seat.caller.require("driver")
+        judge_known(board.taken_for)
+        judge_targets(targets, duration_ms, board.family)
+        self.limits.judge(Move(duration_ms, tuple(targets)), seat)
+        board.link.wire()
+        judge_latch(MOVE, self.latch)
+        board.jobs.judge_idle()
+        permit = driving.permit(seat, nonce)
+        # Whoever waits to start may do so as long as the driver is heard.
+        waiting = replace(permit, until_s=math.inf)
+
+        def judge(target: ServoTarget, starts: bool) -> None:
+            driving.judge(waiting if starts else permit)
+            judge_latch(MOVE, self.latch)
+            self.limits.judge(Move(duration_ms, (target,)), seat)
+
+        return board.moves.put(targets, duration_ms, Asked(seat, judge))
+
+    def send(self, seat: Seat, packet_hex: str, nonce: str | None = None) -> Left:
         """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving. What
-        is not harmless needs the lease and its `nonce`. A `newest` move is cancelled where a later one takes
-        its place.
+        is not harmless needs the lease and its `nonce`.
         """
         packet, command = judge_command(packet_hex, self.board.taken_for)
         seat.caller.require(role_for(packet))
-        judge_newest(packet, newest)
         self.limits.judge(command, seat)
         wire = self.board.link.wire()
-        judge_latch(packet, self.latch)
+        judge_latch(packet[COMMAND_AT], self.latch)
         judge_by_hand(packet)
         self.board.jobs.judge_run(command, self.board.link.place)
         self._judge_idle(packet)
@@ -174,7 +203,7 @@ class Control:
         if is_stop:
             # A stop overtakes all that waits; a run it overtook must not start the group again behind it.
             wire.purge(is_run, CancelledError("A stop has overtaken this run."))
-        return wire.send(packet, seat, urgent=is_stop, newest=newest, judge=judge)
+        return wire.send(packet, seat, urgent=is_stop, judge=judge)
 
     def stop(self, hold: bytes | None, cause: Cause = SOMEBODY, owner: Owner = None) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
@@ -245,9 +274,10 @@ class Control:
             claim()
             return board.jobs.add(behind, parts, by)
         wire = board.link.wire()
-        judge_latch(parts[0].packets[0], self.latch)
+        judge_latch(DOWNLOAD, self.latch)
         board.jobs.judge_idle()
-        if board.may_move() or not wire.is_clear_of(lambda packet: not is_harmless(packet)):
+        is_clear = board.moves.is_empty and wire.is_clear_of(lambda command: command not in HARMLESS)
+        if board.may_move() or not is_clear:
             raise MovingError(still_moving(board.motion, self.now()))
         claim()
         return board.jobs.begin(parts, by, board.link.place, wire)
@@ -345,4 +375,4 @@ def end_of_group(ends_in_s: float | None) -> str:
 
 
 def is_run(job: Job) -> bool:
-    return job.packet[COMMAND_AT] == RUN
+    return job.command == RUN

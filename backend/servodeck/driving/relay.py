@@ -1,11 +1,12 @@
-"""What left the wire, told to everybody who did not send it: twenty times a second at most, so that a hand on
-one page's sliders is seen on all of them.
+"""What left the wire, told to everybody who has not sent its packet: to the driver at once, to the others
+twenty times a second at most, so that a hand on one page's sliders is seen on all of them.
 
 Knows seats and packets, no port. Whoever reads slowly gets the newest of it and misses what that made void.
 """
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
 from functools import lru_cache
 
 from servodeck.access.gate import MOVE
@@ -21,17 +22,31 @@ FLUSH_S = 0.05
 Packets = tuple[bytes, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Leaving:
+    """`known_to` needs not be told."""
+
+    packet: bytes
+    at_s: float
+    known_to: Collection[Owner]
+
+
 class Relay:
-    def __init__(self, hub: Hub, now: Callable[[], float]) -> None:
+    def __init__(self, hub: Hub, now: Callable[[], float], driver: Callable[[], Seat | None]) -> None:
         self._hub = hub
         self._now = now
-        self._leaving: list[tuple[Owner, bytes, float]] = []
+        self._driver = driver
+        self._leaving: list[Leaving] = []
         self._behind: dict[Seat, Packets] = {}
         self._timer: asyncio.TimerHandle | None = None
 
     def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
-        """Its last bit leaves then; it is told when it has."""
-        self._leaving.append((owner, packet, at_s))
+        """Its last bit leaves then; it is told when it has: the driver of each packet, and at once."""
+        driver = self._driver()
+        if driver and owner is not driver:
+            text = text_of((packet,))
+            asyncio.get_running_loop().call_later(max(0.0, at_s - self._now()), driver.put, text)
+        self._leaving.append(Leaving(packet, at_s, (owner, driver)))
         if self._timer is None:
             self._plan()
 
@@ -39,21 +54,22 @@ class Relay:
         self._behind.pop(seat, None)
 
     def _plan(self) -> None:
-        delay_s = max(FLUSH_S, self._leaving[0][2] - self._now())
+        delay_s = max(FLUSH_S, self._leaving[0].at_s - self._now())
         self._timer = asyncio.get_running_loop().call_later(delay_s, self._flush)
 
     def _flush(self) -> None:
         now = self._now()
-        left = [(owner, packet) for owner, packet, at_s in self._leaving if at_s <= now]
+        left = [each for each in self._leaving if each.at_s <= now]
         self._leaving = self._leaving[len(left) :]
         self._timer = None
         if self._leaving:
             self._plan()
-        told = newest(tuple(packet for _, packet in left))
-        senders = {owner for owner, _ in left}
+        told = newest(tuple(each.packet for each in left))
+        knowing = {owner for each in left for owner in each.known_to}
         for seat in self._hub.seats:
-            own = seat in senders
-            self._tell(seat, newest(tuple(p for owner, p in left if owner is not seat)) if own else told)
+            known = seat in knowing
+            unheard = tuple(each.packet for each in left if seat not in each.known_to) if known else ()
+            self._tell(seat, newest(unheard) if known else told)
 
     def _tell(self, seat: Seat, packets: Packets) -> None:
         if not packets:

@@ -13,10 +13,10 @@ from typing import Literal
 
 from servodeck.access.gate import judge_known, judge_latch
 from servodeck.access.hub import Seat
+from servodeck.board.move_plan import packet_of, plan_move
 from servodeck.board.parts import Part
 from servodeck.callers import Caller, as_script
 from servodeck.driving.control import Control, end_of_group
-from servodeck.driving.script_moves import packet_of, plan_move
 from servodeck.driving.script_seat import ScriptSeat
 from servodeck.errors import (
     CancelledError,
@@ -25,6 +25,7 @@ from servodeck.errors import (
     NotPairedError,
 )
 from servodeck.port.wire import Left
+from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import Family
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Erase, Erased, Run, RunAccepted, RunStarted
@@ -51,7 +52,7 @@ class Turn:
     def __init__(self, control: Control, seat: Seat, packet: bytes, *, take: bool) -> None:
         """Raises what keeps its first packet from leaving."""
         control.board.link.wire()
-        judge_latch(packet, control.latch)
+        judge_latch(packet[COMMAND_AT], control.latch)
         self._control = control
         self._seat = seat
         control.driving.speak_for(seat, take=take)

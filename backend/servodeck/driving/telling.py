@@ -64,4 +64,5 @@ class Telling:
             "unattended": board.unattended.told(),
             "broken_slots": board.broken_slots,
             "slot_versions": board.slot_versions,
+            "waiting_to_start": board.moves.waiting_to_start,
         }

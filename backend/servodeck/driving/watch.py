@@ -21,9 +21,7 @@ class Watch:
     def driver_quiet(self) -> None:
         control = self._control
         driver = control.driving.driver
-        control.board.drop(
-            lambda job: job.owner is driver, CancelledError("Its driver was not heard any more.")
-        )
+        control.board.drop(driver, CancelledError("Its driver was not heard any more."))
         if control.board.motion.is_moving(control.now()):
             self._stop_for_nobody()
 

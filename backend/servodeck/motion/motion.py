@@ -40,6 +40,7 @@ from servodeck.motion.tracks import (
     position_of,
     restless_behind,
     retarget,
+    share,
     standing_at,
     stands,
 )
@@ -200,7 +201,7 @@ def with_start(motion: Motion, targets: Sequence[ServoTarget]) -> Tracks:
 
 def released(motion: Motion, servos: Collection[int]) -> Motion:
     """It drops, who knows where to."""
-    return replace(motion, tracks=only(motion.tracks, lambda _, servo: servo not in servos))
+    return without_servos(motion, servos)
 
 
 def deafened(motion: Motion, command: Command, at_ms: float, board: KnownBoard) -> Motion:
@@ -323,10 +324,26 @@ def leeway_at(motion: Motion, servo: int, now_ms: float, family: Family) -> floa
     return leeway_of(track, now_ms, family) if track else inf
 
 
+def farthest_from(motion: Motion, servo: int, to: float, now_ms: float, family: Family) -> float:
+    """How far it may be from there at most, in board units."""
+    at = position_at(motion, servo, now_ms)
+    if at is not None:
+        return abs(to - at)
+    position, track = family.position, motion.tracks.get(servo)
+    if track is None or track.to_leeway == inf:
+        return max(to - position.min, position.max - to)
+    return abs(to - track.to) + (position.max - position.min) * (1 - share(track, now_ms))
+
+
 def target_of(motion: Motion, servo: int) -> float | None:
     """Where a servo was last asked to be, or None when it never was."""
     track = motion.tracks.get(servo)
     return None if track is None or track.to_leeway == inf else track.to
+
+
+def without_servos(motion: Motion, servos: Collection[int]) -> Motion:
+    """The motion of the others alone."""
+    return replace(motion, tracks=only(motion.tracks, lambda _, servo: servo not in servos))
 
 
 def remaining_ms(motion: Motion, now_ms: float) -> float:

@@ -8,9 +8,8 @@ wait for.
 import asyncio
 import contextlib
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from itertools import islice
 
 from servodeck import metrics
 from servodeck.errors import BusyError, ClosedError, GatewayError
@@ -48,14 +47,15 @@ def wire_s(byte_count: int) -> float:
 
 @dataclass(eq=False, slots=True)
 class Job:
-    """A packet that waits for its turn; `left` resolves when its last bit has left the wire."""
+    """A packet that waits for its turn; `left` resolves when its last bit has left the wire. `make` gives it
+    as its turn has come, None where there is nothing to say any more; it raises what keeps it from leaving.
+    """
 
-    packet: bytes
+    command: int
+    make: Callable[[], bytes | None]
     owner: Owner
     left: Left
     asked_at: float
-    judge: Callable[[], None] = always
-    newest: bool = False
 
 
 @dataclass(eq=False, slots=True)
@@ -114,23 +114,31 @@ class Wire:
         owner: Owner,
         *,
         urgent: bool = False,
-        newest: bool = False,
         judge: Callable[[], None] = always,
     ) -> Left:
         """Queues a packet, an urgent one before all others. Raises BusyError when this owner has too many
-        waiting. `judge` is asked when its turn has come, and raises what keeps it from leaving. The `newest`
-        one takes the place of the one like it that still waits, whose `left` is cancelled.
+        waiting. `judge` is asked when its turn has come, and raises what keeps it from leaving.
         """
-        if self._ended:
-            raise self._ended
         lane = self._urgent if urgent else self._queue
-        job = Job(packet, owner, asyncio.get_running_loop().create_future(), self._now(), judge, newest)
-        before = newest_of(lane, owner) if newest else None
-        if before:
-            take_place(lane, before, job)
-            return job.left
         if sum(other.owner is owner for other in lane) >= QUEUE_PER_OWNER:
             raise BusyError(f"{QUEUE_PER_OWNER} packets wait already; send the next one when one has left.")
+
+        def make() -> bytes:
+            judge()
+            return packet
+
+        return self._queue_up(lane, packet[COMMAND_AT], make, owner)
+
+    def send_made(self, command: int, make: Callable[[], bytes | None], owner: Owner) -> Left:
+        """Queues a packet of that command number that is made when its turn has come."""
+        return self._queue_up(self._queue, command, make, owner)
+
+    def _queue_up(
+        self, lane: deque[Job], command: int, make: Callable[[], bytes | None], owner: Owner
+    ) -> Left:
+        if self._ended:
+            raise self._ended
+        job = Job(command, make, owner, asyncio.get_running_loop().create_future(), self._now())
         lane.append(job)
         self._work.set()
         return job.left
@@ -170,9 +178,9 @@ class Wire:
             self._queue.remove(job)
             fail(job.left, reason)
 
-    def is_clear_of(self, unwanted: Callable[[bytes], bool]) -> bool:
-        """No such packet waits, and no stop sequence is under way."""
-        return not self._halt and not any(unwanted(job.packet) for job in (*self._urgent, *self._queue))
+    def is_clear_of(self, unwanted: Callable[[int], bool]) -> bool:
+        """No packet of such a command number waits, and no stop sequence is under way."""
+        return not self._halt and not any(unwanted(job.command) for job in (*self._urgent, *self._queue))
 
     async def run(self) -> None:
         """Sends and reads until the port is lost (raises PortLostError) or this task is cancelled."""
@@ -224,13 +232,16 @@ class Wire:
 
     async def _send_job(self, job: Job) -> None:
         try:
-            job.judge()
+            packet = job.make()
         except GatewayError as error:
             fail(job.left, error)
             return
+        if packet is None:
+            settle(job.left)
+            return
         self._under_way = job
         waited_s = self._now() - job.asked_at
-        await self._put(job.packet, job.owner)
+        await self._put(packet, job.owner)
         metrics.queue_wait.observe(waited_s)
         self._under_way = None
         settle(job.left)
@@ -266,20 +277,6 @@ class Wire:
         waiting = [job.left for job in jobs] + ([self._halt.left] if self._halt else [])
         for left in waiting:
             fail(left, error)
-
-
-def newest_of(lane: Iterable[Job], owner: Owner) -> Job | None:
-    """The one that waits to be overtaken; there is never another."""
-    return next((job for job in lane if job.newest and job.owner is owner), None)
-
-
-def take_place(lane: deque[Job], before: Job, job: Job) -> None:
-    """Without queuing up again, unless something of the same owner came between them: their order stays."""
-    at = lane.index(before)
-    is_last = all(other.owner is not job.owner for other in islice(lane, at + 1, None))
-    del lane[at]
-    lane.insert(at if is_last else len(lane), job)
-    before.left.cancel()
 
 
 def settle(future: Left) -> None:

@@ -7,7 +7,8 @@ fatal.
 
 import asyncio
 import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 from pydantic import ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -28,26 +29,29 @@ from servodeck.messages import (
     ContinueMessage,
     GiveMessage,
     LeaseMessage,
+    MoveMessage,
     RefusedMessage,
-    ReplacedMessage,
     ResumeMessage,
     SendMessage,
     SentMessage,
     StopMessage,
+    Target,
     client_message,
     encode,
 )
 from servodeck.port.wire import Left
+from servodeck.protocol.values import ServoTarget
 
 UNSUPPORTED_DATA = 1003
 CLOSE_WAIT_S = 0.1
-# Messages a second, and at once. Above what the wire takes (70 of the shortest packets a second): it shall
-# be the wire that says how fast a robot is driven.
-DRIVER_RATE = (100.0, 200)
+# Messages a second, and at once. A page hands over the newest values every 8 ms while somebody drags: what
+# waits longer at the page would be older when the wire is free.
+DRIVER_RATE = (150.0, 300)
 VIEWER_RATE = (2.0, 10)
 # What each message takes at least; one that is not named here only an owner may send. A packet is judged by
 # what it does.
 ROLES: dict[type[AnyClientMessage], Role] = {
+    MoveMessage: "driver",
     SendMessage: "viewer",
     StopMessage: "stopper",
     ResumeMessage: "driver",
@@ -110,6 +114,7 @@ def intake_of(seat: Seat, control: Control) -> Intake:
     return Intake(
         rate_of(seat.caller, control.now),
         take=lambda message: take(message, seat, control),
+        merged=merged,
         replaced=lambda message: refuse(seat, id_of(message), BusyError("A newer message took its place.")),
         overrun=lambda: seat.end(AGAINST_THE_RULES, "Too many messages."),
     )
@@ -134,7 +139,19 @@ def hear(text: str, seat: Seat, intake: Intake) -> None:
 
 
 def id_of(message: AnyClientMessage) -> int | None:
-    return message.id if isinstance(message, SendMessage) else None
+    return message.id if isinstance(message, MoveMessage | SendMessage) else None
+
+
+def merged(before: AnyClientMessage, message: AnyClientMessage) -> AnyClientMessage | None:
+    """Both in one, where nothing of the older one may be lost: the value of a servo that the newer one does
+    not name.
+    """
+    if not (isinstance(before, MoveMessage) and isinstance(message, MoveMessage)):
+        return None
+    if before.duration_ms != message.duration_ms:
+        return None
+    newest = {target.servo: target for target in (*before.targets, *message.targets)}
+    return message.model_copy(update={"targets": list(newest.values())})
 
 
 async def write_all(socket: WebSocket, seat: Seat) -> None:
@@ -147,42 +164,30 @@ def take(message: AnyClientMessage, seat: Seat, control: Control) -> None:
     """Acts on one message of somebody who is here and may send it. A stop is never too late, its pose is."""
     if seat.ended.is_set() and not isinstance(message, StopMessage):
         return
-    role = ROLES.get(type(message), "owner")
-    with refusing(seat, None):
-        seat.caller.require(role)
-        act(message, seat, control)
+    with refusing(seat, id_of(message)):
+        seat.caller.require(ROLES.get(type(message), "owner"))
+        ACTS[type(message)](message, seat, control)
 
 
-def act(message: AnyClientMessage, seat: Seat, control: Control) -> None:
-    match message:
-        case SendMessage():
-            take_send(message, seat, control)
-        case StopMessage():
-            take_stop(message, seat, control)
-        case ResumeMessage():
-            control.resume(seat.caller, seat)
-        case BoardMessage():
-            control.name_board(seat, message.board)
-        case CalibrateMessage():
-            control.limits.calibrate(seat, message.servo)
-        case LeaseMessage():
-            with telling(seat, control):
-                control.driving.act(seat, message.action)
-        case GiveMessage():
-            with telling(seat, control):
-                control.driving.give(seat, message.to)
-        case ContinueMessage():
-            with contextlib.suppress(
-                GatewayError
-            ):  # how it stands says so: a `refused` without id is a stop's
-                control.let_go_on(seat, message.for_ms)
-        case BeatMessage():
-            control.driving.beat(seat, message.nonce)
+def take_move(message: MoveMessage, seat: Seat, control: Control) -> None:
+    with refusing(seat, message.id):
+        left = control.move(seat, targets_of(message.targets), message.duration_ms, message.nonce)
+        left.add_done_callback(lambda left: answer_move(seat, message.id, left))
+
+
+def targets_of(targets: Sequence[Target]) -> list[ServoTarget]:
+    return [ServoTarget(target.servo, target.position) for target in targets]
+
+
+def answer_move(seat: Seat, message_id: int, left: Left) -> None:
+    """`left` tells what has left."""
+    with refusing(seat, message_id):
+        left.result()
 
 
 def take_send(message: SendMessage, seat: Seat, control: Control) -> None:
     with refusing(seat, message.id):
-        left = control.send(seat, message.packet, message.nonce, newest=message.newest)
+        left = control.send(seat, message.packet, message.nonce)
         left.add_done_callback(lambda left: answer(seat, message.id, left))
 
 
@@ -205,10 +210,36 @@ def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:
         control.stop(hold, Cause(message.why, seat.caller.name), seat)
 
 
+def let_go_on(message: ContinueMessage, seat: Seat, control: Control) -> None:
+    with contextlib.suppress(GatewayError):  # how it stands says so: a `refused` without id is a stop's
+        control.let_go_on(seat, message.for_ms)
+
+
+def act_on_lease(message: LeaseMessage, seat: Seat, control: Control) -> None:
+    with telling(seat, control):
+        control.driving.act(seat, message.action)
+
+
+def give(message: GiveMessage, seat: Seat, control: Control) -> None:
+    with telling(seat, control):
+        control.driving.give(seat, message.to)
+
+
+ACTS: dict[type[AnyClientMessage], Callable[[Any, Seat, Control], None]] = {
+    MoveMessage: take_move,
+    SendMessage: take_send,
+    StopMessage: take_stop,
+    ResumeMessage: lambda _, seat, control: control.resume(seat.caller, seat),
+    BoardMessage: lambda message, seat, control: control.name_board(seat, message.board),
+    CalibrateMessage: lambda message, seat, control: control.limits.calibrate(seat, message.servo),
+    LeaseMessage: act_on_lease,
+    GiveMessage: give,
+    ContinueMessage: let_go_on,
+    BeatMessage: lambda message, seat, control: control.driving.beat(seat, message.nonce),
+}
+
+
 def answer(seat: Seat, message_id: int, left: Left) -> None:
-    if left.cancelled():
-        seat.put(encode(ReplacedMessage(id=message_id)))
-        return
     with refusing(seat, message_id):
         left.result()
         seat.put(encode(SentMessage(id=message_id)))

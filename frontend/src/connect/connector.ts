@@ -201,7 +201,7 @@ export function createConnector(options: ConnectorOptions): Connector {
   }
 
   const gatewayTransport = (): Transport =>
-    createGatewayTransport(gatewayUrl(), { mayDrive: role !== 'viewer' });
+    createGatewayTransport(gatewayUrl(), device.clock, { mayDrive: role !== 'viewer' });
 
   async function simulated(): Promise<Transport> {
     const { createSimulatedTransport } = await loadSimulated();

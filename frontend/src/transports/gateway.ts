@@ -1,6 +1,7 @@
 // A board on the gateway's serial port, through its WebSocket. Knows the messages; what may be sent and when is the
 // gateway's to decide. The socket stays open while the gateway's port is away, to hear of its return.
 
+import type { Clock } from '#shared/clock.ts';
 import type { BoardId } from '#shared/protocol/families.ts';
 import type { MotionBefore } from '#shared/motion/before.ts';
 import { fromHex } from '#shared/protocol/hex.ts';
@@ -12,6 +13,7 @@ import type {
   TransportEvents,
 } from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
+import { createGatewayMoves } from './gatewayMoves.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
 import { boardNamed, compactHex, isQuestion, LATCHED_BY, motionBefore, portError } from './gatewayWords.ts';
 import type {
@@ -24,10 +26,9 @@ import type {
 import { createTurn } from './turn.ts';
 
 type Settle = { resolve: () => void; reject: (error: LinkError) => void };
-type SettleSent = { resolve: (hasLeft: boolean) => void; reject: (error: LinkError) => void };
 
 /** `url` is the gateway's WebSocket, e.g. `ws://127.0.0.1:8300/ws`. Whoever only looks on calibrates nothing. */
-export function createGatewayTransport(url: string, { mayDrive = true } = {}): Transport {
+export function createGatewayTransport(url: string, clock: Clock, { mayDrive = true } = {}): Transport {
   let socket: WebSocket | null = null;
   let port: PortState | null = null;
   let events: TransportEvents | null = null;
@@ -35,12 +36,18 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
   let stoppedBy: string | null = null;
   let robot: RobotOnBoard = { document: null };
   let board: BoardId = 'unknown';
+  let waitingToStart: readonly number[] = [];
   /** Until the link is open: from then on it follows by itself. */
   let before: MotionBefore | null = null;
   let nextId = 1;
-  const turn = createTurn(post, () => performance.now());
+  const turn = createTurn(post, clock.now);
   const slots = createGatewaySlots(beginTurn, () => events?.slotsChanged?.());
-  const sending = new Map<number, SettleSent>();
+  const moves = createGatewayMoves({
+    ...{ clock, begin: beginTurn, post },
+    nextId: () => nextId++,
+    failed: (error) => events?.moveFailed?.(error),
+  });
+  const sending = new Map<number, Settle>();
   const halting = new Set<Settle>();
   const resuming = new Set<Settle>();
   const naming = new Set<Settle>();
@@ -91,10 +98,7 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
         events?.received(fromHex(message.bytes));
         break;
       case 'sent':
-        take(message.id)?.resolve(true);
-        break;
-      case 'replaced':
-        take(message.id)?.resolve(false);
+        take(message.id)?.resolve();
         break;
       case 'refused':
         refused(message.id, refusal(message.code, message.detail));
@@ -117,8 +121,15 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
     leaseChanged();
     boardChanged(state.board);
     portChanged(state.port);
+    waitingChanged(state.waitingToStart);
     stoppedBy = state.stoppedBy;
     latchChanged(state.latchedBy && LATCHED_BY[state.latchedBy]);
+  }
+
+  function waitingChanged(servos: readonly number[]): void {
+    if (servos.join() === waitingToStart.join()) return;
+    waitingToStart = servos;
+    events?.waiting?.(servos);
   }
 
   function leaseChanged(): void {
@@ -130,17 +141,19 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
     events?.described?.(robot);
   }
 
-  /** Only packets have an id: without one it was a stop or a resume. */
+  /** Without an id it was a stop or a resume. */
   function refused(id: number | null, error: LinkError): void {
-    if (id !== null) take(id)?.reject(error);
-    else rejectAll(error);
+    if (id === null) return rejectAll(error);
+    const packet = take(id);
+    if (packet === undefined) moves.refused(id, error);
+    else packet.reject(error);
   }
 
   function rejectAll(error: LinkError): void {
     for (const waiters of [halting, resuming, naming]) settleAll(waiters, (waiter) => waiter.reject(error));
   }
 
-  function take(id: number): SettleSent | undefined {
+  function take(id: number): Settle | undefined {
     const waiter = sending.get(id);
     sending.delete(id);
     return waiter;
@@ -204,22 +217,13 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
     if (socket?.readyState === WebSocket.OPEN) post(message);
   }
 
-  /** Resolves with whether it has left. */
-  async function put(packet: Uint8Array, newest: boolean): Promise<boolean> {
-    if (!isQuestion(packet)) await turn.begin();
-    return new Promise((resolve, reject) => {
-      const id = nextId++;
-      post({ type: 'send', id, packet: compactHex(packet), nonce: turn.nonce, newest });
-      sending.set(id, { resolve, reject });
-    });
-  }
-
   const nextState = (): Promise<void> =>
     new Promise((resolve, reject) => stateWaiters.add({ resolve: () => resolve(), reject }));
 
   return {
     kind: 'gateway',
     slots,
+    moves,
     get isSimulated() {
       return port?.simulated ?? false;
     },
@@ -247,12 +251,17 @@ export function createGatewayTransport(url: string, { mayDrive = true } = {}): T
       if (before !== null) next.placed?.(before);
       before = null;
       if (turn.lease !== null) next.leased?.(turn.lease);
+      next.waiting?.(waitingToStart);
       if (latched !== null) next.latched?.(latched, stoppedBy);
     },
     async send(packet) {
-      await put(packet, false);
+      if (!isQuestion(packet)) await turn.begin();
+      return new Promise((resolve, reject) => {
+        const id = nextId++;
+        post({ type: 'send', id, packet: compactHex(packet), nonce: turn.nonce });
+        sending.set(id, { resolve, reject });
+      });
     },
-    sendNewest: (packet) => put(packet, true),
     lease: (action) =>
       postIfOpen(
         typeof action === 'string' ? { type: 'lease', action } : { type: 'give', to: action.giveTo },

@@ -2,6 +2,7 @@
 
 export type Message = ClientMessage | GatewayMessage;
 export type ClientMessage =
+  | MoveMessage
   | SendMessage
   | StopMessage
   | ResumeMessage
@@ -14,7 +15,6 @@ export type ClientMessage =
 export type GatewayMessage =
   | WelcomeMessage
   | SentMessage
-  | ReplacedMessage
   | RefusedMessage
   | ReceivedMessage
   | NoiseMessage
@@ -28,9 +28,34 @@ export type GatewayMessage =
   | JobMessage;
 
 /**
+ * Move servos. Of each the newest value counts; what waits for the wire leaves together, servos whose
+ * place nobody knows slowly and one after another. `durationMs` 0: as fast as the servos and the link allow.
+ * `nonce` shows that the driver says it, and now. Answered only where it is refused: `left` tells what has
+ * left.
+ */
+export interface MoveMessage {
+  type: 'move';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+  /**
+   * @minItems 1
+   * @maxItems 253
+   */
+  targets: Target[];
+  durationMs: number;
+  nonce: string | null;
+}
+/**
+ * Where a servo shall go, in its board's unit.
+ */
+export interface Target {
+  servo: number;
+  position: number;
+}
+/**
  * Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none.
- * `newest`: a move that a later one like it takes the place of while it waits; each says anew where all
- * servos shall go that may still wait.
  */
 export interface SendMessage {
   type: 'send';
@@ -43,7 +68,6 @@ export interface SendMessage {
    */
   packet: string;
   nonce: string | null;
-  newest?: boolean;
 }
 /**
  * STOP: drop all that waits, send stop three times, then `hold` (one move to the present pose), and
@@ -122,6 +146,7 @@ export interface WelcomeMessage {
   slotVersions: {
     [k: string]: StoredGroup;
   };
+  waitingToStart: number[];
   type: 'welcome';
   version: string;
   robot: RobotTold | null;
@@ -314,16 +339,6 @@ export interface SentMessage {
   id: number;
 }
 /**
- * That `newest` move has not left: a newer one has taken its place.
- */
-export interface ReplacedMessage {
-  type: 'replaced';
-  /**
-   * Chosen by the client; comes back in the answer.
-   */
-  id: number;
-}
-/**
  * `id` is null where the message itself could not be read, and for a stop.
  */
 export interface RefusedMessage {
@@ -415,6 +430,7 @@ export interface StateMessage {
   slotVersions: {
     [k: string]: StoredGroup;
   };
+  waitingToStart: number[];
   type: 'state';
 }
 /**
@@ -439,7 +455,8 @@ export interface TickMessage {
   nonce: string;
 }
 /**
- * What others have put on the wire since the last of these, or the gateway itself; no questions.
+ * What others have put on the wire since the last of these, or the gateway itself, moves among it; no
+ * questions.
  */
 export interface LeftMessage {
   type: 'left';

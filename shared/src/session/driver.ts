@@ -8,9 +8,8 @@ import type { Core } from './core.ts';
 import { createExchange, encodeOrRefuse } from './exchange.ts';
 import { createGroups, type Groups } from './groups.ts';
 import { createLive, type Live } from './live.ts';
-import type { Outgoing } from './lanes.ts';
 import type { LinkError } from './linkError.ts';
-import { createMoveBuffer, intervalMs, type Wishes } from './moveBuffer.ts';
+import { createMoveBuffer } from './moveBuffer.ts';
 import { createRaw } from './raw.ts';
 import { createReadings, type Readings } from './readings.ts';
 import { release } from './release.ts';
@@ -18,14 +17,15 @@ import type { Replies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { setSpeed } from './speed.ts';
-import type { SharedSlots } from './transport.ts';
+import type { SharedMoves, SharedSlots } from './transport.ts';
 import { createTurns } from './turns.ts';
-import { createUnderWay } from './underWay.ts';
 
 export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
   readonly replies: Replies;
   readonly slotMemory: SlotMemory | undefined;
   readonly shared: SharedSlots | undefined;
+  /** Then nothing of the page's moves waits here. */
+  readonly sharedMoves: SharedMoves | undefined;
 }
 
 export interface Driver {
@@ -40,21 +40,21 @@ export interface Driver {
   /** A command's last bit left the wire just now. */
   applied(command: Command): void;
   /** The newest move, or null when there is nothing to say. */
-  takeMove(): Outgoing | null;
+  takeMove(): Uint8Array | null;
   /** Ends what is under way here. What the board was asked and did not answer stays unknown. */
   drop(error: LinkError): void;
 }
 
 export function createDriver(family: Family, options: DriverOptions): Driver {
-  const { clock, store, lanes, replies, slotMemory, shared } = options;
+  const { clock, store, lanes, replies, slotMemory, shared, sharedMoves } = options;
   const robot = createRobotEstimate(family, clock);
   const core: Core = {
     ...{ family, clock, store, robot, lanes },
     exchange: createExchange(family, clock, lanes, replies),
     unsettled: () => moves.servos().length > 0 || groups.isStopping() || isMotion(lanes.unfinished()),
   };
-  const underWay = createUnderWay(clock);
-  const moves = createMoveBuffer(family, underWay.clear);
+  const buffer = createMoveBuffer(family);
+  const moves = sharedMoves ?? buffer;
   const turns = createTurns({ clock, isUnknown: robot.isUnknown, due: lanes.wake, waiting });
   const live = createLive(core, moves, turns);
   const groups = createGroups(core, slotMemory, shared);
@@ -64,22 +64,6 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
 
   function waiting(waitingToStart: readonly number[]): void {
     if (!sameList(waitingToStart, store.state.waitingToStart)) store.update({ waitingToStart });
-  }
-
-  /** What may wait for a newer one has to say all that waits, in one packet; a servo's first move waits for nobody. */
-  function outgoing({ move, swift }: Wishes): Outgoing {
-    const isSwift = swift.length === move.targets.length && robot.firstMs(move) === 0;
-    const targets = isSwift ? underWay.joined(move.targets) : null;
-    if (targets === null || targets.length > family.servosPerMove) {
-      underWay.supersede(move.targets);
-      return { packet: encodeOrRefuse(robot.softened(move, swift), family) };
-    }
-    const joined = { ...move, targets, durationMs: intervalMs(targets, family) };
-    const servos = targets.map(({ servo }) => servo);
-    return {
-      packet: encodeOrRefuse(robot.softened(joined, servos), family),
-      handed: () => underWay.handed(targets),
-    };
   }
 
   return {
@@ -96,8 +80,10 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
       readings.applied(command);
     },
     takeMove() {
-      const servos = turns.next(moves.servos());
-      return servos.length === 0 ? null : outgoing(moves.take(servos));
+      const servos = turns.next(buffer.servos());
+      if (servos.length === 0) return null;
+      const { move, swift } = buffer.take(servos);
+      return encodeOrRefuse(robot.softened(move, swift), family);
     },
     drop(error) {
       live.drop();

@@ -24,6 +24,8 @@ export interface LinkOptions extends Pick<
   | 'leased'
   | 'slotsChanged'
   | 'followed'
+  | 'waiting'
+  | 'moveFailed'
 > {
   readonly transport: Transport;
   readonly clock: Clock;
@@ -37,8 +39,6 @@ export interface Link {
   retryNow(): void;
   setAutoReconnect(enabled: boolean): void;
   send(packet: Uint8Array): Promise<void>;
-  /** Where the transport holds one until the wire is free. */
-  readonly sendNewest: ((packet: Uint8Array) => Promise<boolean>) | undefined;
 }
 
 /** Failures that pass by themselves; the others need the person. */
@@ -98,6 +98,8 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
         leased: ifMine(events.leased),
         slotsChanged: ifMine(events.slotsChanged),
         followed: ifMine(events.followed),
+        waiting: ifMine(events.waiting),
+        moveFailed: ifMine(events.moveFailed),
         lost: ifMine(fail),
       });
     } catch (error) {
@@ -113,16 +115,15 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
     enter({ status: 'open', isReturn });
   }
 
-  async function whileOpen<Outcome>(send: () => Promise<Outcome>): Promise<Outcome> {
+  async function send(packet: Uint8Array): Promise<void> {
     const mine = generation;
     if (!isOpen(mine))
       throw isDown()
         ? new LinkError('lost', 'the link is gone')
         : new LinkError('closed', 'the link is not open');
-    const outcome = await send();
+    await transport.send(packet);
     // A transport may count the wire's time without looking at the cable.
     if (!isOpen(mine)) throw new LinkError('lost', 'the link went while the packet left');
-    return outcome;
   }
 
   return {
@@ -145,8 +146,6 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
       if (isDown()) retry();
     },
     setAutoReconnect: reconnect.setEnabled,
-    send: (packet) => whileOpen(() => transport.send(packet)),
-    sendNewest:
-      transport.sendNewest && ((packet) => whileOpen(async () => transport.sendNewest?.(packet) ?? false)),
+    send,
   };
 }

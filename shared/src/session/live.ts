@@ -5,7 +5,7 @@ import type { Frame, ServoTarget } from '../protocol/commands.ts';
 import { requireReleased, setActivity, type Core } from './core.ts';
 import { refuseUnfit } from './exchange.ts';
 import { LinkError } from './linkError.ts';
-import type { MoveBuffer } from './moveBuffer.ts';
+import type { MoveSink } from './moveBuffer.ts';
 import { play, type Played, type Playing } from './player.ts';
 import type { Activity } from './state.ts';
 import type { Turns } from './turns.ts';
@@ -21,7 +21,7 @@ export interface Live {
   drop(): boolean;
 }
 
-export function createLive(core: Core, moves: MoveBuffer, turns: Turns): Live {
+export function createLive(core: Core, moves: MoveSink, turns: Turns): Live {
   let playing: Playing | null = null;
 
   const activityIs = (kind: Activity['kind']): boolean => core.store.state.activity.kind === kind;

@@ -13,18 +13,21 @@ export interface Wishes {
   readonly swift: readonly number[];
 }
 
-export interface MoveBuffer {
+/** What moves of the page go into; a shared link has its own. */
+export interface MoveSink {
   /** `durationMs` 0: as fast as the soft limit and the link allow. */
   put(targets: readonly ServoTarget[], durationMs: number): void;
   /** Servos with a wish, in the order they were first asked. */
   servos(): readonly number[];
-  /** As many wishes of these servos as one packet takes, in the longest duration of any of them. */
-  take(servos: readonly number[]): Wishes;
   clear(): void;
 }
 
-/** `cleared` hears that nothing that was wished counts any more. */
-export function createMoveBuffer(family: Family, cleared: () => void): MoveBuffer {
+export interface MoveBuffer extends MoveSink {
+  /** As many wishes of these servos as one packet takes, in the longest duration of any of them. */
+  take(servos: readonly number[]): Wishes;
+}
+
+export function createMoveBuffer(family: Family): MoveBuffer {
   const wishes = new Map<number, { readonly position: number; readonly durationMs: number }>();
 
   return {
@@ -43,10 +46,7 @@ export function createMoveBuffer(family: Family, cleared: () => void): MoveBuffe
       const swift = taken.filter((wish) => wish.durationMs === 0).map(({ servo }) => servo);
       return { move: { kind: 'move', targets, durationMs }, swift };
     },
-    clear() {
-      wishes.clear();
-      cleared();
-    },
+    clear: () => wishes.clear(),
   };
 }
 

@@ -127,7 +127,9 @@ export function createSession(options: SessionOptions): Session {
     slotsChanged() {
       if (store.state.link.status === 'ready') driver.groups.linked();
     },
-    followed: sentByOthers,
+    followed: sentElsewhere,
+    waiting: (waitingToStart) => store.update({ waitingToStart }),
+    moveFailed,
     latched(reason, by = null) {
       if (reason === null) halt.released();
       else if (store.state.latch === null) halt.latchedElsewhere(reason, by);
@@ -140,14 +142,10 @@ export function createSession(options: SessionOptions): Session {
     clock,
     serviceGapMs: UNKNOWN_BOARD.serviceGapMs,
     send: link.send,
-    sendNewest: link.sendNewest,
     takeMove: () => driver.takeMove(),
     leaving: note,
     sent: take,
-    moveFailed(error) {
-      driver.live.moveFailed();
-      store.emit('problem', error);
-    },
+    moveFailed,
   });
 
   let driver: Driver = driverFor(family);
@@ -184,7 +182,13 @@ export function createSession(options: SessionOptions): Session {
   });
 
   function driverFor(next: Family): Driver {
-    return createDriver(next, { clock, store, lanes, replies, slotMemory, shared: transport.slots });
+    const shared = { shared: transport.slots, sharedMoves: transport.moves };
+    return createDriver(next, { clock, store, lanes, replies, slotMemory, ...shared });
+  }
+
+  function moveFailed(error: LinkError): void {
+    driver.live.moveFailed();
+    store.emit('problem', error);
   }
 
   /** The board is taken for something else: whatever was believed of it was about another one. */
@@ -229,7 +233,7 @@ export function createSession(options: SessionOptions): Session {
   }
 
   /** A link that stores groups says so itself: told late, its frame would pass for one that is being stored now. */
-  function sentByOthers(packet: Uint8Array): void {
+  function sentElsewhere(packet: Uint8Array): void {
     note(packet);
     if (commandIn(packet)?.kind !== 'download') take(packet);
   }

@@ -1,10 +1,5 @@
 // Every waiting time of the session, each with its source. Milliseconds. Knows nothing else.
 
-/** How often a link that is far away is given the newest move: as often as a frame is drawn, and less than a gateway takes. */
-export const REFRESH_MS = 16;
-/** A link that answers so much of a packet's cycle late leaves half of that unused, a twentieth of the wire. */
-export const LATE_SHARE = 0.1;
-
 /** Just above the latency timer of USB adapters (16 ms): bytes of one packet come no further apart, usually. */
 export const LINE_PAUSE_MS = 20;
 /** Far longer than the bytes of one packet are apart, whatever is between: a half packet was cut. */

@@ -3,7 +3,7 @@
 
 import type { Unheld } from '../motion/haltPlan.ts';
 import type { MotionBefore } from '../motion/before.ts';
-import type { Frame } from '../protocol/commands.ts';
+import type { Frame, ServoTarget } from '../protocol/commands.ts';
 import type { BoardId } from '../protocol/families.ts';
 import type { Lease, LeaseAction } from './lease.ts';
 import type { LinkError } from './linkError.ts';
@@ -29,7 +29,7 @@ export interface TransportEvents {
   identified?(board: BoardId): void;
   /** Only a shared link: which robot stands on the board. Told once it is open, and whenever any robot has changed there. */
   described?(robot: RobotOnBoard): void;
-  /** Only a shared link: this packet has left the wire: somebody else's, or of a stop, whoever pressed it. */
+  /** Only a shared link: this packet has left the wire: somebody else's, one of `moves`, or of a stop, whoever pressed it. */
   followed?(packet: Uint8Array): void;
   /** Only a shared link: what moves before this end came have made of the robot. Told once it is open. */
   placed?(motion: MotionBefore): void;
@@ -37,6 +37,10 @@ export interface TransportEvents {
   leased?(lease: Lease): void;
   /** Only a shared link: something of its `slots` is another now. */
   slotsChanged?(): void;
+  /** Only a shared link: who waits to start. */
+  waiting?(servos: readonly number[]): void;
+  /** Only a shared link: something of its `moves` did not leave. */
+  moveFailed?(error: LinkError): void;
 }
 
 /** A group and the slot that shall hold it. */
@@ -95,6 +99,16 @@ export interface SharedSlots {
   cancel(): Promise<void>;
 }
 
+/** How a shared link moves servos: it merges, keeps the board's pace and lets servos of unknown place start gently. */
+export interface SharedMoves {
+  /** Newest wins per servo; `followed` tells what left. `durationMs` 0: as fast as the link allows. */
+  put(targets: readonly ServoTarget[], durationMs: number): void;
+  /** With a value that was not handed over yet. */
+  servos(): readonly number[];
+  /** What was not handed over is not any more, and nothing is told of the rest. */
+  clear(): void;
+}
+
 /** Which document of a shared link's library describes the robot on its board; null for none. */
 export interface RobotOnBoard {
   readonly document: string | null;
@@ -112,6 +126,7 @@ export interface Transport {
   setBoard?(board: BoardId): Promise<void>;
   /** Only a shared link. */
   readonly slots?: SharedSlots;
+  readonly moves?: SharedMoves;
   /** Only a shared link: about who drives; `leased` follows. */
   lease?(action: LeaseAction): void;
   /** Only a shared link: the run under way may go on without this end, for so long at most; null: it may not. */
@@ -122,11 +137,6 @@ export interface Transport {
   open(events: TransportEvents): Promise<void>;
   /** Resolves when the packet's last bit has left the wire. One packet at a time: the caller waits for it. */
   send(packet: Uint8Array): Promise<void>;
-  /**
-   * Only a shared link that keeps the board's pace by itself: a move that waits there until the wire is free, unless a later one
-   * takes its place. Resolves with whether it has left. Any number may be under way; each says all that may still wait.
-   */
-  sendNewest?(packet: Uint8Array): Promise<boolean>;
   /**
    * A shared link's own stop lane: purge, stop three times, send `hold`, latch. Where it is absent the session does that
    * itself with `send`. What may go on in spite of it `halted` tells first.

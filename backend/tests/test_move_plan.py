@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from servodeck.board.estimate import Estimate
-from servodeck.driving.script_moves import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S, MovePlan, plan_move
+from servodeck.board.move_plan import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S, MovePlan, plan_move
 from servodeck.errors import NotSupportedError, OutOfRangeError
 from servodeck.protocol.families import FAMILIES, Family
 from servodeck.protocol.packets import encode, parse_command

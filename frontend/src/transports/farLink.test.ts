@@ -1,108 +1,89 @@
-// A session whose wire is far away, behind a link that holds the newest move: how much of the wire it uses, how old what leaves is,
-// and that nothing is lost, said late or left behind a stop.
+// A page whose gateway is far away, which merges its moves: how much of the wire it uses, how old what leaves is, and that nothing is
+// lost, said late or left behind a stop. In the gateway's place stands a session of its own, which does with moves what it does.
 
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { sleep, type Clock } from '../clock.ts';
-import { family as familyOf } from '../protocol/families.ts';
-import { wireMs } from '../protocol/packet.ts';
-import { createSimulatedTransport } from '../simulator/transport.ts';
-import { createVirtualClock } from '../simulator/virtualClock.ts';
-import { TIMES } from './faults/amount.ts';
-import { STOP_PACKET } from './halt.ts';
-import { LinkError } from './linkError.ts';
-import { firstMovesMs } from './rig.ts';
-import { createSession } from './session.ts';
-import type { Transport, TransportEvents } from './transport.ts';
+import { sleep, type Clock } from '#shared/clock.ts';
+import { family as familyOf } from '#shared/protocol/families.ts';
+import { wireMs } from '#shared/protocol/packet.ts';
+import { TIMES } from '#shared/session/faults/amount.ts';
+import { LinkError } from '#shared/session/linkError.ts';
+import { firstMovesMs } from '#shared/session/rig.ts';
+import { createSession } from '#shared/session/session.ts';
+import type { Traffic } from '#shared/session/state.ts';
+import type { Transport, TransportEvents } from '#shared/session/transport.ts';
+import { createSimulatedTransport, type SimulatedTransport } from '#shared/simulator/transport.ts';
+import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createGatewayMoves, HAND_OVER_MS } from './gatewayMoves.ts';
+import type { ClientMessage } from './messages.generated.ts';
 
 const GAP_MS = familyOf('doc').serviceGapMs;
 const POINTER_MS = 4;
-/** The gateway gathers what left for so long. */
-const RELAY_MS = 50;
-
-interface Waiting {
-  readonly packet: Uint8Array;
-  readonly isNewest: boolean;
-  readonly answer: (hasLeft: boolean) => void;
-  readonly refuse: (error: LinkError) => void;
-}
 
 interface Left {
   readonly atMs: number;
+  readonly durationMs: number;
   readonly targets: ReadonlyMap<number, number>;
 }
 
-/** What the gateway does with moves, so many milliseconds away each way. */
-function farGateway(clock: Clock, delayMs: number, line: Transport) {
+/** So many milliseconds away each way. */
+function farGateway(clock: Clock, delayMs: number, line: SimulatedTransport) {
   const left: Left[] = [];
-  let queue: Waiting[] = [];
-  let isFree = true;
-  let isLatched = false;
-  let events: TransportEvents | undefined;
+  const there = createSession({ transport: line, clock, family: familyOf('doc') });
+  let events: TransportEvents | null = null;
+  const later = (run: () => void): void => void clock.after(delayMs, run);
 
-  async function leave(): Promise<void> {
-    const next = isFree ? queue.shift() : undefined;
-    if (next === undefined) return;
-    isFree = false;
-    left.push({ atMs: clock.now(), targets: targetsIn(next.packet) });
-    await line.send(next.packet);
-    next.answer(true);
-    await sleep(clock, GAP_MS);
-    isFree = true;
-    void leave();
+  function seen(entry: Traffic): void {
+    if (entry.direction === 'in') return later(() => events?.received(entry.bytes, true));
+    const { command } = entry;
+    if (command?.kind === 'move')
+      left.push({
+        ...{ atMs: entry.atMs, durationMs: command.durationMs },
+        targets: new Map(command.targets.map(({ servo, position }) => [servo, position])),
+      });
+    // Told when its last bit has left.
+    clock.after(wireMs(entry.bytes.length) + delayMs, () => events?.followed?.(entry.bytes));
   }
 
-  function arrived(next: Waiting): void {
-    if (isLatched) return next.refuse(new LinkError('latched', 'stopped'));
-    const before = next.isNewest ? queue.find(({ isNewest }) => isNewest) : undefined;
-    queue = [...queue.filter((one) => one !== before), next];
-    before?.answer(false);
-    void leave();
+  there.subscribe({
+    traffic: seen,
+    problem: (error) => later(() => events?.moveFailed?.(error)),
+    state: ({ waitingToStart }) => later(() => events?.waiting?.(waitingToStart)),
+  });
+
+  function arrived(message: ClientMessage): void {
+    if (message.type !== 'move') throw new TypeError(message.type);
+    try {
+      there.move(message.targets, message.durationMs);
+    } catch (error) {
+      if (error instanceof LinkError) later(() => moves.refused(message.id, error));
+      else throw error;
+    }
   }
 
-  function put(packet: Uint8Array, isNewest: boolean): Promise<boolean> {
-    return new Promise((resolve, reject) => {
-      const answer = (hasLeft: boolean): void => void clock.after(delayMs, () => resolve(hasLeft));
-      const refuse = (error: LinkError): void => void clock.after(delayMs, () => reject(error));
-      clock.after(delayMs, () => arrived({ packet, isNewest, answer, refuse }));
-    });
-  }
-
+  let lastId = 0;
+  const moves = createGatewayMoves({
+    clock,
+    begin: () => Promise.resolve('1-1'),
+    nextId: () => (lastId += 1),
+    post: (message) => later(() => arrived(message)),
+    failed: (error) => events?.moveFailed?.(error),
+  });
   const transport: Transport = {
-    ...line,
-    open(heard) {
+    ...{ kind: 'gateway', label: 'far away', isSimulated: true, moves },
+    async open(heard) {
+      await there.open();
       events = heard;
-      return line.open(heard);
     },
-    async send(packet) {
-      await put(packet, false);
-    },
-    sendNewest: (packet) => put(packet, true),
-    async halt(hold) {
+    send: () => Promise.reject(new TypeError('nothing but moves is sent here')),
+    async halt() {
       await sleep(clock, delayMs);
-      isLatched = true;
-      for (const waiting of queue.splice(0)) waiting.refuse(new LinkError('latched', 'stopped'));
-      // What is on the wire ends first.
-      while (!isFree) await sleep(clock, 1);
-      for (const packet of [STOP_PACKET, ...(hold === null ? [] : [hold])]) {
-        await line.send(packet);
-        clock.after(RELAY_MS + delayMs, () => events?.followed?.(packet));
-        await sleep(clock, GAP_MS);
-      }
+      await there.halt();
       await sleep(clock, delayMs);
     },
+    close: () => there.close(),
   };
   return { transport, left };
-}
-
-function targetsIn(packet: Uint8Array): ReadonlyMap<number, number> {
-  const count = packet[4] ?? 0;
-  return new Map(
-    Array.from({ length: packet[3] === 3 ? count : 0 }, (_, index) => {
-      const [servo = 0, low = 0, high = 0] = packet.subarray(7 + 3 * index);
-      return [servo, low + 256 * high];
-    }),
-  );
 }
 
 async function farSession(delayMs: number, servoCount: number) {
@@ -142,36 +123,43 @@ test.each([0, 5, 20, 50].flatMap((delayMs) => [6, 32].map((servoCount) => [delay
     const wholeMs = (last?.atMs ?? 0) - (left[0]?.atMs ?? 0);
     expect(((left.length - 1) * cycleMs) / wholeMs).toBeGreaterThan(0.95);
     const ages = left.map(({ atMs, targets }) => atMs - (eventsMs[(targets.get(1) ?? 0) - 1_000] ?? NaN));
-    expect(Math.max(...ages.slice(0, -1))).toBeLessThanOrEqual(delayMs + 16 + POINTER_MS);
+    expect(Math.max(...ages.slice(0, -1))).toBeLessThanOrEqual(delayMs + HAND_OVER_MS + POINTER_MS);
     expect(problems).toEqual([]);
   },
 );
 
-test('a first move stays slow and waits for nobody, however many moves follow it', async () => {
+test('a first move is slow and waits for nobody, however many moves follow it', async () => {
   const clock = createVirtualClock();
   const line = createSimulatedTransport(clock, { servoCount: 6, onForMs: 60_000 });
   const { transport, left } = farGateway(clock, 50, line);
-  const durations: number[] = [];
-  const session = createSession({
-    transport: {
-      ...transport,
-      send: (packet) => {
-        durations.push((packet[5] ?? 0) + 256 * (packet[6] ?? 0));
-        return transport.send(packet);
-      },
-    },
-    ...{ clock, family: familyOf('doc') },
-  });
+  const session = createSession({ transport, clock, family: familyOf('doc') });
   await session.open();
   for (let event = 0; event < 100; event += 1) {
     session.move([{ servo: 1, position: 1_000 + event }], 0);
     await clock.advance(POINTER_MS);
   }
   await clock.advance(500);
-  expect(durations[0]).toBe(1_500);
+  expect(left[0]?.durationMs).toBe(1_500);
   // Each as slow as what is left of the first one.
-  expect(durations.every((durationMs) => durationMs > 500)).toBe(true);
+  expect(left.every(({ durationMs }) => durationMs > 500)).toBe(true);
   expect(left.at(-1)?.targets.get(1)).toBe(1_099);
+});
+
+test('servos of unknown place start one after another, and the page hears who waits', async () => {
+  const clock = createVirtualClock();
+  const line = createSimulatedTransport(clock, { servoCount: 6, onForMs: 60_000 });
+  const { transport, left } = farGateway(clock, 20, line);
+  const session = createSession({ transport, clock, family: familyOf('doc') });
+  await session.open();
+  session.move(
+    [3, 1, 2].map((servo) => ({ servo, position: 1_000 })),
+    0,
+  );
+  await clock.advance(100);
+  expect(session.state.waitingToStart).toEqual([1, 2]);
+  await clock.advance(1_000);
+  expect(session.state.waitingToStart).toEqual([]);
+  expect(left.map(({ targets }) => [...targets.keys()])).toEqual([[3], [1], [2]]);
 });
 
 test('STOP: nothing of the gesture leaves once it has arrived, and its refusals are no news', async () => {
@@ -183,9 +171,12 @@ test('STOP: nothing of the gesture leaves once it has arrived, and its refusals 
   const halted = session.halt();
   await clock.advance(50);
   const before = left.length;
+  const newest = left.at(-1)?.targets.get(1) ?? NaN;
+  expect(newest).toBeLessThan(1_039);
   await clock.advance(1_000);
   await halted;
-  expect(left.length).toBe(before);
+  // What holds it is on the way to what has left.
+  expect(left.slice(before).filter(({ targets }) => !((targets.get(1) ?? NaN) <= newest))).toEqual([]);
   expect(problems).toEqual([]);
 });
 
