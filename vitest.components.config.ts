@@ -34,8 +34,8 @@ export default defineConfig({
     setupFiles: ['frontend/tests/harness/setup.ts'],
     // Ends what hangs: nothing here waits for a real clock.
     testTimeout: 60_000,
-    // One more than most machines have cores: each waits for the browser now and then.
-    maxWorkers: 3,
+    // A window for each core of a small machine: each reads all modules of the page.
+    maxWorkers: 2,
     // One window for all files of a worker: each test opens the page anew, and its modules are read once.
     isolate: false,
     browser: {
