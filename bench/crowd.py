@@ -123,7 +123,7 @@ async def press(client: ClientConnection) -> float:
     """Until the whole sequence has left. When it was, in milliseconds since the epoch."""
     await asyncio.sleep(random.uniform(*PAUSE_S))
     pressed_ms = time.time() * 1000
-    await client.send('{"type":"stop","hold":null}')
+    await client.send('{"type":"stop"}')
     async for text in client:
         if json.loads(text)["type"] == "halted":
             break

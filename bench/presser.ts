@@ -70,7 +70,7 @@ async function comesTo(socket: WebSocket) {
     /** When, in milliseconds since the epoch; the sequence goes on behind it. */
     press(): number {
       const atMs = Date.now();
-      say({ type: 'stop', hold: null });
+      say({ type: 'stop', why: 'person' });
       return atMs;
     },
     /** Presses, and resumes when the whole sequence has left. */

@@ -8,6 +8,7 @@
 import type { Page } from '@playwright/test';
 import { encodeCommand, encodeReport } from '#shared/protocol/encode.ts';
 import { family } from '#shared/protocol/families.ts';
+import { PROTOCOL } from '../frontend/src/transports/messages.generated.ts';
 import { python } from '../scripts/python.mjs';
 import { mustRun } from '../scripts/steps.mjs';
 import { amount } from './amounts.ts';
@@ -90,10 +91,11 @@ async function tripsThroughPage(page: Page, url: string): Promise<readonly numbe
   });
   await page.goto(`${url}/api/health`);
   const trips = WARM_UP_TRIPS + TRIPS;
-  return page.evaluate(askInPage, { question, answer, trips, pauseMs: PAUSE_MS });
+  return page.evaluate(askInPage, { protocol: PROTOCOL, question, answer, trips, pauseMs: PAUSE_MS });
 }
 
 interface Questions {
+  readonly protocol: number;
   readonly question: string;
   readonly answer: string;
   readonly trips: number;
@@ -101,8 +103,14 @@ interface Questions {
 }
 
 /** Drives as a page does: asks for the lease, answers each tick. Names nothing from outside itself, too. */
-async function askInPage({ question, answer, trips, pauseMs }: Questions): Promise<readonly number[]> {
-  const socket = new WebSocket(`ws://${location.host}/ws`);
+async function askInPage({
+  protocol,
+  question,
+  answer,
+  trips,
+  pauseMs,
+}: Questions): Promise<readonly number[]> {
+  const socket = new WebSocket(`ws://${location.host}/ws?protocol=${protocol}`);
   const say = (message: object): void => socket.send(JSON.stringify(message));
   let nonce: unknown = null;
 

@@ -16,9 +16,9 @@ const TARGETS = [
 async function generate(module) {
   const env = { PYTHONPATH: at('backend') };
   const schema = await mustRun('read the message models', python, ['-m', `servodeck.${module}`], { env });
-  /** @type {{title: string}} */
+  /** @type {{title: string, version?: number}} */
   const parsed = JSON.parse(schema);
-  return compile(parsed, parsed.title, {
+  const types = await compile(parsed, parsed.title, {
     bannerComment:
       "// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change " +
       `backend/servodeck/${module.replaceAll('.', '/')}.py instead.`,
@@ -27,6 +27,8 @@ async function generate(module) {
     unreachableDefinitions: true,
     style: { printWidth: 110, singleQuote: true },
   });
+  if (parsed.version === undefined) return types;
+  return `${types}/** Of these messages. */\nexport const PROTOCOL = ${parsed.version};\n`;
 }
 
 /** @param {string} target */

@@ -8,7 +8,7 @@ import json
 import sys
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, TypeAdapter
+from pydantic import ConfigDict, Field, TypeAdapter
 
 from servodeck.errors import ErrorCode
 from servodeck.schema import Message, schema_of
@@ -25,6 +25,9 @@ from servodeck.told import (
     UnattendedRun,
     UnheldServos,
 )
+
+PROTOCOL = 2
+"""Counted up with each change that a page of before would not understand: it is told to load itself again."""
 
 # A packet is 255 bytes at most; one more is let in so that the gate can say what is wrong with it.
 Hex = Annotated[
@@ -70,12 +73,13 @@ class SendMessage(Message):
 
 
 class StopMessage(Message):
-    """STOP: drop all that waits, send stop three times, then `hold` (one move to the present pose), and
-    latch.
+    """STOP: drop all that waits, send stop three times, hold the robot where it is, and latch. Whatever else
+    it says, it is a stop.
     """
 
+    model_config = ConfigDict(extra="ignore")
+
     type: Literal["stop"]
-    hold: Hex | None
     why: StopFor = "person"
 
 
@@ -298,7 +302,8 @@ def encode(message: Message) -> str:
 
 
 def json_schema() -> dict[str, Any]:
-    return schema_of("Message", {"ClientMessage": ClientMessage}, {"GatewayMessage": GatewayMessage})
+    schema = schema_of("Message", {"ClientMessage": ClientMessage}, {"GatewayMessage": GatewayMessage})
+    return {**schema, "version": PROTOCOL}
 
 
 if __name__ == "__main__":

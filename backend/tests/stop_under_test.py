@@ -20,7 +20,7 @@ from servodeck.driving.control import SOMEBODY, Control
 from servodeck.driving.latch import Cause
 from servodeck.errors import GatewayError
 from servodeck.messages import StopMessage
-from servodeck.port.wire import Left, Owner
+from servodeck.port.wire import Left
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import encode
@@ -121,9 +121,9 @@ class Watched(Control):
         self.said: list[Said] = []
         self.pressed_s: list[float] = []
 
-    def stop(self, hold: bytes | None, cause: Cause = SOMEBODY, owner: Owner = None) -> Left:
+    def stop(self, cause: Cause = SOMEBODY) -> Left:
         self.pressed_s.append(now())
-        return super().stop(hold, cause, owner)
+        return super().stop(cause)
 
     def _halted(self, left: Left) -> None:
         super()._halted(left)
@@ -150,13 +150,13 @@ async def press_over_http(here: "Driven") -> None:
 
 def pressed_on_a_page(caller: Caller) -> Callable[["Driven"], Awaitable[None]]:
     async def press(here: "Driven") -> None:
-        take(StopMessage(type="stop", hold=None), Client(here.control, caller), here.control)
+        take(StopMessage(type="stop"), Client(here.control, caller), here.control)
 
     return press
 
 
 async def press_by_the_driver(here: "Driven") -> None:
-    take(StopMessage(type="stop", hold=None), here.page, here.control)
+    take(StopMessage(type="stop"), here.page, here.control)
 
 
 async def fall_silent(here: "Driven") -> None:
@@ -244,7 +244,7 @@ COMMANDS: dict[str, Callable[[Step], Command]] = {
 }
 ACTS: dict[str, Callable[[Driven, Step], None]] = {
     "endGroup": lambda here, _step: here.end_group(),
-    "halt": lambda here, _step: here.control.stop(None).add_done_callback(taken),
+    "halt": lambda here, _step: here.control.stop().add_done_callback(taken),
     "resume": lambda here, _step: here.control.resume(OLGA),
     "download": lambda here, step: here.download(step.get("slot", KNOWN_SLOT), frames_of(step["frames"])),
     "cancel": lambda here, _step: here.cancel(),

@@ -20,7 +20,19 @@ from servodeck.errors import (
 from servodeck.port.inbox import SILENCE_S
 from tests.client import Client, driven, gateway_on
 from tests.fake_port import FakePort, FakePorts
-from tests.samples import BATTERY, BATTERY_REPORT, DOWNLOAD, ERASE, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
+from tests.samples import (
+    BATTERY,
+    BATTERY_REPORT,
+    DOWNLOAD,
+    ERASE,
+    MOVE,
+    MOVE_ELSEWHERE,
+    MOVE_S,
+    RUN,
+    STOP,
+    hold_at,
+    wire_ms,
+)
 from tests.virtual_time import at, in_virtual_time, now
 
 
@@ -37,9 +49,12 @@ async def test_stop_latches_for_everyone_until_resume() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         anna, bert = Client(control), Client(control)
+        await anna.send(MOVE)
+        await asyncio.sleep(MOVE_S + 0.1)
         await anna.heard(), await bert.heard()
-        await control.stop(MOVE)
-        assert port.packets() == [STOP, STOP, MOVE, STOP, STOP, MOVE]
+        await control.stop()
+        hold = hold_at(2000)
+        assert port.packets() == [STOP, MOVE, STOP, hold, STOP, STOP, hold]
         for seat in (anna, bert):
             told = await seat.heard()
             assert [message["type"] for message in told] == ["state", "halted"]
@@ -50,7 +65,7 @@ async def test_stop_latches_for_everyone_until_resume() -> None:
         await anna.send(BATTERY)
         control.resume(THIS_COMPUTER)
         assert [message["type"] for message in await bert.heard()] == ["state", "resumed"]
-        assert port.packets()[6:] == [BATTERY]
+        assert port.packets()[7:] == [BATTERY]
         await anna.send(MOVE)
 
 
@@ -93,8 +108,8 @@ async def test_stop_and_stop_again_are_told_once() -> None:
     async with gateway_on() as control:
         anna = Client(control)
         await anna.heard()
-        control.stop(None)
-        await control.stop(MOVE)
+        control.stop()
+        await control.stop()
         assert [message["type"] for message in await anna.heard()] == ["state", "halted"]
 
 
@@ -102,7 +117,7 @@ async def test_stop_and_stop_again_are_told_once() -> None:
 async def test_without_a_port_stop_latches_and_says_so() -> None:
     control = Control(FakePorts(PortMissingError("Unused.")), now, "doc")
     with pytest.raises(ClosedError):
-        control.stop(None)
+        control.stop()
     assert control.latch is True
 
 

@@ -168,7 +168,7 @@ async def test_a_class_with_some_who_never_read(tmp_path: Path) -> None:
 async def stop_by(reader: Reader, crowd: Crowd, bus: Bus) -> None:
     """Amid the drive: three stops, no move behind them, and everybody knows."""
     pressed_s, refused = time.monotonic(), crowd.hand.refused
-    await reader.client.send('{"type":"stop","hold":null}')
+    await reader.client.send('{"type":"stop"}')
     await crowd.hand.drive(0.5)
     await until(lambda: bus.since(pressed_s).count(STOP) == 3)
     held = bus.since(pressed_s).partition(STOP)[2].replace(STOP, b"")

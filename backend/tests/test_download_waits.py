@@ -21,7 +21,7 @@ async def test_it_says_how_long_the_robot_still_moves(*, is_stopped: bool) -> No
         await driver.send(encode(Move(3000, (ServoTarget(3, 2000),)), control.board.family))
         await asyncio.sleep(0.5)
         if is_stopped:
-            await control.stop(None)
+            await control.stop()
             control.resume(driver.caller)
         with pytest.raises(MovingError, match=r"moves for up to 2\.[345] s more: wait that long"):
             control.download([made_of(GROUP, list(packets_of(GROUP, "doc")), "doc")], ANNA, lambda: None)

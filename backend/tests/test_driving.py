@@ -140,7 +140,7 @@ async def test_a_viewer_may_stop_and_ask_questions_and_nothing_more() -> None:
         for action in ("request", "take"):
             with pytest.raises(ForbiddenError):
                 control.driving.act(bert, action)
-        control.stop(None)
+        control.stop()
         await bert.heard()
         take(ResumeMessage(type="resume"), bert, control)
         assert [message["code"] for message in await bert.heard()] == ["forbidden"]
@@ -153,7 +153,7 @@ async def test_a_stop_for_the_battery_is_told_as_such_with_whose_page_it_was() -
         anna, bert = Client(control, PUPIL), Client(control, GUEST)
         await anna.send(MOVE)
         await bert.heard()
-        take(StopMessage(type="stop", hold=None, why="battery"), anna, control)
+        take(StopMessage(type="stop", why="battery"), anna, control)
         stopped = [message for message in await bert.heard() if message["type"] == "state"]
         assert [(state["latchedBy"], state["stoppedBy"]) for state in stopped][-1:] == [("battery", "Anna")]
 
@@ -166,7 +166,7 @@ async def test_while_somebody_drives_only_they_or_an_owner_resume_and_everybody_
         everybody = (anna, bert, carl, teacher)
         for by, others in ((anna, (bert, carl, teacher)), (teacher, (anna, bert, carl))):
             await anna.send(MOVE)
-            take(StopMessage(type="stop", hold=None), bert, control)
+            take(StopMessage(type="stop"), bert, control)
             for one in everybody:
                 stopped = [message for message in await one.heard() if message["type"] == "state"]
                 assert [state["stoppedBy"] for state in stopped][-1:] == ["Bert"]
@@ -194,7 +194,7 @@ async def test_while_nobody_drives_whoever_may_drive_resumes() -> None:
     async with gateway_on() as control:
         Client(control, PUPIL)
         carl = Client(control, CARL)
-        control.stop(None)
+        control.stop()
         take(ResumeMessage(type="resume"), carl, control)
         assert control.latch is False
 
@@ -259,7 +259,7 @@ async def test_a_stop_without_a_pose_holds_where_the_gateway_knows_the_robot_to_
         await asyncio.sleep(MOVE_S + 0.1)
         await anna.send(MOVE_ELSEWHERE)
         await asyncio.sleep(0.5)
-        await control.stop(None)
+        await control.stop()
         # As it stands when the pose leaves, behind the first stop.
         [*stops, again] = port.packets()[3:]
         held = stops.pop(1)
@@ -276,7 +276,7 @@ async def test_a_servo_in_its_first_move_ends_it_slowly() -> None:
         await asyncio.sleep(MOVE_S)
         await anna.send(other_servo)
         await asyncio.sleep(0.25)
-        await control.stop(None)
+        await control.stop()
         # In whole ticks, and not before that move has ended, with what the board may say meanwhile.
         assert port.packets()[4] == hold_at(2000, 780)
 

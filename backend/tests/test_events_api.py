@@ -98,7 +98,7 @@ async def test_a_stream_begins_with_how_everything_stands_and_goes_on_with_what_
         assert (here.listener.sent[0]["status"], len(here.control.hub)) == (200, 1)
         [welcome] = here.listener.heard()
         assert (welcome["type"], welcome["port"]["status"], welcome["latch"]) == ("welcome", "open", False)
-        await here.control.stop(None)
+        await here.control.stop()
         here.port.say(BATTERY_REPORT)
         await asyncio.sleep(0.1)
         told = [message for message in here.listener.heard() if message["type"] != "left"]
@@ -110,7 +110,7 @@ async def test_a_stream_begins_with_how_everything_stands_and_goes_on_with_what_
 @in_virtual_time
 async def test_each_event_has_an_id_and_whoever_comes_again_is_told_that_it_is_not_continued() -> None:
     async with listening() as here:
-        await here.control.stop(None)
+        await here.control.stop()
         await asyncio.sleep(0.1)
         said = here.listener.heard()
         stream, _, first = here.listener.ids[0].partition("-")

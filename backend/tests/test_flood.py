@@ -111,7 +111,7 @@ async def look(served: Served, ended: asyncio.Event) -> int:
     async with connect(ws, max_queue=None) as calm, AsyncClient(base_url=served.url) as asking:
         while not ended.is_set() or rounds < 3:
             async with asyncio.timeout(ANSWERED_WITHIN_S):
-                await say(calm, type="stop", hold=None)
+                await say(calm, type="stop")
                 await hear_until(calm, "halted")
                 assert (await asking.get("/api/status")).status_code == 200
             rounds += 1

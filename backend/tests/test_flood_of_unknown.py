@@ -121,7 +121,7 @@ async def test_a_stop_is_heard_at_once_and_the_gateway_stays_small(
         with flooded(served, kind, KINDS[kind]):
             await asyncio.sleep(SETTLES_S)
             posted = await stops(served, wire, lambda: post(served, token))
-            pressed = await stops(served, wire, lambda: page.send('{"type":"stop","hold":null}'))
+            pressed = await stops(served, wire, lambda: page.send('{"type":"stop"}'))
             async with AsyncClient(base_url=served.url, headers=headers) as client:
                 saved = await client.put("/api/library/a", json=body())
                 opened = await client.put("/api/port", json={"device": served.pty.device, "board": "doc"})

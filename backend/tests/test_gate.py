@@ -7,7 +7,6 @@ import pytest
 from servodeck.access import access
 from servodeck.access.gate import (
     judge_handshake,
-    judge_hold,
     judge_latch,
     judge_packet,
     judge_script,
@@ -162,14 +161,6 @@ def test_what_the_board_cannot_take_is_out_of_range(text: str) -> None:
 def test_a_command_that_the_board_does_not_have_is_named_as_such() -> None:
     with pytest.raises(NotSupportedError):
         judge_packet(BATTERY.hex(), "openarm-new")
-
-
-def test_only_a_move_can_hold_a_pose() -> None:
-    assert judge_hold(None, "doc") is None
-    assert judge_hold(MOVE.hex(), "doc") == MOVE
-    for packet in (RUN, STOP, ERASE, BATTERY, DOWNLOAD):
-        with pytest.raises(MalformedError):
-            judge_hold(packet.hex(), "doc")
 
 
 @pytest.mark.parametrize(

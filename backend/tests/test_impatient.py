@@ -169,7 +169,7 @@ async def test_a_page_that_says_nothing_more_stays(monkeypatch: pytest.MonkeyPat
     async with server_on(FakePorts(FakePort())) as gateway, connect(gateway.ws) as client:
         await hear_until(client, "welcome")
         await asyncio.sleep(0.4)
-        await client.send('{"type":"stop","hold":null}')
+        await client.send('{"type":"stop"}')
         await hear_until(client, "halted")
 
 
@@ -181,7 +181,7 @@ async def test_who_answers_no_ping_is_gone_and_who_does_stays(monkeypatch: pytes
         writer.write(upgrade_at(gateway.host))
         assert await ends_after_s(reader) <= 0.4 + MARGIN_S
         writer.close()
-        await client.send('{"type":"stop","hold":null}')
+        await client.send('{"type":"stop"}')
         await hear_until(client, "halted")
 
 

@@ -17,7 +17,7 @@ from servodeck.messages import (
 from servodeck.web.clients import merged
 from tests.virtual_time import in_virtual_time, now
 
-STOP = StopMessage(type="stop", hold=None)
+STOP = StopMessage(type="stop")
 
 
 class Listener:

@@ -240,7 +240,7 @@ async def test_without_a_port_or_while_stopped_there_is_none() -> None:
     with pytest.raises(GatewayError):
         begin(control, WAVE)
     await control.use_port("/dev/board")
-    await control.stop(None)
+    await control.stop()
     with pytest.raises(LatchedError):
         begin(control, WAVE)
     with pytest.raises(OutOfRangeError):

@@ -40,7 +40,7 @@ async def test_what_ends_it_is_said_and_leaves_the_slot_broken(end: str) -> None
         await asyncio.sleep(0.3)
         match end:
             case "stop":
-                await control.stop(None)
+                await control.stop()
                 control.resume(THIS_COMPUTER)
             case "stop packet":
                 await anna.send(STOP)
@@ -160,7 +160,7 @@ async def test_what_is_stopped_before_its_first_byte_leaves_the_slot_whole() -> 
     port = FakePort()
     async with gateway_on(port) as control:
         begin(control, WAVE)
-        await control.stop(None)
+        await control.stop()
         await asyncio.sleep(1)
         assert broken(control) == []
         assert DOWNLOAD[3] not in [packet[3] for packet in port.packets()]

@@ -67,7 +67,7 @@ async def test_they_are_stored_one_after_the_other_with_one_progress_though_ever
 
 
 ENDS: dict[str, Callable[[Control, str], Any]] = {
-    "STOP": lambda control, _: control.stop(None),
+    "STOP": lambda control, _: control.stop(),
     "cancel": lambda control, job: control.board.jobs.cancel(job),
 }
 

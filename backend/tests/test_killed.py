@@ -66,7 +66,7 @@ class Driver:
             self._say(type="send", id=1000 + number, packet=MOVE.hex(), nonce=self._nonce)
 
     def press_stop(self) -> None:
-        self._say(type="stop", hold=None)
+        self._say(type="stop")
 
     def close(self) -> None:
         self.stand()

@@ -106,12 +106,12 @@ async def test_a_stop_ends_what_has_not_left_also_where_somebody_resumes_at_once
     async with script() as here:
         waiting = asyncio.create_task(here.move(1500, s1=2000, s2=2000, s3=2000))
         await asyncio.sleep(0.1)
-        here.control.stop(None)
+        here.control.stop()
         here.control.resume(THIS_COMPUTER)
         assert refusal(await waiting) == (409, "cancelled")
         await asyncio.sleep(1)
         assert here.sent() == [move(1500, s1=2000), *STOPS]
-        here.control.stop(None)
+        here.control.stop()
         assert refusal(await here.move(1500, s1=2000)) == (409, "latched")
 
 

@@ -272,7 +272,7 @@ async def test_a_stop_of_anybody_drops_it_and_what_comes_behind_waits_for_resume
         waiting = ask(anna, s1=1520)
         starting = ask(anna, s9=1500)
         before = len(port.written)
-        control.stop(None)
+        control.stop()
         for left in (waiting, starting):
             with pytest.raises(LatchedError):
                 await left
@@ -350,7 +350,7 @@ async def check(asked: list[tuple[int, str | dict[int, int]]]) -> None:
                 with contextlib.suppress(BusyError):
                     control.send(anna, BATTERY.hex())
             elif isinstance(what, str):
-                control.stop(None)
+                control.stop()
                 control.resume(anna.caller)
                 last.clear()
                 stops.append((number, now() * 1000))

@@ -69,7 +69,7 @@ async def test_a_viewer_sees_and_stops_and_nothing_more(port: FakePort, gateway:
         ):
             await say(client, **message)
             assert (await hear_until(client, "refused"))["code"] == "forbidden"
-        await say(client, type="stop", hold=None)
+        await say(client, type="stop")
         assert (await hear_until(client, "state"))["latch"] is True
         await hear_until(client, "halted")
     assert set(port.packets()) == {STOP}

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from servodeck.driving.relay import newest
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
-from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, RUN, STOP
+from tests.samples import BATTERY, MOVE, MOVE_S, RUN, STOP, hold_at
 from tests.virtual_time import in_virtual_time
 
 OTHER_SERVO = MOVE[:7] + b"\x02" + MOVE[8:]
@@ -30,11 +30,15 @@ async def test_everybody_but_the_sender_hears_what_left_and_no_questions() -> No
 async def test_a_stop_is_told_to_everybody_with_the_pose_it_holds() -> None:
     async with gateway_on() as control:
         anna, bert = Client(control), Client(control)
-        await control.stop(MOVE_ELSEWHERE)
+        await anna.send(MOVE)
+        await asyncio.sleep(MOVE_S + 0.1)
+        await bert.heard()
+        bert.followed.clear()
+        await control.stop()
         await asyncio.sleep(0.2)
         await anna.heard()
         await bert.heard()
-        assert anna.followed == [STOP, MOVE_ELSEWHERE, STOP, STOP, MOVE_ELSEWHERE]
+        assert anna.followed == [STOP, hold_at(2000), STOP, STOP, hold_at(2000)]
         assert bert.followed == anna.followed
 
 

@@ -103,7 +103,7 @@ async def test_the_filler_goes_before_a_stop_that_is_pressed_at_once() -> None:
         with suppress(GatewayError):
             await anna.send(MOVE)
         await asyncio.sleep(FIRST_RETRY_S + 0.001)
-        await control.stop(None)
+        await control.stop()
         filler, *stops = second.packets()
         assert filler == b"\x00" + b"\xfd" * len(MOVE)
         assert stops[:3] == STOPS
@@ -131,7 +131,7 @@ async def test_a_board_that_bears_no_filler_may_have_heard_no_stop(board: str) -
         await lose_behind(anna, move, first)
         assert second.packets() == [STOP]
         await asyncio.sleep(40)
-        await control.stop(None)
+        await control.stop()
         assert control.unheld is not None
         assert control.unheld.servos is None
 
@@ -142,12 +142,12 @@ async def test_its_first_answer_has_it_stopped_once_more() -> None:
     async with gateway("lsc-6", first, second) as (control, anna):
         await asyncio.sleep(31)
         await lose_behind(anna, MOVE, first)
-        await control.stop(None)
+        await control.stop()
         await anna.send(BATTERY)
         before = len(second.packets())
         second.say(BATTERY_REPORT)
         await asyncio.sleep(1)
         assert second.packets()[before:] == STOPS
         await asyncio.sleep(33)
-        await control.stop(None)
+        await control.stop()
         assert control.unheld is None

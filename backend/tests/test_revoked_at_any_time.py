@@ -34,7 +34,7 @@ from tests.amount import TIMES
 from tests.client import Client
 from tests.fake_port import FakePort
 from tests.samples import DOWNLOAD, STOP
-from tests.scripted import Scripted, move, script
+from tests.scripted import Scripted, script
 from tests.test_download import STORED
 from tests.virtual_time import at, in_virtual_time, now
 
@@ -175,9 +175,8 @@ class History:
             page.say(ContinueMessage(type="continue", for_ms=5000))
         elif what == "page ends a group":
             page.say_packet(STOP)
-        else:  # a page that is closed behind its stop has brought a good pose: only a revoked one's is not
-            time_ms = self._mark("move", FIRST_MOVE_MS + number, f"{party.name}, stopping")
-            page.say(StopMessage(type="stop", hold=move(time_ms, s1=1000).hex()))
+        else:
+            page.say(StopMessage(type="stop"))
 
     def _lose(self, party: Party, what: What) -> None:
         if what == "page drops":
@@ -207,7 +206,6 @@ class History:
         assert answer.status_code in (200, 204), answer.text
         self._gone(f"{party.name} by HTTP")
         self._gone(f"{party.name} on a page")
-        self._gone(f"{party.name}, stopping")
         driver = control.driving.driver
         assert driver is None or driver.caller.id != party.caller.id
 

@@ -1,5 +1,6 @@
 """The robot's limits hold for every client, and nothing keeps a stop from holding the robot where it is."""
 
+import asyncio
 import json
 
 import pytest
@@ -15,7 +16,7 @@ from servodeck.told import ServoLimits
 from servodeck.web.clients import hear, intake_of
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
-from tests.samples import MOVE, MOVE_ELSEWHERE, RUN, STOP
+from tests.samples import MOVE, MOVE_ELSEWHERE, MOVE_S, RUN, STOP, hold_at
 from tests.test_download import begin
 from tests.virtual_time import in_virtual_time
 
@@ -66,9 +67,11 @@ async def test_both_ends_are_within_and_downloads_are_judged_as_moves_are(
 async def test_a_stop_holds_the_robot_wherever_it_is() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
+        await Client(control).send(MOVE)
+        await asyncio.sleep(MOVE_S + 0.1)
         control.limits.set([ELBOW])
-        await control.stop(MOVE)
-        assert port.packets()[-1] == MOVE
+        await control.stop()
+        assert port.packets()[-1] == hold_at(2000)
 
 
 @in_virtual_time

@@ -115,7 +115,7 @@ async def test_one_that_ends_half_way_changes_no_version_and_an_erase_forgets_al
         await ended(control, begin(control, group("v1")))
         job = begin(control, group("v2"))
         await asyncio.sleep(0.1)
-        control.stop(None)
+        control.stop()
         assert (await ended(control, job)).status == "failed"
         assert (control.board.broken_slots, versions(control)) == ([SLOT], {"8": "v1"})
         await asyncio.sleep(3)

@@ -23,7 +23,7 @@ async def test_it_is_said_again_when_the_longest_work_is_over() -> None:
     async with driven(ERASE) as (control, port, anna):
         await run_unheard(anna)
         run_s = now()
-        await control.stop(None)
+        await control.stop()
         await asyncio.sleep(2)
         assert port.packets() == [STOP, ERASE, RUN, *STOPS]
         assert control.board.may_move()
@@ -38,7 +38,7 @@ async def test_it_is_said_again_when_the_longest_work_is_over() -> None:
 async def test_it_is_said_again_as_soon_as_the_board_has_answered() -> None:
     async with driven(ERASE) as (control, port, anna):
         await run_unheard(anna)
-        await control.stop(None)
+        await control.stop()
         await asyncio.sleep(0.1)
         port.say(ERASED)
         port.say(RUN_TAKEN)
@@ -53,7 +53,7 @@ async def test_it_is_said_again_as_soon_as_the_board_has_answered() -> None:
 async def test_a_run_that_the_board_takes_behind_it_is_stopped_however_long_it_was_deaf() -> None:
     async with driven(ERASE) as (control, port, anna):
         await run_unheard(anna)
-        await control.stop(None)
+        await control.stop()
         await asyncio.sleep(10)
         before = len(port.packets())
         port.say(ERASED)
@@ -66,7 +66,7 @@ async def test_a_run_that_the_board_takes_behind_it_is_stopped_however_long_it_w
 async def test_what_somebody_has_begun_since_is_not_stopped_by_it() -> None:
     async with driven(ERASE) as (control, port, anna):
         await run_unheard(anna)
-        await control.stop(None)
+        await control.stop()
         control.resume(THIS_COMPUTER)
         await anna.send(RUN)
         await asyncio.sleep(5)
@@ -77,7 +77,7 @@ async def test_what_somebody_has_begun_since_is_not_stopped_by_it() -> None:
 async def test_what_was_heard_is_not_said_again() -> None:
     async with driven(MOVE) as (control, port, _):
         await asyncio.sleep(MOVE_S)
-        await control.stop(None)
+        await control.stop()
         before = port.packets()
         await asyncio.sleep(5)
         assert port.packets() == before

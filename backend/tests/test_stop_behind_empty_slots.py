@@ -73,7 +73,7 @@ async def press_over_http(here: Scripted) -> Unheld:
 
 async def press_on_a_page(here: Scripted) -> Unheld:
     seat = Client(here.control, GUEST)
-    take(StopMessage(type="stop", hold=None), seat, here.control)
+    take(StopMessage(type="stop"), seat, here.control)
     await asyncio.sleep(0.3)
     [halted] = [message for message in await seat.heard() if message["type"] == "halted"]
     unheld: Unheld = halted["unheld"]

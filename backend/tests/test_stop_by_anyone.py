@@ -74,7 +74,7 @@ async def stop_in_flood(chance: random.Random) -> None:
         ]
         await asyncio.sleep(chance.uniform(0, 0.25))
         pressed_s, before = now(), len(port.written)
-        hear('{"type":"stop","hold":null}', bert, intakes[0])
+        hear('{"type":"stop"}', bert, intakes[0])
         await asyncio.sleep(0.6)
         first_s, first = port.written[before]
         assert first == STOP
@@ -106,7 +106,7 @@ async def stop_at_reconnect(chance: random.Random) -> None:
         first.unplug()
         await asyncio.sleep(chance.uniform(0, TRY_S))
         pressed_s, before = now(), len(first.written)
-        take(StopMessage(type="stop", hold=None), bert, control)
+        take(StopMessage(type="stop"), bert, control)
         with pytest.raises((LatchedError, PortLostError)):
             anna.send(MOVE)
         await asyncio.sleep(TRY_S)
@@ -135,7 +135,7 @@ async def stop_at_random(packets: list[bytes], chance: random.Random, is_downloa
             begin(control, LONG)
         await asyncio.sleep(chance.uniform(0, 0.25))
         pressed_s, before = now(), len(port.written)
-        take(StopMessage(type="stop", hold=None), bert, control)
+        take(StopMessage(type="stop"), bert, control)
         with pytest.raises(LatchedError):
             anna.send(MOVE)
         await asyncio.sleep(0.6)

@@ -27,10 +27,10 @@ async def over_http(here: Scripted) -> None:
     assert (await here.post("stop")).status_code == 200
 
 
-def on_a_page(caller: Caller, hold: bytes | None = None) -> Door:
+def on_a_page(caller: Caller) -> Door:
     async def stop(here: Scripted) -> None:
         seat = Client(here.control, caller)
-        take(StopMessage(type="stop", hold=None if hold is None else hold.hex()), seat, here.control)
+        take(StopMessage(type="stop"), seat, here.control)
         await asyncio.sleep(0.3)
 
     return stop
@@ -44,7 +44,6 @@ async def let_go(here: Scripted) -> None:
 DOORS: dict[str, Door] = {
     "HTTP": over_http,
     "viewer": on_a_page(GUEST),
-    "viewer who believes it elsewhere": on_a_page(GUEST, hold_at(700)),
     "stop-only link": on_a_page(PASSER_BY),
     "letting go of the lease": let_go,
 }

@@ -38,7 +38,7 @@ async def busy_scripts(chance: random.Random) -> None:
             asked.append(asyncio.create_task(ask(here, chance)))
             await asyncio.sleep(chance.choice(PAUSES_S))
         before = len(here.port.written)
-        here.control.stop(None)
+        here.control.stop()
         await asyncio.gather(*asked)
         await asyncio.sleep(3)
         # Stops and their hold, and nothing else.

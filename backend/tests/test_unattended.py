@@ -69,7 +69,7 @@ async def test_anybody_stops_it() -> None:
     async with gateway_on(port) as control:
         bert = Client(control, BERT)
         control.leave(await begin(control))
-        take(StopMessage(type="stop", hold=None), bert, control)
+        take(StopMessage(type="stop"), bert, control)
         await asyncio.sleep(0.5)
         assert port.packets() == [STOP, RUN, *STOPS]
         assert (await told(bert), control.latch) == (None, True)

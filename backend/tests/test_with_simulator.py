@@ -20,12 +20,11 @@ from websockets.asyncio.client import ClientConnection, connect
 
 from servodeck.port.background import BackgroundPorts
 from tests.running import Running, server_on
-from tests.samples import BATTERY, BATTERY_REPORT, MOVE, MOVE_ELSEWHERE, RUN, STOP
+from tests.samples import BATTERY, BATTERY_REPORT, MOVE, RUN, STOP
 from tests.test_cli import run
 from tests.test_clients import drive, hear, hear_until, say
 
 ROOT = Path(__file__).parents[2]
-HALT = STOP + MOVE_ELSEWHERE + STOP * 2 + MOVE_ELSEWHERE
 SIMULATOR = ROOT / "build" / "simulator.mjs"
 NODE = shutil.which("node")
 
@@ -102,17 +101,16 @@ async def test_moves_battery_and_stop_reach_the_board_in_order(board: Board, gat
         await say(client, type="send", id=2, packet=BATTERY.hex())
         assert (await hear_until(client, "received"))["packet"] == BATTERY_REPORT.hex()
         await say(client, type="send", id=3, packet=RUN.hex(), nonce=nonce)
-        await say(client, type="stop", hold=MOVE_ELSEWHERE.hex())
+        await say(client, type="stop")
         await hear_until(client, "halted")
         await asyncio.sleep(0.05)  # the board takes its last byte one byte time after we counted it
     got = bytes(byte for _, byte in board.taken())
     begin = STOP + MOVE + BATTERY
-    run, halt, again = got.removeprefix(begin).partition(HALT)
     assert got.startswith(begin)
-    assert halt == HALT
-    # The stop may overtake the run; where it does not, the board's word of it may come behind the stops.
-    assert run in (b"", RUN)
-    assert HALT.startswith(again)
+    # The stop may overtake the run; where it does not, the board's word of it may bring more stops.
+    behind = got.removeprefix(begin).removeprefix(RUN)
+    assert behind.startswith(STOP)
+    assert behind.count(STOP) >= 3
 
 
 @pytest.mark.exhaustive

@@ -164,16 +164,6 @@ def refusal_of(error: PacketError) -> GatewayError:
     return (NotSupportedError if error.field == "command" else OutOfRangeError)(error.detail)
 
 
-def judge_hold(text: str | None, board: str) -> bytes | None:
-    """The pose to hold after a stop: one move packet."""
-    if text is None:
-        return None
-    packet = judge_packet(text, board)
-    if packet[COMMAND_AT] != MOVE:
-        raise MalformedError("Only a move can hold the pose after a stop.")
-    return packet
-
-
 def is_harmless(packet: bytes) -> bool:
     """It moves nothing and stores nothing: nobody has to drive for it."""
     return packet[COMMAND_AT] in HARMLESS

@@ -14,7 +14,6 @@ from servodeck.access.gate import STOP, is_harmless, judge_packet
 from servodeck.board.answers import Answers
 from servodeck.board.battery import BatteryWatch
 from servodeck.board.estimate import Estimate
-from servodeck.board.hold import hold_packet, untraced
 from servodeck.board.jobs import Jobs
 from servodeck.board.moves import Moves
 from servodeck.board.parts import Part
@@ -31,8 +30,8 @@ from servodeck.port.silence import Silence
 from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, Wire
 from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, Family
-from servodeck.protocol.packets import parse_command, parse_report
-from servodeck.protocol.values import Move, RunAccepted, RunStarted
+from servodeck.protocol.packets import encode, parse_command, parse_report
+from servodeck.protocol.values import RunAccepted, RunStarted
 from servodeck.told import JobState, PortState, StoredGroup
 
 DRAIN_S = 0.5
@@ -86,8 +85,6 @@ class Board:
         self.jobs = Jobs(self, self.answers, now, slot_memory)
         self.moves = Moves(self, now, events.board_changed)
         self._motion = Estimate(self.family)
-        self._page_hold: Move | None = None
-        self._page_hold_of: Owner = None
         self._silence = Silence()
         self._cut: tuple[str, bytes] | None = None
         """The packet that a loss has cut on its way to the board at that place, until filler has ended it."""
@@ -147,23 +144,11 @@ class Board:
         with contextlib.suppress(GatewayError):
             self.link.wire().purge(lambda job: job.owner is owner, reason)
 
-    def disown(self, owner: Owner, reason: GatewayError) -> None:
-        """As `drop`. A stop of theirs leaves, without their pose."""
-        self.drop(owner, reason)
-        if self._page_hold_of is owner:
-            self._page_hold = None
-
-    def halt(self, page_hold: bytes | None, reason: GatewayError, owner: Owner = None) -> Left:
-        """Resolves when the stop sequence has left; raises when there is no port to stop. `page_hold`: where
-        a page believes the servos, for those of which the gateway knows nothing.
-        """
+    def halt(self, reason: GatewayError) -> Left:
+        """Resolves when the stop sequence has left; raises when there is no port to stop."""
         self.halts += 1
         self.moves.drop(reason)
-        wire = self.link.wire()
-        if page_hold or not wire.is_halting:
-            self._page_hold = untraced(page_hold, self.motion.is_traced)
-            self._page_hold_of = owner
-        return wire.halt(self._hold, reason)
+        return self.link.wire().halt(self._hold, reason)
 
     def unheld_since(self, pressed_s: float) -> Unheld | None:
         """What may go on in spite of a stop pressed then, whose last packet left just now."""
@@ -171,7 +156,7 @@ class Board:
 
     def halt_again(self) -> None:
         with contextlib.suppress(GatewayError):
-            self.halt(None, CancelledError("The board was stopped once more: it may not have heard it."))
+            self.halt(CancelledError("The board was stopped once more: it may not have heard it."))
 
     def end_motion(self) -> Left | None:
         """Without the latch: what moves ends, because its driver begins something else. As `halt`; None where
@@ -179,14 +164,14 @@ class Board:
         """
         if not self.may_move():
             return None
-        return self.halt(None, CancelledError("Its driver has begun something else."))
+        return self.halt(CancelledError("Its driver has begun something else."))
 
     async def quiet(self) -> None:
         """Before the port is given up: ends what only this gateway could still stop."""
         self.jobs.end(ClosedError("The port was closed before all of it was stored."))
         if self.motion.group_may_run(self._now()):
             with contextlib.suppress(GatewayError):
-                await self.halt(None, CancelledError("The port is being closed."))
+                await self.halt(CancelledError("The port is being closed."))
         self._forget_motion()
 
     async def shut_down(self) -> None:
@@ -194,7 +179,7 @@ class Board:
         ending = CancelledError("The gateway is ending.")
         self.jobs.end(ending)
         with contextlib.suppress(GatewayError, TimeoutError):
-            await asyncio.wait_for(asyncio.shield(self.halt(None, ending)), DRAIN_S)
+            await asyncio.wait_for(asyncio.shield(self.halt(ending)), DRAIN_S)
         await self.link.close()
 
     # What the link tells
@@ -245,7 +230,8 @@ class Board:
 
     def _hold(self) -> bytes | None:
         """As the robot stands when it leaves."""
-        return hold_packet(self.motion.hold(self._now()), self._page_hold, self.family)
+        hold = self.motion.hold(self._now())
+        return encode(hold, self.family) if hold else None
 
     def _forget_motion(self) -> None:
         """It may be another board, and whoever had the port before may have set something in motion."""

@@ -191,10 +191,6 @@ class Estimate:
         now_ms = self._advance(now)
         return target_of(self._motion, servo) is None and position_at(self._motion, servo, now_ms) is None
 
-    def is_traced(self, servo: int) -> bool:
-        """Somebody has moved it since, also where nobody knows how far it is on its way."""
-        return target_of(self._motion, servo) is not None
-
     def first_moves_ms(self, servos: Collection[int], now: float) -> float:
         """How long first moves still take that a move of those servos would make faster or slower."""
         return gentle_ms(self._motion, servos, self._advance(now), self.family)

@@ -159,7 +159,7 @@ class Control:
         for seat in (*self.hub.seats, *also):
             if seat.caller.id == caller_id:
                 seat.end(AGAINST_THE_RULES, reason)
-                self.board.disown(seat, CancelledError(reason))
+                self.board.drop(seat, CancelledError(reason))
                 self.leave(seat)
 
     def move(self, seat: Seat, targets: Sequence[ServoTarget], duration_ms: int, nonce: str | None) -> Left:
@@ -205,13 +205,13 @@ class Control:
             wire.purge(is_run, CancelledError("A stop has overtaken this run."))
         return wire.send(packet, seat, urgent=is_stop, judge=judge)
 
-    def stop(self, hold: bytes | None, cause: Cause = SOMEBODY, owner: Owner = None) -> Left:
+    def stop(self, cause: Cause = SOMEBODY) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
         stop. What may go on in spite of it `unheld` says.
         """
         self._latch.close(cause)
         self.board.jobs.end(LatchedError("Stopped before all of it was stored."))
-        left = self.board.halt(hold, LatchedError("Stopped before it left."), owner)
+        left = self.board.halt(LatchedError("Stopped before it left."))
         if left is not self._halting:
             self._halting, self._pressed_s = left, self.now()
             left.add_done_callback(self._halted)

@@ -58,12 +58,12 @@ class Watch:
             return
         if board.may_move_on():
             with contextlib.suppress(GatewayError):
-                self._control.stop(None, cause=Cause("person", by))
+                self._control.stop(Cause("person", by))
 
     def end_quietly(self, reason: GatewayError) -> None:
         """Without the latch: somebody is there, or it was said beforehand."""
         with contextlib.suppress(GatewayError):
-            self._control.board.halt(None, reason)
+            self._control.board.halt(reason)
 
     def _stop_for_nobody(self) -> None:
         """STOP because nobody watches over what moves: whoever goes on has to look first. Not twice: a second
@@ -72,4 +72,4 @@ class Watch:
         if self._control.latch:
             return
         with contextlib.suppress(GatewayError):
-            self._control.stop(None, Cause("silence"))
+            self._control.stop(Cause("silence"))

@@ -214,7 +214,7 @@ async def stop(request: Request, control: Controlled, caller: Annotated[Caller, 
     """STOP: drops all that waits, sends stop three times, holds each servo whose place is known, and refuses
     motion until resume. Latches even without a port.
     """
-    await asyncio.shield(control.stop(None, Cause("person", named(request, caller).name)))
+    await asyncio.shield(control.stop(Cause("person", named(request, caller).name)))
     return Stopped(latch=control.latch, halted=True, unheld=control.unheld)
 
 

@@ -14,7 +14,6 @@ from pydantic import ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from servodeck import metrics
-from servodeck.access.gate import judge_hold
 from servodeck.access.hub import AGAINST_THE_RULES, Seat
 from servodeck.access.intake import Intake, Rate
 from servodeck.callers import Caller, Role
@@ -22,6 +21,7 @@ from servodeck.driving.control import Control
 from servodeck.driving.latch import Cause
 from servodeck.errors import BusyError, GatewayError, MalformedError
 from servodeck.messages import (
+    PROTOCOL,
     AnyClientMessage,
     BeatMessage,
     BoardMessage,
@@ -42,7 +42,7 @@ from servodeck.messages import (
 from servodeck.port.wire import Left
 from servodeck.protocol.values import ServoTarget
 
-UNSUPPORTED_DATA = 1003
+UNSUPPORTED_DATA, OUTDATED_PAGE = 1003, 4001
 CLOSE_WAIT_S = 0.1
 # Messages a second, and at once. A page hands over the newest values every 8 ms while somebody drags: what
 # waits longer at the page would be older when the wire is free.
@@ -65,6 +65,10 @@ ROLES: dict[type[AnyClientMessage], Role] = {
 
 
 async def serve_client(socket: WebSocket, caller: Caller, control: Control) -> None:
+    if is_outdated(socket):
+        await socket.accept()
+        await socket.close(OUTDATED_PAGE, "This page is of another version than the gateway: reload it.")
+        return
     if not control.hub.has_room_for(caller):
         raise BusyError("All seats are taken: close another window or stream.")
     seat = Seat(caller)
@@ -77,6 +81,11 @@ async def serve_client(socket: WebSocket, caller: Caller, control: Control) -> N
     if seat.farewell:
         with contextlib.suppress(TimeoutError, WebSocketDisconnect, RuntimeError):
             await asyncio.wait_for(socket.close(seat.farewell.code, seat.farewell.reason), CLOSE_WAIT_S)
+
+
+def is_outdated(socket: WebSocket) -> bool:
+    """A page that was loaded before the gateway became another; programs have no Origin, and load nothing."""
+    return "origin" in socket.headers and socket.query_params.get("protocol") != str(PROTOCOL)
 
 
 async def serve_seat(socket: WebSocket, seat: Seat, control: Control) -> None:
@@ -161,7 +170,7 @@ async def write_all(socket: WebSocket, seat: Seat) -> None:
 
 
 def take(message: AnyClientMessage, seat: Seat, control: Control) -> None:
-    """Acts on one message of somebody who is here and may send it. A stop is never too late, its pose is."""
+    """Acts on one message of somebody who is here and may send it. A stop is never too late."""
     if seat.ended.is_set() and not isinstance(message, StopMessage):
         return
     with refusing(seat, id_of(message)):
@@ -201,13 +210,8 @@ def telling(seat: Seat, control: Control) -> Iterator[None]:
 
 
 def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:
-    hold = None
-    with refusing(seat, None):  # a bad pose is told, and the stop goes out all the same
-        hold = judge_hold(message.hold, control.board.taken_for)
-    if seat.ended.is_set() or control.driving.driver is not seat:
-        hold = None  # anybody may stop; only the driver may say where a servo goes
     with refusing(seat, None):
-        control.stop(hold, Cause(message.why, seat.caller.name), seat)
+        control.stop(Cause(message.why, seat.caller.name))
 
 
 def let_go_on(message: ContinueMessage, seat: Seat, control: Control) -> None:

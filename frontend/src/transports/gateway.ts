@@ -16,14 +16,18 @@ import { refusal } from './gatewayHttp.ts';
 import { createGatewayMoves } from './gatewayMoves.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
 import { boardNamed, compactHex, isQuestion, LATCHED_BY, motionBefore, portError } from './gatewayWords.ts';
-import type {
-  ClientMessage,
-  GatewayMessage,
-  PortState,
-  RobotTold,
-  StateMessage,
+import {
+  PROTOCOL,
+  type ClientMessage,
+  type GatewayMessage,
+  type PortState,
+  type RobotTold,
+  type StateMessage,
 } from './messages.generated.ts';
 import { createTurn } from './turn.ts';
+
+/** As in backend/servodeck/web/clients.py. */
+const OUTDATED_PAGE = 4001;
 
 type Settle = { resolve: () => void; reject: (error: LinkError) => void };
 
@@ -196,16 +200,16 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
 
   async function connect(): Promise<void> {
     if (socket !== null) return;
-    const opening = new WebSocket(url);
+    const opening = new WebSocket(`${url}?protocol=${PROTOCOL}`);
     socket = opening;
     latched = null;
     opening.onmessage = ({ data }) => heard(JSON.parse(String(data)) as GatewayMessage);
-    opening.onclose = () => {
+    opening.onclose = ({ code }) => {
       if (socket !== opening) return;
       socket = null;
       port = null;
       turn.gone();
-      const gone = new LinkError('gatewayUnreachable', 'the gateway does not answer');
+      const gone = endedBy(code);
       settleAll(stateWaiters, (waiter) => waiter.reject(gone));
       lose(gone);
     };
@@ -267,9 +271,9 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
         typeof action === 'string' ? { type: 'lease', action } : { type: 'give', to: action.giveTo },
       ),
     letGoOn: (forMs) => postIfOpen({ type: 'continue', forMs }),
-    halt(hold, why) {
+    halt(why) {
       return new Promise((resolve, reject) => {
-        post({ type: 'stop', hold: hold && compactHex(hold), why: why === 'battery' ? 'battery' : 'person' });
+        post({ type: 'stop', why: why === 'battery' ? 'battery' : 'person' });
         halting.add({ resolve, reject });
       });
     },
@@ -294,6 +298,12 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
       return Promise.resolve();
     },
   };
+}
+
+function endedBy(code: number): LinkError {
+  return code === OUTDATED_PAGE
+    ? new LinkError('pageOutdated', 'the gateway is of another version')
+    : new LinkError('gatewayUnreachable', 'the gateway does not answer');
 }
 
 function settleAll(waiters: Set<Settle>, settle: (waiter: Settle) => void): void {

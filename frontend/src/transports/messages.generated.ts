@@ -70,12 +70,11 @@ export interface SendMessage {
   nonce: string | null;
 }
 /**
- * STOP: drop all that waits, send stop three times, then `hold` (one move to the present pose), and
- * latch.
+ * STOP: drop all that waits, send stop three times, hold the robot where it is, and latch. Whatever else
+ * it says, it is a stop.
  */
 export interface StopMessage {
   type: 'stop';
-  hold: string | null;
   why?: 'person' | 'battery';
 }
 /**
@@ -469,3 +468,5 @@ export interface JobMessage {
   type: 'job';
   job: JobState;
 }
+/** Of these messages. */
+export const PROTOCOL = 2;

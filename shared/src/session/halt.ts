@@ -116,8 +116,8 @@ export function createHalt(options: HaltOptions): Halt {
   }
 
   /** What it sends and what goes on it says itself. */
-  async function haltSharedLink(planned: HaltPlan['hold'], why: HaltReason): Promise<undefined> {
-    await transport.halt?.(planned && options.encoded(planned), why);
+  async function haltSharedLink(why: HaltReason): Promise<undefined> {
+    await transport.halt?.(why);
     return undefined;
   }
 
@@ -150,9 +150,9 @@ export function createHalt(options: HaltOptions): Halt {
     latchedByLoss: () =>
       latch({ reason: 'reconnected', by: null, stop: 'failed', unheld: options.plan().unheld }),
     async halt(why = 'pressed') {
-      const { hold, unheld } = options.plan();
+      const { unheld } = options.plan();
       latch({ reason: why, by: null, stop: 'sending', unheld });
-      await send(transport.halt ? () => haltSharedLink(hold, why) : haltOwnLink);
+      await send(transport.halt ? () => haltSharedLink(why) : haltOwnLink);
     },
     async resume() {
       requireReady(store);

@@ -14,6 +14,7 @@ export const LINK_ERROR_CODES = [
   'unsupported', // this browser has no such device API
   'insecureAddress', // the page's address is no secure context
   'gatewayUnreachable', // no gateway answers at this address
+  'pageOutdated', // the page was loaded from another version of the gateway
   'gatewayRefused', // the gateway said no; `detail` says why
   'boardUnknown', // nobody has said which board this is
   'wrongBoard', // its answers are not those of the board it is taken for

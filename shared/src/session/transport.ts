@@ -138,10 +138,10 @@ export interface Transport {
   /** Resolves when the packet's last bit has left the wire. One packet at a time: the caller waits for it. */
   send(packet: Uint8Array): Promise<void>;
   /**
-   * A shared link's own stop lane: purge, stop three times, send `hold`, latch. Where it is absent the session does that
+   * A shared link's own stop lane: purge, stop three times, hold the robot, latch. Where it is absent the session does that
    * itself with `send`. What may go on in spite of it `halted` tells first.
    */
-  halt?(hold: Uint8Array | null, why: HaltReason): Promise<void>;
+  halt?(why: HaltReason): Promise<void>;
   resume?(): Promise<void>;
   /**
    * Only a link that nobody shares: the page is about to go. Hands the packet over before it returns, and the link is lost.

@@ -22,6 +22,7 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
     'This browser cannot open serial ports. Use Chrome or Edge on a computer, or start the gateway there.',
   insecureAddress: () =>
     'This address is not secure, so the browser hides its serial ports. Open the page on 127.0.0.1 instead.',
+  pageOutdated: () => 'The gateway was updated. Reload this page.',
   gatewayUnreachable: () => 'No gateway answers at this address. Start it with “npm start” and try again.',
   gatewayRefused: (detail) => withDetail('The gateway refused this', detail),
   boardUnknown: () => 'Say which board this is. Until then nothing that moves is sent to it.',

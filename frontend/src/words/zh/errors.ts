@@ -16,6 +16,7 @@ const SENTENCES: Readonly<Record<LinkErrorCode, Sentence>> = {
   notChosen: () => '没有选择串口。如果列表里没有机器人，请换一根线试试：有些线只能供电。',
   unsupported: () => '这个浏览器打不开串口。请在电脑上使用 Chrome 或 Edge，或者在那台电脑上启动网关。',
   insecureAddress: () => '这个地址不安全，浏览器因此隐藏了串口。请改用127.0.0.1打开页面。',
+  pageOutdated: () => '网关已更新。请重新加载此页面。',
   gatewayUnreachable: () => '这个地址没有网关应答。请用 “npm start” 启动网关后再试。',
   gatewayRefused: (detail) => withDetail('网关拒绝了这个操作', inChinese(detail)),
   boardUnknown: () => '请说明这是哪种控制板。在此之前不会向它发送任何动作。',
