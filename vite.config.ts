@@ -69,6 +69,25 @@ function withoutSources(): Plugin {
   };
 }
 
+/**
+ * Node knows no other import of JSON than that of the whole; of a namespace the bundler sees which sections are used, and puts their numbers
+ * where they are. 0.7 KiB of the first load.
+ */
+function timingsInPlace(): Plugin {
+  return {
+    name: 'timings-in-place',
+    enforce: 'pre',
+    apply: 'build',
+    transform: {
+      filter: { code: '/protocol/timings.json' },
+      handler: (text) => ({
+        code: text.replace(/import (\w+) from ('[^']+timings[.]json') with [^;]+/, 'import * as $1 from $2'),
+        map: null,
+      }),
+    },
+  };
+}
+
 /** The bundler minifies all; what terser has been over before is 2 KiB smaller. */
 function squeezed(): Plugin {
   return {
@@ -85,7 +104,7 @@ function squeezed(): Plugin {
 export default defineConfig({
   root: 'frontend',
   base: './',
-  plugins: [react(), withoutSources(), readsFirstLoad(), squeezed(), compressed()],
+  plugins: [react(), withoutSources(), timingsInPlace(), readsFirstLoad(), squeezed(), compressed()],
   css: {
     modules: {
       // By the sheet's number, which compresses well.

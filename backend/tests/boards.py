@@ -1,7 +1,7 @@
 """Boards for the tests whose other end does its work: stores and erases in its time, and says so."""
 
-from servodeck.port.wire import wire_s
 from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.timings import wire_s
 from tests.fake_port import FakePort
 from tests.virtual_time import at, now
 

@@ -8,11 +8,10 @@ from typing import Any
 
 import pytest
 
-from servodeck.board import download, jobs
 from servodeck.board.parts import Group, made_of, packets_of
 from servodeck.callers import Caller
 from servodeck.driving.control import Control
-from servodeck.port.wire import wire_s
+from servodeck.protocol.timings import wire_s
 from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.told import JobState
 from tests.client import ANNA, Client, gateway_on
@@ -65,16 +64,6 @@ def frames_of(group: dict[str, Any]) -> list[Frame]:
         Frame(one["durationMs"], tuple(ServoTarget(*target) for target in one["targets"]))
         for one in group["frames"]
     ]
-
-
-def test_the_waiting_times_are_those_of_the_page() -> None:
-    assert VECTORS["timings"] == {
-        "edgeFrameTimeoutMs": download.EDGE_FRAME_TIMEOUT_S * 1000,
-        "middleFrameTimeoutMs": download.MIDDLE_FRAME_TIMEOUT_S * 1000,
-        "restarts": download.RESTARTS,
-        "babbleLimit": download.BABBLE_LIMIT,
-        "eraseTimeoutMs": jobs.ERASE_TIMEOUT_S * 1000,
-    }
 
 
 @pytest.mark.parametrize("scenario", VECTORS["scenarios"], ids=[one["name"] for one in VECTORS["scenarios"]])

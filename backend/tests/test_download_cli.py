@@ -13,7 +13,7 @@ import httpx2
 import pytest
 
 from servodeck.cli.exits import FAILURE, USAGE
-from servodeck.port.wire import wire_s
+from servodeck.protocol.timings import wire_s
 from tests.samples import DOWNLOAD
 from tests.test_cli import Served, run
 

@@ -3,7 +3,8 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.board.estimate import END_GRACE_MS, Estimate
+from servodeck.board.estimate import Estimate
+from servodeck.protocol import timings
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import (
@@ -31,7 +32,7 @@ def move(duration_ms: int, **positions: int) -> Command:
 
 
 # With what the board says first.
-END_GRACE_S = END_GRACE_MS / 1000 + 0.01
+END_GRACE_S = timings.RUN.end_grace_ms / 1000 + 0.01
 
 
 def held(motion: Estimate, now: float) -> Command | None:

@@ -17,6 +17,7 @@ from servodeck.errors import (
     OutOfRangeError,
     SlotBrokenError,
 )
+from servodeck.protocol import timings
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Run, ServoTarget
@@ -181,7 +182,7 @@ async def test_a_group_of_this_gateway_is_over_after_its_time_where_the_board_sa
         await asyncio.sleep(3.0)
         with pytest.raises(MovingError):
             begin(control, WAVE)
-        await asyncio.sleep(1.6)
+        await asyncio.sleep(timings.RUN.end_grace_ms / 1000 + 0.1)
         begin(control, WAVE)
 
 

@@ -15,9 +15,9 @@ from servodeck.board.parts import Group, made_of, packets_of, part_of
 from servodeck.board.tally import Progress, Tally
 from servodeck.driving.control import Control
 from servodeck.errors import CancelledError, NotDrivingError, NotFoundError, OutOfRangeError
-from servodeck.port.wire import wire_s
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
+from servodeck.protocol.timings import wire_s
 from servodeck.protocol.values import Frame, Run, ServoTarget
 from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakePorts

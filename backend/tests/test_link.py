@@ -67,7 +67,7 @@ async def test_a_missing_port_is_tried_again_with_growing_pauses_up_to_five_seco
         await link.use("/dev/board")
     await asyncio.sleep(20)
     await link.close()
-    assert [at_s for at_s, _ in ports.attempts] == [0, 0.25, 0.75, 1.75, 3.75, 7.75, 12.75, 17.75]
+    assert [at_s for at_s, _ in ports.attempts] == [0, 0.25, 0.75, 1.75, 3.75, 8.75, 13.75, 18.75]
 
 
 @in_virtual_time

@@ -11,7 +11,7 @@ import pytest
 from servodeck.board.parts import Group, made_of, packets_of
 from servodeck.driving.control import Control
 from servodeck.errors import GatewayError
-from servodeck.port.link import FIRST_RETRY_S
+from servodeck.port.link import RETRIES_S
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Move, ServoTarget
@@ -102,7 +102,7 @@ async def test_the_filler_goes_before_a_stop_that_is_pressed_at_once() -> None:
         at(now() + HALF_OF_MOVE_S, first.unplug)
         with suppress(GatewayError):
             await anna.send(MOVE)
-        await asyncio.sleep(FIRST_RETRY_S + 0.001)
+        await asyncio.sleep(RETRIES_S[0] + 0.001)
         await control.stop()
         filler, *stops = second.packets()
         assert filler == b"\x00" + b"\xfd" * len(MOVE)

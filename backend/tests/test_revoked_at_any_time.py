@@ -24,10 +24,10 @@ from servodeck.messages import (
     StopMessage,
     Target,
 )
-from servodeck.port.wire import wire_s
 from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode, parse_command
+from servodeck.protocol.timings import MOVE, wire_s
 from servodeck.protocol.values import Command, Download, Move, Run
 from servodeck.web.clients import merged, take
 from tests.amount import TIMES
@@ -39,7 +39,6 @@ from tests.test_download import STORED
 from tests.virtual_time import at, in_virtual_time, now
 
 NAMES = ("Anna", "Bert", "Cleo")
-FIRST_MOVE_MS = 1500
 FRAMES, FRAME_COUNT = [{"durationMs": 500, "positions": {"1": 1500}}], 10
 STORED_AFTER_S = 0.02
 What = Literal[
@@ -153,7 +152,7 @@ class History:
     def _ask(self, party: Party, what: What, number: int) -> None:
         sender = f"{party.name} by HTTP"
         if what == "script moves":
-            time_ms = self._mark("move", FIRST_MOVE_MS + number, sender)
+            time_ms = self._mark("move", MOVE.first_ms + number, sender)
             positions = {str(servo): 1000 for servo in range(1, 2 + number % 4)}
             self._post(party, "move", {"timeMs": time_ms, "positions": positions})
         elif what == "script runs":
@@ -169,7 +168,7 @@ class History:
         page, sender = party.page, f"{party.name} on a page"
         if what == "page moves":
             position = self._mark("position", 1100 + number, sender)
-            page.say_move(FIRST_MOVE_MS * (number % 2), dict.fromkeys(range(1, 2 + number % 4), position))
+            page.say_move(MOVE.first_ms * (number % 2), dict.fromkeys(range(1, 2 + number % 4), position))
         elif what == "page runs":
             page.say_packet(encode(Run(self._mark("run", number, sender), 1), FAMILIES["doc"]))
             page.say(ContinueMessage(type="continue", for_ms=5000))
@@ -222,7 +221,7 @@ class History:
 
     def _sender_of(self, command: Command | None) -> str | None:
         match command:
-            case Move(duration_ms, targets) if duration_ms >= FIRST_MOVE_MS:  # no hold takes so long
+            case Move(duration_ms, targets) if duration_ms >= MOVE.first_ms:  # no hold takes so long
                 of_page = self._senders.get(("position", targets[0].position))
                 return of_page or self._senders.get(("move", duration_ms))
             case Run(slot, _):

@@ -10,10 +10,11 @@ from dataclasses import dataclass
 from servodeck.board.answers import Answers
 from servodeck.errors import NoAnswerError
 from servodeck.port.wire import Left
+from servodeck.protocol.timings import BATTERY
 from servodeck.protocol.values import Battery, Report
 
 BATTERY_PACKET = "5555020f"
-BATTERY_WAIT_S = 0.5  # boards.md 6: an answer takes 300 ms at most
+BATTERY_WAIT_S = BATTERY.timeout_ms / 1000
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,16 +11,12 @@ from contextlib import suppress
 
 from servodeck.board.answers import Answers
 from servodeck.errors import CancelledError, NoAnswerError
-from servodeck.port.wire import Left, wire_s
+from servodeck.port.wire import Left
+from servodeck.protocol.timings import DOWNLOAD, wire_s
 from servodeck.protocol.values import FrameStored
 
-# Flash erase before the first frame and count table after the last: worst case 1.6 s and 0.4 s (S33, S34).
-EDGE_FRAME_TIMEOUT_S = 2.5
-MIDDLE_FRAME_TIMEOUT_S = 0.3
-# How often a download begins again at its first frame before it is given up.
-RESTARTS = 2
-# More late answers in a row than a board can owe: one a packet sent, each doubled on the way, and some.
-BABBLE_LIMIT = 12
+EDGE_FRAME_TIMEOUT_S = DOWNLOAD.edge_frame_timeout_ms / 1000
+MIDDLE_FRAME_TIMEOUT_S = DOWNLOAD.middle_frame_timeout_ms / 1000
 
 
 class Download:
@@ -58,7 +54,7 @@ class Download:
         """Raises CancelledError, or NoAnswerError when the board stayed silent through every restart. Nothing
         but a restart repairs a frame that is not stored for sure: written over another one it is ANDed (S36).
         """
-        for _ in range(RESTARTS):
+        for _ in range(DOWNLOAD.restarts):
             with suppress(NoAnswerError):
                 await self._store_all()
                 return
@@ -101,7 +97,7 @@ class Download:
             self._owed_since_s = None
 
     async def _silence(self, quiet_s: float) -> None:
-        for _ in range(BABBLE_LIMIT + 1):
+        for _ in range(DOWNLOAD.babble_limit + 1):
             if not await self._answers.unasked(quiet_s, FrameStored):
                 return
         raise NoAnswerError("The board says again and again that it has stored a frame.")

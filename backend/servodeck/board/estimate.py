@@ -31,6 +31,7 @@ from servodeck.motion.told import held_at, only_let_go
 from servodeck.motion.tracks import LONGEST_MOVE_MS
 from servodeck.protocol.families import Family
 from servodeck.protocol.packets import parse_command
+from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import (
     Command,
     Download,
@@ -51,8 +52,6 @@ from servodeck.told import MotionTold, ServoWay
 
 # Longer than the start or the end of a run takes to be told: neither shall be taken for the next one's.
 RUN_TOLD_MS = 500
-# A group that is not heard to end is over that long after its computed end.
-END_GRACE_MS = 1500
 # Seconds and milliseconds of one instant may differ by so much.
 CLOCK_GRAIN_MS = 0.001
 # An end later than that nobody waits for: it is a bound and no news.
@@ -166,7 +165,7 @@ class Estimate:
     def group_ends_in_s(self, now: float) -> float | None:
         """At the latest, for a group that may run; None where only the board could tell."""
         now_ms = self._advance(now)
-        end_ms = latest_end_ms(self._motion, self) + END_GRACE_MS if self._motion.run else self._over_ms
+        end_ms = latest_end_ms(self._motion, self) + RUN.end_grace_ms if self._motion.run else self._over_ms
         left_ms = max(0.0, end_ms - now_ms)
         return None if left_ms > LONGEST_TOLD_MS else left_ms / 1000
 
@@ -247,7 +246,7 @@ class Estimate:
         end_ms = latest_end_ms(self._motion, self) if ran else -inf
         self._motion = advance(self._motion, now_ms, self)
         if ran and not self._motion.run:
-            self._over_ms = end_ms + END_GRACE_MS
+            self._over_ms = end_ms + RUN.end_grace_ms
         if not self._motion.run and now_ms >= self._over_ms:
             self._run = None
         return now_ms

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from typing import overload
 
 from servodeck.protocol.packets import parse_command
+from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import Download, Frame
 
-AS_STORED = 100
+AS_STORED = RUN.as_stored_percent
 
 
 @dataclass(frozen=True, slots=True)

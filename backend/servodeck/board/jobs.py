@@ -26,6 +26,7 @@ from servodeck.errors import (
     SlotChangedError,
 )
 from servodeck.port.wire import Wire
+from servodeck.protocol.timings import ERASE
 from servodeck.protocol.values import Command, Erase, Erased, Report, Run
 from servodeck.told import JobState, StoredGroup
 
@@ -33,7 +34,7 @@ REMEMBERED = 16
 # Often enough for a bar that moves, seldom enough for 200 who look on.
 TOLD_EVERY_S = 0.1
 # Count table only: 46 ms typical, 403 ms worst (boards.md section 3, flash times).
-ERASE_TIMEOUT_S = 1.0
+ERASE_TIMEOUT_S = ERASE.timeout_ms / 1000
 log = logging.getLogger("servodeck.robot")
 
 

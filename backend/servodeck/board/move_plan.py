@@ -12,17 +12,14 @@ from dataclasses import dataclass
 from servodeck.access.gate import refusal_of
 from servodeck.board.estimate import Estimate
 from servodeck.errors import OutOfRangeError
-from servodeck.port.wire import wire_s
 from servodeck.protocol.families import Family
 from servodeck.protocol.limits import PacketError, check
 from servodeck.protocol.packets import encode
+from servodeck.protocol.timings import MOVE, wire_s
 from servodeck.protocol.values import Command, Move, ServoTarget
 
-# As in shared/src/session/timings.ts: slow, and far enough apart to see which one moves.
-FIRST_MOVE_MS = 1500
-FIRST_MOVE_STAGGER_S = 0.25
-# The soft limit: a whole range in 0.7 s, what a common servo of these robots manages at 6 V with a load.
-RANGE_MS = 700
+FIRST_MOVE_MS = MOVE.first_ms
+FIRST_MOVE_STAGGER_S = MOVE.first_stagger_ms / 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +113,7 @@ def first_ms(servos: Collection[int], motion: Estimate, now: float) -> float:
 def soft_ms(way: float, family: Family) -> float:
     share = way / (family.position.max - family.position.min)
     # Boards cut what is no whole tick.
-    return math.ceil(share * RANGE_MS / family.motion.tick_ms) * family.motion.tick_ms
+    return math.ceil(share * MOVE.range_ms / family.motion.tick_ms) * family.motion.tick_ms
 
 
 def interval_ms(servo_count: int, family: Family) -> int:

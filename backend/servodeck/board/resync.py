@@ -5,9 +5,7 @@ swallow the stop that comes after the return (S2). Knows which filler ends such 
 
 from servodeck.access.gate import DOWNLOAD, RUN
 from servodeck.protocol.decoder import COMMAND_AT
-
-# Enough for a parser that waited for LEN and took the first filler byte for it.
-FILLER_BYTES = 253
+from servodeck.protocol.timings import LINE
 
 
 def filler_for(cut: bytes, filler: int) -> bytes:
@@ -18,5 +16,5 @@ def filler_for(cut: bytes, filler: int) -> bytes:
     that.
     """
     if cut[COMMAND_AT] in (RUN, DOWNLOAD):
-        return bytes([filler]) * FILLER_BYTES
+        return bytes([filler]) * LINE.filler_bytes
     return bytes([0]) + bytes([filler]) * len(cut)

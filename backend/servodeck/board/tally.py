@@ -6,7 +6,7 @@ Knows sizes and time. The page's session counts alike (shared/src/session/tally.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from servodeck.port.wire import wire_s
+from servodeck.protocol.timings import wire_s
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,10 +13,9 @@ import typer
 from servodeck.cli.exits import FAILURE, INTERRUPTED, USAGE, fail
 from servodeck.cli.options_cli import AsJson, Take, asked, asking, show
 from servodeck.cli.remote import Remote
+from servodeck.protocol.timings import DOWNLOAD
 
 LOOK_S = 0.2
-# What the gateway reads at once (guard.py), with room for what stands around the groups.
-PORTION_BYTES = 500 * 1024
 SHAPE = '{"name": "Wave", "frames": [{"durationMs": 400, "positions": {"1": 1200}}]}'
 
 
@@ -58,7 +57,7 @@ def portions_of(groups: list[dict[str, Any]]) -> list[list[dict[str, Any]]]:
         size_bytes = len(json.dumps(group)) + 2  # a comma and a blank
         if size_bytes > room_bytes:
             portions.append([])
-            room_bytes = PORTION_BYTES
+            room_bytes = DOWNLOAD.portion_bytes
         portions[-1].append(group)
         room_bytes -= size_bytes
     return portions

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from typing import Generic, Literal, Protocol, TypeVar
 
 from servodeck.errors import BusyError, ExpiredError, NotDrivingError
+from servodeck.protocol.timings import LEASE, MOVE
 
-# safety.md section 3
-BEAT_S = 0.25
-COMMAND_S = 0.5
-QUIET_S = 0.75
-SILENT_S = 2.0
-GONE_S = 10.0
-ANSWER_S = 5.0
+BEAT_S = LEASE.beat_ms / 1000
+COMMAND_S = MOVE.expires_ms / 1000
+QUIET_S = LEASE.quiet_ms / 1000
+SILENT_S = LEASE.silent_ms / 1000
+GONE_S = LEASE.gone_ms / 1000
+ANSWER_S = LEASE.answer_ms / 1000
 
 Silence = Literal["none", "quiet", "silent"]
 NEXT_RUNG_S: dict[Silence, float] = {"none": QUIET_S, "quiet": SILENT_S, "silent": GONE_S}

@@ -13,6 +13,7 @@ from typing import Literal
 
 from servodeck.access.gate import judge_known, judge_latch
 from servodeck.access.hub import Seat
+from servodeck.board.jobs import ERASE_TIMEOUT_S
 from servodeck.board.move_plan import packet_of, plan_move
 from servodeck.board.parts import Part
 from servodeck.callers import Caller, as_script
@@ -28,11 +29,11 @@ from servodeck.port.wire import Left
 from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import Family
 from servodeck.protocol.packets import parse_command
+from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import Erase, Erased, Run, RunAccepted, RunStarted
 from servodeck.told import JobState, LeaseState
 
-RUN_WAIT_S = 0.5  # S18, S52
-ERASE_WAIT_S = 1.0  # boards.md section 3: 403 ms at worst
+RUN_WAIT_S = RUN.timeout_ms / 1000
 
 ScriptAction = Literal["request", "take", "release", "beat"]
 RunOutcome = Literal["acknowledged", "silent", "sent"]
@@ -171,8 +172,8 @@ class Scripts:
             raise MovingError("The robot moves: wait for its end, or stop it first.")
         with self._asking_the_board():
             turn = Turn(self._control, seat, packet, take=take)
-            left = turn.send(packet, ERASE_WAIT_S)
-            if await self._control.board.answers.to(left, ERASE_WAIT_S, Erased) is None:
+            left = turn.send(packet, ERASE_TIMEOUT_S)
+            if await self._control.board.answers.to(left, ERASE_TIMEOUT_S, Erased) is None:
                 raise NoAnswerError("The board did not say whether its groups are erased.")
 
     def act(self, caller: Caller, action: ScriptAction) -> LeaseState:

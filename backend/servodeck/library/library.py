@@ -23,8 +23,9 @@ from servodeck.library.library_file import (
     open_library,
     storage_error,
 )
+from servodeck.protocol.timings import LIBRARY
 
-TRASH_MS = 30 * 24 * 3600 * 1000
+TRASH_MS = LIBRARY.trash_days * 24 * 3600 * 1000
 MAX_DOCUMENTS = 5000
 MAX_VERSIONS = 200
 CLOSE_WAIT_S = 0.5

@@ -26,14 +26,11 @@ from servodeck.motion.tracks import (
     stopped_before,
 )
 from servodeck.protocol.families import Family
+from servodeck.protocol.timings import ESTIMATE, wire_ms
 from servodeck.protocol.values import Frame, Run
 
-PREEMPTIVE_SLOT = 0  # group 0 takes the place of any other (S47)
-BITS_PER_BYTE, BAUD = 10, 9600
-BARE_PACKET_MS = 4 * BITS_PER_BYTE * 1000 / BAUD
-RUN_REPORT_MS = 7 * BITS_PER_BYTE * 1000 / BAUD
-# An end is told later than it was, by the time on the wire and in the host's buffers.
-END_TOLD_WITHIN_MS = 100
+BARE_PACKET_MS = wire_ms(4)
+RUN_REPORT_MS = wire_ms(7)
 
 
 def announcement_ms(family: Family) -> float:
@@ -45,7 +42,7 @@ def announcement_ms(family: Family) -> float:
 
 def owes_end(motion: Motion, at_ms: float, family: Family) -> bool:
     """The end of the group before may be told while the next one runs, and then not which it was."""
-    return not family.run_reports_name_slot and at_ms - motion.untold_end_ms < END_TOLD_WITHIN_MS
+    return not family.run_reports_name_slot and at_ms - motion.untold_end_ms < ESTIMATE.end_told_within_ms
 
 
 def longest_ms(wanted: Run, family: Family) -> float:
@@ -161,7 +158,9 @@ class Deadlines:
             return running_unknown(
                 motion, None, until_ms=max(until_ms, at_ms + longest_ms(request, board.family))
             )
-        preempts = request.slot == PREEMPTIVE_SLOT and (run is None or run.slot != PREEMPTIVE_SLOT)
+        preempts = request.slot == ESTIMATE.preemptive_slot and (
+            run is None or run.slot != ESTIMATE.preemptive_slot
+        )
         if run is not None and not preempts:
             return request_during(motion, run, request, at_ms, board)
         return begin(motion, request, at_ms + announcement_ms(board.family), board)

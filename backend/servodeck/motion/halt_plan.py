@@ -11,17 +11,10 @@ from servodeck.motion.model import KnownBoard, Motion
 from servodeck.motion.motion import advance, after_command, hears, rounded
 from servodeck.motion.tracks import LONGEST_MOVE_MS, Track, end_ms, guess_of, leeway_of, stands
 from servodeck.protocol.families import Family
+from servodeck.protocol.timings import MOVE, STOP, wire_ms
 from servodeck.protocol.values import Move, ServoTarget, Stop
 
-STOP_REPEATS_MS = (70, 140)  # S54
-# "All is held": no pulse changes later than this after the last byte of the STOP.
-HELD_WITHIN_MS = 150
-# A servo goes over its whole range in this time where nobody knows how far it has to go: an unsure hold.
-FIRST_MOVE_MS = 1_500
-# A hold where frames that nobody knows may be under way: it re-times them (S26), and longer than the frames
-# of nearly all groups (boards.md chapter 9), it makes none of them faster.
-UNKNOWN_FRAME_MS = 3_000
-BYTE_MS = 10 * 1000 / 9600
+STOP_OFFSETS_MS = [STOP.repeat_every_ms * (index + 1) for index in range(STOP.repeats)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,13 +47,13 @@ class Held:
 
 def halt_plan(motion: Motion, now_ms: float, board: KnownBoard) -> HaltPlan:
     """As of the press of STOP at `now_ms`: the first hold, and what goes on behind the last one."""
-    stopped_ms = now_ms + 4 * BYTE_MS
+    stopped_ms = now_ms + wire_ms(4)
     stopped = after_command(advance(motion, now_ms, board), Stop(), stopped_ms, board)
     hold = hold_behind_stop(stopped, stopped_ms, board)
     current = after_hold(stopped, hold, stopped_ms, board)
-    for offset_ms in STOP_REPEATS_MS:
+    for offset_ms in STOP_OFFSETS_MS:
         current = after_command(current, Stop(), stopped_ms + offset_ms, board)
-    last_stop_ms = stopped_ms + max(STOP_REPEATS_MS)
+    last_stop_ms = stopped_ms + max(STOP_OFFSETS_MS)
     last_hold = hold_behind_stop(current, last_stop_ms, board)
     last_ms = hold_leaves_ms(last_hold, last_stop_ms, board.family)
     held = after_hold(current, last_hold, last_stop_ms, board)
@@ -75,7 +68,7 @@ def hold_behind_stop(motion: Motion, stopped_ms: float, board: KnownBoard) -> Mo
 
 def move_ms(servos: int) -> float:
     """On the wire."""
-    return (7 + 3 * servos) * BYTE_MS
+    return wire_ms(7 + 3 * servos)
 
 
 def hold_leaves_ms(hold: Move | None, stopped_ms: float, family: Family) -> float:
@@ -90,7 +83,7 @@ def after_hold(motion: Motion, hold: Move | None, stopped_ms: float, board: Know
 
 def unheld_since(pressed_ms: float, motion: Motion, last_ms: float, board: KnownBoard) -> Unheld | None:
     """What may go on, now that the last packet of a STOP pressed at `pressed_ms` left at `last_ms`."""
-    family, limit_ms = board.family, last_ms + HELD_WITHIN_MS
+    family, limit_ms = board.family, last_ms + STOP.held_within_ms
     current = advance(motion, last_ms, board)
     rests_at_ms = {servo: rests_ms(track, family) for servo, track in current.tracks.items()}
     late = {servo: until_ms for servo, until_ms in rests_at_ms.items() if until_ms > limit_ms}
@@ -175,8 +168,8 @@ def hold_ms(motion: Motion, held: list[Held], at_ms: float, family: Family) -> i
     way = min(way_range, max(one.way for one in held))
     needs_ms = max(
         family.shortest_move_ms,
-        FIRST_MOVE_MS * way / way_range,
-        UNKNOWN_FRAME_MS if is_guess else 0,
+        MOVE.first_ms * way / way_range,
+        STOP.unknown_frame_ms if is_guess else 0,
         unknown_ms(motion, at_ms, family.motion.tick_ms) if family.motion.timing == "shared" else 0,
     )
     return math.ceil(needs_ms / family.motion.tick_ms) * family.motion.tick_ms
@@ -186,4 +179,4 @@ def unknown_ms(motion: Motion, at_ms: float, tick_ms: float) -> float:
     """How long what nobody can hold still needs, a begun tick with it, or is given."""
     unknown = [track for track in motion.tracks.values() if guess_of(track, at_ms) is None]
     needs_ms = [end_ms(track) - at_ms + tick_ms for track in unknown]
-    return max([min(UNKNOWN_FRAME_MS, motion.restless_until_ms - at_ms), *needs_ms])
+    return max([min(STOP.unknown_frame_ms, motion.restless_until_ms - at_ms), *needs_ms])

@@ -46,6 +46,7 @@ from servodeck.motion.tracks import (
 )
 from servodeck.protocol.decoder import HEADER
 from servodeck.protocol.families import Family
+from servodeck.protocol.timings import ESTIMATE
 from servodeck.protocol.values import (
     AllPositions,
     Battery,
@@ -87,12 +88,8 @@ ANSWERS: dict[type[Command], type[Report]] = {
 # These keep the board from its servos and packets until it has answered: flash work, slow talk (S41, X7,
 # L13).
 DEAFENING = frozenset(ANSWERS) - {ReadBattery, Run}
-# A group tells its end when the time of its last frame is over; a frame of no time still takes a tick (S43).
-LAST_TICKS_MS = 100
 # What LEN does not count, and the whole of a packet without parameters.
 HEAD_BYTES, SHORTEST_PACKET_BYTES = 2, 4
-# The worst of them: four sectors and the count table (S33, S34), with a margin.
-LONGEST_DEAFNESS_MS = 2_500
 
 
 def playback_of(board: KnownBoard) -> Playback:
@@ -208,12 +205,12 @@ def deafened(motion: Motion, command: Command, at_ms: float, board: KnownBoard) 
     """Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group goes on, nobody
     knows when.
     """
-    deaf_until_ms = at_ms + LONGEST_DEAFNESS_MS
+    deaf_until_ms = at_ms + ESTIMATE.longest_deafness_ms
     deaf = replace(
         motion, deaf_until_ms=deaf_until_ms, answers_owed=(ANSWERS[type(command)],), may_hold_packet=False
     )
     if motion.run is not None:
-        until_ms = latest_end_ms(motion, board) + LONGEST_DEAFNESS_MS
+        until_ms = latest_end_ms(motion, board) + ESTIMATE.longest_deafness_ms
         return running_unknown(deaf, None, until_ms=until_ms)
     tracks = {
         servo: track if stands(track, at_ms) else lengthened(track, deaf_until_ms)
@@ -241,7 +238,7 @@ def after_unheard(motion: Motion, command: Command, at_ms: float, board: KnownBo
     owed = (answer,) if answer and command.kind in board.family.answers else ()
     later = replace(
         motion,
-        deaf_until_ms=at_ms + LONGEST_DEAFNESS_MS if owed else motion.deaf_until_ms,
+        deaf_until_ms=at_ms + ESTIMATE.longest_deafness_ms if owed else motion.deaf_until_ms,
         answers_owed=(*motion.answers_owed, *owed),
         may_hold_packet=True,
     )
@@ -277,7 +274,7 @@ def forgotten(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
     if motion.run is not None:
         still_ms: float = LONGEST_MOVE_MS
     else:
-        still_ms = last_end_ms(motion.tracks, at_ms) - at_ms + LAST_TICKS_MS
+        still_ms = last_end_ms(motion.tracks, at_ms) - at_ms + ESTIMATE.last_ticks_ms
     return replace(
         UNKNOWN_MOTION,
         told=only_let_go(motion.told),

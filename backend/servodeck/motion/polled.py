@@ -18,13 +18,12 @@ from servodeck.motion.tracks import (
     last_end_ms,
     retarget,
 )
+from servodeck.protocol.timings import ESTIMATE
 from servodeck.protocol.values import Frame, Run
 
-POLL_MS = 110  # about, and jittering (L7)
-# Bus servos are not asked: the board counts such steps of the frame's time, one a poll (L7).
-STEP_MS = 100
-# One until it looks, one for the jitter.
-SPARE_POLLS = 2
+POLL_MS = ESTIMATE.poll_ms
+STEP_MS = ESTIMATE.poll_step_ms
+SPARE_POLLS = ESTIMATE.spare_polls
 
 
 def latest_ms(frame: Frame) -> float:

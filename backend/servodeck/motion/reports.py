@@ -8,9 +8,10 @@ from math import inf
 
 from servodeck.motion.deadlines import longest_ms
 from servodeck.motion.model import DeadlineRun, KnownBoard, Motion, running_unknown
-from servodeck.motion.motion import LAST_TICKS_MS, LONGEST_DEAFNESS_MS, advance, playback_of, restless
+from servodeck.motion.motion import advance, playback_of, restless
 from servodeck.motion.told import after_positions, only_let_go
 from servodeck.motion.tracks import last_end_ms, stands
+from servodeck.protocol.timings import ESTIMATE
 from servodeck.protocol.values import AllPositions, Positions, Report, Run, RunStarted, ServoTarget
 
 
@@ -29,7 +30,7 @@ def after_word(motion: Motion, positions: Sequence[ServoTarget], at_ms: float) -
     """It read them a while ago: what may have moved meanwhile it may have read on its way."""
     if motion.run is not None:
         return motion
-    if at_ms < motion.restless_until_ms + LONGEST_DEAFNESS_MS:
+    if at_ms < motion.restless_until_ms + ESTIMATE.longest_deafness_ms:
         # Without torque it is on no way.
         free = only_let_go(motion.told)
         standing = [each for each in positions if each.servo in free]
@@ -83,7 +84,7 @@ def last_frame_ms(motion: Motion, at_ms: float, board: KnownBoard) -> float:
     (S26).
     """
     is_shared = board.family.motion.timing == "shared"
-    return LAST_TICKS_MS + (last_end_ms(motion.tracks, at_ms) - at_ms if is_shared else 0)
+    return ESTIMATE.last_ticks_ms + (last_end_ms(motion.tracks, at_ms) - at_ms if is_shared else 0)
 
 
 def after_cut(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:

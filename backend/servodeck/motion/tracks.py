@@ -10,10 +10,10 @@ from math import inf
 from typing import Literal
 
 from servodeck.protocol.families import Family
+from servodeck.protocol.timings import MOVE
 from servodeck.protocol.values import ServoTarget
 
-# Of every board: S25, L5; of the closed ones nobody knows better.
-LONGEST_MOVE_MS = 30_000
+LONGEST_MOVE_MS = MOVE.longest_ms
 
 
 @dataclass(frozen=True, slots=True)

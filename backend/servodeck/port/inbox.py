@@ -7,11 +7,10 @@ import asyncio
 from collections.abc import Callable
 
 from servodeck.protocol.decoder import Decoder, DecoderEvent
+from servodeck.protocol.timings import LINE
 
-# Just above the latency timer of USB adapters (16 ms): bytes of one packet come no further apart, usually.
-PAUSE_S = 0.020
-# Far longer than the bytes of one packet are apart, whatever is between: a half packet was cut.
-SILENCE_S = 0.060
+PAUSE_S = LINE.pause_ms / 1000
+SILENCE_S = LINE.idle_ms / 1000
 
 
 class Inbox:

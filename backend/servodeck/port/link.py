@@ -16,10 +16,10 @@ from servodeck.errors import CancelledError, ClosedError, PortError, PortLostErr
 from servodeck.port.ports import OpenPort
 from servodeck.port.whereabouts import UsbDevice, Whereabouts
 from servodeck.port.wire import Wire, fail, settle
+from servodeck.protocol.timings import LINE
 from servodeck.told import PortState
 
-FIRST_RETRY_S = 0.25  # a replugged adapter is there again after about that long
-LAST_RETRY_S = 5.0
+RETRIES_S = tuple(ms / 1000 for ms in LINE.reconnect_ms)
 STEADY_S = 5.0  # a port that stayed open that long was no false start: begin with short pauses again
 
 CLOSED = PortState(device=None, status="closed")
@@ -48,12 +48,17 @@ class LinkEvents(Protocol):
 
 @dataclass(slots=True)
 class BackOff:
-    """The pauses between attempts: doubled each time."""
+    """The pauses between attempts: the last one repeats."""
 
-    next_s: float = FIRST_RETRY_S
+    attempts: int = 0
+
+    @property
+    def next_s(self) -> float:
+        return RETRIES_S[min(self.attempts, len(RETRIES_S) - 1)]
 
     def take(self) -> float:
-        pause_s, self.next_s = self.next_s, min(self.next_s * 2, LAST_RETRY_S)
+        pause_s = self.next_s
+        self.attempts += 1
         return pause_s
 
 
@@ -138,7 +143,7 @@ class Link:
         except PortError as error:
             self._wire = None
             if self._now() - opened_at >= STEADY_S:
-                back_off.next_s = FIRST_RETRY_S
+                back_off.attempts = 0
             self._events.port_lost(wire.unfinished)
             # Before closing, which may take a while.
             self._show_lost(whereabouts.path, error, back_off)

@@ -19,8 +19,8 @@ from serial.tools import list_ports
 
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
 from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice
+from servodeck.protocol.timings import LINE
 
-BAUD = 9600
 POSIX = os.name == "posix"
 READ_WAIT_S = 0.2
 # Nobody stalls us longer than this. Windows waits for the last bit by itself unless the time-out is 0, and
@@ -122,7 +122,7 @@ def open_port(device: str) -> OpenPort:
     refuse_other_schemes(device)
     try:
         port = serial.serial_for_url(
-            device, BAUD, timeout=READ_WAIT_S, write_timeout=WRITE_WAIT_S, exclusive=True
+            device, LINE.baud, timeout=READ_WAIT_S, write_timeout=WRITE_WAIT_S, exclusive=True
         )
         send_at_once(port)
         return SerialPort(device, port)

@@ -4,9 +4,9 @@ off.
 Pure: time comes in. Knows numbers of questions, no packet and no meaning; what follows is for whoever asks.
 """
 
+from servodeck.protocol.timings import HEARTBEAT
+
 ANSWER_S = 0.5  # the longest answer, that for six positions, takes 450 ms (X7)
-# One question may have been lost; the page's rule, too (HEARTBEAT_MISSES).
-MISSES = 2
 
 
 class Silence:
@@ -27,7 +27,7 @@ class Silence:
         self._asked_s, self._misses = None, 0
 
     def is_silent(self, now: float) -> bool:
-        return self._misses + self._is_due(now) >= MISSES
+        return self._misses + self._is_due(now) >= HEARTBEAT.misses
 
     def _is_due(self, now: float) -> bool:
         return self._asked_s is not None and now - self._asked_s >= ANSWER_S

@@ -13,15 +13,12 @@ from dataclasses import dataclass, field
 
 from servodeck import metrics
 from servodeck.errors import BusyError, ClosedError, GatewayError
-from servodeck.port.ports import BAUD, OpenPort
+from servodeck.port.ports import OpenPort
 from servodeck.port.reader import start_reading
 from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.timings import STOP, wire_s
 
-BITS_PER_BYTE = 10  # 8N1: start bit, eight data bits, stop bit
 STOP_PACKET = bytes.fromhex("55550207")
-STOP_COUNT = 3  # S54
-STOP_SPACING_S = 0.070  # S54: longer than the 60 ms a board may be deaf
-STOP_GAP_S = 0.010  # S54: a stop right behind another packet is lost in 2 % of cases
 QUEUE_PER_OWNER = 8
 CLOCK_GRAIN_S = 1e-6
 
@@ -38,11 +35,6 @@ def always() -> None:
 
 
 Left = asyncio.Future[None]
-
-
-def wire_s(byte_count: int) -> float:
-    """Seconds that many bytes spend on the wire."""
-    return byte_count * BITS_PER_BYTE / BAUD
 
 
 @dataclass(eq=False, slots=True)
@@ -68,7 +60,7 @@ class Halt:
 
     hold: Hold
     left: Left
-    stops_to_go: int = STOP_COUNT
+    stops_to_go: int = 1 + STOP.repeats
     hold_now: bool = False
     due: float = field(default=float("-inf"))
 
@@ -92,7 +84,7 @@ class Wire:
         self.unfinished: bytes | None = first
         """What has not left for sure, if the port were lost now."""
         self._port = port
-        self._gap_s = max(gap_s, STOP_GAP_S)
+        self._gap_s = max(gap_s, STOP.gap_ms / 1000)
         self._now = now
         self._received = received
         self._leaving = leaving
@@ -221,9 +213,9 @@ class Wire:
                 await self._put(hold, None)
         elif halt.stops_to_go:
             await self._until(halt.due)
-            is_edge = halt.stops_to_go in (STOP_COUNT, 1)
+            is_edge = halt.stops_to_go in (1 + STOP.repeats, 1)
             halt.stops_to_go -= 1
-            halt.due = self._now() + STOP_SPACING_S
+            halt.due = self._now() + STOP.repeat_every_ms / 1000
             await self._put(STOP_PACKET, None)
             halt.hold_now = is_edge and halt.hold() is not None
         if halt.stops_to_go == 0 and not halt.hold_now:

@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Final, Literal
 
+from servodeck.protocol.timings import DECODER
+
 RawBytes = bytes
 Buffer = bytes | bytearray
 
@@ -18,9 +20,8 @@ MAX_LENGTH: Final = 253
 HEAD_SIZE: Final = 4
 LENGTH_AT: Final = 2
 COMMAND_AT: Final = 3
-NOISE_SIZE: Final = 64
-# More than any robot of these families has.
-MOST_SERVOS: Final = 32
+NOISE_SIZE: Final = DECODER.noise_bytes
+MOST_SERVOS: Final = DECODER.most_servos
 
 # Verdicts beside a size: no packet begins here; the bytes end before it can be told.
 NO: Final = -1

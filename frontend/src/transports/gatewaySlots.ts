@@ -4,6 +4,7 @@
 import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
 import type { Frame } from '#shared/protocol/commands.ts';
 import { LinkError } from '#shared/session/linkError.ts';
+import { DOWNLOAD_PORTION_BYTES } from '#shared/session/timings.ts';
 import type { SharedSlots, SlotGroup, SlotVersions } from '#shared/session/transport.ts';
 import { isRecord } from '../gateway/request.ts';
 import { askGateway, refusal } from './gatewayHttp.ts';
@@ -11,9 +12,6 @@ import type { JobState, StateMessage } from './messages.generated.ts';
 
 /** As large as half a megabyte, which a slow network takes a while for. */
 const TAKEN_WITHIN_MS = 8_000;
-
-/** What the gateway reads at once (backend/servodeck/access/guard.py), with room for what stands around the groups. */
-const PORTION_BYTES = 500 * 1024;
 
 export interface GatewaySlots extends SharedSlots {
   told(job: JobState | null): void;
@@ -109,7 +107,7 @@ function portions(groups: readonly SlotGroup[]): readonly (readonly SlotGroup[])
     const bytes = JSON.stringify(toBody(group)).length + 1; // figures and letters of one byte each, and a comma
     if (bytes > roomBytes) {
       all.push([]);
-      roomBytes = PORTION_BYTES;
+      roomBytes = DOWNLOAD_PORTION_BYTES;
     }
     all.at(-1)?.push(group);
     roomBytes -= bytes;

@@ -1,6 +1,7 @@
 // Groups on deadlines: a frame begins when the time of the one before it is over (S42-S50). The open firmware's way; of the
 // closed boards nobody knows, and the simulated ones do the same. Knows runs; no servo's way.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import { wireMs } from '../protocol/packet.ts';
 import type { Family } from '../protocol/families.ts';
 import {
@@ -13,12 +14,8 @@ import {
 } from './model.ts';
 import { contested, ordered, retarget, stoppedBefore, unrestBehind } from './tracks.ts';
 
-/** Group 0 takes the place of any other (S47). */
-const PREEMPTIVE_SLOT = 0;
 const BARE_PACKET_MS = wireMs(4);
 const RUN_REPORT_MS = wireMs(7);
-/** An end is told later than it was, by the time on the wire and in the host's buffers. */
-const END_TOLD_WITHIN_MS = 100;
 
 /** What the board says before it looks for the group (S18, X1): it sends by busy-waiting (S21). */
 function announcementMs({ runReportsNameSlot, answers }: Family): number {
@@ -28,7 +25,7 @@ function announcementMs({ runReportsNameSlot, answers }: Family): number {
 
 /** The end of the group before may be told while the next one runs, and then not which it was. */
 function owesEnd({ untoldEndMs }: Motion, atMs: number, { family }: KnownBoard): boolean {
-  return !family.runReportsNameSlot && atMs - untoldEndMs < END_TOLD_WITHIN_MS;
+  return !family.runReportsNameSlot && atMs - untoldEndMs < timings.estimate.endToldWithinMs;
 }
 
 /** A run that begins at `atMs`. */
@@ -71,7 +68,8 @@ function request(motion: Motion, wanted: RunRequest, atMs: number, board: KnownB
   const { run } = motion;
   if (isEmpty(wanted.slot, board)) return motion;
   if (run !== null && run.kind !== 'deadlines') return runningUnknown(motion, null);
-  const preempts = wanted.slot === PREEMPTIVE_SLOT && run?.slot !== PREEMPTIVE_SLOT;
+  const preempts =
+    wanted.slot === timings.estimate.preemptiveSlot && run?.slot !== timings.estimate.preemptiveSlot;
   if (run !== null && !preempts) return requestDuring(motion, run, wanted, board);
   return begin(motion, wanted, atMs + announcementMs(board.family), board);
 }

@@ -1,6 +1,7 @@
 // What STOP can do about a motion: the move that holds the robot where it is, and what goes on in spite of it. Both come from
 // one value, so that they cannot contradict each other. Knows the estimate; no clock, no link, no session.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import type { Command, ServoTarget } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
 import { wireMs } from '../protocol/packet.ts';
@@ -23,17 +24,10 @@ export interface HaltPlan {
   readonly unheld: Unheld | null;
 }
 
-/** Stop leaves three times: a lone one may fall into a full mailbox, and 70 ms outlast the key's 60 ms debounce (S54). */
-export const STOP_REPEATS_MS = [70, 140] as const;
-/** "All is held": no pulse changes later than this after the last byte of the STOP. */
-const HELD_WITHIN_MS = 150;
-/** A servo goes over its whole range in this time where nobody knows how far it has to go: its first move, an unsure hold. */
-export const FIRST_MOVE_MS = 1_500;
-/**
- * A hold where frames that nobody knows may be under way: it re-times them (S26), and longer than the frames of nearly all groups
- * (boards.md chapter 9), it makes none of them faster.
- */
-const UNKNOWN_FRAME_MS = 3_000;
+const STOP_OFFSETS_MS = Array.from(
+  { length: timings.stop.repeats },
+  (_, index) => timings.stop.repeatEveryMs * (index + 1),
+);
 
 const STOP: Command = { kind: 'stop' };
 const STOP_MS = wireMs(4);
@@ -44,8 +38,8 @@ export function haltPlan(motion: Motion, nowMs: number, board: KnownBoard): Halt
   const stopped = afterCommand(advance(motion, nowMs, board), STOP, stoppedMs, board);
   const hold = holdBehindStop(stopped, stoppedMs, board);
   let current = afterHold(stopped, hold, stoppedMs, board);
-  for (const offsetMs of STOP_REPEATS_MS) current = afterCommand(current, STOP, stoppedMs + offsetMs, board);
-  const lastStopMs = stoppedMs + Math.max(...STOP_REPEATS_MS);
+  for (const offsetMs of STOP_OFFSETS_MS) current = afterCommand(current, STOP, stoppedMs + offsetMs, board);
+  const lastStopMs = stoppedMs + Math.max(...STOP_OFFSETS_MS);
   const lastHold = holdBehindStop(current, lastStopMs, board);
   const lastMs = holdLeavesMs(lastHold, lastStopMs, board.family);
   return {
@@ -78,7 +72,7 @@ export function unheldSince(
   board: KnownBoard,
 ): Unheld | null {
   const { family } = board;
-  const limitMs = lastMs + HELD_WITHIN_MS;
+  const limitMs = lastMs + timings.stop.heldWithinMs;
   const current = advance(motion, lastMs, board);
   const known = [...current.tracks].map(([servo, track]) => ({ servo, untilMs: restsMs(track, family) }));
   const late = known.filter(({ untilMs }) => untilMs > limitMs);
@@ -167,8 +161,8 @@ function holdMs(motion: Motion, held: readonly Held[], atMs: number, family: Fam
   const way = Math.min(range, Math.max(...held.map((one) => one.way)));
   const needsMs = Math.max(
     shortestMoveMs,
-    (FIRST_MOVE_MS * way) / range,
-    isGuess ? UNKNOWN_FRAME_MS : 0,
+    (timings.move.firstMs * way) / range,
+    isGuess ? timings.stop.unknownFrameMs : 0,
     traits.timing === 'shared' ? unknownMs(motion, atMs, traits.tickMs) : 0,
   );
   return Math.ceil(needsMs / traits.tickMs) * traits.tickMs;
@@ -178,5 +172,5 @@ function holdMs(motion: Motion, held: readonly Held[], atMs: number, family: Fam
 function unknownMs({ tracks, restlessUntilMs }: Motion, atMs: number, tickMs: number): number {
   const ends = [...tracks.values()].filter((track) => guessOf(track, atMs) === null).map(endMs);
   const needMs = ends.map((end) => end - atMs + tickMs);
-  return Math.max(Math.min(UNKNOWN_FRAME_MS, restlessUntilMs - atMs), ...needMs);
+  return Math.max(Math.min(timings.stop.unknownFrameMs, restlessUntilMs - atMs), ...needMs);
 }

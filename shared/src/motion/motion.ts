@@ -7,6 +7,7 @@
 // of the board, a pad or key pressed on a board that does not report runs, a packet lost on the way. LSC, bus boards and
 // xArm are closed: their model is the simulated board's, a careful guess.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
 import type { ReportKind } from '../protocol/reports.ts';
 import type { Family } from '../protocol/families.ts';
@@ -56,10 +57,8 @@ const ANSWERS: Readonly<Partial<Record<Command['kind'], ReportKind>>> = {
   readBattery: 'battery',
   run: 'runAccepted',
 };
-/** The worst of them: four sectors and the count table (S33, S34), with a margin. */
-export const LONGEST_DEAFNESS_MS = 2_500;
-/** A group tells its end when the time of its last frame is over; a frame of no time still takes a tick (S43). */
-export const LAST_TICKS_MS = 100;
+export const LONGEST_DEAFNESS_MS = timings.estimate.longestDeafnessMs;
+export const LAST_TICKS_MS = timings.estimate.lastTicksMs;
 /** What LEN does not count, and the whole of a packet without parameters. */
 const HEAD_BYTES = 2;
 const SHORTEST_PACKET_BYTES = 4;

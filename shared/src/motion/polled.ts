@@ -2,6 +2,7 @@
 // When that is cannot be told within a tick, so of a group only the first frame is known, and where it ends. Knows runs; no
 // servo's way.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import type { Frame } from '../protocol/commands.ts';
 import {
   runningUnknown,
@@ -13,12 +14,9 @@ import {
 } from './model.ts';
 import { boardDurationMs, frozen, lastEndMs, LONGEST_MOVE_MS, retarget, type Tracks } from './tracks.ts';
 
-/** About, and jittering (L7). */
-const POLL_MS = 110;
-/** Bus servos are not asked: the board counts such steps of the frame's time, one a poll (L7). */
-const STEP_MS = 100;
-/** One until it looks, one for the jitter. */
-const SPARE_POLLS = 2;
+const POLL_MS = timings.estimate.pollMs;
+const STEP_MS = timings.estimate.pollStepMs;
+const SPARE_POLLS = timings.estimate.sparePolls;
 const NOWHERE = { fromLeeway: Infinity, toLeeway: Infinity };
 
 /** By then the next frame has begun; the first servo may not have moved before. */

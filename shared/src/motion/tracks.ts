@@ -1,6 +1,7 @@
 // Where each servo is on its way: linear, in whole ticks of the board (S25-S27, L5). Knows targets and times; no group, no
 // command. The board's ticks fall where nobody can see them, so a servo under way may be one tick off, either way.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import type { ServoTarget } from '../protocol/commands.ts';
 import type { Family } from '../protocol/families.ts';
 
@@ -20,8 +21,7 @@ export interface Track {
 
 export type Tracks = ReadonlyMap<number, Track>;
 
-/** Of every board: S25, L5; of the closed ones nobody knows better. */
-export const LONGEST_MOVE_MS = 30_000;
+export const LONGEST_MOVE_MS = timings.move.longestMs;
 
 /** The board's own duration: clamped, in whole ticks. */
 export function boardDurationMs(durationMs: number, { motion, shortestMoveMs }: Family): number {

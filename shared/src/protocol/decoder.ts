@@ -2,6 +2,7 @@
 // throws. Knows no meaning, no family and no time: the caller says with `pause` and `idle` that the line has been silent
 // for longer than bytes of one packet usually are apart (20 ms), or ever are (60 ms covers every adapter).
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import { judge, judgeLast, NO, WAIT } from './judge.ts';
 import { HEADER, type Packet } from './packet.ts';
 import { REPORT_SHAPES, type ShapeRule } from './shapes.ts';
@@ -25,8 +26,7 @@ export interface Decoder {
 const CARRY_SIZE = 384;
 /** How much of a new chunk is copied behind carried bytes at a time. */
 const CARRY_STEP = 64;
-/** Noise is reported in pieces of this size, so that a line of pure noise is heard of. */
-const NOISE_SIZE = 64;
+const NOISE_SIZE = timings.decoder.noiseBytes;
 /** Up to about this many bytes a loop copies faster than `slice`; a reply has 4 to 7, a stored frame 28. */
 const LOOP_SIZE = 16;
 const NO_PARAMS = new Uint8Array(0);

@@ -1,6 +1,8 @@
 // One unit on the wire: `55 55 LEN CMD …`. LEN counts itself and CMD, so a packet is LEN + 2 bytes; there is no checksum
 // and no escape. Knows bytes only: no command's meaning, no board, no time.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
+
 export interface Packet {
   /** CMD, 0..255. */
   readonly command: number;
@@ -12,8 +14,7 @@ export const HEADER = 0x55;
 /** Largest LEN a board's parser can take; 254 and 255 jam it for good (S3). */
 export const MAX_LENGTH = 253;
 export const MIN_LENGTH = 2;
-/** All links run at 9600 baud, 8N1: ten bits a byte. */
-export const BAUD = 9600;
+export const BAUD = timings.line.baud;
 
 /** The packet's bytes. Throws RangeError where the parameters do not fit LEN ≤ 253 or the command is no byte. */
 export function packetBytes(command: number, params: Uint8Array | readonly number[]): Uint8Array {

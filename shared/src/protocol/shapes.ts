@@ -2,6 +2,7 @@
 // servos, the byte that counts them. Nothing else protects this wire (no checksum), so a header of another shape is
 // taken for noise. Knows no meaning and no family: reports are the union over all families (boards.md 2.3, 2.4).
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import { MAX_LENGTH } from './packet.ts';
 
 interface Shape {
@@ -51,8 +52,7 @@ function compile(shapes: readonly Shape[]): ShapeRule {
   return rule;
 }
 
-/** More than any robot of these families has; a longer "reply" is a damaged one that would swallow good packets. */
-const MOST_SERVOS = 32;
+const MOST_SERVOS = timings.decoder.mostServos;
 
 /** Board to host. The long record 28 of one family is not documented well enough to be listed. */
 export const REPORT_SHAPES: ShapeRule = compile([

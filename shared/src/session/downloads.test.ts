@@ -11,7 +11,6 @@ import { wireMs } from '../protocol/packet.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
 import { LinkError } from './linkError.ts';
 import { createSession } from './session.ts';
-import * as timings from './timings.ts';
 import type { Transport, TransportEvents } from './transport.ts';
 
 interface VectorFrame {
@@ -39,7 +38,6 @@ interface Scenario {
 }
 
 interface Vectors {
-  readonly timings: Readonly<Record<string, number>>;
   readonly scenarios: readonly Scenario[];
 }
 
@@ -84,16 +82,6 @@ async function play({ family, slot, frames, then = [], answersMs, cancelAtMs }: 
 function frameOf({ durationMs, targets }: VectorFrame): Frame {
   return { durationMs, targets: targets.map(([servo, position]) => ({ servo, position })) };
 }
-
-test('the waiting times are those of the gateway', () => {
-  expect({
-    edgeFrameTimeoutMs: timings.EDGE_FRAME_TIMEOUT_MS,
-    middleFrameTimeoutMs: timings.MIDDLE_FRAME_TIMEOUT_MS,
-    restarts: timings.DOWNLOAD_RESTARTS,
-    babbleLimit: timings.BABBLE_LIMIT,
-    eraseTimeoutMs: timings.ERASE_TIMEOUT_MS,
-  }).toEqual(vectors.timings);
-});
 
 describe('a download in which', () => {
   test.each(vectors.scenarios)('$name', async (scenario) => {

@@ -1,5 +1,6 @@
 // The groups this session stored on the board and how fast the board plays them. Knows slots; not what runs.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import type { Frame } from '../protocol/commands.ts';
 
 export interface GroupMemory {
@@ -17,7 +18,7 @@ export interface GroupMemory {
   playedFrames(slot: number): readonly Frame[] | null;
 }
 
-const AS_STORED = 100;
+const AS_STORED = timings.run.asStoredPercent;
 
 export function createGroupMemory(): GroupMemory {
   const groups = new Map<number, readonly Frame[]>();

@@ -10,7 +10,7 @@ import type { Lanes } from './lanes.ts';
 import { LinkError } from './linkError.ts';
 import type { Latch } from './state.ts';
 import type { SessionStore } from './store.ts';
-import { STOP_REPEATS_MS } from './timings.ts';
+import { STOP_EVERY_MS, STOP_REPEATS } from './timings.ts';
 import type { HaltReason, SharedLatchReason, Transport } from './transport.ts';
 
 export interface Halt {
@@ -39,8 +39,8 @@ export interface Halt {
 export async function repeatStop(clock: Clock, send: () => Promise<void>): Promise<void> {
   const firstMs = clock.now();
   await send();
-  for (const offsetMs of STOP_REPEATS_MS) {
-    await sleep(clock, Math.max(0, firstMs + offsetMs - clock.now()));
+  for (let repeat = 1; repeat <= STOP_REPEATS; repeat += 1) {
+    await sleep(clock, Math.max(0, firstMs + repeat * STOP_EVERY_MS - clock.now()));
     await send();
   }
 }

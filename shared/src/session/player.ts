@@ -3,7 +3,7 @@
 
 import type { Clock } from '../clock.ts';
 import type { Frame } from '../protocol/commands.ts';
-import { FIRST_MOVE_MS } from './timings.ts';
+import { CATCH_UP, FIRST_MOVE_MS, LATE_MS } from './timings.ts';
 
 export interface PlayerOptions {
   readonly clock: Clock;
@@ -39,10 +39,6 @@ export interface Playing {
   stop(): void;
 }
 
-/** So much of its time a frame may be cut short by to make up for lateness. */
-const CATCH_UP = 0.1;
-/** Later than a timer of a page that has nothing else to do. */
-const LATE_MS = 20;
 /** How often it is looked whether a frame has left, and how long at most: longer than any packet takes. */
 const LOOK_MS = 5;
 const GIVE_UP_MS = 250;

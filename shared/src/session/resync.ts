@@ -1,6 +1,7 @@
 // A packet that was cut by a lost link leaves the board waiting for the rest of it, for ever: it would swallow the stop that
 // comes after the return (S2). Knows which filler ends such a packet with the least effect; no link and no state of it.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import { COMMAND_NUMBER } from '../protocol/commands.ts';
 import type { Lanes } from './lanes.ts';
 
@@ -11,8 +12,6 @@ export interface Resync {
   send(): void;
 }
 
-/** Enough for a parser that waited for LEN and took the first filler byte for it. */
-const FILLER_BYTES = 253;
 const COMMAND_AT = 3;
 
 export function createResync(lanes: Lanes): Resync {
@@ -43,6 +42,6 @@ export function createResync(lanes: Lanes): Resync {
 function fillerFor(packet: Uint8Array, filler: number): Uint8Array {
   const command = packet[COMMAND_AT];
   if (command === COMMAND_NUMBER.run || command === COMMAND_NUMBER.download)
-    return new Uint8Array(FILLER_BYTES).fill(filler);
+    return new Uint8Array(timings.line.fillerBytes).fill(filler);
   return Uint8Array.of(0, ...new Uint8Array(packet.length).fill(filler));
 }

@@ -2,11 +2,8 @@
 // any packet disturbs what runs, and under load the voltage sags anyway. A board that stayed silent is asked again only by a
 // person.
 
+import { BATTERY_AFTER_RUN_MS, BATTERY_EVERY_MS } from '#shared/session/timings.ts';
 import type { Device, DeviceState } from '../device/device.ts';
-
-const INTERVAL_MS = 5000;
-/** The last frame arrives, and the voltage comes back. */
-const AFTER_RUN_MS = 500;
 
 /** Returns a function that ends it. `visible` is asked before each question: a hidden page asks nothing. */
 export function pollBattery(device: Device, visible: () => boolean): () => void {
@@ -16,7 +13,7 @@ export function pollBattery(device: Device, visible: () => boolean): () => void 
     cancelTimer = device.clock.after(ms, tick);
   };
   const tick = (): void => {
-    askIn(INTERVAL_MS);
+    askIn(BATTERY_EVERY_MS);
     if (visible() && mayAsk(device.store.getState()) && device.isAtRest()) device.watchBattery();
   };
   tick();
@@ -24,7 +21,7 @@ export function pollBattery(device: Device, visible: () => boolean): () => void 
     const isNew = state.snapshot.link.status === 'ready' && before.snapshot.link.status !== 'ready';
     const hasEnded = isIdle(state) && !isIdle(before);
     if (isNew) tick();
-    else if (hasEnded) askIn(AFTER_RUN_MS);
+    else if (hasEnded) askIn(BATTERY_AFTER_RUN_MS);
   });
   return () => {
     unsubscribe();

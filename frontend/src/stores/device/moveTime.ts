@@ -5,6 +5,7 @@
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
 import type { Motions } from '#shared/session/state.ts';
+import { FIRST_MOVE_MS } from '#shared/session/timings.ts';
 
 /** `hand`: as fast as the session's soft limit allows; or milliseconds set by the person. */
 export type MoveTime = 'hand' | number;
@@ -15,7 +16,7 @@ export type Pace = MoveTime | 'leap';
 const LEAP_RANGE_MS = 2000;
 const LEAP_MIN_MS = 300;
 /** `Centre all` and first poses: slow enough to step back. */
-export const GENTLE_MOVE_MS = 1500;
+export const GENTLE_MOVE_MS = FIRST_MOVE_MS;
 
 export function moveDurationMs(
   pace: Pace,

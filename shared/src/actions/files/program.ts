@@ -1,6 +1,7 @@
 // A group as packets that a program of one's own sends: what this page would send, in portions that fit the board, with the
 // robot's trims. Refused where the board or the robot cannot take it. Knows no programming language.
 
+import timings from '../../../protocol/timings.json' with { type: 'json' };
 import type { Frame } from '../../protocol/commands.ts';
 import { encodeCommand } from '../../protocol/encode.ts';
 import type { Family } from '../../protocol/families.ts';
@@ -19,7 +20,7 @@ export interface Program {
 }
 
 /** The way to the first frame is gentle: nobody knows where the servos stand. */
-export const FIRST_MOVE_MS = 1500;
+export const FIRST_MOVE_MS = timings.move.firstMs;
 
 export function programOf(
   group: ActionGroup,

@@ -1,6 +1,7 @@
 // A keeper of documents as texts: what a list says of each, revisions, a trash, named versions. One interface for every place
 // they may lie, and the one rule about writing that all of them follow. Knows no group, no robot and no place.
 
+import timings from '../../../protocol/timings.json' with { type: 'json' };
 import type { GroupFacts, RobotFacts } from './factsShape.ts';
 
 /** What a list says of a document without reading it. */
@@ -97,7 +98,7 @@ export class LibraryError extends Error {
 export const asLibraryError = (error: unknown): LibraryError =>
   error instanceof LibraryError ? error : new LibraryError('failed', String(error), { cause: error });
 
-export const TRASH_MS = 30 * 24 * 3600 * 1000;
+export const TRASH_MS = timings.library.trashDays * 24 * 3600 * 1000;
 
 /** The same text sent again is no conflict: the answer may have been lost. What is not there is taken in. */
 export function nextRevision(kept: Stored | undefined, { text, expected }: Writing): number {
