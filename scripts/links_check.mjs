@@ -1,5 +1,6 @@
 // Checks the Markdown files: each link leads to a file and heading that exist, and each path of the repository that a guide
-// names in `code` is there. Opens no address outside. Decision records keep the paths of their day.
+// names in `code` is there. Checks the sources: each chapter, section and mark of boards.md and safety.md that one cites is
+// there. Opens no address outside. Decision records keep the paths of their day.
 
 import { execFileSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
@@ -73,13 +74,62 @@ function problemOfLink(file, link) {
     : `leads to #${anchor}, which no heading has`;
 }
 
-const files = execFileSync('git', ['ls-files', '--cached', '--others', '--exclude-standard', '*.md'], {
-  cwd: root,
-  encoding: 'utf8',
-})
-  .trim()
-  .split('\n')
-  .filter((file) => existsSync(at(file)));
-const problems = files.flatMap(problemsOf);
+const REFERENCES = 'shared/protocol';
+const SECTION = /\b(boards|safety)\.md (?:chapter |section )?(\d+(?:\.\d+)?)/g;
+/** `(S12, X3)`, `(S25-S27)`: what stands first in brackets. */
+const MARKS = /\(([SLX]\d{1,2}(?:(?:, |-)[SLX]\d{1,2})*)[,:)]/g;
+
+/** What can be cited: `boards 2.4`, `safety 5`, `S12`. */
+function citable() {
+  const found = ['boards', 'safety'].flatMap((name) => {
+    const text = readFileSync(at(`${REFERENCES}/${name}.md`), 'utf8');
+    return [
+      ...[...text.matchAll(/^#{2,3} (\d+(?:\.\d+)?) /gm)].map(([, number = '']) => `${name} ${number}`),
+      ...[...text.matchAll(/^- \*\*([SLX]\d+)\b/gm)].map(([, mark = '']) => mark),
+    ];
+  });
+  return new Set(found);
+}
+
+/** @param {string} file @param {Set<string>} known @returns {string[]} */
+function citationsMissing(file, known) {
+  const text = readFileSync(at(file), 'utf8');
+  const cited = [
+    ...[...text.matchAll(SECTION)].map(({ 1: name, 2: number, index }) => ({
+      what: `${name} ${number}`,
+      index,
+    })),
+    ...[...text.matchAll(MARKS)].flatMap(({ 1: marks = '', index }) =>
+      marks.split(/, |-/).map((what) => ({ what, index })),
+    ),
+  ];
+  return cited
+    .filter(({ what }) => !known.has(what))
+    .map(({ what, index }) => `${file}:${lineAt(text, index)}: cites ${what}, which ${REFERENCES} has not`);
+}
+
+/** @param {readonly string[]} patterns @returns {string[]} */
+function filesNamed(...patterns) {
+  const listed = execFileSync(
+    'git',
+    ['ls-files', '--cached', '--others', '--exclude-standard', ...patterns],
+    {
+      cwd: root,
+      encoding: 'utf8',
+    },
+  );
+  return listed
+    .trim()
+    .split('\n')
+    .filter((file) => existsSync(at(file)));
+}
+
+const known = citable();
+const problems = [
+  ...filesNamed('*.md').flatMap(problemsOf),
+  ...filesNamed('*.ts', '*.tsx', '*.py', `${REFERENCES}/*.json`).flatMap((file) =>
+    citationsMissing(file, known),
+  ),
+];
 problems.forEach((problem) => console.error(problem));
 process.exitCode = problems.length === 0 ? 0 : 1;
