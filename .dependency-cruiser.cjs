@@ -19,7 +19,12 @@ module.exports = {
       {},
       { circular: true },
     ),
-    forbid('resolvable', 'An import that leads nowhere.', {}, { couldNotResolve: true }),
+    forbid(
+      'resolvable',
+      'An import that leads nowhere; the build makes those of words.',
+      {},
+      { couldNotResolve: true, pathNot: '^virtual:words/' },
+    ),
 
     forbid(
       'shared-is-pure',
@@ -116,19 +121,19 @@ module.exports = {
       'stores-know-no-panel',
       'Stores hold what is; panels show it.',
       { path: `${page}stores/`, pathNot: test },
-      { path: page, pathNot: `${page}(stores|words)/` },
+      { path: page, pathNot: `${page}(stores|i18n)/` },
     ),
     forbid(
       'ui-knows-no-robot',
       'Shared widgets know neither stores nor panels.',
       { path: `${page}ui/` },
-      { path: page, pathNot: `${page}(ui|words)/` },
+      { path: page, pathNot: `${page}(ui|i18n)/` },
     ),
     forbid(
       'words-know-nothing',
       'The catalogue is read by everyone and reads nobody of the page.',
-      { path: `${page}words/` },
-      { path: page, pathNot: `${page}words/` },
+      { path: `${page}i18n/` },
+      { path: page, pathNot: `${page}i18n/` },
     ),
     forbid(
       'panels-know-no-app',

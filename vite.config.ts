@@ -7,6 +7,7 @@ import { brotliCompressSync, gzipSync } from 'node:zlib';
 import react from '@vitejs/plugin-react';
 import { minify } from 'terser';
 import { defineConfig, type Plugin } from 'vite';
+import { words } from './scripts/words.mjs';
 
 const gateway = 'http://127.0.0.1:8300';
 // The gateway accepts its own Host and Origin only, so the development server speaks in its name.
@@ -104,7 +105,7 @@ function squeezed(): Plugin {
 export default defineConfig({
   root: 'frontend',
   base: './',
-  plugins: [react(), withoutSources(), timingsInPlace(), readsFirstLoad(), squeezed(), compressed()],
+  plugins: [react(), words(), withoutSources(), timingsInPlace(), readsFirstLoad(), squeezed(), compressed()],
   css: {
     modules: {
       // By the sheet's number, which compresses well.

@@ -6,10 +6,12 @@ import { playwright } from '@vitest/browser-playwright';
 import { defineConfig } from 'vitest/config';
 import { BROWSER_WINDOW, commands } from './frontend/tests/harness/commands.ts';
 import { findBrowser } from './scripts/browser.mjs';
+import { words } from './scripts/words.mjs';
 
 const executablePath = findBrowser();
 
 export default defineConfig({
+  plugins: [words()],
   // React as it ships: its development build draws four times slower.
   define: { 'process.env.NODE_ENV': '"production"' },
   oxc: { jsx: { runtime: 'automatic', development: false } },

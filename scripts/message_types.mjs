@@ -1,10 +1,11 @@
-// `npm run messages`: TypeScript types of what page and gateway say to each other, made from the gateway's own models.
-// `--check` writes nothing and fails when a committed file says something else.
+// `npm run messages`: TypeScript types of what page and gateway say to each other, made from the gateway's own models, and of what the
+// page says to people, made from its English words. `--check` writes nothing and fails when a committed file says something else.
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { compile } from 'json-schema-to-typescript';
 import { python } from './python.mjs';
 import { SetupProblem, at, main, mustRun, say } from './steps.mjs';
+import { readTree, typesText } from './words.mjs';
 
 const TARGETS = [
   { module: 'messages', target: 'frontend/src/transports/messages.generated.ts' },
@@ -40,19 +41,20 @@ function committed(target) {
   }
 }
 
-/** @param {boolean} mayWrite @param {typeof TARGETS[number]} made */
-async function bring(mayWrite, { module, target }) {
-  const fresh = await generate(module);
+/** @param {boolean} mayWrite @param {string} target @param {string} fresh @param {string} source */
+function bring(mayWrite, target, fresh, source) {
   if (mayWrite) {
     writeFileSync(at(target), fresh);
     say(`Wrote ${target}`);
   } else if (fresh !== committed(target)) {
-    throw new SetupProblem(`${target} is not what the gateway's models say. Run: npm run messages`);
+    throw new SetupProblem(`${target} is not what ${source} say. Run: npm run messages`);
   }
 }
 
 await main(async () => {
   const mayWrite = !process.argv.includes('--check');
-  for (const made of TARGETS) await bring(mayWrite, made);
+  bring(mayWrite, 'frontend/src/i18n/words.generated.ts', typesText(readTree('en')), 'the English words');
+  for (const { module, target } of TARGETS)
+    bring(mayWrite, target, await generate(module), "the gateway's models");
   return 0;
 });

@@ -37,7 +37,7 @@ import { useLayout } from './ui/useLayout.ts';
 import { useNoPasteByMouse } from './ui/useNoPasteByMouse.ts';
 import { useParts } from './ui/useParts.ts';
 import { useSpokenLocale } from './ui/useSpokenLocale.ts';
-import { words } from './words/words.ts';
+import { words } from './i18n/words.ts';
 import styles from './App.module.css';
 
 const ButtonsPage = laterComponent(

@@ -6,7 +6,7 @@ import { App } from './App.tsx';
 import { arrive, deviceName } from './connect/arrival.ts';
 import { openPage } from './connect/page.ts';
 import { pair, sayName, stopRobot } from './connect/peopleApi.ts';
-import { preferredLanguage, speak } from './words/words.ts';
+import { preferredLanguage, speak } from './i18n/words.ts';
 import './ui/fonts.css';
 import './ui/tokens.css';
 import './ui/base.css';

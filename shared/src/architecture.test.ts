@@ -17,12 +17,12 @@ const mayKnow: Record<string, readonly string[]> = {
   'shared/actions': ['shared/motion', 'shared/protocol', 'shared/clock'],
   'shared/simulator': ['shared/protocol', 'shared/clock'],
   'shared/recording': ['shared/session', 'shared/simulator', 'shared/protocol', 'shared/clock'],
-  'frontend/words': ['shared'],
-  'frontend/ui': ['frontend/words'],
+  'frontend/i18n': ['shared'],
+  'frontend/ui': ['frontend/i18n'],
   'frontend/gateway': [],
   'frontend/transports': ['frontend/gateway', 'shared'],
   'frontend/keepers': ['frontend/gateway', 'shared'],
-  'frontend/stores': ['frontend/words', 'shared'],
+  'frontend/stores': ['frontend/i18n', 'shared'],
 };
 const importStatement =
   /^(?:import|export)\s[^;'=]*?from\s+'([^']+)'|^import\s+'([^']+)'|\bimport\('([^']+)'\)/gm;

@@ -18,7 +18,7 @@ import type { PanelParts } from '../ui/Panel.tsx';
 import { PlayBar } from '../play/PlayBar.tsx';
 import { usePlayer } from '../play/usePlayer.ts';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { CaptureBar } from './CaptureBar.tsx';
 import { FrameStrip } from './FrameStrip.tsx';
 import { FrameTools } from './FrameTools.tsx';
@@ -110,7 +110,7 @@ function OtherBoard() {
   return (
     <div className={styles.otherBoard} role="status">
       <p>{words.actions.otherBoard}</p>
-      <Button hint={words.actions.convertHint(unit)} onPress={convert}>
+      <Button hint={words.actions.convertHint({ to: unit })} onPress={convert}>
         {words.actions.convert}
       </Button>
     </div>

@@ -4,7 +4,7 @@ import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { ExamplesControl } from '../examples/ExamplesControl.tsx';
 import { RecordControl } from '../record/RecordControl.tsx';
 import { useDocument, useStores } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { captureFrame } from './capture.ts';
 import { CaptureButton } from './CaptureButton.tsx';
 import styles from './CaptureBar.module.css';
@@ -28,5 +28,5 @@ export function CaptureBar() {
 function Total() {
   const count = useDocument(({ present }) => present.frames.length);
   const totalMs = useDocument(({ present }) => totalDurationMs(present.frames));
-  return <p className={styles.total}>{count === 0 ? '' : words.actions.total(count, totalMs)}</p>;
+  return <p className={styles.total}>{count === 0 ? '' : words.actions.total({ count, ms: totalMs })}</p>;
 }

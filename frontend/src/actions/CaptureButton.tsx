@@ -3,7 +3,7 @@
 import { tellsPositions } from '../stores/device/readiness.ts';
 import { useDevice } from '../stores/stores.ts';
 import { Button, type ButtonProps } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import styles from './CaptureButton.module.css';
 
 export interface CaptureButtonProps extends Required<Pick<ButtonProps, 'hint' | 'onPress'>> {

@@ -5,7 +5,7 @@ import { capturePose } from '../poses/capturePose.ts';
 import { useDevice, useStores, type Stores } from '../stores/stores.ts';
 import type { Undoable } from '../stores/undoable.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { captureFrame } from './capture.ts';
 import { useKnowsPose, useUnknownText } from './CaptureButton.tsx';
 import styles from './CaptureStrip.module.css';
@@ -29,9 +29,9 @@ function Captures({ stores }: { readonly stores: Stores }) {
   const frame = (): void => {
     captureFrame(stores, 'end');
     const { frames } = document.store.getState().present;
-    tell(words.actions.captured(frames.length), document);
+    tell(words.actions.captured({ number: frames.length }), document);
   };
-  const pose = (): void => tell(words.poses.captured(capturePose(stores)), poses.book);
+  const pose = (): void => tell(words.poses.captured({ name: capturePose(stores) }), poses.book);
 
   /** What was written on top meanwhile is not taken back. */
   function tell(text: string, where: Pick<Undoable<unknown>, 'store' | 'undo'>): void {

@@ -9,8 +9,8 @@ import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { pressFrame } from '../timeline/inStep.ts';
-import { words } from '../words/whole.ts';
-import { useWords } from '../words/words.ts';
+import { words } from '../i18n/whole.ts';
+import { useWords } from '../i18n/words.ts';
 import { useFrameDrag } from './useFrameDrag.ts';
 import card from '../ui/Card.module.css';
 import styles from './FrameCard.module.css';
@@ -55,7 +55,7 @@ export const FrameCard = memo(function FrameCard(props: FrameCardProps) {
         type="button"
         data-card-face=""
         className={card.face}
-        aria-label={[words.actions.frameAbout(number, frame.durationMs, changed), frame.note]
+        aria-label={[frameAbout(number, frame.durationMs, changed), frame.note]
           .filter((part) => part !== '')
           .join(words.comma)}
         aria-pressed={isSelected || isAmongSelected}
@@ -97,7 +97,7 @@ const FrameTime = memo(function FrameTime({ id, durationMs, number, isTabStop }:
   useWords();
   const { document, notices } = useStores();
   const { min, max } = useDevice((state) => state.family.durationMs);
-  const label = words.actions.time(number);
+  const label = words.actions.time({ number });
   return (
     <NumberField
       label={label}
@@ -110,11 +110,16 @@ const FrameTime = memo(function FrameTime({ id, durationMs, number, isTabStop }:
       excludeFromTabOrder={!isTabStop}
       onChange={(wantedMs) =>
         document.edit(
-          () => words.actions.steps.time(number),
+          () => words.actions.steps.time({ number }),
           (group) => setDuration(group, id, wantedMs, { ripple: true }),
         )
       }
-      onRefused={(value) => notices.refuse(words.refused(label, value, min, max))}
+      onRefused={(value) => notices.refuse(words.refused({ name: label, value, min, max }))}
     />
   );
 });
+
+function frameAbout(number: number, durationMs: number, changed: readonly number[]): string {
+  const servos = words.numbers.formatList(changed);
+  return words.actions.frameAbout({ number, durationMs, count: changed.length, servos });
+}

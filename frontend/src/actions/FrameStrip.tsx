@@ -8,7 +8,7 @@ import { useStores } from '../stores/stores.ts';
 import { showFrame } from '../timeline/inStep.ts';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { useInFrame } from '../ui/useInFrame.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { FrameCard } from './FrameCard.tsx';
 import { framePoses } from './framePoses.ts';
 import { moveBy, removeFrames, togetherNow } from './frameVerbs.ts';

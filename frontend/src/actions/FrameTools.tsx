@@ -6,7 +6,7 @@ import { motionHindrance } from '../stores/device/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useDevice, useDocument, useSnapshot, useStores, useTimeline, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { AddsSwitch } from '../timeline/AddsSwitch.tsx';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { captureFrame } from './capture.ts';
@@ -44,7 +44,7 @@ export function FrameTools() {
   };
   const update = (): void =>
     document.edit(
-      () => words.actions.steps.update(index + 1),
+      () => words.actions.steps.update({ number: index + 1 }),
       (before) => setTargets(before, id, device.pose()),
     );
   return (
@@ -53,8 +53,8 @@ export function FrameTools() {
         {none
           ? words.actions.select
           : several
-            ? words.actions.several(whole.length)
-            : words.actions.frame(index + 1)}
+            ? words.actions.several({ count: whole.length })
+            : words.actions.frame({ number: index + 1 })}
       </span>
       <AddsSwitch />
       <Button tone="quiet" icon="pose" isDisabled={notOne || !mayMove || !sameUnit} onPress={load}>

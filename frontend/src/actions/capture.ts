@@ -5,7 +5,7 @@ import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Stores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 const USUAL_FRAME_MS = 1000;
 

@@ -3,7 +3,7 @@ import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { keepInStep, pressFrame } from '../timeline/inStep.ts';
 import { bringSelectionBack } from '../timeline/selectionBack.ts';
 import { createTimelineDesk } from '../timeline/timelineUnderTest.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import {
   chosenFrames,
   copy,

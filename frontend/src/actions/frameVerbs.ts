@@ -9,7 +9,8 @@ import { deskOf, rangeOf, rowOf, type DeskStores } from '../timeline/desk.ts';
 import { showFrame, showFrames } from '../timeline/inStep.ts';
 import { wholeFrames } from '../timeline/wholeFrames.ts';
 import { namesIn } from '../stores/servoName.ts';
-import { words } from '../words/whole.ts';
+import { notPasted } from '../timeline/pasteText.ts';
+import { words } from '../i18n/whole.ts';
 
 export type FrameIds = readonly number[];
 /** As the person counts the frames, from 1. */
@@ -39,6 +40,17 @@ export function numbersOf(stores: DeskStores, ids: FrameIds): Numbers {
   return framesNow(stores).flatMap(({ id }, index) => (wanted.has(id) ? [index + 1] : []));
 }
 
+interface Counted {
+  readonly count: number;
+  /** The first of them. */
+  readonly frame: number;
+}
+
+/** As messages about frames take them. */
+export function counted(numbers: Numbers): Counted {
+  return { count: numbers.length, frame: numbers[0] ?? 0 };
+}
+
 /** Those that belong with the frame go so many places on, or with a negative number back; where they were apart they meet. */
 export function moveBy(stores: DeskStores, id: number, places: number): void {
   const ids = togetherNow(stores, id);
@@ -46,12 +58,17 @@ export function moveBy(stores: DeskStores, id: number, places: number): void {
   const from = (places < 0 ? before[0] : before.at(-1)) ?? 1;
   const lead = framesNow(stores)[from - 1]?.id ?? id;
   stores.document.edit(
-    () => words.actions.steps.move(before),
+    () => words.actions.steps.move(counted(before)),
     (group) => moveFrames(group, ids, lead, from - 1 + places),
   );
   showFrames(stores, ids, id);
   const after = numbersOf(stores, ids);
-  if (after.join() !== before.join()) stores.notices.say(words.actions.moved(before, after));
+  if (after.join() === before.join()) return;
+  const count = after.length;
+  const [first = 0] = after;
+  stores.notices.say(
+    words.actions.moved({ count, from: before[0] ?? 0, first, last: after.at(-1) ?? first }),
+  );
 }
 
 /** What comes next is selected then. */
@@ -59,14 +76,14 @@ export function removeFrames(stores: DeskStores, ids: FrameIds): void {
   takeOut(stores, ids, words.actions.steps.delete);
 }
 
-function takeOut(stores: DeskStores, ids: FrameIds, step: (numbers: Numbers) => string): void {
+function takeOut(stores: DeskStores, ids: FrameIds, step: (values: Counted) => string): void {
   const numbers = numbersOf(stores, ids);
   const frames = framesNow(stores);
   const first = (numbers[0] ?? 1) - 1;
   const stays = ({ id }: { readonly id: number }): boolean => !ids.includes(id);
   const next = frames.slice(first).find(stays) ?? frames.slice(0, first).findLast(stays);
   stores.document.edit(
-    () => step(numbers),
+    () => step(counted(numbers)),
     (group) => deleteFrames(group, ids),
   );
   showFrame(stores, next?.id ?? null);
@@ -76,7 +93,7 @@ export function duplicate(stores: DeskStores, ids: FrameIds): void {
   const numbers = numbersOf(stores, ids);
   add(
     stores,
-    () => words.actions.steps.duplicate(numbers),
+    () => words.actions.steps.duplicate(counted(numbers)),
     (group) => duplicateFrames(group, ids),
   );
 }
@@ -95,7 +112,7 @@ export function copy(stores: DeskStores, ids: FrameIds): Clip | null {
   if (ids.length === 0) return null;
   const clip = copyFrames(stores.document.store.getState().present, ids);
   stores.timeline.setState({ clip });
-  stores.notices.say(words.actions.copied(ids.length));
+  stores.notices.say(words.actions.copied({ count: ids.length }));
   return clip;
 }
 
@@ -112,11 +129,10 @@ export function paste(stores: DeskStores, clip: Clip | null): void {
   const index = numbersOf(stores, chosenFrames(stores)).at(-1) ?? desk.group.frames.length;
   const pasted = pasteFrames(desk.group, clip, index, { rangeOf: (servo) => rangeOf(desk, servo) });
   const [problem] = pasted.problems;
-  if (problem !== undefined)
-    return stores.notices.tell('warning', words.timeline.notPasted(problem, namesIn(desk.robot)));
+  if (problem !== undefined) return stores.notices.tell('warning', notPasted(problem, namesIn(desk.robot)));
   add(
     stores,
-    () => words.actions.steps.paste(clip.moments.length),
+    () => words.actions.steps.paste({ count: clip.moments.length }),
     () => pasted.group,
   );
 }

@@ -4,8 +4,8 @@
 import { indexOfFrame, moveFrames } from '#shared/actions/group/groupEdits.ts';
 import { useStores } from '../stores/stores.ts';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
-import { words } from '../words/words.ts';
-import { numbersOf, togetherNow } from './frameVerbs.ts';
+import { words } from '../i18n/words.ts';
+import { counted, numbersOf, togetherNow } from './frameVerbs.ts';
 
 export function useFrameDrag(id: number): DragOrder {
   const stores = useStores();
@@ -14,7 +14,7 @@ export function useFrameDrag(id: number): DragOrder {
     attribute: 'data-frame',
     begin() {
       const numbers = numbersOf(stores, togetherNow(stores, id));
-      document.begin(() => words.actions.steps.move(numbers));
+      document.begin(() => words.actions.steps.move(counted(numbers)));
       view.setState({ selectedFrame: id });
     },
     over(other) {

@@ -6,7 +6,7 @@ import type { ViewState } from '../stores/view.ts';
 import { useView } from '../stores/stores.ts';
 import { later, Missing, usePart, type Later } from '../ui/later.tsx';
 import { Panel, type PanelParts } from '../ui/Panel.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { AuthoringTabs } from './AuthoringTabs.tsx';
 import styles from './Authoring.module.css';
 

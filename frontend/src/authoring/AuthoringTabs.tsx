@@ -3,7 +3,7 @@
 
 import { usePad, useStores, useView } from '../stores/stores.ts';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 export function AuthoringTabs() {
   const { view } = useStores();

@@ -6,7 +6,7 @@ import { useBattery, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './BatteryForm.module.css';
 
 export function BatteryForm({ robot }: { readonly robot: Robot }) {
@@ -70,7 +70,7 @@ function Thresholds({ robot: { batteryCare } }: { readonly robot: Robot }) {
     ...BATTERY_MV,
     step: 50,
     unit: words.battery.millivolts,
-    onRefused: () => notices.refuse(words.battery.outOfRange(BATTERY_MV.min, BATTERY_MV.max)),
+    onRefused: () => notices.refuse(words.battery.outOfRange({ min: BATTERY_MV.min, max: BATTERY_MV.max })),
   };
   return (
     <div className={styles.part}>

@@ -10,7 +10,7 @@ import { Chip } from '../ui/Chip.tsx';
 import { laterComponent } from '../ui/later.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { BatterySettings } from './BatterySettings.tsx';
 import { lastMv, levelWord, LEVEL_TRUTH, voltsText } from './readings.ts';
 import { VoltMeter } from './VoltMeter.tsx';
@@ -80,7 +80,7 @@ function Share() {
   if (share === null) return null;
   return (
     <span className={styles.share} role="group" title={words.battery.estimated}>
-      {words.battery.percent(share)}
+      {words.battery.percent({ percent: Math.round(share) })}
     </span>
   );
 }
@@ -122,5 +122,5 @@ function Unknown({ word, hint }: { readonly word: string; readonly hint: string 
 function Age({ atMs }: { readonly atMs: number }) {
   const { device } = useStores();
   const nowMs = useNow(device.clock.now, 1000);
-  return <span className={styles.age}>{words.battery.age(nowMs - atMs)}</span>;
+  return <span className={styles.age}>{words.numbers.formatAge(nowMs - atMs)}</span>;
 }

@@ -3,7 +3,7 @@
 import { useEffect, useRef } from 'react';
 import { isPlain } from '#shared/actions/battery/batteryGauge.ts';
 import { useBattery, useStores } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { drawPlot } from './plot.ts';
 import styles from './BatteryPlot.module.css';
 
@@ -24,6 +24,6 @@ function usePlotText(): string {
   if (now === undefined) return words.battery.noPlot;
   const lowest = volts.reduce((one, other) => Math.min(one, other));
   const highest = volts.reduce((one, other) => Math.max(one, other));
-  const [low, high, last] = [lowest, highest, now].map(words.battery.volts) as [string, string, string];
-  return words.battery.plot(low, high, last, runs.length);
+  const [low, high, last] = [lowest, highest, now].map(words.numbers.formatVolts) as [string, string, string];
+  return words.battery.plot({ lowest: low, highest: high, now: last, runs: runs.length });
 }

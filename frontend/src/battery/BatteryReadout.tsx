@@ -5,7 +5,7 @@ import { percentOf, type Supply } from '#shared/actions/battery/batterySupply.ts
 import { useBattery, useSnapshot, useStores } from '../stores/stores.ts';
 import { Mark, type Truth } from '../ui/Chip.tsx';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { lastMv, LEVEL_TRUTH, voltsText } from './readings.ts';
 import styles from './BatteryReadout.module.css';
 
@@ -39,7 +39,7 @@ function Age() {
   const { device } = useStores();
   const battery = useSnapshot((snapshot) => snapshot.battery);
   const nowMs = useNow(device.clock.now, 1000);
-  if (battery.kind === 'read') return words.battery.age(nowMs - battery.atMs);
+  if (battery.kind === 'read') return words.numbers.formatAge(nowMs - battery.atMs);
   return lastMv(battery) === null ? '' : words.battery.noNewer;
 }
 

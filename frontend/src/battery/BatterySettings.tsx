@@ -3,7 +3,7 @@
 import { useRobot } from '../stores/stores.ts';
 import { Dialog } from '../ui/Dialog.tsx';
 import { laterComponent } from '../ui/later.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 
 const BatteryForm = laterComponent(async () => (await import('./BatteryForm.tsx')).BatteryForm, '40vh');
 
@@ -15,7 +15,11 @@ export interface BatterySettingsProps {
 export function BatterySettings({ isOpen, onClose }: BatterySettingsProps) {
   const robot = useRobot();
   return (
-    <Dialog title={words.battery.settingsOf(robot.name)} closeLabel={words.close} {...{ isOpen, onClose }}>
+    <Dialog
+      title={words.battery.settingsOf({ robot: robot.name })}
+      closeLabel={words.close}
+      {...{ isOpen, onClose }}
+    >
       <BatteryForm robot={robot} />
     </Dialog>
   );

@@ -2,7 +2,7 @@
 
 import { readingKind } from '#shared/actions/battery/batteryGauge.ts';
 import { gaugeFraction, type Supply } from '#shared/actions/battery/batterySupply.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { voltsText } from './readings.ts';
 import styles from './VoltMeter.module.css';
 

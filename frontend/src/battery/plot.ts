@@ -5,7 +5,7 @@ import UPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { isPlain } from '#shared/actions/battery/batteryGauge.ts';
 import type { BatteryState, BatteryStore } from '../stores/battery/battery.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 
 /** Readings further apart are not joined: what was between, nobody measured. */
 const GAP_MS = 20_000;
@@ -60,9 +60,16 @@ function optionsFor(place: HTMLElement, battery: BatteryStore, epochMs: number):
         space: 64,
         grid: { show: false },
         incrs: STEPS.map((minutes) => minutes * MINUTE_MS),
-        values: (_, splits) => splits.map(words.battery.timeOfDay),
+        values: (_, splits) => splits.map(words.dates.formatTimeOfDay),
       },
-      { ...axis, grid, size: 30, gap: 4, space: 24, values: (_, splits) => splits.map(words.battery.tick) },
+      {
+        ...axis,
+        grid,
+        size: 30,
+        gap: 4,
+        space: 24,
+        values: (_, splits) => splits.map(words.numbers.formatTick),
+      },
     ],
     hooks: { drawAxes: [(plot) => drawMarks(plot, battery.getState(), epochMs, colour)] },
   };

@@ -4,7 +4,7 @@ import { readingKind, type Level } from '#shared/actions/battery/batteryGauge.ts
 import type { Supply } from '#shared/actions/battery/batterySupply.ts';
 import type { Battery } from '#shared/session/state.ts';
 import type { Truth } from '../ui/Chip.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 export const LEVEL_TRUTH: Readonly<Record<Level, Truth>> = {
   good: 'confirmed',
@@ -21,8 +21,8 @@ export function voltsText(batteryMv: number | null, supply: Supply): string {
   if (batteryMv === null) return words.battery.noVolts;
   const { ceilingMv } = supply;
   if (ceilingMv !== null && readingKind(batteryMv, supply) === 'saturated')
-    return words.battery.above(words.battery.volts(ceilingMv));
-  return words.battery.volts(batteryMv);
+    return words.battery.above({ volts: words.numbers.formatVolts(ceilingMv) });
+  return words.numbers.formatVolts(batteryMv);
 }
 
 export function levelWord(level: Level, { cells }: Supply): string {

@@ -3,23 +3,26 @@
 import { useEffect } from 'react';
 import { isPlain, type Level } from '#shared/actions/battery/batteryGauge.ts';
 import { useBattery, useSnapshot } from '../stores/stores.ts';
-import { useWords } from '../words/words.ts';
+import { useWords, words } from '../i18n/words.ts';
 
 /** Fixed colours that are told apart on a light and on a dark tab. */
 const FILL: Readonly<Record<Exclude<Level, 'good'>, string>> = { warning: '#b87400', danger: '#d5302a' };
 
 export function useBatteryTab(): void {
-  const words = useWords();
+  useWords();
   const isLinked = useSnapshot(({ link }) => link.status === 'ready');
   const level = useBattery(({ gauge: { level, last }, supply }) =>
     last !== null && isPlain(last, supply) ? level : null,
   );
   const restMv = useBattery(({ gauge }) => gauge.restMv ?? 0);
   const shown = isLinked && level !== 'good' ? level : null;
+  const title =
+    shown === null
+      ? words.product
+      : words.battery.tab({ volts: words.numbers.formatVolts(restMv), product: words.product });
   useEffect(() => {
-    document.title =
-      shown === null ? words.product : words.battery.tab(words.battery.volts(restMv), words.product);
-  }, [words, shown, restMv]);
+    document.title = title;
+  }, [title]);
   useEffect(() => {
     const link = document.querySelector<HTMLLinkElement>('link[rel="icon"]');
     if (shown === null || link === null) return undefined;

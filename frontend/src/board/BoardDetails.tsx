@@ -8,7 +8,8 @@ import { useHeldName } from '../slots/useHeldName.ts';
 import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { CompileRow } from '../compile/CompileRow.tsx';
-import { words } from '../words/whole.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/whole.ts';
 import { Absent } from './Absent.tsx';
 import { EraseControl } from './EraseControl.tsx';
 import { PlaceControl } from './PlaceControl.tsx';
@@ -43,7 +44,7 @@ function TakenFor() {
   const family = useDevice((state) => state.family);
   return (
     <div className={styles.takenFor}>
-      <p>{words.identity.takenFor(words.boardName(family))}</p>
+      <p>{words.identity.takenFor({ name: boardName(family) })}</p>
       <Button tone="quiet" icon="plug" onPress={() => view.setState({ connectOpen: true })}>
         {words.identity.change}
       </Button>
@@ -55,11 +56,12 @@ function HeldRow() {
   const slot = useSlot();
   const fate = useFates()(slot);
   const held = useHeldName()(slot) ?? '';
+  const isOther = fate === 'other' && held !== '';
   return (
     <div className={styles.row}>
       <div className={styles.about} role="status">
-        <Chip truth={FATE_TRUTH[fate]}>{words.board.glance(slot, words.slots.badge[fate])}</Chip>
-        <p>{words.slots.holds(fate, held)}</p>
+        <Chip truth={FATE_TRUTH[fate]}>{words.board.glance({ slot, badge: words.slots.badge[fate] })}</Chip>
+        <p>{isOther ? words.slots.holdsNamed({ name: held }) : words.slots.holds[fate]}</p>
       </div>
       <PlaceControl />
     </div>

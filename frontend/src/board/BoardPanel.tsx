@@ -3,7 +3,7 @@
 import { useId, useRef, type RefObject } from 'react';
 import { Button } from '../ui/Button.tsx';
 import { laterComponent } from '../ui/later.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { BoardStrip } from './BoardStrip.tsx';
 import panel from '../ui/Panel.module.css';
 import { PART } from '../ui/useParts.ts';

@@ -7,7 +7,8 @@ import { FATE_TRUTH, useFates } from '../slots/useFates.ts';
 import { useHeldName } from '../slots/useHeldName.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/words.ts';
+import { triggerInBar, heldText } from '../i18n/sentences/slots.ts';
+import { words } from '../i18n/words.ts';
 import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
 import type { Activity } from '#shared/session/state.ts';
 import { DownloadControl } from './DownloadControl.tsx';
@@ -47,7 +48,7 @@ function SlotField() {
         max={max}
         size="small"
         onChange={(value) => view.setState({ slot: value })}
-        onRefused={(value) => notices.refuse(words.refused(words.board.slot, value, min, max))}
+        onRefused={(value) => notices.refuse(words.refused({ name: words.board.slot, value, min, max }))}
       />
     </div>
   );
@@ -74,11 +75,11 @@ function AtAGlance() {
   if (frames.length === 0) return <p className={styles.hint}>{words.board.nothingToDownload}</p>;
   return (
     <span className={styles.glance} aria-hidden="true">
-      <Chip truth={FATE_TRUTH[fate]}>{words.slots.inBar(fate, held)}</Chip>
+      <Chip truth={FATE_TRUTH[fate]}>{heldText(fate, held)}</Chip>
       <Chip truth={fits ? 'confirmed' : 'danger'}>
         {isOfOther ? words.compile.ofOther : fits ? words.compile.fits : words.compile.fitsNot}
       </Chip>
-      {trigger !== null && <Chip truth="warning">{words.slots.triggerInBar(trigger)}</Chip>}
+      {trigger !== null && <Chip truth="warning">{triggerInBar(trigger)}</Chip>}
     </span>
   );
 }
@@ -88,7 +89,9 @@ const TRUTH = { requested: 'commanded', acknowledged: 'confirmed', unknown: 'unk
 function Running({ activity }: { readonly activity: Extract<Activity, { kind: 'running' }> }) {
   return (
     <div className={styles.run}>
-      <Chip truth={TRUTH[activity.truth]}>{words.activity.running(activity.slot, activity.times)}</Chip>
+      <Chip truth={TRUTH[activity.truth]}>
+        {words.activity.running({ slot: activity.slot, times: activity.times })}
+      </Chip>
       <p>{words.activity.runTruth[activity.truth]}</p>
     </div>
   );

@@ -5,7 +5,7 @@ import { problemText } from '../stores/group/problemText.ts';
 import { startHindrance } from '../stores/device/readiness.ts';
 import { useCompiled, useDevice, useDocument, useSnapshot, useStores, useSlot } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 export function DownloadControl() {
   const { compiled, library, notices, replacing, view } = useStores();
@@ -29,7 +29,7 @@ export function DownloadControl() {
   return (
     <Button
       icon="download"
-      hint={words.board.downloadHint(frameCount, slot)}
+      hint={words.board.downloadHint({ count: frameCount, slot })}
       isDisabled={!mayStart || !sameUnit || isEmpty}
       onPress={download}
     >

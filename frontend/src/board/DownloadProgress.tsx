@@ -4,7 +4,7 @@ import { isWatching } from '#shared/session/lease.ts';
 import { useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { ProgressBar } from '../ui/ProgressBar.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import styles from './DownloadProgress.module.css';
 
 export function DownloadProgress() {
@@ -21,13 +21,13 @@ export function DownloadProgress() {
           label={words.board.progress}
           done={framesStored}
           total={frameCount}
-          text={words.board.progressText(framesStored, frameCount)}
+          text={words.board.progressText({ stored: framesStored, count: frameCount })}
         />
         <p className={styles.figures}>
-          {wanted.length > 1 && <span>{words.slots.job(groupsStored, wanted.length)}</span>}
-          <span>{words.board.progressText(framesStored, frameCount)}</span>
-          <span>{words.board.bytes(bytesSent, bytesTotal)}</span>
-          <span>{words.board.left(remainingMs)}</span>
+          {wanted.length > 1 && <span>{words.slots.job({ done: groupsStored, count: wanted.length })}</span>}
+          <span>{words.board.progressText({ stored: framesStored, count: frameCount })}</span>
+          <span>{words.board.bytes({ sent: bytesSent, total: bytesTotal })}</span>
+          <span>{words.board.left({ ms: remainingMs })}</span>
         </p>
       </div>
       <Button isDisabled={watches} onPress={() => slots.cancel()}>

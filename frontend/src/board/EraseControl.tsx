@@ -4,7 +4,7 @@ import { notRestored } from '#shared/actions/slots/slotBook.ts';
 import { startHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSlots, useSnapshot, useStores } from '../stores/stores.ts';
 import { Confirm } from '../ui/Confirm.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 
 export function EraseControl() {
   const { slots } = useStores();
@@ -23,9 +23,9 @@ export function EraseControl() {
       label={words.board.erase}
       title={words.board.eraseTitle}
       text={[
-        words.board.eraseText(max - min + 1),
-        ...(held.length > 0 ? [words.slots.willGo(held)] : []),
-        ...(lost.length > 0 ? [words.slots.notRestored(lost)] : []),
+        words.board.eraseText({ slots: max - min + 1 }),
+        ...(held.length > 0 ? [words.slots.willGo({ groups: namesOf(held) })] : []),
+        ...(lost.length > 0 ? [words.slots.notRestored({ groups: namesOf(lost) })] : []),
       ].join(' ')}
       keepLabel={words.board.eraseKeep}
       confirmLabel={words.board.eraseConfirm}
@@ -33,4 +33,9 @@ export function EraseControl() {
       onConfirm={() => slots.erase()}
     />
   );
+}
+
+function namesOf(groups: readonly { readonly slot: number; readonly name: string }[]): string {
+  const { formatNames, formatWhole } = words.numbers;
+  return formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()));
 }

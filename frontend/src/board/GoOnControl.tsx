@@ -4,7 +4,7 @@
 import { useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import field from '../ui/Field.module.css';
 import styles from './BoardPanel.module.css';
 
@@ -43,7 +43,9 @@ function MinutesField({ isDisabled }: { readonly isDisabled: boolean }) {
         isDisabled={isDisabled}
         onChange={(goOnMinutes) => view.setState({ goOnMinutes })}
         onRefused={(value) =>
-          notices.refuse(words.refused(words.board.goOnMinutes, value, 1, LONGEST_MINUTES))
+          notices.refuse(
+            words.refused({ name: words.board.goOnMinutes, value, min: 1, max: LONGEST_MINUTES }),
+          )
         }
       />
     </div>

@@ -4,7 +4,7 @@ import { setMeta } from '#shared/actions/group/groupEdits.ts';
 import { chosenTimes } from '../stores/slots/groupPlace.ts';
 import { useDocument, useSlot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './BoardPanel.module.css';
 
 export function PlaceControl() {
@@ -21,7 +21,9 @@ export function PlaceControl() {
     );
   return (
     <div className={styles.place}>
-      <p className={styles.hint}>{words.board.place(slot, times)}</p>
+      <p className={styles.hint}>
+        {slot === null ? words.board.placeNone({ times }) : words.board.place({ slot, times })}
+      </p>
       <Button
         tone="quiet"
         icon="save"

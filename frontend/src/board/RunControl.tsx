@@ -4,7 +4,7 @@ import { runAsChosen } from '../stores/playing/goOn.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { useFates } from '../slots/useFates.ts';
 import { useRunSettings } from './useRunSettings.ts';
 
@@ -19,13 +19,13 @@ export function RunControl() {
   );
   const run = (): void => {
     runAsChosen({ device, view }, slot, times);
-    if (isEmpty) notices.tell('info', words.board.runsNothing(slot));
+    if (isEmpty) notices.tell('info', words.board.runsNothing({ slot }));
   };
   return (
     <>
       <Button
         icon="play"
-        hint={words.board.runHint(slot, times)}
+        hint={words.board.runHint({ slot, times })}
         isDisabled={!mayRun || isPlaying}
         onPress={run}
       >

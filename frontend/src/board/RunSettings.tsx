@@ -3,7 +3,7 @@
 import { useDevice, useStores, useView } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { GoOnControl } from './GoOnControl.tsx';
 import { useRunSettings } from './useRunSettings.ts';
 import field from '../ui/Field.module.css';
@@ -51,7 +51,7 @@ function TimesField({ untilStopped }: { readonly untilStopped: boolean }) {
         max={max}
         isDisabled={untilStopped}
         onChange={(value) => view.setState({ times: value })}
-        onRefused={(value) => notices.refuse(words.refused(words.board.times, value, 1, max))}
+        onRefused={(value) => notices.refuse(words.refused({ name: words.board.times, value, min: 1, max }))}
       />
     </div>
   );

@@ -7,7 +7,7 @@ import { useDevice, useSnapshot, useStores, useSlot } from '../stores/stores.ts'
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import field from '../ui/Field.module.css';
 import styles from './BoardPanel.module.css';
 
@@ -34,7 +34,7 @@ export function SpeedControl() {
           step={10}
           unit={words.board.percent}
           onChange={setPercent}
-          onRefused={(value) => notices.refuse(words.refused(words.board.speed, value, min, max))}
+          onRefused={(value) => notices.refuse(words.refused({ name: words.board.speed, value, min, max }))}
         />
       </div>
       <div className={styles.running}>

@@ -4,7 +4,8 @@ import { useRef, useState, type KeyboardEvent, type PointerEvent, type RefObject
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/words.ts';
+import { numberAndName } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/words.ts';
 import { at, PlaceFace } from './Place.tsx';
 import { placeBy, placeUnder, type PlaceAt } from './placing.ts';
 import styles from './Place.module.css';
@@ -30,7 +31,7 @@ export function ArrangedPlace({ servo: { servo, name, place }, stage }: Arranged
     letGo();
     if (to !== null && (to.x !== place.x || to.y !== place.y))
       robots.edit(
-        () => words.servoPanel.placeStep(servo),
+        () => words.servoPanel.placeStep({ servo }),
         (robot) => withPlace(robot, servo, to),
       );
   }
@@ -62,7 +63,7 @@ export function ArrangedPlace({ servo: { servo, name, place }, stage }: Arranged
       <button
         type="button"
         className={cx(styles.button, styles.arranged)}
-        aria-label={words.servoPanel.placeOf(words.servos.name(servo), name, place.x, place.y)}
+        aria-label={words.servoPanel.placeOf({ ...place, name: numberAndName(servo, name) })}
         onPointerDown={take}
         onPointerMove={drag}
         onPointerUp={() => put(dragged)}

@@ -6,7 +6,7 @@ import { undoActionOf } from '../actions/useUndoKeys.ts';
 import { useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { Toggle } from '../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { ArrangedPlace } from './ArrangedPlace.tsx';
 import { LiveArm, LiveBones } from './pictures.ts';
 import { Place } from './Place.tsx';

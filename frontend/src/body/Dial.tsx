@@ -5,7 +5,7 @@ import { useState } from 'react';
 import type { Family } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { READABLE_MS, useFollow } from '../ui/useFollow.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { Drawing } from './Drawing.tsx';
 import { paintHands } from './hands.ts';
 import { motionInFrame } from './motionInFrame.ts';
@@ -43,7 +43,7 @@ export function DialFace({ servo }: { readonly servo: number }) {
       className={styles.dial}
       viewBox="-24 -24 48 48"
       role="img"
-      aria-label={words.body.gaugeFigure(servo)}
+      aria-label={words.body.gaugeFigure({ servo })}
     >
       <path className={styles.rim} d={RIM} />
       {isKnown ? <circle className={styles.hub} r={4} /> : <Unknown />}

@@ -7,7 +7,7 @@ import { select } from '../stores/servoView.ts';
 import { editServoView, useDevice, useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { Canvas, type Size } from './Canvas.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { DialFace } from './Dial.tsx';
 import { paintHands, type Spot } from './hands.ts';
 import { motionInFrame } from './motionInFrame.ts';

@@ -4,7 +4,7 @@
 import { useRef } from 'react';
 import type { ServoMotion } from '#shared/session/state.ts';
 import { useDevice, usePlayback, useStores } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { ArmFigure, drawArm } from './ArmFigure.tsx';
 import { BaseView, drawBase, drawHand, HandView, type InsetLook } from './insets.tsx';
 import { armPicture, JOINT, samePicture, type ArmPicture, type Pose } from './pose.ts';

@@ -6,7 +6,7 @@ import type { Robot } from '#shared/actions/robot/robot.ts';
 import type { Motions } from '#shared/session/state.ts';
 import { usePlayback, useRobot, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { BoneFigure, drawBones } from './BoneFigure.tsx';
 import { bonesOf, type BonePicture } from './bones.ts';
 import { usePreview } from './usePreview.ts';
@@ -54,7 +54,7 @@ export function LiveBones({ className }: { readonly className?: string | undefin
       className={cx(styles.picture, className)}
       viewBox={viewBoxOf(reach)}
       role="img"
-      aria-label={words.servoPanel.figure(robot.name)}
+      aria-label={words.servoPanel.figure({ robot: robot.name })}
       data-previewing={isPreviewing}
     >
       <g data-figure="estimated">

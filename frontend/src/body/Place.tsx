@@ -6,7 +6,8 @@ import { isHeld, selectByClick } from '../stores/servoView.ts';
 import { editServoView, useDevice, useServoView, useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { selectHow } from '../ui/selectHow.ts';
-import { words } from '../words/words.ts';
+import { numberAndName } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/words.ts';
 import { Dial } from './Dial.tsx';
 import styles from './Place.module.css';
 
@@ -30,7 +31,7 @@ export function Place({ servo: own, order }: PlaceProps) {
         type="button"
         className={styles.button}
         aria-pressed={isSelected}
-        aria-label={words.servoPanel.about(words.servos.name(servo), name, marks)}
+        aria-label={[numberAndName(servo, name), ...marks].join(words.comma)}
         onClick={(event) =>
           editServoView(stores, (view) => selectByClick(view, servo, selectHow(event), order))
         }

@@ -17,7 +17,8 @@ import {
   type Stores,
 } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/words.ts';
+import { servosText, waitingSentence } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/words.ts';
 import styles from './UnknownNote.module.css';
 
 export function UnknownNote() {
@@ -25,7 +26,7 @@ export function UnknownNote() {
   // Moved by nobody, and nothing told by the board.
   const text = useDevice(({ known, snapshot }) =>
     snapshot.waitingToStart.length > 0
-      ? words.firstMoves.waiting(snapshot.waitingToStart)
+      ? waitingSentence(snapshot.waitingToStart)
       : textOf(unknownOf(robot, known), robot.servos.length),
   );
   const isOffered = useIsGuessing();
@@ -65,5 +66,7 @@ function unknownOf({ servos }: Robot, known: DeviceState['known']): readonly num
 
 function textOf(unknown: readonly number[], count: number): string {
   if (unknown.length === 0) return '';
-  return unknown.length === count ? words.body.allUnknown : words.servoPanel.someUnknown(unknown);
+  return unknown.length === count
+    ? words.body.allUnknown
+    : words.servoPanel.someUnknown({ servos: servosText(unknown) });
 }

@@ -2,10 +2,10 @@ import { describe, expect, test } from 'vitest';
 import { exampleGroup, type ExampleId } from '#shared/actions/examples/examples.ts';
 import { poseAt } from '#shared/actions/group/group.ts';
 import { readyRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
-import { words } from '../words/words.ts';
+import { robotNames } from '../i18n/sentences/robots.ts';
 import { bonesOf, type Bone, type BonePicture } from './bones.ts';
 
-const robot = (id: ReadyRobotId) => readyRobot(id, 'lsc-24', words.robots.names(id));
+const robot = (id: ReadyRobotId) => readyRobot(id, 'lsc-24', robotNames(id));
 const posed = (positions: Record<number, number>) => (servo: number) => positions[servo] ?? 1500;
 const bone = (id: ReadyRobotId, servo: number, pose: (servo: number) => number | null): Bone =>
   bonesOf(robot(id), pose)!.bones.find((one) => one.servo === servo)!;

@@ -1,7 +1,7 @@
 // The two small views beside the arm: the base from above and the hand from the front. Draw what they are given.
 
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import type { ArmPicture } from './pose.ts';
 import figure from './figure.module.css';
 import styles from './insets.module.css';

@@ -2,11 +2,11 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import { readyRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
-import { words } from '../words/words.ts';
+import { robotNames } from '../i18n/sentences/robots.ts';
 import { bonesOf, type Point } from './bones.ts';
 import { reachOf, roomFor } from './reach.ts';
 
-const robot = (id: ReadyRobotId): Robot => readyRobot(id, 'lsc-24', words.robots.names(id));
+const robot = (id: ReadyRobotId): Robot => readyRobot(id, 'lsc-24', robotNames(id));
 
 /** Each servo anywhere within its limits, often at one of them. */
 const poseOf = ({ servos }: Robot) =>

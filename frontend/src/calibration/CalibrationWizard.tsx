@@ -9,7 +9,8 @@ import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Mark } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/whole.ts';
+import { servoLabel } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/whole.ts';
 import { Answer } from './Answer.tsx';
 import { DirectionStep } from './DirectionStep.tsx';
 import { EndStep } from './EndStep.tsx';
@@ -29,7 +30,7 @@ export function CalibrationWizard() {
         <Servos at={at} />
         <section className={styles.work} aria-labelledby={titleId}>
           <h3 id={titleId} className={styles.title}>
-            {words.robots.called(at.servo)}
+            {servoLabel(at.servo)}
           </h3>
           <Steps at={at} />
           <div
@@ -94,7 +95,11 @@ function Servos({ at: { robot, servo, progress, go } }: At) {
             <button
               type="button"
               className={cx(styles.servo, one === servo && styles.selected)}
-              aria-label={words.calibration.servo(words.robots.called(one), doneCount, steps.length)}
+              aria-label={words.calibration.servo({
+                name: servoLabel(one),
+                done: doneCount,
+                all: steps.length,
+              })}
               aria-current={one === servo ? 'step' : undefined}
               onClick={() => go(one.servo, steps.find((step) => !isDone(progress, one.servo, step)) ?? 'min')}
             >
@@ -122,7 +127,7 @@ function Steps({ at: { servo, progress, go } }: At) {
             <button
               type="button"
               className={cx(styles.stepName, step === progress.step && styles.selected)}
-              aria-label={done ? words.calibration.isDone(named(step)) : named(step)}
+              aria-label={done ? words.calibration.isDone({ step: named(step) }) : named(step)}
               aria-current={step === progress.step ? 'step' : undefined}
               onClick={() => go(servo.servo, step)}
             >
@@ -140,7 +145,7 @@ function KeepServo({ at: { servo, progress, keepServo } }: At) {
   if (isServoDone(progress, servo)) return null;
   return (
     <Answer key={servo.servo} tone="quiet" onPress={keepServo}>
-      {words.calibration.keepServo(words.robots.called(servo))}
+      {words.calibration.keepServo({ name: servoLabel(servo) })}
     </Answer>
   );
 }

@@ -10,8 +10,8 @@ import { motionHindrance } from '../stores/device/readiness.ts';
 import { useStores } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { Icon } from '../ui/Icon.tsx';
-import { words } from '../words/whole.ts';
-import type { PositionUnit } from '../words/numbers.ts';
+import { words } from '../i18n/whole.ts';
+import type { Family } from '#shared/protocol/families.ts';
 import { startCreeping } from './creeping.ts';
 import styles from './CreepControl.module.css';
 
@@ -19,7 +19,7 @@ export interface CreepControlProps {
   readonly servo: RobotServo;
   readonly reach: Range;
   readonly target: number;
-  readonly unit: PositionUnit;
+  readonly unit: Family['unit'];
 }
 
 const WAYS = [

@@ -9,7 +9,7 @@ import { useTarget } from '../servos/useTarget.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import { sightOf } from './sight.ts';
@@ -30,7 +30,12 @@ function TooLittleRoom({ at: { robot, servo, isFinished, keep, go } }: At) {
   const { unit } = FAMILIES[robot.board];
   return (
     <>
-      <Ask>{words.calibration.tooLittleRoom(servo, unit)}</Ask>
+      <Ask>
+        {words.calibration.tooLittleRoom({
+          min: servo.min,
+          max: words.position[unit]({ position: servo.max }),
+        })}
+      </Ask>
       <div className={styles.actions}>
         <Answer tone={isFinished ? 'plain' : 'primary'} onPress={() => go(servo.servo, 'min')}>
           {words.calibration.setEnds}
@@ -64,7 +69,10 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
   const from = sightOf(robot, servo);
   const sight = words.calibration.sights[from];
   const sentence = {
-    nothing: words.calibration.homeFirst(target ?? servo.home, servo.home, unit),
+    nothing: words.calibration.homeFirst({
+      at: target ?? servo.home,
+      home: words.position[unit]({ position: servo.home }),
+    }),
     wayHome: sight.homeward,
     turn: sight.about,
   };
@@ -82,7 +90,7 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
       <div className={styles.actions}>
         {isAway ? (
           <Answer tone="primary" onPress={() => device.creep(servo.home, GENTLE_MOVE_MS)}>
-            {words.calibration.goTo(servo.home, unit)}
+            {words.calibration.goTo({ at: words.position[unit]({ position: servo.home }) })}
           </Answer>
         ) : (
           <Answer tone={isAsked ? 'plain' : 'primary'} isPending={isTurning || isOnItsWay} onPress={turn}>

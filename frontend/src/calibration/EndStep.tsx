@@ -9,7 +9,7 @@ import { ReachBar } from '../robots/ReachBar.tsx';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useTarget } from '../servos/useTarget.ts';
 import { useStores } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import { CreepControl } from './CreepControl.tsx';
@@ -48,7 +48,8 @@ export function EndStep({ at, end }: EndStepProps) {
       <CreepControl servo={servo} reach={reach} target={target} unit={unit} />
       <ReachBar servo={servo} reach={reach} unit={unit} />
       <p className={styles.dim}>
-        {words.calibration.limitsNow(servo, unit)} {words.calibration.past(reach.min, reach.max, unit)}{' '}
+        {words.calibration.limitsNow({ ...servo, unit: words.units[unit] })}{' '}
+        {words.calibration.past({ min: reach.min, max: reach.max, unit: words.units[unit] })}{' '}
         {movedHome(progress, servo)}
       </p>
       <div className={styles.actions}>
@@ -57,8 +58,8 @@ export function EndStep({ at, end }: EndStepProps) {
         </Answer>
         <Answer tone={keepTone} onPress={isAwayFromHome ? keepAndGo : keep}>
           {isAwayFromHome
-            ? words.calibration.keepAndGo(servo.home, unit)
-            : words.calibration.keep(servo[end], unit)}
+            ? words.calibration.keepAndGo({ at: words.position[unit]({ position: servo.home }) })
+            : words.calibration.keep({ at: words.position[unit]({ position: servo[end] }) })}
         </Answer>
       </div>
     </>
@@ -75,5 +76,7 @@ function take({ servo, progress, accept }: CalibrationAtHand, end: EndStepProps[
 
 /** An end pushed it; empty where none did. */
 function movedHome({ found }: Calibration, { servo, home }: RobotServo): string {
-  return found?.servo === servo && found.home !== home ? words.calibration.homeMoved(found.home, home) : '';
+  return found?.servo === servo && found.home !== home
+    ? words.calibration.homeMoved({ from: found.home, to: home })
+    : '';
 }

@@ -10,7 +10,8 @@ import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { turnOf } from '../topBar/turn.ts';
-import { words } from '../words/whole.ts';
+import { mayResumeText } from '../i18n/sentences/people.ts';
+import { words } from '../i18n/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 
@@ -38,7 +39,7 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
             {words.stop.resume}
           </Answer>
         ) : (
-          <p>{words.stop.mayResume(lease)}</p>
+          <p>{mayResumeText(lease)}</p>
         )}
       </>
     );
@@ -60,7 +61,7 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
       </Answer>
       {homes.length > 1 && (
         <Answer onPress={() => device.move(homes, GENTLE_MOVE_MS)}>
-          {words.calibration.allHome(homes.length)}
+          {words.calibration.allHome({ count: homes.length })}
         </Answer>
       )}
     </>

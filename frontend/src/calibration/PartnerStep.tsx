@@ -2,7 +2,8 @@
 
 import { flawOf, servoOf } from '#shared/actions/robot/robot.ts';
 import { changeServo, fromPartner } from '#shared/actions/robot/robotEdits.ts';
-import { words } from '../words/whole.ts';
+import { servoLabel } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import type { CalibrationAtHand } from './useCalibration.ts';
@@ -16,9 +17,9 @@ export function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly a
   const fits = flawOf(changeServo(robot, partner.servo, change)) === null;
   return (
     <>
-      <Ask>{words.calibration.partner(words.robots.called(partner))}</Ask>
+      <Ask>{words.calibration.partner({ name: servoLabel(partner) })}</Ask>
       <p className={styles.figures}>
-        {fits ? words.calibration.partnerFigures(min, home, max) : words.calibration.partnerNot}
+        {fits ? words.calibration.partnerFigures({ min, home, max }) : words.calibration.partnerNot}
       </p>
       <div className={styles.actions}>
         <Answer
@@ -26,7 +27,7 @@ export function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly a
           isDisabled={!fits}
           onPress={() => accept((all) => changeServo(all, partner.servo, change), { partner: partner.servo })}
         >
-          {words.calibration.takeOver(words.robots.called(partner))}
+          {words.calibration.takeOver({ name: servoLabel(partner) })}
         </Answer>
         <Answer tone="quiet" onPress={keep}>
           {words.calibration.leaveAsIs}

@@ -3,7 +3,7 @@
 import { changeServo, homeAtCentre } from '#shared/actions/robot/robotEdits.ts';
 import { TRIM, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
 import type { CalibrationAtHand } from './useCalibration.ts';
@@ -25,7 +25,7 @@ export function TrimStep({
             tone={isFinished ? 'plain' : 'primary'}
             onPress={() => accept((all) => changeServo(all, servo.servo, change))}
           >
-            {words.calibration.trimSet(centre)}
+            {words.calibration.trimSet({ centre })}
           </Answer>
         )}
         {!isFinished && (
@@ -42,6 +42,6 @@ function sentence({ board }: Robot, { home }: RobotServo, change: Partial<RobotS
   const { centre } = FAMILIES[board];
   if (home === centre) return words.calibration.trimNone;
   return change === null
-    ? words.calibration.trimFar(home, centre, TRIM.max)
-    : words.calibration.trim(home, centre, change.trim ?? 0);
+    ? words.calibration.trimFar({ home, centre, reach: TRIM.max })
+    : words.calibration.trim({ home, centre, trim: change.trim ?? 0 });
 }

@@ -12,7 +12,9 @@ import {
   stepDone,
 } from '#shared/actions/robot/robotCalibration.ts';
 import { useRobot, useServoView, useStores, useView } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { robotFlawSentence } from '../i18n/sentences/robotFlaws.ts';
+import { servoLabel } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/whole.ts';
 
 export interface CalibrationAtHand {
   readonly robot: Robot;
@@ -68,14 +70,11 @@ export function useCalibration(): CalibrationAtHand {
     accept(edit, { partner, note = (progress: Calibration) => progress } = {}) {
       const flaw = flawOf(edit(robot));
       if (flaw !== null) {
-        setProblem({ robot, text: words.robots.flaw(flaw) });
+        setProblem({ robot, text: robotFlawSentence(flaw) });
         return;
       }
       reached.set(robot, begun);
-      robots.edit(() => {
-        const { stepNames, stepLabel } = words.calibration;
-        return stepLabel(stepNames[begun.step], words.robots.called(servo));
-      }, edit);
+      robots.edit(() => words.calibration.undo[begun.step]({ servo: servoLabel(servo) }), edit);
       const next = edit(robot);
       const noted = note(begun);
       put(partner === undefined ? stepDone(next, noted) : partnerDone(next, noted, partner));

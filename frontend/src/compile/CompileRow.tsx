@@ -10,7 +10,7 @@ import { servoName } from '../stores/servoName.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { useInFrame } from '../ui/useInFrame.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { goToPlace } from './places.ts';
 import { Problems } from './Problems.tsx';
 import field from '../ui/Field.module.css';
@@ -34,11 +34,11 @@ export function CompileRow() {
               <Chip truth={!isFresh ? 'neutral' : fits ? 'confirmed' : 'danger'}>
                 {!isFresh ? words.compile.stale : fits ? words.compile.fits : words.compile.fitsNot}
               </Chip>
-              <span>{words.compile.frames(report.frameCount, report.frameLimit)}</span>
+              <span>{words.compile.frames({ count: report.frameCount, limit: report.frameLimit })}</span>
               {report.downloadMs !== null && (
                 <>
-                  <span>{words.compile.bytes(report.bytes)}</span>
-                  <span>{words.compile.download(report.downloadMs)}</span>
+                  <span>{words.compile.bytes({ bytes: report.bytes })}</span>
+                  <span>{words.compile.download({ ms: report.downloadMs })}</span>
                 </>
               )}
             </p>
@@ -67,7 +67,7 @@ function ErrorField() {
         value={value}
         min={1}
         max={MOST_ERROR_UNITS}
-        unit={words.numbers.unitSymbol(family.unit)}
+        unit={words.units[family.unit]}
         isDisabled={!isOfGroup}
         onChange={(maxErrorUnits) =>
           document.edit(
@@ -77,7 +77,9 @@ function ErrorField() {
           )
         }
         onRefused={(units) =>
-          notices.refuse(words.refused(words.compile.errorField, units, 1, MOST_ERROR_UNITS))
+          notices.refuse(
+            words.refused({ name: words.compile.errorField, value: units, min: 1, max: MOST_ERROR_UNITS }),
+          )
         }
       />
     </div>
@@ -97,9 +99,14 @@ function Worst() {
         className={styles.place}
         onClick={() => goToPlace(stores, { servo, atMs }, group)}
       >
-        {words.compile.worst(units, group.unit, degrees, servoName(robot, servo), atMs)}
+        {words.compile.worst({
+          error: words.position[group.unit]({ position: Math.round(units) }),
+          degrees: words.numbers.formatDegrees(degrees, 1),
+          name: servoName(robot, servo),
+          atMs,
+        })}
       </button>
-      {shiftedMs > 0 && <span>{words.compile.shifted(Math.ceil(shiftedMs))}</span>}
+      {shiftedMs > 0 && <span>{words.compile.shifted({ ms: Math.ceil(shiftedMs) })}</span>}
     </p>
   );
 }

@@ -5,7 +5,7 @@ import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
 import { obstacles } from '../stores/group/compiled.ts';
 import { problemText } from '../stores/group/problemText.ts';
 import { useCompiled, useStores } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { goToPlace } from './places.ts';
 import styles from './CompileRow.module.css';
 
@@ -38,7 +38,7 @@ export function Problems() {
       {more > 0 && (
         <li>
           <button type="button" className={styles.place} onClick={() => setShown(shown + MORE)}>
-            {words.compile.more(more)}
+            {words.compile.more({ count: more })}
           </button>
         </li>
       )}

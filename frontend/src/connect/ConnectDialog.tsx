@@ -5,7 +5,7 @@ import { useStore } from 'zustand';
 import { useDevice, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Dialog } from '../ui/Dialog.tsx';
 import { laterComponent } from '../ui/later.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import type { Connector } from './connector.ts';
 
 const ConnectWays = laterComponent(

@@ -8,7 +8,9 @@ import { Button } from '../ui/Button.tsx';
 import { ThisBoard } from '../identity/ThisBoard.tsx';
 import { Chip } from '../ui/Chip.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { errorSentence } from '../i18n/sentences/errors.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/whole.ts';
 import type { ConnectState } from './connector.ts';
 import { isProfileName } from '#shared/simulator/profileNames.ts';
 import { PortGuide } from './PortGuide.tsx';
@@ -121,7 +123,7 @@ function SimulatedWay({ board, isOpen, onSimulate }: SimulatedWayProps) {
           .filter(({ id }) => isProfileName(id))
           .map((family) => (
             <option key={family.id} value={family.id}>
-              {words.boardName(family)}
+              {boardName(family)}
             </option>
           ))}
       </select>
@@ -136,7 +138,7 @@ function SerialWay({ state, current, isReady, onSerialPort, onChooseSerial }: Co
   if (state.serialObstacle !== null) {
     return (
       <>
-        <p className={styles.why}>{words.errorSentence(state.serialObstacle)}</p>
+        <p className={styles.why}>{errorSentence(state.serialObstacle)}</p>
         {state.serialObstacle === 'insecureAddress' && (
           <a className={styles.link} href={localAddress()}>
             {words.connect.webSerial.secureLink}
@@ -174,7 +176,7 @@ interface OpenButtonProps {
 function OpenButton({ label, isOpen, onPress }: OpenButtonProps) {
   return (
     <Button isDisabled={isOpen} onPress={onPress}>
-      {isOpen ? words.connect.inUse(label) : words.connect.open(label)}
+      {isOpen ? words.connect.inUse({ label }) : words.connect.open({ label })}
     </Button>
   );
 }
@@ -190,7 +192,7 @@ function GatewayWay({ state, current, isReady, onGateway, onGatewayPort, onLook 
   if (gateway === 'absent') {
     return (
       <>
-        <p className={styles.why}>{words.errorSentence('gatewayUnreachable')}</p>
+        <p className={styles.why}>{errorSentence('gatewayUnreachable')}</p>
         {look}
       </>
     );
@@ -200,10 +202,12 @@ function GatewayWay({ state, current, isReady, onGateway, onGatewayPort, onLook 
   return (
     <>
       {gateway.device !== null && <OpenButton label={gateway.device} isOpen={isOpen} onPress={onGateway} />}
-      {isOpen && <p className={styles.why}>{words.connect.gateway.inUse(others.length > 0)}</p>}
+      {isOpen && (
+        <p className={styles.why}>{words.connect.gateway.inUse({ hasOthers: others.length > 0 })}</p>
+      )}
       {others.map((port) => (
         <Button key={port.device} tone="quiet" onPress={() => onGatewayPort(port.device)}>
-          {words.connect.open(port.device)}
+          {words.connect.open({ label: port.device })}
         </Button>
       ))}
       {gatewayPorts.length === 0 && gateway.device === null && (

@@ -2,10 +2,17 @@
 
 import { useState } from 'react';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
-import { SYSTEMS, type OperatingSystem } from '../words/systems.ts';
-import { operatingSystem } from './operatingSystem.ts';
+import { words, type Words } from '../i18n/whole.ts';
+import { SYSTEMS, operatingSystem, type OperatingSystem } from './operatingSystem.ts';
 import styles from './PortGuide.module.css';
+
+/** The likeliest cause first. LSC boards, bus servo controllers and older LeArms are no serial port on their own cable. */
+const STEPS = {
+  windows: ['switchOn', 'cable', 'driver', 'comPort', 'hid'],
+  macos: ['switchOn', 'cable', 'macName', 'macAllow', 'hid'],
+  linux: ['switchOn', 'cable', 'dmesg', 'brltty', 'dialout', 'snap', 'hid'],
+  chromeos: ['switchOn', 'cable', 'notLinux', 'school', 'hid'],
+} as const satisfies Record<OperatingSystem, readonly (keyof Words['guide']['steps'])[]>;
 
 export function PortGuide({ isOpen = false }: { readonly isOpen?: boolean }) {
   const [system, setSystem] = useState<OperatingSystem>(operatingSystem);
@@ -19,8 +26,8 @@ export function PortGuide({ isOpen = false }: { readonly isOpen?: boolean }) {
         onChange={setSystem}
       />
       <ol className={styles.steps}>
-        {words.guide.steps[system].map((step) => (
-          <li key={step}>{step}</li>
+        {STEPS[system].map((step) => (
+          <li key={step}>{words.guide.steps[step]}</li>
         ))}
       </ol>
     </details>

@@ -17,7 +17,7 @@ import { createGatewayTransport } from '../transports/gateway.ts';
 import { choosePort, grantedPorts, portLabel, webSerialObstacle } from '../transports/serialPorts.ts';
 import { createWebSerialTransport } from '../transports/webSerial.ts';
 import { later } from '../ui/later.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import {
   gatewayUrl,
   hasGateway,
@@ -117,7 +117,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     const { openPort } = store.getState();
     const isOpen = current?.transport.kind === 'webSerial' && current.session.state.link.status === 'ready';
     if (isOpen && port === openPort)
-      notices.tell('info', words.connect.isOpen(current?.transport.label ?? ''));
+      notices.tell('info', words.connect.isOpen({ label: current?.transport.label ?? '' }));
     else chosen(openSerial(port));
   }
 

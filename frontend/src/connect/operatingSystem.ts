@@ -1,7 +1,8 @@
 // Which operating system the browser runs on, to show the right guide first. A guess for words only: nothing else depends on
 // it, and the person can choose another.
 
-import type { OperatingSystem } from '../words/systems.ts';
+export const SYSTEMS = ['windows', 'macos', 'linux', 'chromeos'] as const;
+export type OperatingSystem = (typeof SYSTEMS)[number];
 
 const SIGNS: readonly (readonly [RegExp, OperatingSystem])[] = [
   [/cros|chrome ?os/i, 'chromeos'],

@@ -42,7 +42,7 @@ import type { Stores } from '../stores/stores.ts';
 import { createTimeline } from '../stores/timeline/timeline.ts';
 import { createView } from '../stores/view.ts';
 import { bringSelectionBack } from '../timeline/selectionBack.ts';
-import { words } from '../words/words.ts';
+import { peopleProblem } from '../stores/people/problem.ts';
 import { browserClock } from '../transports/browserClock.ts';
 import { hasGateway } from './gatewayApi.ts';
 import { beginAnewAsAnother, type Arrival } from './arrival.ts';
@@ -126,7 +126,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     isAtGateway: me !== null,
     robot: () => robots.current().robot,
   });
-  if (problem !== null) notices.tell('warning', words.people.problem(problem.code, problem.message));
+  if (problem !== null) notices.tell('warning', peopleProblem(problem.code, problem.message));
   if (me?.you) beginAnewAsAnother(device.store, me.you, () => location.reload());
   connector.start().catch(notices.tellError);
   const paused = (): void => {

@@ -3,7 +3,8 @@
 
 import * as v from 'valibot';
 import { GatewayProblem, request, type Method } from '../gateway/request.ts';
-import { PeopleError, type PeopleApi, type PeopleErrorCode } from '../stores/people/people.ts';
+import { PeopleError, type PeopleApi } from '../stores/people/people.ts';
+import type { PeopleErrorCode } from '../stores/people/problem.ts';
 import type {
   Invitation,
   Me,

@@ -4,7 +4,7 @@ import { useMemo } from 'react';
 import { useStores } from '../stores/stores.ts';
 import { LiveText } from '../ui/LiveText.tsx';
 import { READABLE_MS } from '../ui/useFollow.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import { createStrip } from './strip.ts';
 import styles from './LogDrawer.module.css';

@@ -4,7 +4,7 @@ import { useStores, useView } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { later, usePart } from '../ui/later.tsx';
 import { pressOnce } from '../ui/pressOnce.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { LogPanel } from './LaterLogPanel.tsx';
 import { PART } from '../ui/useParts.ts';
 import styles from './LogDrawer.module.css';

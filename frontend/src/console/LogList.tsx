@@ -5,8 +5,8 @@ import { memo, useLayoutEffect, useRef, type KeyboardEvent } from 'react';
 import type { LogEntry } from '../stores/device/traffic.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/whole.ts';
-import { useWords } from '../words/words.ts';
+import { words } from '../i18n/whole.ts';
+import { useWords } from '../i18n/words.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import styles from './LogList.module.css';
 
@@ -70,7 +70,7 @@ const Line = memo(
     useWords();
     return (
       <div className={cx(styles.line, styles[entry.mark])}>
-        <time className={styles.time}>{words.numbers.formatElapsed(entry.atMs)}</time>
+        <time className={styles.time}>{words.dates.formatElapsed(entry.atMs)}</time>
         <span className={styles.arrow} role="img" aria-label={arrowWords(entry.mark)}>
           {arrowOf(entry)}
         </span>

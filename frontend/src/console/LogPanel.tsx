@@ -7,8 +7,8 @@ import { useStores, useView } from '../stores/stores.ts';
 import type { LogEntry } from '../stores/device/traffic.ts';
 import type { LogKind } from '../stores/view.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
-import { useWords } from '../words/words.ts';
+import { words } from '../i18n/whole.ts';
+import { useWords } from '../i18n/words.ts';
 import { LogList } from './LogList.tsx';
 import { RawSender } from './RawSender.tsx';
 import { kindOf, lineText } from './describe.ts';
@@ -55,8 +55,8 @@ export function LogPanel({ onFold }: { readonly onFold?: () => void }) {
           onChange={(event) => setQuery(event.target.value)}
         />
         <span className={styles.note}>
-          {words.log.counted(view.passedCount, view.hiddenCount)}
-          {heldId !== null && ` · ${words.log.paused(nextId - heldId)}`}
+          {countedText(view.passedCount, view.hiddenCount)}
+          {heldId !== null && ` · ${words.log.paused({ count: nextId - heldId })}`}
         </span>
         <Button
           tone="quiet"
@@ -82,13 +82,12 @@ export function LogPanel({ onFold }: { readonly onFold?: () => void }) {
 function useLogView(query: string, heldId: number | null) {
   const { device } = useStores();
   const kinds = useView((state) => state.logKinds);
-  useWords();
-  const spoken = words;
+  const { locale } = useWords();
   const view = useMemo(() => {
-    const isFound = searchTest(query, spoken);
+    const isFound = searchTest(query, locale);
     const passes = (entry: LogEntry): boolean => kinds.includes(kindOf(entry)) && isFound(entry);
     return createLogView(device.traffic, passes, heldId ?? undefined);
-  }, [device, kinds, query, heldId, spoken]);
+  }, [device, kinds, query, heldId, locale]);
   return useSyncExternalStore(view.subscribe, view.getSnapshot);
 }
 
@@ -114,4 +113,9 @@ function Filter() {
       ))}
     </fieldset>
   );
+}
+
+function countedText(passed: number, hidden: number): string {
+  if (hidden === 0) return words.log.counted({ passed });
+  return words.log.countedOf({ passed, all: passed + hidden });
 }

@@ -3,7 +3,7 @@
 import { useStore } from 'zustand';
 import { useStores } from '../stores/stores.ts';
 import { Toasts } from '../ui/Toasts.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 export function Messages() {
   const { notices } = useStores();
@@ -12,7 +12,7 @@ export function Messages() {
     <Toasts
       label={words.regions.notices}
       dismissLabel={words.dismiss}
-      moreLabel={words.moreNotices}
+      moreLabel={(count) => words.moreNotices({ count })}
       toasts={list.map(({ tone, ...notice }) => ({ ...notice, truth: tone === 'info' ? 'neutral' : tone }))}
       onDismiss={notices.dismiss}
     />

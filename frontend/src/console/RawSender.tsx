@@ -6,7 +6,7 @@ import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { judgeText, obstacleFor, type Judged } from './judgeText.ts';
 import styles from './RawSender.module.css';
 

@@ -93,10 +93,10 @@ describe('a search', () => {
   const entry = line('received', '55 55 04 0F 4C 1D');
 
   test.each(['', 'battery', 'BATT', '0F 4C', '0f4c', '55 55 04'])('%j finds it', (query) => {
-    expect(searchTest(query)(entry)).toBe(true);
+    expect(searchTest(query, 'en')(entry)).toBe(true);
   });
 
   test.each(['stop', '4C 0F', 'F4', 'zz', '1D 00'])('%j does not', (query) => {
-    expect(searchTest(query)(entry)).toBe(false);
+    expect(searchTest(query, 'en')(entry)).toBe(false);
   });
 });

@@ -10,7 +10,9 @@ import type { Entry } from '#shared/recording/recording.ts';
 import type { Traffic } from '#shared/session/state.ts';
 import type { LogEntry } from '../stores/device/traffic.ts';
 import type { LogKind } from '../stores/view.ts';
-import { words as spoken, type Words } from '../words/whole.ts';
+import { commandText, reportText } from './packetText.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/whole.ts';
 
 type Described = Pick<LogEntry, 'board' | 'entry'>;
 
@@ -32,16 +34,15 @@ const KINDS: Readonly<Partial<Record<CommandKind | ReportKind, LogKind>>> = {
   battery: 'battery',
 };
 
-/** In the language in use, or in another one. */
-export function meaning(described: Described, words: Words = spoken): string {
+export function meaning(described: Described): string {
   const { entry } = described;
-  if (entry.mark === 'link') return words.packets.happening(entry.happening);
-  if (entry.mark === 'board') return words.packets.board(words.boardName(family(entry.board)));
+  if (entry.mark === 'link') return words.packets.happenings[entry.happening];
+  if (entry.mark === 'board') return words.packets.board({ board: boardName(family(entry.board)) });
   const traffic = trafficOf(entry, family(described.board));
-  if ('noise' in traffic) return words.packets.noise(traffic.noise, traffic.bytes.length);
+  if ('noise' in traffic) return words.packets.noise[traffic.noise]({ count: traffic.bytes.length });
   return traffic.direction === 'out'
-    ? words.packets.command(traffic.command, traffic.bytes)
-    : words.packets.report(traffic.report);
+    ? commandText(traffic.command, traffic.bytes)
+    : reportText(traffic.report);
 }
 
 export function bytesText({ entry }: Pick<Described, 'entry'>): string {

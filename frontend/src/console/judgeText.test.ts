@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { judgeText, obstacleFor } from './judgeText.ts';
 
 const judge = (text: string, board: FamilyId = 'doc') => judgeText(text, FAMILIES[board]);

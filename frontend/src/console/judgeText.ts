@@ -5,7 +5,9 @@ import { fromHex } from '#shared/protocol/hex.ts';
 import { judgeRaw } from '#shared/protocol/rawPacket.ts';
 import { isHarmless } from '#shared/protocol/commands.ts';
 import type { SessionState } from '#shared/session/state.ts';
-import { words } from '../words/whole.ts';
+import { rawText } from './packetText.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/whole.ts';
 
 export interface Judged {
   /** Null where it may not go. */
@@ -22,7 +24,7 @@ export function judgeText(text: string, family: Family): Judged {
   if (bytes === null) return { ...nothing, explanation: words.raw.notHex, isRefused: true };
   if (bytes.length === 0) return { ...nothing, explanation: words.raw.hint, isRefused: false };
   const verdict = judgeRaw(bytes, family);
-  const explanation = words.packets.raw(verdict, bytes, words.boardName(family));
+  const explanation = rawText(verdict, bytes, boardName(family));
   if (verdict.kind === 'refused') return { ...nothing, explanation, isRefused: true };
   if (verdict.kind === 'incomplete') return { ...nothing, explanation, isRefused: false };
   const harmless = verdict.kind === 'command' && isHarmless(verdict.command);

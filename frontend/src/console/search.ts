@@ -1,16 +1,15 @@
 // Finds a line of the log by words or by bytes. Pure.
 
 import type { LogEntry } from '../stores/device/traffic.ts';
-import { words as spoken, type Words } from '../words/whole.ts';
 import { bytesText, meaning } from './describe.ts';
 
 /** Whole bytes in hex, with or without spaces, are looked for in the bytes; everything in the words. Case is no matter. */
-export function searchTest(query: string, words: Words = spoken): (entry: LogEntry) => boolean {
-  const wanted = query.trim().toLowerCase();
+export function searchTest(query: string, locale: string): (entry: LogEntry) => boolean {
+  const wanted = query.trim().toLocaleLowerCase(locale);
   if (wanted === '') return () => true;
   const bytes = bytesIn(wanted);
   return (entry) =>
-    meaning(entry, words).toLowerCase().includes(wanted) ||
+    meaning(entry).toLocaleLowerCase(locale).includes(wanted) ||
     (bytes !== null && bytesText(entry).includes(bytes));
 }
 

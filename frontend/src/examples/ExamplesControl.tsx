@@ -7,7 +7,7 @@ import { PoseThumb } from '../body/PoseThumb.tsx';
 import { useDevice, useDocument, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './Examples.module.css';
 
 export function ExamplesControl() {
@@ -50,12 +50,12 @@ function ExampleCard({ id, onChosen }: { readonly id: ExampleId; onChosen(): voi
   const { document, view, playhead } = useStores();
   const robot = useRobot();
   const family = useDevice((state) => state.family);
-  const name = words.examples.name(id);
+  const name = words.examples.names[id];
   const group = exampleGroup(id, robot, name);
   const { frames } = group;
   const choose = (): void => {
     document.edit(
-      () => words.examples.step(words.examples.name(id)),
+      () => words.examples.step({ name: words.examples.names[id] }),
       () => group,
     );
     view.setState({ selectedFrame: null });
@@ -66,7 +66,9 @@ function ExampleCard({ id, onChosen }: { readonly id: ExampleId; onChosen(): voi
     <button type="button" className={styles.card} onClick={choose}>
       <PoseThumb pose={poseAt(frames, Math.floor(frames.length / 2))} changed={[]} family={family} />
       <span className={styles.name}>{name}</span>
-      <span className={styles.about}>{words.examples.about(frames.length, totalDurationMs(frames))}</span>
+      <span className={styles.about}>
+        {words.examples.about({ frameCount: frames.length, durationMs: totalDurationMs(frames) })}
+      </span>
     </button>
   );
 }

@@ -2,7 +2,7 @@
 
 import { Button } from '../ui/Button.tsx';
 import { ProgressBar } from '../ui/ProgressBar.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import type { Progress } from './openedFiles.ts';
 import styles from './FileProgress.module.css';
 

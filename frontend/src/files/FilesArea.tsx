@@ -5,7 +5,7 @@
 import { createContext, use, useCallback, useEffect, useState, type DragEvent, type ReactNode } from 'react';
 import { Dialog } from '../ui/Dialog.tsx';
 import { later, Missing, usePart } from '../ui/later.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import type { FileCounts } from './answers.ts';
 import styles from './FilesArea.module.css';
 

@@ -6,7 +6,7 @@ import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { useKnownFamily } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { FileButton } from '../ui/FileButton.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { readyGroups, type ReadyGroup } from './answers.ts';
 import { FileProgress } from './FileProgress.tsx';
 import { OpenedFileItem } from './OpenedFileItem.tsx';
@@ -64,11 +64,13 @@ function Reading({ files }: Pick<FilesContentProps, 'files'>) {
         <FileProgress
           label={words.files.reading}
           progress={reading}
-          text={words.files.readSoFar(reading.done, reading.total)}
+          text={words.files.readSoFar({ done: reading.done, total: reading.total })}
           onCancel={files.cancelReading}
         />
       )}
-      <div aria-live="polite">{unread > 0 && <p className={styles.dim}>{words.files.unread(unread)}</p>}</div>
+      <div aria-live="polite">
+        {unread > 0 && <p className={styles.dim}>{words.files.unread({ count: unread })}</p>}
+      </div>
     </>
   );
 }
@@ -83,7 +85,7 @@ function TakeAll({ files, onTakeAll }: Pick<FilesContentProps, 'files' | 'onTake
       <FileProgress
         label={words.files.taking}
         progress={taking}
-        text={words.files.takenSoFar(taking.done, taking.total)}
+        text={words.files.takenSoFar({ done: taking.done, total: taking.total })}
         onCancel={files.cancelTaking}
       />
     );
@@ -93,9 +95,9 @@ function TakeAll({ files, onTakeAll }: Pick<FilesContentProps, 'files' | 'onTake
   return (
     <div className={styles.all}>
       <Button icon="library" onPress={() => onTakeAll(ready)}>
-        {words.files.takeAll(ready.length)}
+        {words.files.takeAll({ count: ready.length })}
       </Button>
-      <span className={styles.dim}>{words.files.takeAllHint(first.group.name)}</span>
+      <span className={styles.dim}>{words.files.takeAllHint({ name: first.group.name })}</span>
     </div>
   );
 }

@@ -5,7 +5,7 @@ import { useStore } from 'zustand';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { useStores } from '../stores/stores.ts';
 import { Dialog } from '../ui/Dialog.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { countsOf, type FileCounts, type ReadyGroup } from './answers.ts';
 import { createFileReader } from './fileReader.ts';
 import { FilesContent } from './FilesContent.tsx';

@@ -9,7 +9,8 @@ import { boardOfGroup } from '../stores/group/groupBoard.ts';
 import { useKnownFamily, useRobot } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { misfitText } from './fileText.ts';
+import { words } from '../i18n/whole.ts';
 import { convertedOf, takenAs, type Answer } from './answers.ts';
 import { GroupPlot } from './GroupPlot.tsx';
 import { UnitQuestion } from './UnitQuestion.tsx';
@@ -46,7 +47,7 @@ export function FoundGroup({ found, asksUnit, answer, onAnswer, onTake }: FoundG
         </div>
         <Button
           tone="primary"
-          aria-label={words.files.take(group.name)}
+          aria-label={words.files.take({ name: group.name })}
           isDisabled={unit === null}
           onPress={() => onTake(group)}
         >
@@ -56,7 +57,7 @@ export function FoundGroup({ found, asksUnit, answer, onAnswer, onTake }: FoundG
       {asksUnit && <UnitQuestion group={found} unit={unit} onUnit={(one) => onAnswer({ unit: one })} />}
       {unit !== null && convertedOf(found, answer, family.unit) !== null && (
         <Toggle
-          label={words.files.convert(family.unit)}
+          label={words.files.convert({ to: family.unit })}
           isOn={converts}
           onChange={(isOn) => onAnswer({ converts: isOn })}
         />
@@ -68,8 +69,12 @@ export function FoundGroup({ found, asksUnit, answer, onAnswer, onTake }: FoundG
 
 function aboutOf({ frames, slot }: ActionGroup): string {
   const servos = new Set(frames.flatMap(({ targets }) => targets.map(({ servo }) => servo)));
-  const about = words.files.about(frames.length, totalDurationMs(frames), servos.size);
-  return slot === null ? about : `${about}, ${words.files.slot(slot)}`;
+  const about = words.files.about({
+    frames: frames.length,
+    durationMs: totalDurationMs(frames),
+    servos: servos.size,
+  });
+  return slot === null ? about : `${about}, ${words.files.slot({ slot })}`;
 }
 
 function Misfits({ group }: { readonly group: ActionGroup }) {
@@ -82,7 +87,7 @@ function Misfits({ group }: { readonly group: ActionGroup }) {
       <p>{words.files.misfits}</p>
       <ul>
         {misfits.map((misfit) => (
-          <li key={`${misfit.code} ${misfit.servo}`}>{words.files.misfit(misfit)}</li>
+          <li key={`${misfit.code} ${misfit.servo}`}>{misfitText(misfit)}</li>
         ))}
       </ul>
     </div>

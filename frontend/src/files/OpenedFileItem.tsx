@@ -5,7 +5,8 @@ import { memo } from 'react';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Remark } from '#shared/actions/files/reading.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
+import { problemText, remarkText } from './fileText.ts';
+import { words } from '../i18n/whole.ts';
 import type { Answer } from './answers.ts';
 import { FoundGroup } from './FoundGroup.tsx';
 import type { OpenedFile, OpenedFiles } from './openedFiles.ts';
@@ -25,13 +26,13 @@ export const OpenedFileItem = memo(function OpenedFileItem({ file, files, onTake
       <div className={styles.head}>
         {'problem' in reading ? (
           <div>
-            <p className={styles.refused}>{words.files.refused(name)}</p>
-            <p>{words.files.problem(reading.problem)}</p>
+            <p className={styles.refused}>{words.files.refused({ file: name })}</p>
+            <p>{problemText(reading.problem)}</p>
           </div>
         ) : (
-          <p className={styles.dim}>{words.files.from(name)}</p>
+          <p className={styles.dim}>{words.files.from({ file: name })}</p>
         )}
-        <IconButton icon="close" label={words.files.drop(name)} onPress={() => files.drop(id)} />
+        <IconButton icon="close" label={words.files.drop({ file: name })} onPress={() => files.drop(id)} />
       </div>
       {'groups' in reading && (
         <>
@@ -62,9 +63,11 @@ function Remarks({ remarks }: { readonly remarks: readonly Remark[] }) {
   return (
     <ul className={styles.remarks}>
       {remarks.slice(0, SHOWN_REMARKS).map((remark, index) => (
-        <li key={index}>{words.files.remark(remark)}</li>
+        <li key={index}>{remarkText(remark)}</li>
       ))}
-      {remarks.length > SHOWN_REMARKS && <li>{words.files.moreRemarks(remarks.length - SHOWN_REMARKS)}</li>}
+      {remarks.length > SHOWN_REMARKS && (
+        <li>{words.files.moreRemarks({ count: remarks.length - SHOWN_REMARKS })}</li>
+      )}
     </ul>
   );
 }

@@ -14,7 +14,9 @@ import { useGroup, useKnownFamily, useRobot, useStores } from '../stores/stores.
 import { Button } from '../ui/Button.tsx';
 import { saveBlob } from '../ui/saveFile.ts';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { lossText, misfitText } from './fileText.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/whole.ts';
 import { fileMeans } from './means.ts';
 import { loadSqlite } from './sqlite.ts';
 import styles from './SaveAs.module.css';
@@ -30,15 +32,15 @@ export function SaveAs() {
         <Choice<SaveFormat>
           label={words.files.save}
           value={format}
-          options={SAVE_FORMATS.map((value) => ({ value, label: words.files.format(value) }))}
+          options={SAVE_FORMATS.map((value) => ({ value, label: words.files.formats[value] }))}
           onChange={setFormat}
         />
       </div>
-      <p>{words.files.formatAbout(format)}</p>
+      <p>{words.files.formatAbout[format]}</p>
       {losses.length > 0 && (
         <ul className={styles.losses}>
           {losses.map((loss) => (
-            <li key={loss.code}>{words.files.loss(loss)}</li>
+            <li key={loss.code}>{lossText(loss)}</li>
           ))}
         </ul>
       )}
@@ -65,13 +67,15 @@ function Save({ format }: { readonly format: SaveFormat }) {
 
   return (
     <>
-      {isProgram(format) && <p className={styles.dim}>{words.files.forBoard(words.boardName(family))}</p>}
+      {isProgram(format) && (
+        <p className={styles.dim}>{words.files.forBoard({ board: boardName(family) })}</p>
+      )}
       <div>
         <Button
           icon="save"
           onPress={() => void save().catch(() => notices.tell('warning', words.files.saveFailed))}
         >
-          {words.files.saveVerb(fileNameOf(group, EXTENSIONS[format]))}
+          {words.files.saveVerb({ name: fileNameOf(group, EXTENSIONS[format]) })}
         </Button>
       </div>
       <div role="status">
@@ -80,7 +84,7 @@ function Save({ format }: { readonly format: SaveFormat }) {
             <p className={styles.refused}>{words.files.notSaved}</p>
             <ul className={styles.losses}>
               {misfits.map((misfit) => (
-                <li key={`${misfit.code} ${misfit.servo}`}>{words.files.misfit(misfit)}</li>
+                <li key={`${misfit.code} ${misfit.servo}`}>{misfitText(misfit)}</li>
               ))}
             </ul>
           </>

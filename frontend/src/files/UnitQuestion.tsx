@@ -3,7 +3,8 @@
 import type { Unit } from '#shared/actions/files/reading.ts';
 import { meaningIn } from '#shared/actions/files/units.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { words } from '../words/whole.ts';
+import { meaningText } from './fileText.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './UnitQuestion.module.css';
 
 const UNITS: readonly Unit[] = ['us', 'steps'];
@@ -27,8 +28,8 @@ export function UnitQuestion({ group, unit, onUnit }: UnitQuestionProps) {
             aria-pressed={unit === one}
             onClick={() => onUnit(one)}
           >
-            <span>{words.files.unit(one)}</span>
-            <span className={styles.meaning}>{words.files.meaning(one, meaningIn(one, group))}</span>
+            <span>{words.files.units[one]}</span>
+            <span className={styles.meaning}>{meaningText(one, meaningIn(one, group))}</span>
           </button>
         ))}
       </div>

@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import type { Reading } from '#shared/actions/files/reading.ts';
 import { insertFrame } from '#shared/actions/group/groupEdits.ts';
 import { emptyGroup } from '#shared/actions/group/group.ts';
-import { words } from '../words/whole.ts';
+import { filesText } from './fileText.ts';
 import { countsOf, firstAnswers, readyGroups, takenAs, type Answer } from './answers.ts';
 
 const group = (name: string, ...positions: readonly number[]) =>
@@ -44,7 +44,7 @@ test('what could not be opened is not counted as opened', () => {
   const refused = opened(1, { problem: { code: 'encrypted', place: null, found: '' } });
   const files = [refused, opened(2, read(true, group('Nod', 700)))];
   expect(countsOf(files)).toEqual({ opened: 1, refused: 1 });
-  expect(words.files.button(0, 4)).toBe('Files, 4 not opened');
+  expect(filesText({ opened: 0, refused: 4 })).toBe('Files, 4 not opened');
 });
 
 test('all are taken at once but files that ask or are broken', () => {

@@ -3,7 +3,7 @@
 
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Stores } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import type { Course } from './openedFiles.ts';
 
 type Needed = Pick<Stores, 'document' | 'library' | 'view' | 'notices'>;
@@ -11,11 +11,11 @@ type Needed = Pick<Stores, 'document' | 'library' | 'view' | 'notices'>;
 export function takeGroup({ document, library, view, notices }: Needed, group: ActionGroup): void {
   if (document.store.getState().present.frames.length > 0) library.create();
   document.edit(
-    () => words.files.step(group.name),
+    () => words.files.step({ name: group.name }),
     () => group,
   );
   view.setState({ authoring: 'group', selectedFrame: null });
-  notices.say(words.files.taken(group.name, group.frames.length));
+  notices.say(words.files.taken({ name: group.name, frames: group.frames.length }));
 }
 
 /** One after the other, so that the page goes on meanwhile: each is in the library, or waits for it, before the next. */
@@ -34,5 +34,5 @@ export async function takeGroups(
     added += 1;
     onTaken(added);
   }
-  if (added > 0) stores.notices.tell('info', words.files.inLibrary(added));
+  if (added > 0) stores.notices.tell('info', words.files.inLibrary({ count: added }));
 }

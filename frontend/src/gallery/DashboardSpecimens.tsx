@@ -18,7 +18,7 @@ import { nameOf } from '../stores/device/boards.ts';
 import type { RobotStore } from '../stores/robots/robots.ts';
 import { editServoView, type Stores } from '../stores/stores.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import type { Exhibit } from './exhibit.ts';
 import { frozenSession } from './frozen.ts';
 import styles from './Gallery.module.css';

@@ -5,7 +5,8 @@ import { BodyMap } from '../body/BodyMap.tsx';
 import { Messages } from '../console/Messages.tsx';
 import type { Stores } from '../stores/stores.ts';
 import { TopBar } from '../topBar/TopBar.tsx';
-import { words } from '../words/whole.ts';
+import { errorSentence } from '../i18n/sentences/errors.ts';
+import { words } from '../i18n/whole.ts';
 import { standing, type Exhibit } from './exhibit.ts';
 import { LEASE, READY, REMOTE } from './states.ts';
 
@@ -31,9 +32,9 @@ export const MESSAGES: readonly Exhibit[] = [
     content: <Messages />,
     stores: () =>
       prepared(({ notices }) => {
-        notices.tell('danger', words.errorSentence('internal', ''));
+        notices.tell('danger', errorSentence('internal', ''));
         notices.tell('warning', words.timeline.held.locked);
-        notices.tell('warning', words.library.removed('Wave'), {
+        notices.tell('warning', words.library.removed({ name: 'Wave' }), {
           ...{ label: words.library.undo, act: () => undefined },
         });
       }),

@@ -6,7 +6,7 @@ import { AuthoringPanel } from '../authoring/Authoring.tsx';
 import type { Gamepadlike } from '../stores/driving/pad.ts';
 import { useStores, type Stores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { standing, type Exhibit } from './exhibit.ts';
 import { SIMULATED } from './states.ts';
 

@@ -12,7 +12,7 @@ import { posesParts } from '../poses/PosesPanel.tsx';
 import { AuthoringPanel } from '../authoring/Authoring.tsx';
 import { useSelectedPose } from '../poses/useSelectedPose.ts';
 import type { Stores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { standing, type Exhibit } from './exhibit.ts';
 
 const NAMED = { 'Greet the visitor': 0.2, 'Look down': 0.5, Sit: 0.8 };

@@ -3,7 +3,7 @@
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { RawForm } from '../console/RawSender.tsx';
 import { judgeText } from '../console/judgeText.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import type { Exhibit } from './exhibit.ts';
 
 interface Case {

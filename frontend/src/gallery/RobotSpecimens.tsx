@@ -12,7 +12,7 @@ import { freshRobot } from '../stores/robots/robots.ts';
 import type { Stores } from '../stores/stores.ts';
 import { standing, type Exhibit } from './exhibit.ts';
 import { READY, SIMULATED, WATCHED } from './states.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 const BOARD = 'lsc-16';
 const STOPPED: SessionState = {

@@ -2,7 +2,7 @@
 
 import { createRoot } from 'react-dom/client';
 import { Gallery } from './Gallery.tsx';
-import { preferredLanguage, speak } from '../words/words.ts';
+import { preferredLanguage, speak } from '../i18n/words.ts';
 import '../ui/fonts.css';
 import '../ui/tokens.css';
 import '../ui/base.css';

@@ -3,7 +3,8 @@
 import { mayAsk } from '../stores/device/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
+import { offsetsText } from './answerText.ts';
+import { words } from '../i18n/whole.ts';
 
 export function BoardDetails() {
   const { device } = useStores();
@@ -14,8 +15,8 @@ export function BoardDetails() {
   if (!family.commands.includes('readOffsets')) return null;
   return (
     <>
-      {version !== null && <p>{words.identity.version(version)}</p>}
-      {offsets !== null && <p>{words.identity.offsets(offsets)}</p>}
+      {version !== null && <p>{words.identity.version({ version })}</p>}
+      {offsets !== null && <p>{offsetsText(offsets)}</p>}
       <Button tone="quiet" isDisabled={!isAllowed} onPress={device.readDetails}>
         {words.identity.askDetails}
       </Button>

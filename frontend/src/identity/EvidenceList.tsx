@@ -2,7 +2,8 @@
 
 import type { Evidence } from '#shared/session/identity.ts';
 import { Mark, type Truth } from '../ui/Chip.tsx';
-import { words } from '../words/whole.ts';
+import { answerText } from './answerText.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './WhichBoard.module.css';
 
 const TRUTH: Readonly<Record<Evidence['kind'], Truth>> = {
@@ -18,7 +19,7 @@ export function EvidenceList({ evidence }: { readonly evidence: readonly Evidenc
       {evidence.map((one) => (
         <li key={`${one.kind} ${'question' in one ? one.question : ''}`}>
           <Mark truth={TRUTH[one.kind]} />
-          {words.identity.evidenceOf(one)}
+          {answerText(one)}
         </li>
       ))}
     </ul>

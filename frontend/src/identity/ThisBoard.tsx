@@ -4,7 +4,8 @@ import { useStore } from 'zustand';
 import { nameOf, NICKNAME_LENGTH } from '../stores/device/boards.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/whole.ts';
 import { BoardDetails } from './BoardDetails.tsx';
 import { EvidenceList } from './EvidenceList.tsx';
 import field from '../ui/Field.module.css';
@@ -36,7 +37,7 @@ export function ThisBoard() {
         />
       </label>
       <div className={styles.family}>
-        <p>{words.identity.takenFor(words.boardName(family))}</p>
+        <p>{words.identity.takenFor({ name: boardName(family) })}</p>
         <EvidenceList evidence={evidence} />
         <BoardDetails />
         {family.certainAnswers.length === 0 && <p className={styles.dim}>{words.identity.unproven}</p>}

@@ -6,7 +6,9 @@ import { fitOf, type Fit } from '#shared/session/identity.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Panel } from '../ui/Panel.tsx';
-import { words } from '../words/whole.ts';
+import { summaryText, familyText } from './answerText.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/whole.ts';
 import { EvidenceList } from './EvidenceList.tsx';
 import styles from './WhichBoard.module.css';
 
@@ -57,9 +59,10 @@ function Answered() {
   const fitting = (fit: Fit): readonly Family[] =>
     families.filter((family) => fitOf(family, evidence) === fit);
   const likely = fitting('fits');
+  const ruledOut = fitting('contradicts');
   return (
     <>
-      <p className={styles.lead}>{words.identity.summary(evidence)}</p>
+      <p className={styles.lead}>{summaryText(evidence)}</p>
       <EvidenceList evidence={evidence} />
       {likely.length > 0 && (
         <section className={styles.choice} aria-label={words.identity.likely}>
@@ -78,7 +81,11 @@ function Answered() {
           <summary>{words.identity.others}</summary>
           <p className={styles.dim}>{words.identity.silentHint}</p>
           <Boards families={fitting('silent')} />
-          <p className={styles.dim}>{words.identity.ruledOut(fitting('contradicts').map(words.boardName))}</p>
+          {ruledOut.length > 0 && (
+            <p className={styles.dim}>
+              {words.identity.ruledOut({ names: words.numbers.formatNames(ruledOut.map(boardName)) })}
+            </p>
+          )}
         </details>
       )}
     </>
@@ -97,8 +104,8 @@ function Boards({ families }: { readonly families: readonly Family[] }) {
       {families.map((family) => (
         <li key={family.id}>
           <Button wide onPress={() => choose(family)}>
-            <span className={styles.name}>{words.boardName(family)}</span>
-            <span className={styles.about}>{words.identity.about(family)}</span>
+            <span className={styles.name}>{boardName(family)}</span>
+            <span className={styles.about}>{familyText(family)}</span>
           </Button>
         </li>
       ))}

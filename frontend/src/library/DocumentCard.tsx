@@ -5,7 +5,7 @@ import type { Listed } from '#shared/actions/library/keeper.ts';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { DocumentDetails } from './DocumentDetails.tsx';
 import { DocumentThumb } from './DocumentThumb.tsx';
 import styles from './Library.module.css';
@@ -55,7 +55,7 @@ export const DocumentCard = memo(function DocumentCard({
           type="button"
           data-card-face=""
           className={styles.face}
-          aria-label={words.library.open(name)}
+          aria-label={words.library.open({ name })}
           aria-current={isOpen}
           disabled={isRemoved}
           onClick={open}
@@ -69,15 +69,15 @@ export const DocumentCard = memo(function DocumentCard({
           ) : (
             <IconButton
               icon="more"
-              label={words.library.more(name)}
+              label={words.library.more({ name })}
               aria-expanded={isUnfolded}
               onPress={() => onUnfold(id, !isUnfolded)}
             />
           )}
           <span className={styles.about}>
-            {isOpen ? words.library.isOpen : words.library.age(nowMs - facts.updatedAtMs)}
+            {isOpen ? words.library.isOpen : words.dates.formatLongAge(nowMs - facts.updatedAtMs)}
           </span>
-          <span className={styles.about}>{words.library.about(frames, durationMs)}</span>
+          <span className={styles.about}>{words.library.about({ count: frames, durationMs })}</span>
           <span className={styles.about}>{[robot, ...tags].filter((word) => word !== '').join(' · ')}</span>
         </div>
       </div>

@@ -6,7 +6,7 @@ import { tagsFromText, tagsToText } from '#shared/actions/library/tags.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NameField } from '../ui/NameField.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { cx } from '../ui/cx.ts';
 import field from '../ui/Field.module.css';
 import styles from './Library.module.css';
@@ -25,7 +25,7 @@ export function DocumentDetails({ document, onDone }: DocumentDetailsProps) {
     <div className={styles.details}>
       <NameField
         isFramed
-        label={words.library.name(name)}
+        label={words.library.name({ name })}
         name={name}
         onRename={(wanted) =>
           void library.change(
@@ -36,7 +36,7 @@ export function DocumentDetails({ document, onDone }: DocumentDetailsProps) {
         }
       />
       <TagsField
-        label={words.library.tags(name)}
+        label={words.library.tags({ name })}
         tags={facts.tags}
         onChange={(tags) =>
           void library.change(

@@ -14,7 +14,7 @@ import {
 } from 'react';
 import type { Listed } from '#shared/actions/library/keeper.ts';
 import { neighbour } from '../actions/neighbour.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { cardRows } from './cardRows.ts';
 import { DocumentCard } from './DocumentCard.tsx';
 import { useVisibleRows } from './useVisibleRows.ts';

@@ -2,7 +2,7 @@
 
 import { useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 
 export function LibraryButton() {
   const { view } = useStores();

@@ -3,7 +3,7 @@
 import { useStores, useView } from '../stores/stores.ts';
 import { Dialog } from '../ui/Dialog.tsx';
 import { laterComponent } from '../ui/later.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 const LibraryView = laterComponent(async () => (await import('./LibraryView.tsx')).LibraryView, '60vh');
 

@@ -6,7 +6,7 @@ import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { FileButton } from '../ui/FileButton.tsx';
 import { saveFile } from '../ui/saveFile.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './Library.module.css';
 
 export function LibraryFiles({ onDone }: { onDone(): void }) {

@@ -2,7 +2,7 @@
 
 import { Select } from '../ui/Select.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { SORTS, type Wish } from './arrange.ts';
 import { cx } from '../ui/cx.ts';
 import field from '../ui/Field.module.css';

@@ -5,7 +5,7 @@ import { useEffect, useMemo, useState } from 'react';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { useNow } from '../ui/useNow.ts';
 import { EmptyState } from '../ui/EmptyState.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { arranged, tagsIn, type Wish } from './arrange.ts';
 import { DocumentList } from './DocumentList.tsx';
 import { LibraryFinder } from './LibraryFinder.tsx';

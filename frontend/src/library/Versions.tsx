@@ -5,7 +5,7 @@ import type { Version } from '#shared/actions/library/keeper.ts';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { NameField } from '../ui/NameField.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { cx } from '../ui/cx.ts';
 import field from '../ui/Field.module.css';
 import styles from './Library.module.css';
@@ -60,20 +60,20 @@ export function Versions({ id, onDone }: { readonly id: string; onDone(): void }
           {versions.toReversed().map((version) => (
             <li key={version.id} className={styles.version}>
               <NameField
-                label={words.library.nameOfVersion(version.name)}
+                label={words.library.nameOfVersion({ name: version.name })}
                 name={version.name}
                 onRename={(wanted) => void library.renameVersion(id, version, wanted)}
               />
-              <span className={styles.about}>{words.library.at(version.atMs)}</span>
+              <span className={styles.about}>{words.dates.formatMoment(version.atMs)}</span>
               <Button
-                aria-label={words.library.restoreVersion(version.name)}
+                aria-label={words.library.restoreVersion({ name: version.name })}
                 onPress={() => void library.restoreVersion(id, version).then(onDone)}
               >
                 {words.library.goBack}
               </Button>
               <IconButton
                 icon="trash"
-                label={words.library.removeVersion(version.name)}
+                label={words.library.removeVersion({ name: version.name })}
                 onPress={() => void library.removeVersion(id, version)}
               />
             </li>

@@ -6,7 +6,7 @@ import { EmptyState, type EmptyStateProps } from '../ui/EmptyState.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { EditGrid } from './EditGrid.tsx';
 import { MacroEditor } from './MacroEditor.tsx';
 import { MacroGrid } from './MacroGrid.tsx';

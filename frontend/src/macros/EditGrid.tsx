@@ -8,7 +8,8 @@ import { Button } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
-import { words } from '../words/whole.ts';
+import { nameAndKey } from './macroText.ts';
+import { words } from '../i18n/whole.ts';
 import { MacroFace } from './MacroFace.tsx';
 import styles from './Macros.module.css';
 import { useAddMacro } from './useAddMacro.ts';
@@ -25,15 +26,15 @@ export function EditGrid() {
     select: (id) => view.setState({ selectedButton: id }),
     move(id, to) {
       macros.edit(
-        () => words.macros.edits.move(nameOf(id)),
+        () => words.macros.edits.move({ name: nameOf(id) }),
         (page) => moveMacro(page, id, to),
       );
       view.setState({ selectedButton: id });
-      notices.say(words.macros.moved(ids.indexOf(id) + 1, to + 1));
+      notices.say(words.macros.moved({ from: ids.indexOf(id) + 1, to: to + 1 }));
     },
     remove(id, next) {
       macros.edit(
-        () => words.macros.edits.delete(nameOf(id)),
+        () => words.macros.edits.delete({ name: nameOf(id) }),
         (page) => removeMacro(page, id),
       );
       view.setState({ selectedButton: next });
@@ -76,7 +77,7 @@ function EditCard({ macro, isSelected, isTabStop }: EditCardProps) {
         data-card-face=""
         className={styles.button}
         data-colour={macro.colour}
-        aria-label={words.macros.keyed(macro.name, macro.key)}
+        aria-label={nameAndKey(macro)}
         aria-pressed={isSelected}
         tabIndex={isTabStop ? 0 : -1}
         onClick={() => view.setState({ selectedButton: macro.id })}
@@ -95,7 +96,7 @@ function useMacroDrag({ id, name }: Macro): DragOrder {
   return useDragOrder({
     attribute: 'data-macro',
     begin() {
-      macros.begin(() => words.macros.edits.move(name));
+      macros.begin(() => words.macros.edits.move({ name }));
       view.setState({ selectedButton: id });
     },
     over(other) {

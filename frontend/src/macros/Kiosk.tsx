@@ -5,7 +5,7 @@ import { useEffect, useRef, useState } from 'react';
 import { Messages } from '../console/Messages.tsx';
 import { useMacros, useStores } from '../stores/stores.ts';
 import { StatusLine, type StatusLineProps } from '../topBar/StatusLine.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { NoButtons } from './ButtonsPage.tsx';
 import { MacroGrid } from './MacroGrid.tsx';
 import styles from './Kiosk.module.css';

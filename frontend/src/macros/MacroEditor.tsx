@@ -8,7 +8,7 @@ import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { Panel } from '../ui/Panel.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { macroKey } from './macroKey.ts';
 import { StepList } from './StepList.tsx';
 import styles from './MacroEditor.module.css';
@@ -18,7 +18,11 @@ export function MacroEditor() {
   const macro = useMacros(({ present }) => macroOf(present, id));
   if (macro === undefined) return <p className={styles.hint}>{words.macros.select}</p>;
   return (
-    <Panel title={words.macros.selected(macro.name)} tools={<Tools macro={macro} />} className={styles.panel}>
+    <Panel
+      title={words.macros.selected({ name: macro.name })}
+      tools={<Tools macro={macro} />}
+      className={styles.panel}
+    >
       <div className={styles.fields}>
         <Name macro={macro} />
         <Colours macro={macro} />
@@ -40,10 +44,10 @@ function Tools({ macro }: MacroProps) {
   const { id, name } = macro;
   const move = (to: number) => (): void => {
     macros.edit(
-      () => words.macros.edits.move(name),
+      () => words.macros.edits.move({ name }),
       (page) => moveMacro(page, id, to),
     );
-    notices.say(words.macros.moved(index + 1, to + 1));
+    notices.say(words.macros.moved({ from: index + 1, to: to + 1 }));
   };
   return (
     <>
@@ -64,7 +68,7 @@ function Tools({ macro }: MacroProps) {
         label={words.macros.delete}
         onPress={() =>
           macros.edit(
-            () => words.macros.edits.delete(name),
+            () => words.macros.edits.delete({ name }),
             (page) => removeMacro(page, id),
           )
         }
@@ -82,7 +86,7 @@ function Name({ macro: { id, name } }: MacroProps) {
       name={name}
       onRename={(wanted) =>
         macros.edit(
-          () => words.macros.edits.rename(name),
+          () => words.macros.edits.rename({ name }),
           (page) => changeMacro(page, id, { name: wanted }),
         )
       }
@@ -104,7 +108,7 @@ function Colours({ macro: { id, name, colour } }: MacroProps) {
             checked={one === colour}
             onChange={() =>
               macros.edit(
-                () => words.macros.edits.colour(name),
+                () => words.macros.edits.colour({ name }),
                 (page) => changeMacro(page, id, { colour: one }),
               )
             }
@@ -126,10 +130,11 @@ function KeyField({ macro: { id, name, key } }: MacroProps) {
     const { present } = macros.store.getState();
     const loser = present.macros.find((one) => wanted !== null && one.key === wanted && one.id !== id);
     macros.edit(
-      () => words.macros.edits.key(name),
+      () => words.macros.edits.key({ name }),
       (page) => changeMacro(page, id, { key: wanted }),
     );
-    if (loser !== undefined) notices.tell('info', words.macros.keyTaken(wanted ?? '', loser.name));
+    if (loser !== undefined && wanted !== null)
+      notices.tell('info', words.macros.keyTaken({ key: wanted.toUpperCase(), from: loser.name }));
   };
   /** Before the button takes it for a press. Esc has been STOP already, and ends the listening. */
   const listen = (event: KeyboardEvent): void => {

@@ -5,7 +5,8 @@ import { PoseThumb } from '../body/PoseThumb.tsx';
 import type { MacroProgress } from '../stores/driving/macroRun.ts';
 import { poseName } from '../stores/driving/poses.ts';
 import { useDevice, usePoses, useStores } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { stepText } from './macroText.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './Macros.module.css';
 
 export interface MacroFaceProps {
@@ -23,7 +24,7 @@ export function MacroFace({ macro, progress }: MacroFaceProps) {
           {progress === null ? (
             <About {...macro} />
           ) : (
-            words.macros.atWork(progress.stepIndex + 1, progress.stepCount)
+            words.macros.atWork({ step: progress.stepIndex + 1, count: progress.stepCount })
           )}
         </span>
       </span>
@@ -41,10 +42,10 @@ function About({ name, steps }: Macro) {
   const book = usePoses(({ present }) => present);
   const [first] = steps;
   if (first === undefined) return words.macros.empty;
-  if (steps.length > 1) return words.macros.stepCount(steps.length);
+  if (steps.length > 1) return words.macros.stepCount({ count: steps.length });
   const pose = first.kind === 'pose' ? poseName(book, first.pose) : '';
   // Usually the button is called like the pose, and once is enough.
-  return words.macros.stepAbout(first, pose === name ? '' : pose);
+  return stepText(first, pose === name ? '' : pose);
 }
 
 function Picture({ macro }: { readonly macro: Macro }) {

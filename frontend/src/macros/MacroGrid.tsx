@@ -4,7 +4,8 @@ import { useStore } from 'zustand';
 import type { Macro } from '#shared/actions/macros/macro.ts';
 import { startHindrance } from '../stores/device/readiness.ts';
 import { useMacros, useSnapshot, useStores } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { nameAndKey } from './macroText.ts';
+import { words } from '../i18n/whole.ts';
 import { MacroFace } from './MacroFace.tsx';
 import { useMacroKeys } from './useMacroKeys.ts';
 import { useMacroPress } from './useMacroPress.ts';
@@ -40,7 +41,7 @@ function MacroButton({ macro, onPress }: { readonly macro: Macro; readonly onPre
       className={styles.button}
       data-colour={macro.colour}
       data-at-work={isAtWork}
-      aria-label={words.macros.keyed(macro.name, macro.key)}
+      aria-label={nameAndKey(macro)}
       aria-pressed={isAtWork}
       aria-disabled={isWaiting}
       {...(macro.key !== null && { 'aria-keyshortcuts': macro.key.toUpperCase() })}

@@ -2,7 +2,7 @@
 
 import { useStores, useView } from '../stores/stores.ts';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 export function PageSwitch() {
   const { view } = useStores();

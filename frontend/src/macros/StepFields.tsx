@@ -6,7 +6,7 @@ import type { Range } from '#shared/protocol/families.ts';
 import { PoseSelect } from '../poses/PoseSelect.tsx';
 import { useStores } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './MacroEditor.module.css';
 
 export interface StepFieldsProps<Step extends MacroStep = MacroStep> {
@@ -27,12 +27,12 @@ function PoseFields({ step, number, onChange }: FieldsOf<'pose'>) {
   return (
     <>
       <PoseSelect
-        label={words.macros.stepPose(number)}
+        label={words.macros.stepPose({ number })}
         value={step.pose}
         onChange={(pose) => onChange({ ...step, pose })}
       />
       <Field
-        label={words.macros.stepMs(number)}
+        label={words.macros.stepMs({ number })}
         value={step.durationMs}
         range={POSE_MS}
         step={100}
@@ -49,14 +49,14 @@ function SlotFields({ step, number, onChange }: FieldsOf<'slot'>) {
       <span className={styles.pair}>
         <span aria-hidden="true">{words.board.slot}</span>
         <Field
-          label={words.macros.stepSlot(number)}
+          label={words.macros.stepSlot({ number })}
           value={step.slot}
           range={SLOT}
           onChange={(slot) => onChange({ ...step, slot })}
         />
       </span>
       <Field
-        label={words.macros.stepTimes(number)}
+        label={words.macros.stepTimes({ number })}
         value={step.times}
         range={SLOT_TIMES}
         unit={words.macros.times}
@@ -71,7 +71,7 @@ function WaitFields({ step, number, onChange }: FieldsOf<'wait'>) {
     <>
       <span>{words.macros.addWait}</span>
       <Field
-        label={words.macros.stepMs(number)}
+        label={words.macros.stepMs({ number })}
         value={step.waitMs}
         range={WAIT_MS}
         step={100}
@@ -96,7 +96,7 @@ function Field({ range: { min, max }, ...field }: FieldProps) {
   return (
     <NumberField
       {...{ min, max, ...field }}
-      onRefused={(value) => notices.refuse(words.refused(field.label, value, min, max))}
+      onRefused={(value) => notices.refuse(words.refused({ name: field.label, value, min, max }))}
     />
   );
 }

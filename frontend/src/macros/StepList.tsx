@@ -6,7 +6,7 @@ import type { MacroPage } from '#shared/actions/macros/macro.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { StepFields } from './StepFields.tsx';
 import styles from './MacroEditor.module.css';
 
@@ -20,7 +20,7 @@ const ADD_STEPS = ['addPose', 'addSlot', 'addWait'] as const;
 export function StepList({ macro: { id, name, steps } }: { readonly macro: Macro }) {
   const { macros } = useStores();
   const edit = (change: (page: MacroPage) => MacroPage): void =>
-    macros.edit(() => words.macros.edits.steps(name), change);
+    macros.edit(() => words.macros.edits.steps({ name }), change);
   return (
     <>
       <ol className={styles.list} aria-label={words.macros.steps}>
@@ -35,19 +35,19 @@ export function StepList({ macro: { id, name, steps } }: { readonly macro: Macro
             <span className={styles.order}>
               <IconButton
                 icon="up"
-                label={words.macros.stepUp(index + 1)}
+                label={words.macros.stepUp({ number: index + 1 })}
                 isDisabled={index === 0}
                 onPress={() => edit((page) => moveStep(page, id, index, index - 1))}
               />
               <IconButton
                 icon="down"
-                label={words.macros.stepDown(index + 1)}
+                label={words.macros.stepDown({ number: index + 1 })}
                 isDisabled={index === steps.length - 1}
                 onPress={() => edit((page) => moveStep(page, id, index, index + 1))}
               />
               <IconButton
                 icon="trash"
-                label={words.macros.stepDelete(index + 1)}
+                label={words.macros.stepDelete({ number: index + 1 })}
                 onPress={() => edit((page) => removeStep(page, id, index))}
               />
             </span>

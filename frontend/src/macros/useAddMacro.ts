@@ -2,15 +2,15 @@
 
 import { addMacro } from '#shared/actions/macros/macroEdits.ts';
 import { useStores } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 
 export function useAddMacro(): () => void {
   const { macros, view } = useStores();
   return () => {
     const { nextId } = macros.store.getState().present;
-    const name = words.macros.newName(nextId);
+    const name = words.macros.newName({ number: nextId });
     macros.edit(
-      () => words.macros.edits.add(name),
+      () => words.macros.edits.add({ name }),
       (page) => addMacro(page, name, []),
     );
     view.setState({ selectedButton: nextId, editsButtons: true });

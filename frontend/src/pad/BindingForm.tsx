@@ -8,7 +8,9 @@ import { useDevice, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { inputName } from './inputText.ts';
+import { servoLabel } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/whole.ts';
 import { bindingFrom, type Draft } from './draft.ts';
 import styles from './BindingForm.module.css';
 
@@ -28,11 +30,11 @@ export function BindingForm({ initial, onSave, onRemove, onCancel }: BindingForm
   // Letting go of a key must never be what moves a servo.
   const kinds = KINDS.filter((one) => input.kind !== 'key' || one !== 'position');
   const turns = kind === 'rate' || kind === 'position';
-  const name = words.pad.input(input);
+  const name = inputName(input);
   return (
     <form
       className={styles.form}
-      aria-label={words.pad.form(name)}
+      aria-label={words.pad.form({ input: name })}
       onSubmit={(event) => {
         event.preventDefault();
         onSave(bindingFrom(draft), at);
@@ -93,7 +95,7 @@ function ServoChoice({ servo, onChange }: { readonly servo: number; onChange(ser
     >
       {servos.map((one) => (
         <option key={one.servo} value={one.servo}>
-          {words.robots.called(one)}
+          {servoLabel(one)}
         </option>
       ))}
     </select>
@@ -107,11 +109,13 @@ function Speed({ value, onChange }: FieldProps) {
   return (
     <NumberField
       label={words.pad.speedField}
-      unit={words.pad.speedUnit(unit)}
+      unit={words.pad.speedUnit({ unit: words.units[unit] })}
       step={10}
       {...{ value, onChange, ...range }}
       onRefused={(wanted) =>
-        notices.refuse(words.refused(words.pad.speedField, wanted, range.min, range.max))
+        notices.refuse(
+          words.refused({ name: words.pad.speedField, value: wanted, min: range.min, max: range.max }),
+        )
       }
     />
   );
@@ -126,7 +130,9 @@ function Time({ value, onChange }: FieldProps) {
       unit={words.servos.ms}
       step={100}
       {...{ value, onChange, min, max }}
-      onRefused={(wanted) => notices.refuse(words.refused(words.poses.time, wanted, min, max))}
+      onRefused={(wanted) =>
+        notices.refuse(words.refused({ name: words.poses.time, value: wanted, min, max }))
+      }
     />
   );
 }
@@ -138,7 +144,7 @@ function Slot({ value, onChange }: FieldProps) {
     <NumberField
       label={words.pad.slot}
       {...{ value, onChange, min, max }}
-      onRefused={(wanted) => notices.refuse(words.refused(words.pad.slot, wanted, min, max))}
+      onRefused={(wanted) => notices.refuse(words.refused({ name: words.pad.slot, value: wanted, min, max }))}
     />
   );
 }

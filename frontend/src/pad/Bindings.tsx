@@ -10,7 +10,8 @@ import { useMapping, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { pressOnce } from '../ui/pressOnce.ts';
-import { words } from '../words/whole.ts';
+import { inputName, chipText } from './inputText.ts';
+import { words } from '../i18n/whole.ts';
 import { BindingForm } from './BindingForm.tsx';
 import { draftFor, draftOf, type Draft } from './draft.ts';
 import { rowsOf } from './rows.ts';
@@ -28,13 +29,13 @@ export function Bindings() {
   };
   const save = (binding: Binding, at: number | null): void => {
     const { bindings } = mapping;
-    const label = (): string => words.pad.steps.bind(words.pad.input(binding.input));
+    const label = (): string => words.pad.steps.bind({ input: inputName(binding.input) });
     edit(label, at === null ? [...bindings, binding] : bindings.with(at, binding));
   };
   const remove = (at: number): void => {
     const gone = mapping.bindings[at];
     if (gone === undefined) return;
-    edit(() => words.pad.steps.unbind(words.pad.input(gone.input)), mapping.bindings.toSpliced(at, 1));
+    edit(() => words.pad.steps.unbind({ input: inputName(gone.input) }), mapping.bindings.toSpliced(at, 1));
   };
 
   return (
@@ -51,7 +52,7 @@ export function Bindings() {
       </div>
       {draft !== null && (
         <BindingForm
-          key={`${draft.at} ${words.pad.input(draft.input)}`}
+          key={`${draft.at} ${inputName(draft.input)}`}
           initial={draft}
           onSave={save}
           onRemove={remove}
@@ -130,11 +131,11 @@ function Table({ onEdit }: { onEdit(at: number, binding: Binding): void }) {
                     type="button"
                     data-binding={at}
                     className={styles.chip}
-                    aria-label={words.pad.edit(words.pad.input(binding.input), title)}
+                    aria-label={words.pad.edit({ input: inputName(binding.input), row: title })}
                     onClick={() => onEdit(at, binding)}
                     onKeyDown={pressOnce}
                   >
-                    {words.pad.chip(binding)}
+                    {chipText(binding)}
                   </button>
                 )
               );

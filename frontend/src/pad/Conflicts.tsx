@@ -5,7 +5,8 @@ import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import type { Robot } from '#shared/actions/robot/robot.ts';
 import { useMapping, usePoses, useRobot } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
-import { words } from '../words/whole.ts';
+import { inputName } from './inputText.ts';
+import { words } from '../i18n/whole.ts';
 import { rowTitle, servoTitle } from './rows.ts';
 import styles from './Conflicts.module.css';
 
@@ -31,9 +32,13 @@ export function Conflicts() {
 }
 
 function sentenceOf(conflict: Conflict, { bindings }: Mapping, robot: Robot, book: PoseBook): string {
-  if (conflict.kind === 'sharedServo') return words.pad.sharedServo(servoTitle(robot, conflict.servo));
+  if (conflict.kind === 'sharedServo')
+    return words.pad.sharedServo({ name: servoTitle(robot, conflict.servo) });
   const [one, other] = [bindings[conflict.one], bindings[conflict.other]];
   if (one === undefined || other === undefined) return '';
   const [first, second] = [one, other].map((binding) => rowTitle(binding, robot, book));
-  return words.pad.sameInput(words.pad.input(other.input), first ?? '', second ?? '');
+  const input = inputName(other.input);
+  return first === second
+    ? words.pad.sameInputTwice({ input, one: first ?? '' })
+    : words.pad.sameInput({ input, one: first ?? '', other: second ?? '' });
 }

@@ -6,7 +6,7 @@ import type { Feel } from '#shared/actions/mapping/mapping.ts';
 import { shaped } from '#shared/actions/mapping/mappingInputs.ts';
 import { useMapping, usePad, useStores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './FeelControls.module.css';
 
 interface Control {
@@ -64,13 +64,15 @@ interface FeelSliderProps {
 }
 
 function FeelSlider({ control: { field, min, max, step, unit }, value, onChange, onDone }: FeelSliderProps) {
+  const { formatMs, formatPercent } = words.numbers;
+  const text = unit === 'ms' ? formatMs(value) : formatPercent(value / 100);
   return (
     <label className={styles.slider}>
       <span>{words.pad[field]}</span>
       <input
         type="range"
         className={styles.input}
-        aria-valuetext={words.pad[unit](value)}
+        aria-valuetext={text}
         {...{ min, max, step, value }}
         onChange={(event) => onChange(event.currentTarget.valueAsNumber)}
         onPointerUp={onDone}
@@ -78,7 +80,7 @@ function FeelSlider({ control: { field, min, max, step, unit }, value, onChange,
         onKeyUp={onDone}
         onBlur={onDone}
       />
-      <output className={styles.value}>{words.pad[unit](value)}</output>
+      <output className={styles.value}>{text}</output>
     </label>
   );
 }

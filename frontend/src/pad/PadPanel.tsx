@@ -17,7 +17,8 @@ import { Button } from '../ui/Button.tsx';
 import type { PanelParts } from '../ui/Panel.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { words } from '../words/whole.ts';
+import { servoLabel } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/whole.ts';
 import { Bindings } from './Bindings.tsx';
 import { Conflicts } from './Conflicts.tsx';
 import { FeelControls } from './FeelControls.tsx';
@@ -93,7 +94,7 @@ function FirstMoves() {
   };
   return (
     <div className={styles.unknown}>
-      <p>{words.pad.allUnknown(unknown.map(words.robots.called))}</p>
+      <p>{words.pad.allUnknown({ names: words.numbers.formatNames(unknown.map(servoLabel)) })}</p>
       <Button icon="centre" hint={words.pad.firstMoveHint} onPress={goHome}>
         {words.pad.firstMove}
       </Button>

@@ -4,7 +4,7 @@
 import { useRef } from 'react';
 import { usePad, useStores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './PadPicture.module.css';
 
 /** Places by the number of the browser's standard pad. */

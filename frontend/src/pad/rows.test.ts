@@ -4,14 +4,15 @@ import { expect, test } from 'vitest';
 import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
 import { EMPTY_BOOK } from '#shared/actions/poses/pose.ts';
 import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
-import { words } from '../words/words.ts';
+import { robotNames } from '../i18n/sentences/robots.ts';
+import { servoLabel } from '../i18n/sentences/servos.ts';
 import { rowsOf } from './rows.ts';
 
-const HEXAPOD = readyRobot('hexapod18', 'lsc-24', words.robots.names('hexapod18'));
+const HEXAPOD = readyRobot('hexapod18', 'lsc-24', robotNames('hexapod18'));
 
 test('servos that are called alike on two limbs have a row each, and the limb in its title', () => {
   const rows = rowsOf(readyMapping(HEXAPOD), HEXAPOD, EMPTY_BOOK);
   const titles = rows.map(({ title }) => title);
-  expect(titles.slice(0, HEXAPOD.servos.length)).toEqual(HEXAPOD.servos.map(words.robots.called));
+  expect(titles.slice(0, HEXAPOD.servos.length)).toEqual(HEXAPOD.servos.map(servoLabel));
   expect(new Set(titles).size).toBe(titles.length);
 });

@@ -4,7 +4,8 @@ import { servoBoundBy, type Binding, type Mapping } from '#shared/actions/mappin
 import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
 import { poseName } from '../stores/driving/poses.ts';
-import { words } from '../words/whole.ts';
+import { servoLabel } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/whole.ts';
 
 export interface Row {
   readonly id: string;
@@ -18,13 +19,13 @@ export function rowTitle(binding: Binding, robot: Robot, book: PoseBook): string
   const servo = servoBoundBy(binding);
   if (servo !== null) return servoTitle(robot, servo);
   const { action } = binding;
-  if (action.kind === 'pose') return words.pad.poseRow(poseName(book, action.pose));
-  return action.kind === 'run' ? words.pad.slotRow(action.slot) : words.pad.stopRow;
+  if (action.kind === 'pose') return words.pad.poseRow({ pose: poseName(book, action.pose) });
+  return action.kind === 'run' ? words.pad.slotRow({ slot: action.slot }) : words.pad.stopRow;
 }
 
 export function servoTitle(robot: Robot, servo: number): string {
   const own = servoOf(robot, servo);
-  return own === undefined ? words.robots.absent(servo) : words.robots.called(own);
+  return own === undefined ? words.robots.absent({ servo }) : servoLabel(own);
 }
 
 /** Servos are there without a binding too. */

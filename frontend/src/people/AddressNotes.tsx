@@ -1,6 +1,6 @@
 // What the address that this page was opened at means: who can listen in, and what a browser keeps back there.
 
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './People.module.css';
 
 export function AddressNotes({ overheard }: { readonly overheard: boolean }) {

@@ -4,7 +4,7 @@ import { useId, type InputHTMLAttributes, type ReactNode, type SyntheticEvent } 
 import type { PeopleError } from '../stores/people/people.ts';
 import { Button } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/words.ts';
+import { peopleProblem } from '../stores/people/problem.ts';
 import styles from './Outside.module.css';
 
 export interface EntryCardProps {
@@ -32,7 +32,7 @@ export function EntryCard({ text, notes = [], problem, isReady = true, children,
       {children}
       {problem !== null && (
         <p className={styles.problem} role="alert">
-          {words.people.problem(problem.code, problem.message)}
+          {peopleProblem(problem.code, problem.message)}
         </p>
       )}
       <Button type="submit" tone="primary" wide isDisabled={!isReady}>

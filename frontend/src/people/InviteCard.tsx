@@ -10,7 +10,7 @@ import {
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { cx } from '../ui/cx.ts';
 import field from '../ui/Field.module.css';
 import styles from './People.module.css';
@@ -79,7 +79,7 @@ function Open({ invitation, now, onEnd }: OpenProps) {
         </dd>
         <dt>{words.people.invite.link}</dt>
         <dd className={styles.link}>{link}</dd>
-        <dd className={styles.dim}>{words.people.invite.left(leftMs)}</dd>
+        <dd className={styles.dim}>{words.people.invite.left({ seconds: leftMs / 1000 })}</dd>
         <dd>
           <Button tone="quiet" icon="close" onPress={onEnd}>
             {words.people.invite.end}

@@ -2,7 +2,7 @@
 
 import { useState } from 'react';
 import type { PeopleError } from '../stores/people/people.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { EntryCard, EntryField, NAME_INPUT, nameOr } from './EntryCard.tsx';
 
 export interface NameCardProps {

@@ -2,7 +2,7 @@
 
 import type { Me } from '../stores/people/people.generated.ts';
 import { NameField } from '../ui/NameField.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { AddressNotes } from './AddressNotes.tsx';
 import styles from './People.module.css';
 

@@ -3,7 +3,7 @@
 import { useState } from 'react';
 import type { PeopleError } from '../stores/people/people.ts';
 import type { PairWish } from '../stores/people/people.generated.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { EntryCard, EntryField, NAME_INPUT, nameOr } from './EntryCard.tsx';
 
 export interface PairCardProps {

@@ -9,7 +9,7 @@ import { useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { laterComponent } from '../ui/later.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 const OwnView = laterComponent(async () => (await import('./OwnView.tsx')).OwnView, '40vh');
 const PeopleView = laterComponent(async () => (await import('./PeopleView.tsx')).PeopleView, '40vh');

@@ -13,7 +13,7 @@ import { Chip } from '../ui/Chip.tsx';
 import { Confirm } from '../ui/Confirm.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { Select } from '../ui/Select.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { AddressNotes } from './AddressNotes.tsx';
 import { InviteCard } from './InviteCard.tsx';
 import { ScriptsCard } from './ScriptsCard.tsx';
@@ -70,7 +70,7 @@ function PersonRow({ person, isYou, wishes, onHandOver }: PersonRowProps) {
       <div className={styles.who}>
         <NameField
           isFramed
-          label={words.people.rename(name)}
+          label={words.people.rename({ name })}
           name={name}
           onRename={(wanted) => wishes.change(id, { name: wanted })}
         />
@@ -80,7 +80,7 @@ function PersonRow({ person, isYou, wishes, onHandOver }: PersonRowProps) {
         <span className={styles.role}>{words.people.roleNames.stopper}</span>
       ) : (
         <RoleSelect
-          label={words.people.roleOf(name)}
+          label={words.people.roleOf({ name })}
           role={role}
           onChange={(wanted) => wishes.change(id, { role: wanted })}
         />
@@ -90,7 +90,7 @@ function PersonRow({ person, isYou, wishes, onHandOver }: PersonRowProps) {
         {onHandOver !== null && (
           <Button
             tone="quiet"
-            aria-label={words.people.handOverTo(name)}
+            aria-label={words.people.handOverTo({ name })}
             hint={words.people.handOverHint}
             onPress={() => onHandOver(id)}
           >
@@ -111,8 +111,8 @@ function RevokeControl({ person: { id, name, unattendedSlot }, wishes }: PersonP
       tone="quiet"
       icon="trash"
       label={words.people.revoke}
-      title={words.people.revokeOf(name)}
-      text={runs ? words.people.revokeTextOfRun(unattendedSlot) : words.people.revokeText}
+      title={words.people.revokeOf({ name })}
+      text={runs ? words.people.revokeTextOfRun({ slot: unattendedSlot }) : words.people.revokeText}
       keepLabel={words.people.keep}
       otherwise={
         runs ? { label: words.people.revokeGroupGoesOn, onConfirm: () => wishes.revoke(id, true) } : undefined
@@ -129,7 +129,9 @@ function Presence({ person: { here, drives, lastSeenMs } }: { readonly person: P
   if (here) return <Chip truth="confirmed">{words.people.here}</Chip>;
   return (
     <span className={styles.dim}>
-      {lastSeenMs === null ? words.people.never : words.people.seen(lastSeenMs)}
+      {lastSeenMs === null
+        ? words.people.never
+        : words.people.seen({ when: words.dates.formatMoment(lastSeenMs) })}
     </span>
   );
 }

@@ -3,7 +3,7 @@
 import { useState } from 'react';
 import type { PeopleWishes, Shown } from '../stores/people/people.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { cx } from '../ui/cx.ts';
 import field from '../ui/Field.module.css';
 import styles from './People.module.css';

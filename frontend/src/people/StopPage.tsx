@@ -2,7 +2,8 @@
 
 import { useEffect, useState } from 'react';
 import type { PeopleError } from '../stores/people/people.ts';
-import { words } from '../words/whole.ts';
+import { peopleProblem } from '../stores/people/problem.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './Outside.module.css';
 
 export type StopOutcome = 'idle' | 'sending' | 'sent' | PeopleError;
@@ -51,6 +52,6 @@ function outcomeText(outcome: StopOutcome): string {
   if (outcome === 'idle') return '';
   if (outcome === 'sending') return words.people.stopOnly.sending;
   if (outcome === 'sent') return words.people.stopOnly.sent;
-  if (outcome.code === 'refused') return words.people.stopOnly.unheard(outcome.message);
-  return words.people.problem(outcome.code, outcome.message);
+  if (outcome.code === 'refused') return words.people.stopOnly.unheard({ detail: outcome.message });
+  return peopleProblem(outcome.code, outcome.message);
 }

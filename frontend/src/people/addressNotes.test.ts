@@ -1,7 +1,7 @@
 import { createElement } from 'react';
 import { renderToStaticMarkup } from 'react-dom/server';
 import { afterEach, expect, test, vi } from 'vitest';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { AddressNotes } from './AddressNotes.tsx';
 
 afterEach(() => void vi.unstubAllGlobals());

@@ -26,7 +26,7 @@ import { cx } from '../ui/cx.ts';
 import { LiveText } from '../ui/LiveText.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { usePlayer } from './usePlayer.ts';
 import styles from './PlayBar.module.css';
 
@@ -126,8 +126,8 @@ function PlayWords({ ends }: { readonly ends: keyof typeof END_ICONS | null }) {
   const player = usePlayer();
   const loops = usePlayback((state) => state.loops);
   const times = useView(chosenTimes);
-  const fromEnd = words.play.playFrom(useDocument(({ present }) => timesOf(present).lengthMs));
-  const whole = words.play.play(loops ? 1 : times);
+  const fromEnd = words.play.playFrom({ atMs: useDocument(({ present }) => timesOf(present).lengthMs) });
+  const whole = words.play.play({ times: loops ? 1 : times });
   return (
     <span className={styles.words} data-longest={whole.length > fromEnd.length ? whole : fromEnd}>
       <LiveText
@@ -137,7 +137,9 @@ function PlayWords({ ends }: { readonly ends: keyof typeof END_ICONS | null }) {
         text={() => {
           if (ends !== null) return endWord(ends);
           const { fromMs, times: passes } = player.next();
-          return fromMs === null ? words.play.play(loops ? 1 : passes) : words.play.playFrom(fromMs);
+          return fromMs === null
+            ? words.play.play({ times: loops ? 1 : passes })
+            : words.play.playFrom({ atMs: fromMs });
         }}
       />
     </span>
@@ -168,7 +170,9 @@ function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
         size="small"
         isDisabled={isDisabled}
         onChange={(percent) => player.set({ speedPercent: percent })}
-        onRefused={(percent) => notices.refuse(words.refused(words.play.speedField, percent, min, max))}
+        onRefused={(percent) =>
+          notices.refuse(words.refused({ name: words.play.speedField, value: percent, min, max }))
+        }
       />
       <Toggle
         label={words.play.live}
@@ -200,17 +204,19 @@ function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
 
 /** Whether it downloads first is said before. */
 function boardHint(slot: number, fate: SlotFate): string {
-  return fate === 'same' ? words.play.onBoardHint(slot) : words.play.onBoardDownloads(slot, fate === 'older');
+  return fate === 'same'
+    ? words.play.onBoardHint({ slot })
+    : words.play.onBoardDownloads({ slot, isOlder: fate === 'older' });
 }
 
 function Phase({ phase }: { readonly phase: PlaybackPhase | null }) {
   const speedPercent = usePlayback((state) => state.speedPercent);
   const silent = useSilentRows();
   const { playing, ...others } = words.play.phase;
-  const rests = silent.length === 0 ? '' : words.play.silent(silent);
+  const rests = silent.length === 0 ? '' : words.play.silent({ names: words.numbers.formatNames(silent) });
   return (
     <p className={styles.phase} role="status">
-      {phase === null ? rests : phase === 'playing' ? playing(speedPercent / 100) : others[phase]}
+      {phase === null ? rests : phase === 'playing' ? playing({ share: speedPercent / 100 }) : others[phase]}
     </p>
   );
 }

@@ -11,7 +11,7 @@ import { useBlend, useDevice, usePoses, useSnapshot, useStores, useView } from '
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './PosesPanel.module.css';
 
 export interface BlendBarProps {
@@ -42,13 +42,13 @@ export function BlendBar({ pose, otherFirst }: BlendBarProps) {
 
   const go = (): void => {
     if (other !== undefined)
-      poses.applyBlend(() => words.poses.steps.blend(pose.name, other.name), targets, poseMs);
+      poses.applyBlend(() => words.poses.steps.blend({ one: pose.name, other: other.name }), targets, poseMs);
   };
   const keep = (): void => {
     if (other === undefined) return;
-    const name = words.poses.blendName(pose.name, other.name, share);
+    const name = words.poses.blendName({ one: pose.name, other: other.name, share });
     poses.book.edit(
-      () => words.poses.steps.capture(name),
+      () => words.poses.steps.capture({ name }),
       (book) => addPose(book, { name, unit: pose.unit, targets }),
     );
     view.setState({ selectedPose: nextId });
@@ -69,8 +69,8 @@ export function BlendBar({ pose, otherFirst }: BlendBarProps) {
         <input
           type="range"
           className={styles.share}
-          aria-label={words.poses.blendShare(other?.name ?? words.poses.blendNone)}
-          aria-valuetext={words.poses.share(share)}
+          aria-label={words.poses.blendShare({ name: other?.name ?? words.poses.blendNone })}
+          aria-valuetext={words.numbers.formatPercent(share)}
           min={0}
           max={100}
           step={1}
@@ -78,7 +78,7 @@ export function BlendBar({ pose, otherFirst }: BlendBarProps) {
           disabled={other === undefined}
           onChange={({ target }) => setShare(target.valueAsNumber / 100)}
         />
-        <span className={styles.percent}>{words.poses.share(share)}</span>
+        <span className={styles.percent}>{words.numbers.formatPercent(share)}</span>
         <span>
           <PoseThumb
             pose={new Map(targets.map(({ servo, position }) => [servo, position]))}

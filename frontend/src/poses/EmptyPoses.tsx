@@ -3,7 +3,7 @@
 import { useDevice, useRobot } from '../stores/stores.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { EmptyState } from '../ui/EmptyState.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './EmptyPoses.module.css';
 
 export function EmptyPoses() {

@@ -11,7 +11,7 @@ import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { NameField } from '../ui/NameField.tsx';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import card from '../ui/Card.module.css';
 import styles from './PoseCard.module.css';
 
@@ -30,7 +30,8 @@ export function PoseCard({ pose, marks, isSelected, isTabStop }: PoseCardProps) 
   const { isDragged, startDrag } = usePoseDrag(pose);
   const { id, name, targets } = pose;
   const all = robot.servos.length + strangersTo(robot, targets).length;
-  const about = words.poses.about(name, targets.length, all);
+  const servoCount = targets.length;
+  const about = servoCount === all ? name : words.poses.about({ name, servoCount, all });
   return (
     <li data-pose={id} className={cx(card.card, isSelected && card.selected, isDragged && card.dragged)}>
       <button
@@ -51,12 +52,12 @@ export function PoseCard({ pose, marks, isSelected, isTabStop }: PoseCardProps) 
       </button>
       <div className={styles.foot}>
         <NameField
-          label={words.poses.name(name)}
+          label={words.poses.name({ name })}
           name={name}
           excludeFromTabOrder={!isTabStop}
           onRename={(wanted) =>
             poses.book.edit(
-              () => words.poses.steps.rename(name),
+              () => words.poses.steps.rename({ name }),
               (book) => renamePose(book, id, wanted),
             )
           }
@@ -82,7 +83,7 @@ function Go({ pose, isTabStop }: { readonly pose: Pose; readonly isTabStop: bool
   return (
     <IconButton
       icon="play"
-      label={words.poses.go(pose.name, poseMs)}
+      label={words.poses.go({ name: pose.name, durationMs: poseMs })}
       isDisabled={!mayMove || !sameUnit}
       tabIndex={isTabStop ? 0 : -1}
       onPress={go}
@@ -96,7 +97,7 @@ function usePoseDrag({ id, name }: Pose): DragOrder {
   return useDragOrder({
     attribute: 'data-pose',
     begin() {
-      book.begin(() => words.poses.steps.move(name));
+      book.begin(() => words.poses.steps.move({ name }));
       view.setState({ selectedPose: id });
     },
     over(other) {

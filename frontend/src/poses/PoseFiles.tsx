@@ -5,7 +5,7 @@ import { poseBookToText } from '#shared/actions/poses/poseText.ts';
 import { saveFile } from '../ui/saveFile.ts';
 import { usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 
 export function PoseFiles() {
   const { poses, notices } = useStores();
@@ -35,7 +35,9 @@ export function PoseFiles() {
         icon="save"
         label={words.poses.export}
         isDisabled={book.poses.length === 0}
-        onPress={() => saveFile({ name: `${words.poses.fileName(name)}.json`, text: poseBookToText(book) })}
+        onPress={() =>
+          saveFile({ name: `${words.poses.fileName({ robot: name })}.json`, text: poseBookToText(book) })
+        }
       />
     </>
   );

@@ -5,7 +5,7 @@ import { movePose, removePose } from '#shared/actions/poses/poseEdits.ts';
 import { useCards } from '../actions/useCards.ts';
 import { poseName } from '../stores/driving/poses.ts';
 import { usePoses, useStores, useView } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { PoseCard } from './PoseCard.tsx';
 import styles from './PosesPanel.module.css';
 
@@ -19,15 +19,15 @@ export function PoseList() {
     select: (id) => view.setState({ selectedPose: id }),
     move(id, to) {
       poses.book.edit(
-        () => words.poses.steps.move(poseName(book, id)),
+        () => words.poses.steps.move({ name: poseName(book, id) }),
         (before) => movePose(before, id, to),
       );
       view.setState({ selectedPose: id });
-      notices.say(words.poses.moved(ids.indexOf(id) + 1, to + 1));
+      notices.say(words.poses.moved({ from: ids.indexOf(id) + 1, to: to + 1 }));
     },
     remove(id, next) {
       poses.book.edit(
-        () => words.poses.steps.delete(poseName(book, id)),
+        () => words.poses.steps.delete({ name: poseName(book, id) }),
         (before) => removePose(before, id),
       );
       view.setState({ selectedPose: next });

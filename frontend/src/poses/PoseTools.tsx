@@ -11,7 +11,8 @@ import { longerName } from '../stores/longerName.ts';
 import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Toggle } from '../ui/Toggle.tsx';
-import { words } from '../words/whole.ts';
+import { servoLabel } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/whole.ts';
 import { useSelectedPose } from './useSelectedPose.ts';
 import styles from './PosesPanel.module.css';
 
@@ -77,20 +78,21 @@ function Shapes() {
 
   const update = (): void =>
     edit(
-      (name) => words.poses.steps.update(name),
+      (name) => words.poses.steps.update({ name }),
       (book, id) => setPose(book, id, device.pose(), unit),
     );
 
   const reshape = (label: PoseLabel, shape: typeof mirroredTargets) => (): void => {
     const { targets, held } = shape(robot, pose?.targets ?? []);
     edit(label, (book, id) => setPose(book, id, targets));
-    if (held.length > 0) notices.tell('warning', words.poses.held(held.map(words.robots.called)));
+    if (held.length > 0)
+      notices.tell('warning', words.poses.held({ names: words.numbers.formatNames(held.map(servoLabel)) }));
   };
 
   const addToGroup = (): void => {
     if (pose === undefined) return;
-    putFrame({ document, view }, 'after', pose, () => words.poses.steps.addToGroup(pose.name));
-    notices.tell('info', words.poses.added(pose.name), {
+    putFrame({ document, view }, 'after', pose, () => words.poses.steps.addToGroup({ name: pose.name }));
+    notices.tell('info', words.poses.added({ name: pose.name }), {
       label: words.poses.openGroup,
       act: () => view.setState({ authoring: 'group' }),
     });
@@ -100,10 +102,10 @@ function Shapes() {
     if (pose === undefined) return;
     const { id, name } = pose;
     macros.edit(
-      () => words.macros.edits.add(name),
+      () => words.macros.edits.add({ name }),
       (page) => addMacro(page, name, [{ kind: 'pose', pose: id, durationMs: GENTLE_MOVE_MS }]),
     );
-    notices.tell('info', words.poses.buttonMade(name));
+    notices.tell('info', words.poses.buttonMade({ name }));
   };
 
   return (
@@ -116,7 +118,7 @@ function Shapes() {
         icon="mirror"
         hint={words.poses.mirrorHint}
         isDisabled={!mayShape || !hasSides}
-        onPress={reshape((name) => words.poses.steps.mirror(name), mirroredTargets)}
+        onPress={reshape((name) => words.poses.steps.mirror({ name }), mirroredTargets)}
       >
         {words.poses.mirror}
       </Button>
@@ -125,7 +127,7 @@ function Shapes() {
         icon="flip"
         hint={words.poses.flipHint}
         isDisabled={!mayShape}
-        onPress={reshape((name) => words.poses.steps.flip(name), flippedTargets)}
+        onPress={reshape((name) => words.poses.steps.flip({ name }), flippedTargets)}
       >
         {words.poses.flip}
       </Button>
@@ -167,16 +169,16 @@ function Arrange() {
   const move = (to: number) => (): void => {
     if (none) return;
     poses.book.edit(
-      () => words.poses.steps.move(pose.name),
+      () => words.poses.steps.move({ name: pose.name }),
       (book) => movePose(book, pose.id, to),
     );
-    notices.say(words.poses.moved(index + 1, to + 1));
+    notices.say(words.poses.moved({ from: index + 1, to: to + 1 }));
   };
   const duplicate = (): void => {
     if (none) return;
     view.setState({ selectedPose: nextId });
     poses.book.edit(
-      () => words.poses.steps.duplicate(pose.name),
+      () => words.poses.steps.duplicate({ name: pose.name }),
       (book) => duplicatePose(book, pose.id, longerName(pose.name, words.poses.copyOf)),
     );
   };
@@ -184,7 +186,7 @@ function Arrange() {
     if (none) return;
     view.setState({ selectedPose: list[index + 1]?.id ?? list[index - 1]?.id ?? null });
     poses.book.edit(
-      () => words.poses.steps.delete(pose.name),
+      () => words.poses.steps.delete({ name: pose.name }),
       (book) => removePose(book, pose.id),
     );
   };

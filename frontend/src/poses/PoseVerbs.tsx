@@ -8,7 +8,7 @@ import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';
 import { Button, isByKey } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { capturePose } from './capturePose.ts';
 import { PoseFiles } from './PoseFiles.tsx';
 import type { Captured } from './useNaming.ts';
@@ -24,7 +24,7 @@ export function PoseVerbs({ onNew }: PoseVerbsProps) {
   const poseMs = useView((state) => state.poseMs);
   const restName = usePoses(({ present }) => poseName(present, present.restId ?? 'home'));
   const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
-  const hints = { home: words.poses.homeHint, rest: words.poses.restHint(restName) };
+  const hints = { home: words.poses.homeHint, rest: words.poses.restHint({ name: restName }) };
   return (
     <div className={styles.verbs}>
       <Capture onNew={onNew} />
@@ -73,7 +73,7 @@ function PoseTime() {
         step={100}
         unit={words.servos.ms}
         onChange={(durationMs) => view.setState({ poseMs: durationMs })}
-        onRefused={(value) => notices.refuse(words.refused(words.poses.time, value, min, max))}
+        onRefused={(value) => notices.refuse(words.refused({ name: words.poses.time, value, min, max }))}
       />
     </span>
   );

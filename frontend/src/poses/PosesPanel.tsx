@@ -5,7 +5,7 @@ import { useRef, useState } from 'react';
 import { usePoses, useStores } from '../stores/stores.ts';
 import type { PanelParts } from '../ui/Panel.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { BlendBar } from './BlendBar.tsx';
 import { EmptyPoses } from './EmptyPoses.tsx';
 import { PoseList } from './PoseList.tsx';

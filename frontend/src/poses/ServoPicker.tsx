@@ -7,7 +7,7 @@ import { strangersTo } from '#shared/actions/poses/poseShapes.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './PosesPanel.module.css';
 
 export function ServoPicker({ pose }: { readonly pose: Pose }) {
@@ -25,7 +25,7 @@ export function ServoPicker({ pose }: { readonly pose: Pose }) {
     const others = pose.targets.filter((target) => target.servo !== servo);
     const targets = isIn && position !== null ? [...others, { servo, position }] : others;
     poses.book.edit(
-      () => words.poses.steps.servos(pose.name),
+      () => words.poses.steps.servos({ name: pose.name }),
       (book) => setPose(book, pose.id, targets),
     );
   }
@@ -49,7 +49,7 @@ export function ServoPicker({ pose }: { readonly pose: Pose }) {
   return (
     <fieldset
       className={styles.drawer}
-      aria-label={words.poses.servosOf(included.size, servos.length + strangers.length)}
+      aria-label={words.poses.servosOf({ count: included.size, all: servos.length + strangers.length })}
     >
       <p className={styles.hint}>{words.poses.servosHint}</p>
       <div className={styles.limbs}>
@@ -59,7 +59,7 @@ export function ServoPicker({ pose }: { readonly pose: Pose }) {
             <div className={styles.servos}>{members.map(choice)}</div>
           </fieldset>
         ))}
-        {strangers.map((servo) => choice({ servo, name: words.robots.absent(servo) }))}
+        {strangers.map((servo) => choice({ servo, name: words.robots.absent({ servo }) }))}
       </div>
     </fieldset>
   );

@@ -2,15 +2,15 @@
 
 import { addPose } from '#shared/actions/poses/poseEdits.ts';
 import type { Stores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 /** Returns its name. */
 export function capturePose({ device, poses, view }: Pick<Stores, 'device' | 'poses' | 'view'>): string {
   const { family } = device.store.getState();
   const { nextId } = poses.book.store.getState().present;
-  const pose = { name: words.poses.newName(nextId), unit: family.unit, targets: device.pose() };
+  const pose = { name: words.poses.newName({ number: nextId }), unit: family.unit, targets: device.pose() };
   poses.book.edit(
-    () => words.poses.steps.capture(pose.name),
+    () => words.poses.steps.capture({ name: pose.name }),
     (book) => addPose(book, pose),
   );
   view.setState({ selectedPose: nextId });

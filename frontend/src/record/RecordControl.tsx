@@ -5,7 +5,8 @@ import { recorded } from '../stores/servoView.ts';
 import { servoViewOf, useRobot, useServoView, useStores, type Stores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/whole.ts';
+import { say } from '../i18n/sentences/say.ts';
+import { words } from '../i18n/whole.ts';
 import { useOffer } from './useOffer.ts';
 
 export function RecordControl() {
@@ -44,7 +45,7 @@ function Record({ sinceMs, onBegin, onEnd }: RecordProps) {
     useServoView((view) => view),
     all,
   );
-  const hint = `${words.record.recordHint}. ${words.record.keeps[by](servos.length, all.length)}`;
+  const hint = `${words.record.recordHint}. ${say(words.record.keeps[by], { count: servos.length, all: all.length })}`;
   return (
     <Button
       tone={sinceMs === null ? 'quiet' : 'plain'}
@@ -60,5 +61,5 @@ function Record({ sinceMs, onBegin, onEnd }: RecordProps) {
 function EndWords({ sinceMs }: { readonly sinceMs: number }) {
   const { device } = useStores();
   const nowMs = useNow(device.clock.now, 500);
-  return words.record.end(Math.max(0, nowMs - sinceMs));
+  return words.record.end({ ms: Math.max(0, nowMs - sinceMs) });
 }

@@ -9,7 +9,7 @@ import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import field from '../ui/Field.module.css';
 import styles from './Take.module.css';
 
@@ -46,12 +46,16 @@ export function Take({ samples, onClose }: TakeProps) {
           value={maxErrorUnits}
           min={1}
           max={MOST_ERROR}
-          unit={words.numbers.unitSymbol(unit)}
+          unit={words.units[unit]}
           onChange={setMaxError}
-          onRefused={(value) => notices.refuse(words.refused(words.record.errorField, value, 1, MOST_ERROR))}
+          onRefused={(value) =>
+            notices.refuse(words.refused({ name: words.record.errorField, value, min: 1, max: MOST_ERROR }))
+          }
         />
       </div>
-      <p role="status">{words.record.result(lengthOf(samples), samples.length, keyCount)}</p>
+      <p role="status">
+        {words.record.result({ ms: lengthOf(samples), samples: samples.length, keys: keyCount })}
+      </p>
       <div className={styles.verbs}>
         <Button onPress={() => use('append', (before) => appended(before, group))}>
           {words.record.append}
@@ -66,7 +70,7 @@ export function Take({ samples, onClose }: TakeProps) {
 
 const named = (group: ActionGroup): ActionGroup => ({
   ...group,
-  name: words.record.name(words.numbers.formatTimeOfDay(Date.now())),
+  name: words.record.name({ time: words.dates.formatTimeOfDay(Date.now()) }),
 });
 
 function lengthOf(samples: readonly Sample[]): number {

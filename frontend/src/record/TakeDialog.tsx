@@ -2,7 +2,7 @@
 
 import { Dialog } from '../ui/Dialog.tsx';
 import { laterComponent } from '../ui/later.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import type { TakeProps } from './Take.tsx';
 
 const Take = laterComponent(async () => (await import('./Take.tsx')).Take, '160px');

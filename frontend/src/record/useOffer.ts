@@ -2,7 +2,7 @@
 
 import type { Sample } from '#shared/actions/group/simplify.ts';
 import { useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 export function useOffer(): (samples: readonly Sample[]) => void {
   const { notices, tape } = useStores();

@@ -5,7 +5,9 @@ import { robotFromText } from '#shared/actions/robot/robotText.ts';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { FileButton } from '../ui/FileButton.tsx';
-import { words } from '../words/whole.ts';
+import { robotFlawText } from '../i18n/sentences/robotFlaws.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './RobotList.module.css';
 
 export function ImportRobot({ connected }: { readonly connected: FamilyId | null }) {
@@ -20,12 +22,12 @@ export function ImportRobot({ connected }: { readonly connected: FamilyId | null
   /** null where the store says itself why not. */
   function imported(file: string, text: string): string | null {
     const found = robotFromText(text);
-    if ('problem' in found) return words.robots.notImported(file, found.problem);
+    if ('problem' in found) return words.robots.notImported({ file, flaw: robotFlawText(found.problem) });
     if (!robots.add(() => words.robots.steps.import, found.robot)) return null;
     const { name, board } = robots.current().robot;
     return connected === null || board === connected
-      ? words.robots.imported(name)
-      : words.robots.importedElsewhere(name, words.boardName(FAMILIES[board]));
+      ? words.robots.imported({ name })
+      : words.robots.importedElsewhere({ name, board: boardName(FAMILIES[board]) });
   }
 
   return (

@@ -6,7 +6,8 @@ import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { freshRobot } from '../stores/robots/robots.ts';
 import { useStores } from '../stores/stores.ts';
 import { pressOnce } from '../ui/pressOnce.ts';
-import { words } from '../words/whole.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/whole.ts';
 import { PRODUCTS } from './products.ts';
 import { RobotPicture } from './RobotPicture.tsx';
 import styles from './RobotList.module.css';
@@ -17,14 +18,14 @@ export function NewRobot({ board }: { readonly board: FamilyId }) {
   return (
     <section aria-labelledby={headingId}>
       <h3 id={headingId}>{words.robots.fresh}</h3>
-      <p className={styles.dim}>{words.robots.freshHint(words.boardName(FAMILIES[board]))}</p>
+      <p className={styles.dim}>{words.robots.freshHint({ board: boardName(FAMILIES[board]) })}</p>
       <ul className={styles.ready}>
         {fitting(board).map((id) => (
           <li key={id}>
             <button
               type="button"
               className={styles.card}
-              aria-label={words.robots.add(words.robots.ready[id])}
+              aria-label={words.robots.add({ name: words.robots.ready[id] })}
               aria-describedby={`${headingId}-${id}`}
               onClick={() => robots.add(() => words.robots.steps.add, freshRobot(id, board))}
               onKeyDown={pressOnce}

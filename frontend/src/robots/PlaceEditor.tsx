@@ -3,7 +3,7 @@
 import { useId, useRef } from 'react';
 import { ArrangedPlace } from '../body/ArrangedPlace.tsx';
 import { useRobot } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { RobotPicture } from './RobotPicture.tsx';
 import styles from './PlaceEditor.module.css';
 

@@ -2,14 +2,14 @@
 
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Range } from '#shared/protocol/families.ts';
-import type { PositionUnit } from '../words/numbers.ts';
-import { words } from '../words/whole.ts';
+import type { Family } from '#shared/protocol/families.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './ReachBar.module.css';
 
 export interface ReachBarProps {
   readonly servo: Pick<RobotServo, 'min' | 'max' | 'home'>;
   readonly reach: Range;
-  readonly unit: PositionUnit;
+  readonly unit: Family['unit'];
 }
 
 /** Of the bar, in percent: less is seen by nobody. */
@@ -24,7 +24,7 @@ export function ReachBar({ servo: { min, max, home }, reach, unit }: ReachBarPro
       viewBox="0 0 100 8"
       preserveAspectRatio="none"
       role="img"
-      aria-label={words.robotEditor.reach(reach.min, reach.max, unit)}
+      aria-label={words.robotEditor.reach({ min: reach.min, max: reach.max, unit: words.units[unit] })}
     >
       <rect className={styles.reach} x={0} y={3} width={100} height={2} />
       <rect className={styles.allowed} x={Math.min(share(min), 100 - width)} y={2} width={width} height={4} />

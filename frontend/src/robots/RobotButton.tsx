@@ -3,7 +3,7 @@
 import { useRobot, useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { pressOnce } from '../ui/pressOnce.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import styles from './RobotButton.module.css';
 
 export function RobotButton() {
@@ -13,7 +13,7 @@ export function RobotButton() {
     <button
       type="button"
       className={styles.button}
-      aria-label={words.robots.button(name)}
+      aria-label={words.robots.button({ name })}
       aria-haspopup="dialog"
       onClick={() => view.setState({ robotView: 'list' })}
       onKeyDown={pressOnce}

@@ -7,7 +7,7 @@ import { useStores, useView } from '../stores/stores.ts';
 import type { ViewState } from '../stores/view.ts';
 import { Dialog } from '../ui/Dialog.tsx';
 import { laterComponent } from '../ui/later.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import styles from './RobotDialog.module.css';
 
 type RobotView = NonNullable<ViewState['robotView']>;

@@ -7,7 +7,8 @@ import { FAMILIES } from '#shared/protocol/families.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';
-import { words } from '../words/whole.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/whole.ts';
 import { CellField } from './CellField.tsx';
 import { PlaceEditor } from './PlaceEditor.tsx';
 import { RobotHead } from './RobotHead.tsx';
@@ -66,7 +67,7 @@ export function RobotEditor() {
             )
           }
         />
-        <p className={styles.dim}>{words.robotEditor.board(words.boardName(FAMILIES[robot.board]))}</p>
+        <p className={styles.dim}>{words.robotEditor.board({ name: boardName(FAMILIES[robot.board]) })}</p>
       </div>
       <ServoTable />
       <AddServo />
@@ -100,7 +101,7 @@ function Kind<Value extends string>({ label, value, kinds, names, onChange }: Ki
 function AddServo() {
   const { robots } = useStores();
   const robot = useRobot();
-  const longer = addServo(robot, words.robotEditor.newServo);
+  const longer = addServo(robot, (number) => words.robotEditor.newServo({ servo: number }));
   return (
     <div className={styles.foot}>
       <Button

@@ -2,7 +2,7 @@
 
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import dialog from './RobotDialog.module.css';
 import styles from './RobotEditor.module.css';

@@ -8,7 +8,8 @@ import { currentOf, type OwnRobot } from '../stores/robots/robots.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
-import { words } from '../words/whole.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/whole.ts';
 import { ImportRobot } from './ImportRobot.tsx';
 import { NewRobot } from './NewRobot.tsx';
 import { RobotPicture } from './RobotPicture.tsx';
@@ -70,7 +71,7 @@ function Described({ robot }: OwnRobot) {
       <div className={styles.words}>
         <span className={styles.name}>{robot.name}</span>
         <span className={styles.dim}>
-          {words.boardName(FAMILIES[robot.board])} · {words.robots.count(robot.servos.length)}
+          {boardName(FAMILIES[robot.board])} · {words.robots.count({ servos: robot.servos.length })}
         </span>
       </div>
     </div>
@@ -83,15 +84,17 @@ function Other({ id, robot, fits }: OwnRobot & { readonly fits: boolean }) {
     <li data-robot={id} className={styles.other}>
       <Described id={id} robot={robot} />
       {fits ? (
-        <Button aria-label={words.robots.use(robot.name)} onPress={() => robots.takeUp(id)}>
+        <Button aria-label={words.robots.use({ name: robot.name })} onPress={() => robots.takeUp(id)}>
           {words.robots.useVerb}
         </Button>
       ) : (
-        <span className={styles.dim}>{words.robots.otherBoard(words.boardName(FAMILIES[robot.board]))}</span>
+        <span className={styles.dim}>
+          {words.robots.otherBoard({ board: boardName(FAMILIES[robot.board]) })}
+        </span>
       )}
       <IconButton
         icon="trash"
-        label={words.robots.removeNamed(robot.name)}
+        label={words.robots.removeNamed({ name: robot.name })}
         onPress={() => robots.remove(id)}
       />
     </li>

@@ -5,7 +5,7 @@ import type { OwnRobot } from '../stores/robots/robots.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { saveFile } from '../ui/saveFile.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './RobotList.module.css';
 
 export function RobotTools({ id, robot, isLast }: OwnRobot & { readonly isLast: boolean }) {

@@ -7,7 +7,9 @@ import { changeServo, pair, reachOf, removeServo } from '#shared/actions/robot/r
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { words } from '../words/whole.ts';
+import { robotFlawSentence } from '../i18n/sentences/robotFlaws.ts';
+import { servoLabel } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/whole.ts';
 import { CellField } from './CellField.tsx';
 import { COLUMNS, type Column, type ColumnId, type Edited } from './columns.ts';
 import { ReachBar } from './ReachBar.tsx';
@@ -16,7 +18,10 @@ import styles from './ServoTable.module.css';
 export function ServoTable() {
   const { servos, board } = useRobot();
   const { unit } = FAMILIES[board];
-  const titles = { ...words.robotEditor.columns, degreesPerUnit: words.robotEditor.degrees(unit) };
+  const titles = {
+    ...words.robotEditor.columns,
+    degreesPerUnit: words.robotEditor.degreesPer[unit],
+  };
   return (
     <div className={styles.table}>
       <div className={styles.titles} aria-hidden="true">
@@ -45,12 +50,12 @@ interface ServoLineProps {
 function ServoLine({ servo, titles }: ServoLineProps) {
   const robot = useRobot();
   const { robots } = useStores();
-  const called = words.robots.called(servo);
+  const called = servoLabel(servo);
   const [problems, setProblems] = useState<Partial<Record<ColumnId, string>>>({});
   const problemId = useId();
 
   const change = (what: Label, edit: (robot: Robot) => Robot): boolean =>
-    robots.edit(() => words.robotEditor.step(what(), called), edit);
+    robots.edit(() => words.robotEditor.step({ column: what(), servo: called }), edit);
 
   function take(column: Column, text: string): boolean {
     const isSame = text === column.show(servo);
@@ -70,12 +75,12 @@ function ServoLine({ servo, titles }: ServoLineProps) {
   }
 
   return (
-    <li className={styles.line} aria-label={words.robotEditor.row(servo.servo, called)}>
+    <li className={styles.line} aria-label={words.robotEditor.row({ servo: servo.servo, name: called })}>
       {COLUMNS.map((column) => (
         <label key={column.id} className={styles.cell} data-cell={column.id}>
           <span className={styles.title}>{titles[column.id]}</span>
           <CellField
-            label={words.robotEditor.cell(titles[column.id], called)}
+            label={words.robotEditor.cell({ column: titles[column.id], servo: called })}
             value={column.show(servo)}
             isNumber={column.isNumber}
             column={column.id}
@@ -88,7 +93,7 @@ function ServoLine({ servo, titles }: ServoLineProps) {
         <span className={styles.title}>{words.robotEditor.reversed}</span>
         <input
           type="checkbox"
-          aria-label={words.robotEditor.cell(words.robotEditor.reversed, called)}
+          aria-label={words.robotEditor.cell({ column: words.robotEditor.reversed, servo: called })}
           checked={servo.isReversed}
           onChange={(event) => {
             const isReversed = event.target.checked;
@@ -114,11 +119,11 @@ function ServoLine({ servo, titles }: ServoLineProps) {
       </label>
       <IconButton
         icon="trash"
-        label={words.robotEditor.remove(called)}
+        label={words.robotEditor.remove({ name: called })}
         isDisabled={robot.servos.length === 1}
         onPress={() =>
           robots.edit(
-            () => words.robotEditor.removeStep(called),
+            () => words.robotEditor.removeStep({ name: called }),
             (all) => removeServo(all, servo.servo),
           )
         }
@@ -134,7 +139,7 @@ function ServoLine({ servo, titles }: ServoLineProps) {
 function problemOf(edited: Edited): string | null {
   if ('problem' in edited) return edited.problem;
   const flaw = flawOf(edited.robot);
-  return flaw === null ? null : words.robots.flaw(flaw);
+  return flaw === null ? null : robotFlawSentence(flaw);
 }
 
 interface MirrorProps {
@@ -147,7 +152,10 @@ function Mirror({ servo: { servo, name, group, mirror }, others, onChange }: Mir
   return (
     <select
       className={styles.input}
-      aria-label={words.robotEditor.cell(words.robotEditor.mirror, words.robots.called({ name, group }))}
+      aria-label={words.robotEditor.cell({
+        column: words.robotEditor.mirror,
+        servo: servoLabel({ name, group }),
+      })}
       value={mirror ?? ''}
       onChange={({ target: { value } }) => onChange(value === '' ? null : Number(value))}
     >
@@ -156,7 +164,7 @@ function Mirror({ servo: { servo, name, group, mirror }, others, onChange }: Mir
         .filter((other) => other.servo !== servo)
         .map((other) => (
           <option key={other.servo} value={other.servo}>
-            {words.robotEditor.row(other.servo, words.robots.called(other))}
+            {words.robotEditor.row({ servo: other.servo, name: servoLabel(other) })}
           </option>
         ))}
     </select>

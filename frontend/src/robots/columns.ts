@@ -3,7 +3,7 @@
 
 import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
 import { changeServo, renumber } from '#shared/actions/robot/robotEdits.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 
 export type ColumnId = 'servo' | 'name' | 'group' | 'min' | 'home' | 'max' | 'trim' | 'degreesPerUnit';
 
@@ -20,7 +20,8 @@ const whole =
   (take: (robot: Robot, servo: number, value: number) => Robot): Column['edit'] =>
   (robot, { servo }, text) => {
     const value = Number(text);
-    if (text.trim() === '' || !Number.isInteger(value)) return { problem: words.robotEditor.notWhole(text) };
+    if (text.trim() === '' || !Number.isInteger(value))
+      return { problem: words.robotEditor.notWhole({ text }) };
     return { robot: take(robot, servo, value) };
   };
 
@@ -59,7 +60,7 @@ export const COLUMNS: readonly Column[] = [
     edit(robot, { servo }, text) {
       const degreesPerUnit = Number(text.replace(',', '.'));
       if (text.trim() === '' || Number.isNaN(degreesPerUnit))
-        return { problem: words.robotEditor.notNumber(text) };
+        return { problem: words.robotEditor.notNumber({ text }) };
       return { robot: changeServo(robot, servo, { degreesPerUnit }) };
     },
   },

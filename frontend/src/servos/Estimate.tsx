@@ -3,7 +3,7 @@
 import { motionInFrame } from '../body/motionInFrame.ts';
 import { MovingLabel } from '../body/MovingLabel.tsx';
 import { useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import type { Scale } from './scale.ts';
 import styles from './Estimate.module.css';
 
@@ -11,7 +11,7 @@ export function Estimate({ servo, scale }: { readonly servo: number; readonly sc
   const { device } = useStores();
   const text = (): string => {
     const { estimated } = motionInFrame(device, servo);
-    return estimated === null ? '' : words.servoPanel.estimated(scale.digits(estimated));
+    return estimated === null ? '' : words.servoPanel.estimated({ position: scale.digits(estimated) });
   };
   return (
     <MovingLabel text={text} colour="estimated" className={styles.estimate} title={words.truth.estimated} />

@@ -4,7 +4,7 @@ import { tellsPositions } from '../stores/device/readiness.ts';
 import { useDevice, useIsGuessing, useStores, useView } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import styles from './Legend.module.css';
 
 export function Legend() {
@@ -31,7 +31,7 @@ export function Legend() {
         label={words.servoPanel.positionsIn}
         value={positionsIn}
         options={[
-          { value: 'board', label: words.numbers.unitSymbol(unit) },
+          { value: 'board', label: words.units[unit] },
           { value: 'degrees', label: words.servoPanel.degrees },
         ]}
         onChange={(wanted) => view.setState({ positionsIn: wanted })}

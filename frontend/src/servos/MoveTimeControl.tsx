@@ -4,7 +4,7 @@ import { useState } from 'react';
 import { useDevice, useStores, useView } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';
 import { Choice } from '../ui/Toggle.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { SendRate } from './SendRate.tsx';
 import styles from './MoveTimeControl.module.css';
 
@@ -29,7 +29,10 @@ export function MoveTimeControl() {
       <Choice
         label={words.servos.moveTime}
         value={isTimed ? 'timed' : 'hand'}
-        options={(['hand', 'timed'] as const).map((value) => ({ value, label: words.servos[value] }))}
+        options={(['hand', 'timed'] as const).map((value) => ({
+          value,
+          label: words.servos.moveTimes[value],
+        }))}
         onChange={(choice) => view.setState({ moveTime: choice === 'hand' ? 'hand' : lastMs })}
       />
       <NumberField
@@ -41,7 +44,7 @@ export function MoveTimeControl() {
         unit={words.servos.ms}
         isDisabled={!isTimed}
         onChange={setMs}
-        onRefused={(value) => notices.refuse(words.refused(words.servos.moveTime, value, min, max))}
+        onRefused={(value) => notices.refuse(words.refused({ name: words.servos.moveTime, value, min, max }))}
       />
       <p className={styles.about}>{words.servos.moveTimeAbout[isTimed ? 'timed' : 'hand']}</p>
     </div>

@@ -8,7 +8,7 @@ import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Family, Range } from '#shared/protocol/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { Limits } from './Limits.tsx';
 import { between } from './limitPlaces.ts';
 import { stepped, type Scale } from './scale.ts';
@@ -97,7 +97,7 @@ export function PositionSlider({
         type="range"
         className={styles.input}
         style={between(servo, family.position)}
-        aria-label={words.servos.position(servo.servo)}
+        aria-label={words.servos.position({ servo: servo.servo })}
         aria-disabled={blocked}
         min={min}
         max={max}
@@ -111,8 +111,13 @@ export function PositionSlider({
 }
 
 function valueText(scale: Scale, target: number | null, isRead: boolean, guess: number | null): string {
-  if (target !== null) return words.servoPanel[isRead ? 'reported' : 'commanded'](scale.text(target));
-  return guess === null ? words.servos.unknownValue : words.firstMoves.guessedValue(scale.text(guess));
+  if (target !== null)
+    return (isRead ? words.servoPanel.reported : words.servoPanel.commanded)({
+      position: scale.text(target),
+    });
+  return guess === null
+    ? words.servos.unknownValue
+    : words.firstMoves.guessedValue({ position: scale.text(guess) });
 }
 
 /** The way between the limits; beyond them hatched. */

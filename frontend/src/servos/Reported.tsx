@@ -4,7 +4,7 @@ import { fromBoard } from '#shared/actions/robot/robot.ts';
 import { useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import type { Scale } from './scale.ts';
 import styles from './Reported.module.css';
 
@@ -19,7 +19,7 @@ export function Reported({ servo, scale }: { readonly servo: number; readonly sc
   return (
     <span className={styles.reported} role="group" title={words.truth.confirmed}>
       <Chip truth="confirmed">{scale.digits(fromBoard(robot, servo, reading.position))}</Chip>
-      <span className={styles.age}>{words.servos.age(nowMs - reading.atMs)}</span>
+      <span className={styles.age}>{words.numbers.formatAge(nowMs - reading.atMs)}</span>
     </span>
   );
 }

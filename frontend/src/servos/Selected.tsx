@@ -8,7 +8,8 @@ import { NumberField } from '../ui/NumberField.tsx';
 import { Select } from '../ui/Select.tsx';
 import { Choice } from '../ui/Toggle.tsx';
 import { useLayout } from '../ui/useLayout.ts';
-import { words } from '../words/words.ts';
+import { servosText } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/words.ts';
 import { useHand } from './useHand.ts';
 import styles from './SelectionBar.module.css';
 
@@ -59,7 +60,7 @@ function Tools({ selected }: SelectedProps) {
           onChange={(way) => edit((view) => ({ ...view, together: way }))}
         />
       ) : (
-        <span className={styles.hint}>{words.servoPanel.selected(selected)}</span>
+        <span className={styles.hint}>{servosText(selected)}</span>
       )}
       <span className={styles.acts}>
         <IconButton
@@ -113,9 +114,9 @@ function Weights({ selected }: SelectedProps) {
     <ul className={styles.weights}>
       {selected.map((servo) => (
         <li key={servo} className={styles.weight}>
-          <span aria-hidden="true">{words.servos.name(servo)}</span>
+          <span aria-hidden="true">{words.servos.name({ servo })}</span>
           <NumberField
-            label={words.servoPanel.weight(servo)}
+            label={words.servoPanel.weight({ servo })}
             size="small"
             value={weights[servo] ?? 100}
             min={-MOST_PERCENT}
@@ -124,7 +125,12 @@ function Weights({ selected }: SelectedProps) {
             onChange={(percent) => set(servo, percent)}
             onRefused={(value) =>
               notices.refuse(
-                words.refused(words.servoPanel.weight(servo), value, -MOST_PERCENT, MOST_PERCENT),
+                words.refused({
+                  name: words.servoPanel.weight({ servo }),
+                  value,
+                  min: -MOST_PERCENT,
+                  max: MOST_PERCENT,
+                }),
               )
             }
           />

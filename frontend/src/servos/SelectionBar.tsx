@@ -4,7 +4,7 @@ import { select, type ServoView } from '../stores/servoView.ts';
 import { editServoView, useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { laterComponent } from '../ui/later.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import styles from './SelectionBar.module.css';
 
 const Selected = laterComponent(
@@ -42,7 +42,7 @@ function NothingSelected({ hint }: { readonly hint: string }) {
       )}
       {hidden.length > 0 && (
         <Button tone="quiet" onPress={() => edit({ hidden: [] })}>
-          {words.servoPanel.showHidden(hidden.length)}
+          {words.servoPanel.showHidden({ count: hidden.length })}
         </Button>
       )}
       {!isSomeHeld && hidden.length === 0 && <span className={styles.hint}>{hint}</span>}

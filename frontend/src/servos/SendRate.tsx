@@ -2,7 +2,7 @@
 
 import { useStores } from '../stores/stores.ts';
 import { LiveText } from '../ui/LiveText.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { sentSince } from './sentSince.ts';
 import styles from './MoveTimeControl.module.css';
 
@@ -14,7 +14,10 @@ export function SendRate() {
     <LiveText
       isSilent
       text={() =>
-        words.servoPanel.sending(sentSince(device.traffic, device.clock.now() - WINDOW_MS), device.waiting())
+        words.servoPanel.sending({
+          packetsPerSecond: sentSince(device.traffic, device.clock.now() - WINDOW_MS),
+          waiting: device.waiting(),
+        })
       }
       eachMs={WINDOW_MS}
       className={styles.rate}

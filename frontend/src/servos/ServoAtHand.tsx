@@ -3,7 +3,7 @@
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { SharedSheet } from '../body/SharedSheet.tsx';
 import { useRobot, useServoView } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { ServoRow } from './ServoRow.tsx';
 import styles from './ServoAtHand.module.css';
 

@@ -8,7 +8,7 @@ import { select, toggled } from '../stores/servoView.ts';
 import { editServoView, useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { ServoRow } from './ServoRow.tsx';
 import styles from './ServoList.module.css';
 
@@ -76,12 +76,12 @@ function Limb({ group, servos, order }: RowsProps & { readonly group: string }) 
           tone="quiet"
           icon={isFolded ? 'later' : 'down'}
           aria-expanded={!isFolded}
-          aria-label={words.servoPanel.fold(name, servos.length)}
+          aria-label={words.servoPanel.fold({ group: name, count: servos.length })}
           onPress={fold}
         >
           {name}
         </Button>
-        <Button tone="quiet" aria-label={words.servoPanel.selectGroup(name)} onPress={selectAll}>
+        <Button tone="quiet" aria-label={words.servoPanel.selectGroup({ group: name })} onPress={selectAll}>
           {words.servoPanel.selectShort}
         </Button>
       </header>

@@ -7,7 +7,8 @@ import { isHeld, selectByClick } from '../stores/servoView.ts';
 import { editServoView, useDevice, useServoView, useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { selectHow } from '../ui/selectHow.ts';
-import { words } from '../words/words.ts';
+import { numberAndName } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/words.ts';
 import styles from './ServoName.module.css';
 
 export interface ServoNameProps {
@@ -22,7 +23,7 @@ export function ServoName({ ref, servo: own, order }: ServoNameProps) {
   const family = useDevice((state) => state.family);
   const isSelected = useServoView(({ selected }) => selected.includes(servo));
   const isLocked = useServoView((view) => isHeld(view, servo));
-  const name = words.servos.name(servo);
+  const name = words.servos.name({ servo });
 
   const said = [
     ...(isReversed ? [words.servoPanel.marks.reversed] : []),
@@ -34,7 +35,7 @@ export function ServoName({ ref, servo: own, order }: ServoNameProps) {
       type="button"
       className={styles.name}
       aria-pressed={isSelected}
-      aria-label={words.servoPanel.about(name, joint, said)}
+      aria-label={[numberAndName(servo, joint), ...said].join(words.comma)}
       onClick={(event) =>
         editServoView(stores, (view) => selectByClick(view, servo, selectHow(event), order))
       }

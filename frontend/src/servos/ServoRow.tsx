@@ -9,7 +9,8 @@ import { useDevice, useGuess, useServoView, useSnapshot, useStores, useView } fr
 import { cx } from '../ui/cx.ts';
 import { Sight, useSight } from '../ui/sight.ts';
 import { NumberField } from '../ui/NumberField.tsx';
-import { useWords, words } from '../words/words.ts';
+import { servoLabel } from '../i18n/sentences/servos.ts';
+import { useWords, words } from '../i18n/words.ts';
 import { Estimate } from './Estimate.tsx';
 import { PositionSlider } from './PositionSlider.tsx';
 import { Reported } from './Reported.tsx';
@@ -174,7 +175,7 @@ function TargetField(props: TargetFieldProps) {
     const read = scaleOf(met, device.store.getState().family, view.getState().positionsIn);
     notices.tell(
       'warning',
-      words.servoPanel.stoppedBy(words.robots.called(met), read.text(met.min), read.text(met.max)),
+      words.servoPanel.stoppedBy({ name: servoLabel(met), min: read.text(met.min), max: read.text(met.max) }),
     );
   };
   const take = (wanted: number, isStep: boolean): void => {
@@ -190,13 +191,17 @@ function TargetField(props: TargetFieldProps) {
   };
   return (
     <NumberField
-      label={words.servos.target(own.servo)}
+      label={words.servos.target({ servo: own.servo })}
       size="large"
       truth={isKnown ? { mark: source, title: words.truth[source] } : undefined}
       value={{ now: shown, Show: MovingText }}
       {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals, step: scale.step }}
       placeholder={
-        isKnown ? '' : guess === null ? words.servos.unknown : words.firstMoves.guessed(scale.digits(guess))
+        isKnown
+          ? ''
+          : guess === null
+            ? words.servos.unknown
+            : words.firstMoves.guessed({ position: scale.digits(guess) })
       }
       start={scale.shown(guess ?? own.home)}
       isReadOnly={blocked}
@@ -208,5 +213,10 @@ function TargetField(props: TargetFieldProps) {
 
 function refusal(servo: RobotServo, shown: number, { min, max, unit }: Scale) {
   const text = (value: number): string => (unit === '°' ? `${value}°` : `${value}`);
-  return words.servoPanel.refused(words.robots.called(servo), text(shown), text(min), text(max));
+  return words.servoPanel.refused({
+    name: servoLabel(servo),
+    value: text(shown),
+    min: text(min),
+    max: text(max),
+  });
 }

@@ -5,7 +5,7 @@ import { canTeach } from '../stores/driving/teaching.ts';
 import { useDevice, useIsTeaching, useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Confirm } from '../ui/Confirm.tsx';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import styles from './ServoTalk.module.css';
 
 export function ServoTalk() {

@@ -11,7 +11,7 @@ import { laterComponent } from '../ui/later.tsx';
 import { Panel } from '../ui/Panel.tsx';
 import { Choice } from '../ui/Toggle.tsx';
 import { useLayout } from '../ui/useLayout.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { Legend } from './Legend.tsx';
 import { MoveTimeControl } from './MoveTimeControl.tsx';
 import { SelectionBar } from './SelectionBar.tsx';

@@ -3,10 +3,10 @@ import { describe, expect, test } from 'vitest';
 import { evenly } from '#shared/evenlyUnderTest.ts';
 import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
 import { degreesOf, type RobotServo } from '#shared/actions/robot/robot.ts';
-import { words } from '../words/words.ts';
+import { robotNames } from '../i18n/sentences/robots.ts';
 import { moveGang, weightOf, type Member } from './gang.ts';
 
-const servos = readyRobot('arm', 'doc', words.robots.names('arm')).servos;
+const servos = readyRobot('arm', 'doc', robotNames('arm')).servos;
 const member = (servo: number, weight = 1, change: Partial<RobotServo> = {}): Member => ({
   servo: { ...servos[servo - 1]!, ...change },
   weight,

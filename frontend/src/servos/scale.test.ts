@@ -3,11 +3,11 @@ import { describe, expect, test } from 'vitest';
 import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
-import { words } from '../words/words.ts';
+import { robotNames } from '../i18n/sentences/robots.ts';
 import { scaleOf, stepped } from './scale.ts';
 
 const servoOn = (board: 'doc' | 'bus-ctrl', change: Partial<RobotServo> = {}): RobotServo => ({
-  ...readyRobot('plain6', board, words.robots.names('plain6')).servos[0]!,
+  ...readyRobot('plain6', board, robotNames('plain6')).servos[0]!,
   ...change,
 });
 

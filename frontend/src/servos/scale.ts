@@ -3,7 +3,7 @@
 import { degreesOf, positionOf, type RobotServo } from '#shared/actions/robot/robot.ts';
 import type { Family, Range } from '#shared/protocol/families.ts';
 import type { PositionsIn } from '../stores/view.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 
 export interface Scale {
   readonly unit: string;
@@ -43,12 +43,12 @@ export function stepped(scale: Scale, from: number, change: number): number {
 /** Of a servo that the robot at hand does not have, or not in this unit. */
 export function inUnits({ min, max }: Range, unit: Family['unit']): Scale {
   return {
-    ...{ unit: words.numbers.unitSymbol(unit), min, max, decimals: 0, direction: 1, step: 1 },
+    ...{ unit: words.units[unit], min, max, decimals: 0, direction: 1, step: 1 },
     isDegrees: false,
     page: unit === 'us' ? 100 : 50,
     shown: Math.round,
     position: (shown) => within({ min, max }, Math.round(shown)),
-    text: (position) => words.numbers.formatPosition(Math.round(position), unit),
+    text: (position) => words.position[unit]({ position: Math.round(position) }),
     digits: (position) => words.numbers.formatWhole(Math.round(position)),
   };
 }

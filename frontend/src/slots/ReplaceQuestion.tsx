@@ -7,7 +7,8 @@ import type { Conflict, ReplaceQuestion as Question } from '../stores/slots/repl
 import { useDevice, useLibrary, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
-import { words } from '../words/words.ts';
+import { triggerText } from '../i18n/sentences/slots.ts';
+import { words } from '../i18n/words.ts';
 import confirm from '../ui/Confirm.module.css';
 
 export function ReplaceQuestion() {
@@ -17,7 +18,7 @@ export function ReplaceQuestion() {
   return (
     <Dialog
       role="alertdialog"
-      title={words.slots.replaceTitle(slots)}
+      title={titleOf(slots)}
       closeLabel={words.close}
       isOpen={question !== null}
       onClose={() => replacing.answer('leave')}
@@ -48,7 +49,7 @@ export function ReplaceContent({ question: { conflicts, free }, autoFocus = fals
         </Button>
         {free !== null && (
           <Button icon="download" isDisabled={isDisabled} onPress={() => replacing.answer('free')}>
-            {words.slots.replaceFree(free)}
+            {words.slots.replaceFree({ count: free.length, slots: slotList(free) })}
           </Button>
         )}
         <Button
@@ -70,6 +71,21 @@ function Lost({ slot, held, heldId, name }: Conflict) {
     documents.some(({ id, isRemoved }) => id === heldId && !isRemoved),
   );
   const trigger = slotTrigger(board, slot);
-  const played = trigger === null ? '' : words.slots.trigger(trigger);
-  return <p className={confirm.text}>{words.slots.replaceText(slot, held, name, isInLibrary, played)}</p>;
+  const text = words.slots.replaceText({ slot, held, name, isNamed: held !== '', isInLibrary });
+  return (
+    <p className={confirm.text}>
+      {trigger === null ? text : words.slots.replaceTriggered({ text, trigger: triggerText(trigger) })}
+    </p>
+  );
+}
+
+function titleOf(slots: readonly number[]): string {
+  const [slot = 0] = slots;
+  return slots.length === 1
+    ? words.slots.replaceTitle({ slot })
+    : words.slots.replaceTitleSeveral({ count: slots.length });
+}
+
+function slotList(slots: readonly number[]): string {
+  return words.numbers.formatNames(slots.map(words.numbers.formatWhole));
 }

@@ -8,7 +8,7 @@ import { useDevice, useLibrary, useSnapshot, useStores } from '../stores/stores.
 import { Button } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
 import { NumberField } from '../ui/NumberField.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { downloadOf, hindranceOf, type Wanted } from './several.ts';
 import { useWanted } from './useWanted.ts';
 import styles from './Slots.module.css';
@@ -45,7 +45,9 @@ export function SeveralGroups({ onBack }: { onBack(): void }) {
         ))}
       </ul>
       <div role="status">
-        {cannot.length > 0 && <p className={styles.warning}>{words.slots.several.cannot(cannot.length)}</p>}
+        {cannot.length > 0 && (
+          <p className={styles.warning}>{words.slots.several.cannot({ count: cannot.length })}</p>
+        )}
         <p className={styles.dim}>{wanted.length === 0 ? words.slots.several.none : totalOf(wanted)}</p>
         {/* What is busy says so itself. */}
         {waitsFor !== null && waitsFor !== 'busy' && (
@@ -71,7 +73,7 @@ export function SeveralGroups({ onBack }: { onBack(): void }) {
 function totalOf(wanted: readonly Wanted[]): string {
   const frames = wanted.reduce((sum, { compiled }) => sum + compiled.frames.length, 0);
   const downloadMs = wanted.reduce((sum, { compiled }) => sum + (compiled.report.downloadMs ?? 0), 0);
-  return words.slots.several.total(wanted.length, frames, downloadMs);
+  return words.slots.several.total({ count: wanted.length, frames, downloadMs });
 }
 
 interface AllProps {
@@ -95,7 +97,7 @@ function All({ chosen, left, count, onChange }: AllProps) {
         checked={isAll}
         onChange={() => onChange(!isAll)}
       />
-      <span>{words.slots.several.all(count)}</span>
+      <span>{words.slots.several.all({ count })}</span>
     </label>
   );
 }
@@ -113,13 +115,15 @@ interface GroupProps {
 function Group({ document: { id, facts }, one, hindrance, toggle, setSlot }: GroupProps) {
   const { notices } = useStores();
   const { min, max } = useDevice((state) => state.family.slot);
-  const label = words.slots.several.slotOf(facts.name);
+  const label = words.slots.several.slotOf({ name: facts.name });
   return (
     <li className={styles.group}>
       <label className={styles.choice}>
         <input type="checkbox" checked={one !== undefined} onChange={() => toggle(id)} />
         <span className={styles.held}>{facts.name}</span>
-        <span className={styles.dim}>{words.slots.several.about(facts.frames, facts.durationMs)}</span>
+        <span className={styles.dim}>
+          {words.slots.several.about({ count: facts.frames, durationMs: facts.durationMs })}
+        </span>
       </label>
       {one !== undefined && (
         <NumberField
@@ -129,7 +133,7 @@ function Group({ document: { id, facts }, one, hindrance, toggle, setSlot }: Gro
           min={min}
           max={max}
           onChange={(slot) => setSlot(id, slot)}
-          onRefused={(slot) => notices.refuse(words.refused(label, slot, min, max))}
+          onRefused={(slot) => notices.refuse(words.refused({ name: label, value: slot, min, max }))}
         />
       )}
       {hindrance !== null && <p className={styles.warning}>{hindrance}</p>}

@@ -2,7 +2,7 @@
 
 import { useState } from 'react';
 import { useDevice } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { SeveralGroups } from './SeveralGroups.tsx';
 import { SlotDetails } from './SlotDetails.tsx';
 import { SlotMap } from './SlotMap.tsx';

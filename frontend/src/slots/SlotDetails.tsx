@@ -9,7 +9,8 @@ import { motionHindrance, startHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSlots, useSnapshot, useStores, useSlot } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Chip } from '../ui/Chip.tsx';
-import { words } from '../words/whole.ts';
+import { triggerText } from '../i18n/sentences/slots.ts';
+import { words } from '../i18n/whole.ts';
 import { Comparison } from './Comparison.tsx';
 import { FATE_TRUTH, useFates } from './useFates.ts';
 import styles from './Slots.module.css';
@@ -23,12 +24,12 @@ export function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | 
   const fate = useFates()(slot);
   const trigger = slotTrigger(id, slot);
   return (
-    <section className={styles.details} aria-label={words.slots.name(slot)}>
-      <h3>{words.slots.name(slot)}</h3>
+    <section className={styles.details} aria-label={words.slots.name({ slot })}>
+      <h3>{words.slots.name({ slot })}</h3>
       <Chip truth={FATE_TRUTH[fate]}>{words.slots.badge[fate]}</Chip>
-      <p>{words.slots.about(fate)}</p>
+      <p>{words.slots.about[fate]}</p>
       <Held slot={slot} />
-      {trigger !== null && <p className={styles.warning}>{words.slots.trigger(trigger)}</p>}
+      {trigger !== null && <p className={styles.warning}>{triggerText(trigger)}</p>}
       <Verbs />
       {commands.includes('download') && <DownloadControl />}
       {onSeveral !== null && (
@@ -50,22 +51,33 @@ function Held({ slot }: { readonly slot: number }) {
   if (isBroken) return null;
   if (record !== undefined && record.by === undefined) {
     const { name, storedAtMs, frames, fingerprint } = record;
-    const when = words.numbers.formatMoment(storedAtMs);
+    const when = words.dates.formatMoment(storedAtMs);
     const version = fingerprint.slice(0, VERSION_LENGTH);
     return (
       <p className={styles.dim}>
-        {words.slots.stored(name, when, frames.length, totalDurationMs(frames), version)}
+        {words.slots.stored({
+          ...{ name: name || words.slots.noName, count: frames.length, durationMs: totalDurationMs(frames) },
+          ...{ when, version },
+        })}
       </p>
     );
   }
   if (others === undefined) return null;
   const { name, by, atMs } = others;
-  const size = record && words.slots.several.about(record.frames.length, totalDurationMs(record.frames));
-  const when = atMs === null ? null : words.numbers.formatMoment(atMs);
+  const size =
+    record &&
+    words.slots.several.about({ count: record.frames.length, durationMs: totalDurationMs(record.frames) });
   const version = others.version.slice(0, VERSION_LENGTH);
+  const facts = [
+    name || words.slots.noName,
+    ...(size === undefined ? [] : [size]),
+    by === '' ? words.slots.downloadedElsewhere : words.slots.downloadedBy({ name: by }),
+    ...(atMs === null ? [] : [words.dates.formatMoment(atMs)]),
+    words.slots.version({ version }),
+  ];
   return (
     <>
-      <p className={styles.dim}>{words.slots.storedByOthers(name, by, when, version, size ?? null)}</p>
+      <p className={styles.dim}>{facts.join(words.comma)}</p>
       {record === undefined && <p className={styles.dim}>{words.slots.notInLibrary}</p>}
     </>
   );
@@ -112,7 +124,7 @@ function Restore() {
       isDisabled={!mayStart}
       onPress={() => slots.restoreAll()}
     >
-      {words.slots.restoreAll(erased.length)}
+      {words.slots.restoreAll({ count: erased.length })}
     </Button>
   );
 }

@@ -1,12 +1,13 @@
 // All slots of the board as a grid with one tab stop: what each holds as a mark, what plays it as a word. The chosen one is the
 // slot that Download and Run mean.
 
+import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
 import { useEffect, useRef, type KeyboardEvent } from 'react';
-import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
+import { slotTrigger, type SlotTrigger } from '#shared/protocol/slotMeanings.ts';
 import { useDevice, useStores, useSlot } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { slotAfterKey } from './slotKeys.ts';
 import { FATE_TRUTH, useFates } from './useFates.ts';
 import { useHeldName } from './useHeldName.ts';
@@ -49,12 +50,12 @@ export function SlotMap() {
             className={cx(styles.cell, fate !== 'unknown' && fate !== 'empty' && styles.full)}
             aria-selected={slot === chosen}
             tabIndex={slot === chosen ? 0 : -1}
-            aria-label={words.slots.cell(slot, fate, name)}
+            aria-label={cellText(slot, fate, name)}
             onClick={() => view.setState({ slot })}
           >
             <span className={styles.number}>{words.numbers.formatWhole(slot)}</span>
             {fate !== 'unknown' && <Mark truth={FATE_TRUTH[fate]} />}
-            <span className={styles.held}>{name ?? (trigger && words.slots.triggerShort(trigger))}</span>
+            <span className={styles.held}>{name ?? (trigger && triggerShort(trigger))}</span>
           </button>
         );
       })}
@@ -65,3 +66,16 @@ export function SlotMap() {
 /** A narrow window has fewer. */
 const columnsOf = (grid: HTMLElement | null): number =>
   grid === null ? 1 : getComputedStyle(grid).gridTemplateColumns.split(' ').length;
+
+function cellText(slot: number, fate: SlotFate, name: string | undefined): string {
+  const about = words.slots.about[fate];
+  return name === undefined
+    ? words.slots.cell({ slot, about })
+    : words.slots.cellNamed({ slot, name, about });
+}
+
+function triggerShort(trigger: SlotTrigger): string {
+  return trigger.kind === 'pad'
+    ? words.slots.padSigns[trigger.button]
+    : words.slots.triggersShort[trigger.kind];
+}

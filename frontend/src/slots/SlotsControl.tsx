@@ -4,7 +4,7 @@ import { useState } from 'react';
 import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { laterComponent } from '../ui/later.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 
 const SlotBoard = laterComponent(async () => (await import('./SlotBoard.tsx')).SlotBoard, '60vh');
 

@@ -3,7 +3,7 @@
 import { obstacles, type CompiledGroup } from '../stores/group/compiled.ts';
 import { problemText } from '../stores/group/problemText.ts';
 import type { SlotDownload } from '../stores/slots/slots.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 
 export interface Wanted {
   readonly documentId: string;
@@ -21,7 +21,7 @@ export function hindranceOf(one: Wanted, all: readonly Wanted[]): string | null 
   if (problem !== undefined) return problemText(problem, one.compiled.source);
   if (group.frames.length === 0) return words.slots.several.noFrame;
   const isTaken = all.some((other) => other !== one && other.slot === one.slot);
-  return isTaken ? words.slots.several.sameSlot(one.slot) : null;
+  return isTaken ? words.slots.several.sameSlot({ slot: one.slot }) : null;
 }
 
 /**

@@ -4,7 +4,7 @@
 import { useEffect, type KeyboardEvent as ReactKeyboardEvent } from 'react';
 import type { Device } from '../stores/device/device.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import styles from './StopButton.module.css';
 
 export function StopButton() {

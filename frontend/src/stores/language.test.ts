@@ -1,7 +1,7 @@
 import { afterEach, expect, test, vi } from 'vitest';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
 import { undoLabel } from '#shared/actions/history.ts';
-import { speak, words } from '../words/words.ts';
+import { speak, words } from '../i18n/words.ts';
 import { createDesk } from './deskUnderTest.ts';
 import { followLanguage } from './language.ts';
 import { createNotices } from './notices.ts';

@@ -1,7 +1,7 @@
 // Has the chosen language spoken, from the start and at each choice; the browser's own where it is left to the system. Knows no
 // panel.
 
-import { preferredLanguage, speak, words } from '../words/words.ts';
+import { preferredLanguage, speak, words } from '../i18n/words.ts';
 import type { Notices } from './notices.ts';
 import type { View } from './view.ts';
 

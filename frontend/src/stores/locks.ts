@@ -1,6 +1,6 @@
 // What a person has locked on this screen stays out of everything that is driven from it by hand. Knows no device.
 
-import { words } from '../words/words.ts';
+import { stayingSentence } from '../i18n/sentences/servos.ts';
 import type { RobotStore } from './robots/robots.ts';
 import { servoName } from './servoName.ts';
 import { isHeld, servoViewFor } from './servoView.ts';
@@ -28,5 +28,5 @@ export function stayingOf(locking: Locking, targets: readonly { readonly servo: 
   const names = targets
     .filter(({ servo }) => isLocked(locking, servo))
     .map(({ servo }) => servoName(robot, servo));
-  return names.length === 0 ? null : words.servoPanel.staying(names);
+  return names.length === 0 ? null : stayingSentence(names);
 }

@@ -2,6 +2,6 @@
 
 import { NAME_LENGTH } from '#shared/actions/robot/robot.ts';
 
-export function longerName(name: string, added: (name: string) => string): string {
-  return added(name.slice(0, NAME_LENGTH - added('').length).trim());
+export function longerName(name: string, added: (values: { readonly name: string }) => string): string {
+  return added({ name: name.slice(0, NAME_LENGTH - added({ name: '' }).length).trim() });
 }

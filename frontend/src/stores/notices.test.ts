@@ -2,7 +2,8 @@ import { describe, expect, test } from 'vitest';
 import { RangeRefusal } from '#shared/protocol/limits.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import { speak, words } from '../words/words.ts';
+import { errorSentence } from '../i18n/sentences/errors.ts';
+import { speak } from '../i18n/words.ts';
 import { createNotices } from './notices.ts';
 
 function createDesk() {
@@ -17,7 +18,7 @@ describe('notices', () => {
     notices.tell('info', 'Slot 1 is downloaded.');
     notices.tellError(new LinkError('noAnswer', 'silence'));
     await clock.advance(60_000);
-    expect(told()).toEqual([words.errorSentence('noAnswer')]);
+    expect(told()).toEqual([errorSentence('noAnswer')]);
   });
 
   test('the same thing is said once, and at most three things stand there', () => {
@@ -37,7 +38,7 @@ describe('notices', () => {
     notices.tellError(new TypeError('x is undefined'));
     expect(notices.store.getState()[0]).toMatchObject({
       tone: 'danger',
-      text: words.errorSentence('internal', 'x is undefined'),
+      text: errorSentence('internal', 'x is undefined'),
     });
   });
 

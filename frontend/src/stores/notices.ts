@@ -5,7 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
 import { RangeRefusal } from '#shared/protocol/limits.ts';
 import { LinkError } from '#shared/session/linkError.ts';
-import { words } from '../words/words.ts';
+import { errorSentence, rangeText } from '../i18n/sentences/errors.ts';
 
 export type NoticeTone = 'info' | 'warning' | 'danger';
 
@@ -69,9 +69,8 @@ export function createNotices(clock: Clock): Notices {
     say: (text) => said.setState(text, true),
     tellError(error) {
       const { code, message, cause } = asLinkError(error);
-      const detail = cause instanceof RangeRefusal ? words.rangeText(cause) : message;
-      if (code !== 'cancelled')
-        tell(code === 'internal' ? 'danger' : 'warning', words.errorSentence(code, detail));
+      const detail = cause instanceof RangeRefusal ? rangeText(cause) : message;
+      if (code !== 'cancelled') tell(code === 'internal' ? 'danger' : 'warning', errorSentence(code, detail));
     },
     dismiss,
   };

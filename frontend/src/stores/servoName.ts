@@ -1,7 +1,8 @@
 // What a servo is called in sentences: with its limb, for both knees of a body are called Knee.
 
 import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
-import { words } from '../words/words.ts';
+import { servoLabel } from '../i18n/sentences/servos.ts';
+import { words } from '../i18n/words.ts';
 
 /** For sentences about several of them. */
 export const namesIn =
@@ -12,5 +13,5 @@ export const namesIn =
 /** By its number where the robot has no such servo. */
 export function servoName(robot: Robot, servo: number): string {
   const own = servoOf(robot, servo);
-  return own === undefined ? words.servos.name(servo) : words.robots.called(own);
+  return own === undefined ? words.servos.name({ servo }) : servoLabel(own);
 }

@@ -8,7 +8,7 @@ import {
   calibrationToText,
   type KeptCalibration,
 } from '#shared/actions/robot/calibrationText.ts';
-import { LANGUAGES, type Language } from '../words/words.ts';
+import { LANGUAGE_CODES, type Language } from '../i18n/words.ts';
 import type { TextStorage } from './textStorage.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from './device/moveTime.ts';
 import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
@@ -66,7 +66,7 @@ export type View = StoreApi<ViewState>;
 /** Where each remembered choice is stored, and what it may be. What is worked on outlives a reload, and no other tab begins with it. */
 const REMEMBERED = {
   theme: { by: 'browser', key: 'servodeck.view', values: ['system', 'light', 'dark'] },
-  language: { by: 'browser', key: 'servodeck.language', values: ['system', ...LANGUAGES] },
+  language: { by: 'browser', key: 'servodeck.language', values: ['system', ...LANGUAGE_CODES] },
   positionsIn: { by: 'browser', key: 'servodeck.positionsIn', values: ['board', 'degrees'] },
   kiosk: { by: 'browser', key: 'servodeck.kiosk', values: ['on', 'off'] },
   servoLayout: { by: 'browser', key: 'servodeck.servoLayout', values: ['list', 'body'] },

@@ -3,7 +3,7 @@
 
 import { useStores, useView } from '../stores/stores.ts';
 import { ToggleButton } from '../ui/ToggleButton.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import styles from './AddsSwitch.module.css';
 
 export function AddsSwitch() {

@@ -8,7 +8,7 @@ import { useStores, useTimeline } from '../stores/stores.ts';
 import type { Ask } from '../stores/timeline/timeline.ts';
 import { cx } from '../ui/cx.ts';
 import { isTouch } from '../ui/touch.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { answer, ASKED } from './asks.ts';
 import { deskOf } from './desk.ts';
 import { endOfFrame, selectedKeys } from './groupTimes.ts';

@@ -5,7 +5,7 @@ import { memo } from 'react';
 import type { PointerEvent } from 'react';
 import { Canvas } from '../body/Canvas.tsx';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { timesOf } from './groupTimes.ts';
 import { setTime } from './looking.ts';
 import { paintFrames, paintPlayhead } from './paintMinimap.ts';
@@ -39,7 +39,7 @@ export const Minimap = memo(function Minimap({ lanes }: { readonly lanes: string
       aria-controls={lanes}
       aria-orientation="horizontal"
       aria-valuenow={Math.round(from * 100)}
-      aria-valuetext={words.timeline.seen(from, to)}
+      aria-valuetext={words.timeline.seen({ from, to })}
       onPointerDown={(event) => {
         event.currentTarget.setPointerCapture(event.pointerId);
         look(event);

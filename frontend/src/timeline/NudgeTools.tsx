@@ -3,7 +3,7 @@
 import type { IconName } from '../ui/Icon.tsx';
 import { useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
-import { words, type Words } from '../words/whole.ts';
+import { words, type Words } from '../i18n/whole.ts';
 import { deskOf } from './desk.ts';
 import { selectedKeys } from './groupTimes.ts';
 import { nudgeMarker } from './markers.ts';
@@ -37,9 +37,9 @@ export function NudgeTools({ desk }: { readonly desk: SeenDesk }) {
         <IconButton
           key={name}
           icon={icon}
-          label={words.timeline.nudges[name](
-            turns === 0 ? words.numbers.formatMs(family.motion.tickMs) : turn,
-          )}
+          label={words.timeline.nudges[name]({
+            by: turns === 0 ? words.numbers.formatMs(family.motion.tickMs) : turn,
+          })}
           isDisabled={hasMarker ? ticks === 0 : state.selected.size === 0}
           onPress={() =>
             hasMarker ? nudgeMarker(deskOf(stores), ticks) : nudge(deskOf(stores), ticks, turns)

@@ -17,8 +17,8 @@ import {
 } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { cx } from '../ui/cx.ts';
-import { words } from '../words/whole.ts';
-import { useWords } from '../words/words.ts';
+import { words } from '../i18n/whole.ts';
+import { useWords } from '../i18n/words.ts';
 import { rowName } from './cellName.ts';
 import { deskOf, rangeOf } from './desk.ts';
 import { timesOf } from './groupTimes.ts';
@@ -44,7 +44,7 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
         type="button"
         tabIndex={-1}
         className={cx(styles.name, row.kind !== 'servo' && styles.summary)}
-        aria-label={words.timeline.rows.select(name)}
+        aria-label={words.timeline.rows.select({ row: name })}
         onClick={(event) =>
           selectRow(
             deskOf(stores),
@@ -76,7 +76,7 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
           type="button"
           tabIndex={-1}
           className={styles.tools}
-          aria-label={words.timeline.rows.tools(name)}
+          aria-label={words.timeline.rows.tools({ row: name })}
           onClick={(event) => openRowMenu(row.id, event.currentTarget)}
         >
           <Icon name="more" />
@@ -133,7 +133,7 @@ function Fold({
       tabIndex={-1}
       className={styles.fold}
       aria-expanded={!isFolded}
-      aria-label={words.timeline.rows.fold(name, count)}
+      aria-label={words.timeline.rows.fold({ limb: name, count })}
       onClick={() => editServoView(stores, (view) => ({ ...view, folded: toggled(view.folded, [limb]) }))}
     >
       <Icon name={isFolded ? 'later' : 'down'} />

@@ -6,7 +6,7 @@ import { SharedSheet } from '../body/SharedSheet.tsx';
 import { useDocument, useGroupBoard, useStores, useTimeline, useView } from '../stores/stores.ts';
 import { keyName, type KeySet } from '../stores/timeline/keySet.ts';
 import { cx } from '../ui/cx.ts';
-import { useWords } from '../words/words.ts';
+import { useWords } from '../i18n/words.ts';
 import { nameOfKey } from './cellName.ts';
 import { keysOfFrame, timesOf, type GroupTimes } from './groupTimes.ts';
 import { RowHead } from './RowHead.tsx';

@@ -6,7 +6,8 @@ import { Button } from '../ui/Button.tsx';
 import { LiveText } from '../ui/LiveText.tsx';
 import { isTouch } from '../ui/touch.ts';
 import { READABLE_MS } from '../ui/useFollow.ts';
-import { words } from '../words/whole.ts';
+import { instantText } from './instantText.ts';
+import { words } from '../i18n/whole.ts';
 import { cellName } from './cellName.ts';
 import type { StatusName } from './gesture.ts';
 import { changeable, whyHeld } from './desk.ts';
@@ -37,7 +38,7 @@ export const StatusText = memo(function StatusText({ status, tells }: Said) {
       {isTouch() && <NudgeTools desk={desk} />}
       {hidden > 0 && (
         <Button tone="quiet" onPress={() => editServoView(stores, (view) => ({ ...view, hidden: [] }))}>
-          {words.timeline.rows.showHidden(hidden)}
+          {words.timeline.rows.showHidden({ count: hidden })}
         </Button>
       )}
     </div>
@@ -53,10 +54,10 @@ function textOf(desk: SeenDesk, status: StatusName | null): string {
     return isTouch() && ABOUT_KEYS.has(status) ? '' : words.timeline.status[status];
   const marker = selectedMarker(desk);
   if (marker !== undefined) {
-    const about = words.timeline.draggedMarker(marker.text, marker.atMs);
+    const about = words.timeline.draggedMarker({ text: marker.text, at: instantText(marker.atMs) });
     return isTouch()
-      ? words.timeline.byTouch.marker(about)
-      : words.timeline.markerSelected(about, family.motion.tickMs);
+      ? words.timeline.byTouch.marker({ about })
+      : words.timeline.markerSelected({ about, tickMs: family.motion.tickMs });
   }
   const keys = selectedKeys(desk.times, state.selected);
   const servo = servoAtHand(desk, keys);
@@ -67,7 +68,7 @@ function textOf(desk: SeenDesk, status: StatusName | null): string {
   const about =
     keys.length === 1
       ? cellName(desk, { row: servoRowId(servo), frameId: only.frameId })
-      : words.timeline.keys(keys.length);
-  if (isTouch()) return words.timeline.byTouch.selected(about);
-  return words.timeline.status.selected(about, family.motion.tickMs, turnText(desk, servo));
+      : words.timeline.keys({ count: keys.length });
+  if (isTouch()) return words.timeline.byTouch.selected({ about });
+  return words.timeline.status.selected({ about, tickMs: family.motion.tickMs, turn: turnText(desk, servo) });
 }

@@ -15,7 +15,8 @@ import {
 } from 'react';
 import { MovingLabel } from '../body/MovingLabel.tsx';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
-import { words } from '../words/whole.ts';
+import { instantText } from './instantText.ts';
+import { words } from '../i18n/whole.ts';
 import { AskBox } from './AskBox.tsx';
 import { copy, cut, paste } from './changes.ts';
 import { clipFromText, clipToText } from './clipText.ts';
@@ -215,11 +216,7 @@ function Corner() {
   return (
     <p className={styles.corner}>
       <span className={styles.cornerName}>{words.timeline.playhead}</span>
-      <MovingLabel
-        className={styles.instant}
-        colour="ink"
-        text={() => words.timeline.instant(playhead.at())}
-      />
+      <MovingLabel className={styles.instant} colour="ink" text={() => instantText(playhead.at())} />
     </p>
   );
 }

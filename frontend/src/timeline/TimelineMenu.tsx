@@ -9,7 +9,7 @@ import { EASINGS } from '#shared/actions/group/group.ts';
 import { toggled, type ServoView } from '../stores/servoView.ts';
 import { editServoView, useServoView, useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { colour, ease } from './changes.ts';
 import { deskOf, rowOf } from './desk.ts';
 import { chordText } from './keymap.ts';

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { servoOf } from '#shared/actions/robot/robot.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { answer } from './asks.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';
 

@@ -10,7 +10,7 @@ import type { Ask } from '../stores/timeline/timeline.ts';
 import { numberIn } from '../ui/NumberField.tsx';
 import type { Scale } from '../servos/scale.ts';
 import { servoName } from '../stores/servoName.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { apply, changeable, hasChangeable, rangeOf, selectedFrames, type Desk } from './desk.ts';
 import { changeIn } from './changeIn.ts';
 import { keyOf, selectedKeys, spanOf, timesOf } from './groupTimes.ts';
@@ -83,7 +83,7 @@ export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
     maxLength: GROUP_NAME_LENGTH,
     initial: ({ group, state }) =>
       group.markers.find(({ id }) => id === state.marker)?.text ??
-      words.timeline.newMarker(group.markers.length + 1),
+      words.timeline.newMarker({ number: group.markers.length + 1 }),
     take(desk, text) {
       const { marker, playheadMs } = desk.state;
       if (marker === null)
@@ -130,7 +130,7 @@ export function answer(desk: Desk, ask: Ask, text: string): string | null {
   const value = numberIn(text, decimals);
   const { min, max } = asked.range(desk);
   if (Number.isNaN(value)) return null;
-  if (value < min || value > max) return words.refused(words.timeline.asks[ask], value, min, max);
+  if (value < min || value > max) return words.refused({ name: words.timeline.asks[ask], value, min, max });
   asked.take(desk, value);
   return null;
 }
@@ -144,7 +144,7 @@ function setValues(desk: Desk, change: (shown: number) => number): string | null
   const outside = keys.find(({ scale, shown }) => shown < scale.min || shown > scale.max);
   if (outside !== undefined) {
     const { shown, scale } = outside;
-    return words.refused(words.timeline.asks.value, shown, scale.min, scale.max);
+    return words.refused({ name: words.timeline.asks.value, value: shown, min: scale.min, max: scale.max });
   }
   const positions = keys.map(({ ref, scale, shown }) => ({ ...ref, position: scale.position(shown) }));
   apply(desk, { label: () => words.timeline.steps.value, edit: (group) => setPositions(group, positions) });
@@ -164,7 +164,7 @@ function swing(desk: Desk, percent: number): void {
   if (outside !== undefined)
     return desk.stores.notices.tell(
       'warning',
-      words.timeline.swingsTooFar(servoName(desk.robot, outside.servo)),
+      words.timeline.swingsTooFar({ name: servoName(desk.robot, outside.servo) }),
     );
   apply(desk, { label: () => words.timeline.steps.scaleAmplitude, edit: () => next });
 }

@@ -15,7 +15,8 @@ import { keysAt, positionAt, type Key, type KeyRef } from '#shared/actions/group
 import { keySet, NO_KEYS } from '../stores/timeline/keySet.ts';
 import { isHeld } from '../stores/servoView.ts';
 import { namesIn, servoName } from '../stores/servoName.ts';
-import { words } from '../words/whole.ts';
+import { notPasted } from './pasteText.ts';
+import { words } from '../i18n/whole.ts';
 import {
   apply,
   changeable,
@@ -41,7 +42,8 @@ export function setKeysAt(desk: Desk, servos: readonly number[], atMs: number): 
     return desk.stores.notices.tell('warning', words.timeline.status[whyHeld(desk, servos)]);
   const known = placedAt(free, (servo) => positionNow(desk, servo, atMs));
   const placed = known.length > 0 ? known : placedAt(free, (servo) => homeOf(desk, servo));
-  if (placed.length === 0) return desk.stores.notices.tell('info', words.actions.otherUnit(desk.group.unit));
+  if (placed.length === 0)
+    return desk.stores.notices.tell('info', words.actions.otherUnit({ unit: words.units[desk.group.unit] }));
   const { unit } = desk.family;
   apply(desk, {
     label: () => words.timeline.steps.setKey,
@@ -90,7 +92,7 @@ export function remove(desk: Desk): void {
   } else if (hasChangeable(desk)) {
     const refs = changeable(desk);
     apply(desk, {
-      label: () => words.timeline.steps.delete(refs.length),
+      label: () => words.timeline.steps.delete({ count: refs.length }),
       edit: (group) => deleteKeys(group, refs, { ripple: desk.state.ripples }),
     });
   }
@@ -117,7 +119,7 @@ export function copy(desk: Desk): Clip | null {
   const clip = clipOf(desk);
   if (clip !== null) {
     desk.stores.timeline.setState({ clip });
-    desk.stores.notices.say(words.timeline.copied(desk.state.selected.size));
+    desk.stores.notices.say(words.timeline.copied({ count: desk.state.selected.size }));
   }
   return clip;
 }
@@ -128,7 +130,7 @@ export function cut(desk: Desk): Clip | null {
   const refs = changeable(desk);
   if (clip !== null)
     apply(desk, {
-      label: () => words.timeline.steps.cut(refs.length),
+      label: () => words.timeline.steps.cut({ count: refs.length }),
       edit: (group) => deleteKeys(group, refs, { ripple: desk.state.ripples }),
     });
   return clip;
@@ -177,8 +179,7 @@ function put(
   selects: (times: GroupTimes) => readonly KeyRef[],
 ): void {
   const [problem] = problems;
-  if (problem !== undefined)
-    desk.stores.notices.tell('warning', words.timeline.notPasted(problem, namesIn(desk.robot)));
+  if (problem !== undefined) desk.stores.notices.tell('warning', notPasted(problem, namesIn(desk.robot)));
   else apply(desk, { label, edit: () => group, selects });
 }
 
@@ -210,17 +211,14 @@ export function mirrorFrames(desk: Desk): void {
   const { group, held } = mirror(desk.group, desk.robot, frameIds);
   if (group === desk.group) desk.stores.notices.tell('info', words.timeline.nothingToMirror);
   if (held.length > 0)
-    desk.stores.notices.tell(
-      'warning',
-      words.timeline.heldAtLimit(held.map(({ servo }) => servoName(desk.robot, servo))),
-    );
+    desk.stores.notices.tell('warning', heldAtLimit(held.map(({ servo }) => servoName(desk.robot, servo))));
   apply(desk, { label: () => words.timeline.steps.mirror, edit: () => group });
 }
 
 export function ease(desk: Desk, easing: Easing): void {
   const frames = selectedFrames(desk);
   apply(desk, {
-    label: () => words.timeline.steps.ease(words.timeline.easings[easing]),
+    label: () => words.timeline.easings[easing],
     edit: (group) => setEasing(group, frames, easing),
   });
 }
@@ -240,4 +238,8 @@ export function selectAll(desk: Desk): void {
 
 export function selectNone({ stores }: Desk): void {
   select(stores, NO_KEYS);
+}
+
+function heldAtLimit(names: readonly string[]): string {
+  return words.timeline.heldAtLimit({ count: names.length, names: words.numbers.formatNames(names) });
 }

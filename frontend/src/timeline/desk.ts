@@ -13,7 +13,7 @@ import { setChanged } from '../stores/setChanged.ts';
 import { groupBoardOf, servoViewOf, type Stores } from '../stores/stores.ts';
 import { ALL_ROW, type Cursor, type TimelineState } from '../stores/timeline/timeline.ts';
 import type { PositionsIn } from '../stores/view.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { rowsNow, type Row } from './rows.ts';
 

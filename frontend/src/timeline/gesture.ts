@@ -4,7 +4,7 @@
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Label } from '#shared/actions/history.ts';
 import type { SelectMode } from '../stores/timeline/keySet.ts';
-import type { Words } from '../words/whole.ts';
+import type { Words } from '../i18n/whole.ts';
 import type { Desk, DeskStores } from './desk.ts';
 import type { Spot } from './hit.ts';
 import type { Sizes } from './sizes.ts';

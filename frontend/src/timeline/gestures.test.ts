@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { addMarker } from '#shared/actions/group/markerEdits.ts';
 import { editServoView } from '../stores/stores.ts';
 import type { Timeline } from '../stores/timeline/timeline.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { createTimelineDesk, smallGroup } from './timelineUnderTest.ts';
 
 const HEADS_Y = 33;

@@ -5,7 +5,8 @@ import { moveMarker } from '#shared/actions/group/markerEdits.ts';
 import { setDuration } from '#shared/actions/group/timeEdits.ts';
 import { keySet, withKeys } from '../stores/timeline/keySet.ts';
 import type { KeyRef } from '#shared/actions/group/tracks.ts';
-import { words } from '../words/whole.ts';
+import { instantText } from './instantText.ts';
+import { words } from '../i18n/whole.ts';
 import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
 import {
   draggedTo,
@@ -105,7 +106,7 @@ function durationGesture(press: Press, desk: Desk, { frameId, atMs }: Hit & { ki
   return edits(
     press,
     'duration',
-    () => words.timeline.steps.duration(place + 1),
+    () => words.timeline.steps.duration({ frame: place + 1 }),
     (spot, held) => {
       const durationMs = (frame?.durationMs ?? 0) + to(spot, held) - atMs;
       const { ripples } = press.stores.timeline.getState();
@@ -139,7 +140,10 @@ function stretchGesture(press: Press, desk: Desk, { end, span }: Hit & { kind: '
       };
     },
     {
-      tells: () => words.timeline.draggedStretch(factor, (span.toMs - span.fromMs) * factor),
+      tells: () =>
+        words.timeline.draggedStretch({
+          ...{ share: factor, length: instantText(Math.round((span.toMs - span.fromMs) * factor)) },
+        }),
       shown: () => press.stores.timeline.setState({ selected: keySet(stretched) }),
       ended: () => select(press.stores, keySet(stretched), cursorAfter(desk, refs, stretched)),
       cancelled: () => select(press.stores, desk.state.selected, desk.state.cursor),

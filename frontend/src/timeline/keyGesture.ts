@@ -2,7 +2,7 @@
 
 import type { KeyRef } from '#shared/actions/group/tracks.ts';
 import { keySet, withKeys } from '../stores/timeline/keySet.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
 import { draggedTo, edits, modeOf, nothing, type Gesture, type Held, type Press } from './gesture.ts';
 import { timesOf } from './groupTimes.ts';

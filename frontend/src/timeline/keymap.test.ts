@@ -5,7 +5,7 @@ import { startHistory } from '#shared/actions/history.ts';
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { editServoView } from '../stores/stores.ts';
 import { ALL_ROW } from '../stores/timeline/timeline.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import { chordOf, chordText } from './keymap.ts';
 import { keepInStep } from './inStep.ts';
 import { VERBS } from './verbs.ts';

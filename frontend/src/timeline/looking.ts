@@ -6,7 +6,7 @@ import { withKeys, type SelectMode } from '../stores/timeline/keySet.ts';
 import { setChanged } from '../stores/setChanged.ts';
 import { rowOf, select, type Desk } from './desk.ts';
 import { allKeys, endOfFrame, keysOfFrame, selectedKeys, spanOf } from './groupTimes.ts';
-import { words } from '../words/whole.ts';
+import { instantText } from './instantText.ts';
 import { fitted, panned, showing, xOf, zoomedAt, type Span } from '../stores/timeline/timeScale.ts';
 import { beside, settled, walked, type Cell, type Direction, type Grid } from './walk.ts';
 
@@ -23,7 +23,7 @@ export function lookAt({ stores }: Desk, atMs: number): void {
 /** The same by keys, for ears too. */
 export function stepTo(desk: Desk, atMs: number): void {
   lookAt(desk, atMs);
-  desk.stores.notices.say(words.timeline.instant(desk.stores.timeline.getState().playheadMs));
+  desk.stores.notices.say(instantText(desk.stores.timeline.getState().playheadMs));
 }
 
 /** By so many of the board's ticks, the first one from where it is. */

@@ -2,7 +2,8 @@
 
 import { moveMarker } from '#shared/actions/group/markerEdits.ts';
 import type { Marker } from '#shared/actions/group/group.ts';
-import { words } from '../words/whole.ts';
+import { instantText } from './instantText.ts';
+import { words } from '../i18n/whole.ts';
 import type { Desk } from './desk.ts';
 import { lookAt } from './looking.ts';
 
@@ -42,5 +43,5 @@ export function nudgeMarker(desk: Desk, ticks: number): void {
 function show(desk: Desk, { id, atMs, text }: Marker): void {
   desk.stores.timeline.setState({ marker: id });
   lookAt(desk, atMs);
-  desk.stores.notices.say(words.timeline.draggedMarker(text, atMs));
+  desk.stores.notices.say(words.timeline.draggedMarker({ text, at: instantText(atMs) }));
 }

@@ -12,7 +12,7 @@ import type { TimeRange } from '#shared/actions/group/timeEdits.ts';
 import { keysAt, type Key, type KeyRef } from '#shared/actions/group/tracks.ts';
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import type { Range } from '#shared/protocol/families.ts';
-import { words } from '../words/whole.ts';
+import { words } from '../i18n/whole.ts';
 import type { Cursor } from '../stores/timeline/timeline.ts';
 import { cellName } from './cellName.ts';
 import { apply, changeable, hasChangeable, rangeOf, rowOf, type Desk } from './desk.ts';

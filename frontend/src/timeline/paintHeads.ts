@@ -1,6 +1,7 @@
 // Draws what is fixed on top of the lanes: the ruler with its marks, markers and loop range, and the heads of the frames.
 
-import { words } from '../words/whole.ts';
+import { markText } from '../i18n/instants.ts';
+import { words } from '../i18n/whole.ts';
 import { hasAll } from './hit.ts';
 import { colourOf } from './look.ts';
 import { marksWithin, markStep } from './marks.ts';
@@ -43,7 +44,7 @@ function paintMarks({ ctx, look, scene }: Brush): void {
     ctx.fillStyle = isMain ? look.edge : look.line;
     ctx.fillRect(x, sizes.ruler - (isMain ? 10 : 5), 1, isMain ? 10 : 5);
     ctx.fillStyle = look['ink-dim'];
-    if (isMain) ctx.fillText(words.timeline.mark(atMs, stepMs), x + 4, sizes.ruler / 2 - 1);
+    if (isMain) ctx.fillText(markText(atMs, stepMs), x + 4, sizes.ruler / 2 - 1);
   }
 }
 

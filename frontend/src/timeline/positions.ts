@@ -2,7 +2,7 @@
 
 import { servoOf } from '#shared/actions/robot/robot.ts';
 import { inUnits, scaleOf, type Scale } from '../servos/scale.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { rangeOf, type Desk } from './desk.ts';
 
 export type Reader = Pick<Desk, 'robot' | 'family' | 'positionsIn'> & {
@@ -26,7 +26,7 @@ export function turnText(reader: Reader, servo: number): string {
   const shown = nudgeUnits(reader, servo) * unitsShown(reader, servo);
   return scale.isDegrees
     ? words.numbers.formatDegrees(shown, scale.decimals)
-    : words.numbers.formatPosition(shown, reader.group.unit);
+    : words.position[reader.group.unit]({ position: shown });
 }
 
 /** What one unit of the group comes to where it is shown. */

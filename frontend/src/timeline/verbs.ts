@@ -2,7 +2,7 @@
 
 import type { IconName } from '../ui/Icon.tsx';
 import type { Ask, TimelineState } from '../stores/timeline/timeline.ts';
-import { words, type Words } from '../words/whole.ts';
+import { words, type Words } from '../i18n/whole.ts';
 import {
   copy,
   cut,
@@ -77,7 +77,8 @@ type Marked = Pick<TimelineState, 'marker'>;
 
 /** Some mean a marker where one is selected. */
 export function verbName(name: VerbName, { marker }: Marked): string {
-  const { verbs, markerVerbs } = words.timeline;
+  const { verbs, ...others } = words.timeline;
+  const markerVerbs: Readonly<Partial<Record<VerbName, string>>> = others.markerVerbs;
   return (marker === null ? undefined : markerVerbs[name]) ?? verbs[name];
 }
 

@@ -3,7 +3,7 @@
 import { useStores, useView } from '../stores/stores.ts';
 import type { LanguageChoice } from '../stores/view.ts';
 import { Icon } from '../ui/Icon.tsx';
-import { LANGUAGES, OWN_NAMES, words } from '../words/words.ts';
+import { LANGUAGE_CODES, LANGUAGES, words } from '../i18n/words.ts';
 import styles from './LanguageControl.module.css';
 
 export function LanguageControl() {
@@ -19,9 +19,9 @@ export function LanguageControl() {
         onChange={(event) => view.setState({ language: event.target.value as LanguageChoice })}
       >
         <option value="system">{words.language.system}</option>
-        {LANGUAGES.map((one) => (
-          <option key={one} value={one} lang={OWN_NAMES[one].locale}>
-            {OWN_NAMES[one].name}
+        {LANGUAGE_CODES.map((one) => (
+          <option key={one} value={one} lang={one}>
+            {LANGUAGES[one].name}
           </option>
         ))}
       </select>

@@ -11,7 +11,8 @@ import { Icon } from '../ui/Icon.tsx';
 import { MenuButton } from '../ui/MenuButton.tsx';
 import { useLayout } from '../ui/useLayout.ts';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/words.ts';
+import { secondsLeft } from '../i18n/numbers.ts';
+import { words } from '../i18n/words.ts';
 import styles from './LeaseChip.module.css';
 import { turnOf, type Turn, type TurnAct } from './turn.ts';
 
@@ -75,7 +76,7 @@ function Folded({ lease, turn }: TurnProps) {
   const acts = [
     ...turn.acts,
     ...lease.candidates.map(({ id, name }) => ({
-      label: words.lease.handOverTo(name),
+      label: words.lease.handOverTo({ name }),
       wish: { giveTo: id },
     })),
   ];
@@ -117,5 +118,5 @@ function PassesIn({ lease: { answerInMs, asks } }: { readonly lease: Lease }) {
   const [toldMs] = useState(device.clock.now);
   const nowMs = useNow(device.clock.now, 250);
   const leftMs = (answerInMs ?? 0) - (nowMs - toldMs);
-  return asks ? words.lease.yoursIn(leftMs) : words.lease.theirsIn(leftMs);
+  return (asks ? words.lease.yoursIn : words.lease.theirsIn)({ seconds: secondsLeft(leftMs) });
 }

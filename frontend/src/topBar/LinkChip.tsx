@@ -5,7 +5,7 @@ import { Mark, type Truth } from '../ui/Chip.tsx';
 import { Button } from '../ui/Button.tsx';
 import { pressOnce } from '../ui/pressOnce.ts';
 import type { LinkState } from '#shared/session/state.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import styles from './LinkChip.module.css';
 
 const TRUTH: Readonly<Record<LinkState['status'], Truth>> = {
@@ -27,12 +27,15 @@ export function LinkChip() {
   const connects = way === null || isSimulated || mustChoose;
   const open = (): void => view.setState({ connectOpen: true });
   const label = way === null || isSimulated ? '' : way.label;
+  const said = isSimulated ? words.link.simulated : words.link.status[status];
   return (
     <div className={styles.link} data-connects={connects}>
       <button
         type="button"
         className={styles.chip}
-        aria-label={words.link.chip(isSimulated ? words.link.simulated : words.link.status[status], label)}
+        aria-label={
+          label === '' ? words.link.chip({ status: said }) : words.link.chipWithPort({ status: said, label })
+        }
         onClick={open}
         onKeyDown={pressOnce}
       >

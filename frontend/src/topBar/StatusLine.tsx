@@ -1,6 +1,7 @@
 // What goes on, in one place that never moves: the latch with its Resume first, then a lost link with its countdown, then
 // what the board does. Changes are read out.
 
+import type { Unheld } from '#shared/motion/haltPlan.ts';
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { useDevice, useDocument, useIsTeaching, useSnapshot, useStores } from '../stores/stores.ts';
 import { mayResume } from '#shared/session/lease.ts';
@@ -10,7 +11,11 @@ import { Button } from '../ui/Button.tsx';
 import { Mark, type Truth } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/words.ts';
+import { servosText } from '../i18n/sentences/servos.ts';
+import { secondsLeft } from '../i18n/numbers.ts';
+import { stoppedBy, mayResumeText } from '../i18n/sentences/people.ts';
+import { errorSentence } from '../i18n/sentences/errors.ts';
+import { words } from '../i18n/words.ts';
 import { LeaseChip } from './LeaseChip.tsx';
 import { UnattendedChip } from './UnattendedChip.tsx';
 import styles from './StatusLine.module.css';
@@ -44,7 +49,7 @@ export function StatusLine({ className, onMoveHere }: StatusLineProps) {
       {isDown ? (
         <Down link={link} onMoveHere={onMoveHere} />
       ) : link.status === 'stale' ? (
-        <Said truth="warning" text={words.errorSentence('boardSilent')} />
+        <Said truth="warning" text={errorSentence('boardSilent')} />
       ) : link.status === 'identifying' ? (
         <Said truth="unknown" text={words.identity.asking} />
       ) : latch !== null ? (
@@ -86,7 +91,7 @@ function Latched({ latch }: { readonly latch: Latch }) {
       <Said
         truth={latch.stop === 'confirmed' ? 'confirmed' : latch.stop === 'failed' ? 'danger' : 'warning'}
         text={words.stop.outcome[latch.stop]}
-        more={isOurs ? latchWords(latch) : `${latchWords(latch)}. ${words.stop.mayResume(lease)}`}
+        more={isOurs ? latchWords(latch) : `${latchWords(latch)}. ${mayResumeText(lease)}`}
       />
       {isOurs && (
         <Button onPress={() => device.resume()} icon="play" hint={words.stop.resumeHint}>
@@ -102,10 +107,17 @@ const ANSWERED_ELSEWHERE: readonly LinkErrorCode[] = ['closed', 'boardUnknown', 
 const IN_ANOTHER_TAB: readonly LinkErrorCode[] = ['heldElsewhere', 'movedAway'];
 
 function latchWords({ reason, by, unheld }: Latch): string {
-  const why = reason === 'elsewhere' ? words.stop.stoppedBy(by) : words.stop.reason[reason];
+  const why = reason === 'elsewhere' ? stoppedBy(by) : words.stop.reason[reason];
   if (unheld === null) return why;
-  const goesOn = words.stop.unheld(unheld);
+  const goesOn = unheldText(unheld);
   return reason === 'pressed' ? goesOn : `${goesOn}. ${why}`;
+}
+
+function unheldText({ servos, forMs }: Unheld): string {
+  const who = servos === null ? words.stop.robot : servosText(servos);
+  return Number.isFinite(forMs)
+    ? words.stop.goesOnFor({ servos: who, ms: forMs })
+    : words.stop.goesOn({ servos: who });
 }
 
 type DownState = Extract<LinkState, { status: 'lost' | 'refused' }>;
@@ -116,7 +128,7 @@ function Down({ link, onMoveHere }: { readonly link: DownState; readonly onMoveH
   const said = (
     <Said
       truth={needsChoice ? 'warning' : 'danger'}
-      text={words.errorSentence(link.error.code, link.error.message)}
+      text={errorSentence(link.error.code, link.error.message)}
     />
   );
   // There is nothing to try again: the sentence says to connect, or to say which board it is.
@@ -142,7 +154,7 @@ function Down({ link, onMoveHere }: { readonly link: DownState; readonly onMoveH
 function Countdown({ untilMs }: { readonly untilMs: number }) {
   const { device } = useStores();
   const nowMs = useNow(device.clock.now, 250);
-  return words.link.retryIn(untilMs - nowMs);
+  return words.link.retryIn({ seconds: secondsLeft(untilMs - nowMs) });
 }
 
 function activityTruth(activity: Activity): Truth {
@@ -168,14 +180,16 @@ function activityWords(activity: Activity, played: Played | null): string {
     case 'idle':
       return words.activity.idle;
     case 'running':
-      return words.activity.told(
-        words.activity.running(activity.slot, activity.times),
-        words.activity.runTruth[activity.truth],
-      );
+      return words.activity.told({
+        activity: words.activity.running(activity),
+        truth: words.activity.runTruth[activity.truth],
+      });
     case 'playing':
-      return played === null ? words.activity.moving : words.activity.playing(played.frame, played.count);
+      return played === null
+        ? words.activity.moving
+        : words.activity.playing({ frame: played.frame, count: played.count });
     case 'downloading':
-      return words.activity.downloading(activity.slot);
+      return words.activity.downloading({ slot: activity.slot });
     case 'erasing':
       return words.activity.erasing;
   }

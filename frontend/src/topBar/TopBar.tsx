@@ -10,7 +10,8 @@ import { IconButton } from '../ui/Button.tsx';
 import type { IconName } from '../ui/Icon.tsx';
 import { PeopleButton } from '../people/PeopleDialog.tsx';
 import { PageSwitch } from '../macros/PageSwitch.tsx';
-import { words } from '../words/words.ts';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/words.ts';
 import { LanguageControl } from './LanguageControl.tsx';
 import { LinkChip } from './LinkChip.tsx';
 import { StatusLine, type StatusLineProps } from './StatusLine.tsx';
@@ -58,7 +59,7 @@ function Robot() {
   const way = useDevice((state) => state.way);
   const family = useDevice((state) => state.family);
   const nickname = useStore(boards.store, (all) => (way === null ? '' : all[nameOf(way)]?.nickname)) ?? '';
-  const name = way === null ? words.link.noBoard : way.isSimulated ? '' : nickname || words.boardName(family);
+  const name = way === null ? words.link.noBoard : way.isSimulated ? '' : nickname || boardName(family);
   return (
     <div className={styles.robot}>
       <RobotButton />
@@ -85,7 +86,7 @@ function ThemeButton() {
   return (
     <IconButton
       icon={THEME_ICONS[theme]}
-      label={words.theme.now(words.theme[theme])}
+      label={words.theme.now({ theme: words.theme[theme] })}
       onPress={() => view.setState({ theme: nextTheme(theme) })}
     />
   );

@@ -7,7 +7,8 @@ import { Button } from '../ui/Button.tsx';
 import { Mark } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
 import { useNow } from '../ui/useNow.ts';
-import { words } from '../words/words.ts';
+import { personWithin } from '../i18n/sentences/people.ts';
+import { words } from '../i18n/words.ts';
 import styles from './LeaseChip.module.css';
 
 export function UnattendedChip() {
@@ -27,7 +28,9 @@ export function UnattendedChip() {
         <Mark truth="commanded" />
         <div className={styles.words}>
           <p className={styles.text} aria-live="polite">
-            {isOurs ? words.lease.mayGoOn(run.slot) : words.lease.goesOn(run.slot, run.by, you)}
+            {isOurs
+              ? words.lease.mayGoOn({ slot: run.slot })
+              : words.lease.goesOn({ slot: run.slot, name: personWithin(run.by, you) })}
           </p>
           <p className={styles.more}>
             <Left key={run.endsInMs} run={run} />
@@ -48,5 +51,5 @@ function Left({ run: { endsInMs } }: { readonly run: Unattended }) {
   const { device } = useStores();
   const [toldMs] = useState(device.clock.now);
   const nowMs = useNow(device.clock.now, 250);
-  return words.lease.goesOnFor(endsInMs - (nowMs - toldMs));
+  return words.lease.goesOnFor({ ms: endsInMs - (nowMs - toldMs) });
 }

@@ -2,7 +2,8 @@
 
 import type { Lease, LeaseAction } from '#shared/session/lease.ts';
 import type { Truth } from '../ui/Chip.tsx';
-import { words } from '../words/words.ts';
+import { personName } from '../i18n/sentences/people.ts';
+import { words } from '../i18n/words.ts';
 
 export interface TurnAct {
   readonly label: string;
@@ -27,13 +28,18 @@ export function turnOf(lease: Lease): Turn {
 const driving = ({ you, givenBy, others }: Lease): Turn => ({
   truth: 'confirmed',
   text: words.lease.drives,
-  more: { said: givenBy === null ? words.lease.others(others) : words.lease.given(givenBy, you) },
+  more: {
+    said:
+      givenBy === null
+        ? words.lease.others({ count: others })
+        : words.lease.given({ name: personName(givenBy, you) }),
+  },
   acts: [{ label: words.lease.release, hint: words.lease.releaseHint, tone: 'quiet', wish: 'release' }],
 });
 
 const beingAsked = ({ you }: Lease, asker: string): Turn => ({
   truth: 'warning',
-  text: words.lease.asker(asker, you),
+  text: words.lease.asker({ name: personName(asker, you) }),
   more: 'countdown',
   acts: [
     { label: words.lease.allow, tone: 'plain', wish: 'release' },
@@ -55,7 +61,7 @@ function watching({ you, asks, mayDrive, mayTake }: Lease, driver: string): Turn
   const take = { label: words.lease.take, hint: words.lease.takeHint, tone: 'quiet', wish: 'take' } as const;
   return {
     truth: asks ? 'commanded' : 'neutral',
-    text: asks ? words.lease.asked(driver, you) : words.lease.driver(driver, you),
+    text: (asks ? words.lease.asked : words.lease.driver)({ name: personName(driver, you) }),
     more: asks ? 'countdown' : { said: words.lease.watching },
     acts: [...(asks || mayDrive ? [ask] : []), ...(mayTake ? [take] : [])],
   };

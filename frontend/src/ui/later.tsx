@@ -4,7 +4,7 @@
 
 import { useEffect, type ComponentType } from 'react';
 import { createStore, useStore, type StoreApi } from 'zustand';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { Button } from './Button.tsx';
 import { EmptyState } from './EmptyState.tsx';
 import styles from './later.module.css';

@@ -2,7 +2,7 @@
 // in a new one.
 
 import { useEffect } from 'react';
-import { useWords } from '../words/words.ts';
+import { useWords } from '../i18n/words.ts';
 
 export function useSpokenLocale(): string {
   const { locale } = useWords();

@@ -2,7 +2,7 @@
 
 import type { StoreApi } from 'zustand';
 import { redoLabel, undoLabel, type History } from '#shared/actions/history.ts';
-import { words } from '../words/words.ts';
+import { words } from '../i18n/words.ts';
 import { useInFrame } from '../ui/useInFrame.ts';
 import { IconButton } from '../ui/Button.tsx';
 
@@ -21,13 +21,13 @@ export function UndoTools({ of }: UndoToolsProps) {
     <>
       <IconButton
         icon="undo"
-        label={back === null ? words.actions.undo : words.actions.undoStep(back)}
+        label={back === null ? words.actions.undo : words.actions.undoStep({ label: back })}
         isDisabled={back === null}
         onPress={() => of.undo()}
       />
       <IconButton
         icon="redo"
-        label={forth === null ? words.actions.redo : words.actions.redoStep(forth)}
+        label={forth === null ? words.actions.redo : words.actions.redoStep({ label: forth })}
         isDisabled={forth === null}
         onPress={() => of.redo()}
       />

@@ -9,7 +9,7 @@ import { arrive } from '../../src/connect/arrival.ts';
 import { openPage } from '../../src/connect/page.ts';
 import { Gallery } from '../../src/gallery/Gallery.tsx';
 import { fetchRest } from '../../src/ui/later.tsx';
-import { preferredLanguage, speak } from '../../src/words/words.ts';
+import { preferredLanguage, speak } from '../../src/i18n/words.ts';
 import type { Media, Screen } from './commands.ts';
 import { watchFiles } from './files.ts';
 import { act, keyboard, mouse, touchscreen } from './hands.ts';

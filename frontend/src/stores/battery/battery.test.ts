@@ -9,7 +9,7 @@ import { createRig } from '#shared/session/rig.ts';
 import { createSession } from '#shared/session/session.ts';
 import type { Transport } from '#shared/session/transport.ts';
 import { createSimulatedTransport } from '#shared/simulator/transport.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../i18n/words.ts';
 import { createBattery } from './battery.ts';
 import { applyBatteryPolicy, REST_MOVE_MS, REST_WARNING_MS } from './batteryPolicy.ts';
 import { pollBattery } from './batteryPoll.ts';
@@ -133,7 +133,7 @@ describe('a low battery', () => {
     await clock.advance(9000);
     expect(told()).toEqual([]);
     await clock.advance(3000);
-    expect(told()).toEqual([words.battery.warned(words.battery.volts(6900))]);
+    expect(told()).toEqual([words.battery.warned({ volts: words.numbers.formatVolts(6900) })]);
     notices.dismiss(notices.store.getState()[0]!.id);
     await clock.advance(120_000);
     expect(told()).toEqual([]);
@@ -147,7 +147,7 @@ describe('a low battery', () => {
       () => 'thresholds',
       (robot) => ({ ...robot, batteryCare: { policy: 'tell', thresholds } }),
     );
-    expect(told().at(-1)).toBe(words.battery.alarmed(words.battery.volts(6900)));
+    expect(told().at(-1)).toBe(words.battery.alarmed({ volts: words.numbers.formatVolts(6900) }));
   });
 
   test('is told of another robot too', async () => {
@@ -160,7 +160,7 @@ describe('a low battery', () => {
       await clock.advance(1000);
       await other.clock.advance(1000);
     }
-    expect(told()).toEqual([words.battery.warned(words.battery.volts(6900))]);
+    expect(told()).toEqual([words.battery.warned({ volts: words.numbers.formatVolts(6900) })]);
   });
 
   test('refuses nothing where the person only wants to know', async () => {
@@ -182,7 +182,7 @@ describe('a low battery', () => {
       await clock.advance(500);
       expect([ofKind('run'), ofKind('move')]).toEqual([[], []]);
       const refusal = notices.store.getState().at(-1);
-      expect(refusal?.text).toBe(words.battery.runRefused(words.battery.volts(6500)));
+      expect(refusal?.text).toBe(words.battery.runRefused({ volts: words.numbers.formatVolts(6500) }));
       refusal?.action?.act();
       await clock.advance(500);
       expect(ofKind('move')).toHaveLength(1);
@@ -226,7 +226,7 @@ describe('a robot that goes to rest', () => {
     const desk = await createDesk(6500, 'rest');
     desk.device.move([{ servo: 2, position: 1900 }], 1500);
     await desk.clock.advance(SETTLED_MS + 5000);
-    expect(desk.told()).toContain(words.battery.goingToRest(REST_WARNING_MS));
+    expect(desk.told()).toContain(words.battery.goingToRest({ ms: REST_WARNING_MS }));
     return desk;
   }
 
@@ -253,7 +253,7 @@ describe('a robot that goes to rest', () => {
     device.attach(session, WAY);
     await session.open();
     await clock.advance(SETTLED_MS + REST_WARNING_MS + 5000);
-    expect(announced.has(words.battery.goingToRest(REST_WARNING_MS))).toBe(goes);
+    expect(announced.has(words.battery.goingToRest({ ms: REST_WARNING_MS }))).toBe(goes);
     expect(session.state.latch !== null).toBe(goes);
   });
 
@@ -267,8 +267,8 @@ describe('a robot that goes to rest', () => {
     expect(latch()).toBeNull();
     await clock.advance(REST_MOVE_MS);
     expect(latch()).toMatchObject({ reason: 'battery' });
-    expect(told()).not.toContain(words.battery.goingToRest(REST_WARNING_MS));
-    expect(told()).toContain(words.battery.rested('6.50\u00a0V'));
+    expect(told()).not.toContain(words.battery.goingToRest({ ms: REST_WARNING_MS }));
+    expect(told()).toContain(words.battery.rested({ volts: '6.50\u00a0V' }));
     await clock.advance(1000);
     const moves = ofKind('move').length;
     device.resume();
@@ -303,7 +303,7 @@ describe('a robot that goes to rest', () => {
     const { clock, device, ofKind, told } = await createTiredRobot();
     await clock.advance(afterMs);
     device.halt();
-    expect(told()).not.toContain(words.battery.goingToRest(REST_WARNING_MS));
+    expect(told()).not.toContain(words.battery.goingToRest({ ms: REST_WARNING_MS }));
     await clock.advance(1000);
     device.resume();
     const moves = ofKind('move').length;

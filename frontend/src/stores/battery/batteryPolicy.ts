@@ -7,7 +7,7 @@ import { homeTargets } from '#shared/actions/poses/poseShapes.ts';
 import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { wasCommanded } from '#shared/session/state.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../i18n/words.ts';
 import type { BatteryStore } from './battery.ts';
 import type { Device } from '../device/device.ts';
 import { limitRefusal } from '../device/limits.ts';
@@ -39,7 +39,7 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
   let cancelRest: (() => void) | null = null;
 
   const policy = (): BatteryPolicy => robots.current().robot.batteryCare.policy;
-  const volts = (): string => words.battery.volts(battery.getState().gauge.restMv ?? 0);
+  const volts = (): string => words.numbers.formatVolts(battery.getState().gauge.restMv ?? 0);
   const isAlarm = (): boolean => actionableLevel() === 'danger';
   const hindrance = () => motionHindrance(device.store.getState().snapshot);
 
@@ -60,15 +60,15 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
 
   function cross(level: Level): void {
     restIsDue = level === 'danger' && policy() === 'rest';
-    if (level !== 'danger') notices.tell('warning', words.battery.warned(volts()));
-    else if (policy() === 'tell') notices.tell('danger', words.battery.alarmed(volts()));
-    else notices.tell('danger', words.battery.alarmedRefusing(volts()));
+    if (level !== 'danger') notices.tell('warning', words.battery.warned({ volts: volts() }));
+    else if (policy() === 'tell') notices.tell('danger', words.battery.alarmed({ volts: volts() }));
+    else notices.tell('danger', words.battery.alarmedRefusing({ volts: volts() }));
   }
 
   const mayRest = (): boolean =>
     policy() === 'rest' && isAlarm() && hindrance() === null && device.isAtRest();
 
-  const announcement = (): string => words.battery.goingToRest(REST_WARNING_MS);
+  const announcement = (): string => words.battery.goingToRest({ ms: REST_WARNING_MS });
 
   function announceRest(): void {
     notices.tell('danger', announcement());
@@ -91,7 +91,7 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
       cancelRest = isThere ? null : clock.after(LOOK_EVERY_MS, look);
       if (!isThere) return;
       notices.takeBack(announcement());
-      notices.tell('danger', words.battery.rested(volts()));
+      notices.tell('danger', words.battery.rested({ volts: volts() }));
       device.halt('battery');
     });
   }
@@ -118,7 +118,10 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
   device.store.subscribe(giveUpWhereStopped);
   device.guardRuns((anyway) => {
     if (policy() === 'tell' || !isAlarm()) return true;
-    notices.tell('warning', words.battery.runRefused(volts()), { label: words.battery.anyway, act: anyway });
+    notices.tell('warning', words.battery.runRefused({ volts: volts() }), {
+      label: words.battery.anyway,
+      act: anyway,
+    });
     return false;
   });
 }

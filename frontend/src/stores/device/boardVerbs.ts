@@ -6,7 +6,8 @@ import type { Family } from '#shared/protocol/families.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { Session } from '#shared/session/session.ts';
 import type { HaltReason, SlotGroup } from '#shared/session/transport.ts';
-import { words } from '../../words/words.ts';
+import { downloadedSentence, downloadCancelled } from '../../i18n/sentences/slots.ts';
+import { words } from '../../i18n/words.ts';
 import type { Notices } from '../notices.ts';
 import type { LateNews } from './lateNews.ts';
 import type { LimitGate } from './limitGate.ts';
@@ -99,12 +100,12 @@ export function createBoardVerbs({
     const slots = groups.map(({ slot }) => slot);
     try {
       await current.download(groups);
-      notices.tell('info', words.board.downloaded(slots));
+      notices.tell('info', downloadedSentence(slots));
       return true;
     } catch (error) {
       if (!(error instanceof LinkError && error.code === 'cancelled')) throw error;
       const broken = slots.find((slot) => current.state.brokenSlots.includes(slot));
-      notices.tell('warning', words.board.downloadCancelled(broken ?? null));
+      notices.tell('warning', downloadCancelled(broken ?? null));
       return false;
     }
   }
@@ -128,9 +129,7 @@ export function createBoardVerbs({
     readDetails: () => attempt((current) => current.readVersion().then(() => current.readOffsets())),
     setSpeed: (slot, percent) =>
       attempt((current) =>
-        current
-          .setSpeed(slot, percent)
-          .then(() => notices.tell('info', words.board.speedSent(slot, percent))),
+        current.setSpeed(slot, percent).then(() => notices.tell('info', speedSent(slot, percent))),
       ),
     release: (servos, settled) => attempt((current) => current.release(servos), settled),
     download(groups, settled = () => undefined) {
@@ -151,8 +150,8 @@ export function createBoardVerbs({
       attemptRun(async (current) => {
         setPaused(false);
         const { lateFrames, latestMs, skippedFrames } = await current.play(onIt, { times, loopFrom });
-        if (skippedFrames > 0) notices.tell('warning', words.play.skipped(skippedFrames));
-        else if (lateFrames > 0) notices.tell('info', words.play.late(lateFrames, latestMs));
+        if (skippedFrames > 0) notices.tell('warning', words.play.skipped({ frames: skippedFrames }));
+        else if (lateFrames > 0) notices.tell('info', words.play.late({ frames: lateFrames, ms: latestMs }));
         return !paused && current.state.latch === null && current.state.link.status === 'ready';
       }, settled);
     },
@@ -161,4 +160,8 @@ export function createBoardVerbs({
       now()?.stopPlaying();
     },
   };
+}
+
+function speedSent(slot: number | null, percent: number): string {
+  return slot === null ? words.board.speedSentToAll({ percent }) : words.board.speedSent({ slot, percent });
 }

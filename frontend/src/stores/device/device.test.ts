@@ -4,7 +4,9 @@ import { FAMILIES } from '#shared/protocol/families.ts';
 import { LinkError, type LinkErrorCode } from '#shared/session/linkError.ts';
 import { createRig } from '#shared/session/rig.ts';
 import type { SessionEvents } from '#shared/session/state.ts';
-import { words } from '../../words/words.ts';
+import { downloadedSentence, downloadCancelled } from '../../i18n/sentences/slots.ts';
+import { errorSentence } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/words.ts';
 import { createDevice } from './device.ts';
 import { createNotices } from '../notices.ts';
 import { createRobots } from '../robots/robots.ts';
@@ -70,7 +72,7 @@ describe('what playing could not keep', () => {
     await draw(1900);
     await asleep(300);
     await draw(6000);
-    expect(told()).toContain(words.play.skipped(1));
+    expect(told()).toContain(words.play.skipped({ frames: 1 }));
     expect(told()).not.toContainEqual(expect.stringContaining('None was left out'));
   });
 
@@ -83,7 +85,7 @@ describe('what playing could not keep', () => {
 });
 
 describe('what came too late', () => {
-  const late = words.errorSentence('expired');
+  const late = errorSentence('expired');
 
   async function lateDesk() {
     let events: SessionEvents | undefined;
@@ -113,7 +115,7 @@ describe('what came too late', () => {
     }
     refuse('overslept');
     await draw(5000);
-    expect(told()).toEqual([late, words.errorSentence('overslept')]);
+    expect(told()).toEqual([late, errorSentence('overslept')]);
     again();
     await draw(3100);
     expect(told()).toEqual([]);
@@ -124,7 +126,7 @@ describe('what came too late', () => {
     refuse('noAnswer');
     again();
     await draw(5000);
-    expect(told()).toEqual([words.errorSentence('noAnswer')]);
+    expect(told()).toEqual([errorSentence('noAnswer')]);
   });
 });
 
@@ -234,7 +236,7 @@ describe('a device with a session', () => {
     device.halt();
     await draw(400);
     device.move([{ servo: 1, position: 2400 }], 300);
-    expect(told()).toEqual([words.errorSentence('latched')]);
+    expect(told()).toEqual([errorSentence('latched')]);
     const movesBefore = ofKind('move').length;
     device.resume();
     await draw(400);
@@ -320,7 +322,7 @@ describe('a device with a session', () => {
     await draw(4000);
     expect(state().snapshot.storedSlots).toEqual([5]);
     expect(transport.board.frameCount(5)).toBe(3);
-    expect(told()).toEqual([words.board.downloaded([5])]);
+    expect(told()).toEqual([downloadedSentence([5])]);
   });
 
   test('says whether a download came to its end', async () => {
@@ -342,7 +344,7 @@ describe('a device with a session', () => {
     device.cancelDownload();
     await draw(4000);
     expect(state().snapshot.brokenSlots).toEqual([5]);
-    expect(told()).toEqual([words.board.downloadCancelled(5)]);
+    expect(told()).toEqual([downloadCancelled(5)]);
   });
 
   test('playing to the end is told, pausing is not', async () => {
@@ -389,7 +391,7 @@ describe('a device with a session', () => {
     let resumed: SessionEvents['resumed'] = () => undefined;
     const { device, told, draw } = await createDesk((events) => (resumed = events.resumed));
     resumed('Anna');
-    expect(told()).toEqual([words.stop.resumed('Anna', '')]);
+    expect(told()).toEqual([words.stop.resumed({ name: 'Anna' })]);
     device.halt();
     await draw(400);
     expect(told()).toEqual([]);
@@ -437,7 +439,7 @@ describe('a device with a session', () => {
     device.sendRaw(Uint8Array.of(0x55, 0x55, 2, 6));
     await draw(500);
     expect(ofKind('readBattery')).toHaveLength(1);
-    expect(told()).toEqual([words.errorSentence('outOfRange', 'packet by hand: otherShape')]);
+    expect(told()).toEqual([errorSentence('outOfRange', 'packet by hand: otherShape')]);
   });
 
   test('detached, it is as if nothing had ever been connected', async () => {

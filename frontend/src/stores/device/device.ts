@@ -13,7 +13,9 @@ import type { Session } from '#shared/session/session.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { Motions, ServoMotion, SessionState } from '#shared/session/state.ts';
 import type { Transport } from '#shared/session/transport.ts';
-import { words } from '../../words/words.ts';
+import { personName } from '../../i18n/sentences/people.ts';
+import { errorSentence } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/words.ts';
 import { createBoardVerbs, type BoardVerbs } from './boardVerbs.ts';
 import { createLateNews } from './lateNews.ts';
 import { createLimitGate } from './limitGate.ts';
@@ -190,11 +192,11 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     store.setState({ snapshot, family: snapshot.family });
     if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
     if (snapshot.latch !== null) notices.takeBack(saidOfResume);
-    if (becomesReady) for (const code of TRIED_ON) notices.takeBack(words.errorSentence(code));
+    if (becomesReady) for (const code of TRIED_ON) notices.takeBack(errorSentence(code));
   }
 
   function noteResumed(by: string): void {
-    saidOfResume = words.stop.resumed(by, store.getState().snapshot.lease?.you ?? '');
+    saidOfResume = words.stop.resumed({ name: personName(by, store.getState().snapshot.lease?.you ?? '') });
     notices.tell('info', saidOfResume);
   }
 

@@ -3,7 +3,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { LinkError, type LinkErrorCode } from '#shared/session/linkError.ts';
-import { words } from '../../words/words.ts';
+import { errorSentence } from '../../i18n/sentences/errors.ts';
 import type { Notices } from '../notices.ts';
 
 export interface LateNews {
@@ -29,7 +29,7 @@ export function createLateNews(clock: Clock, notices: Pick<Notices, 'takeBack'>)
     told(error) {
       if (!(error instanceof LinkError) || !LATE.includes(error.code)) return;
       wait();
-      texts = [...texts, words.errorSentence(error.code, error.message)];
+      texts = [...texts, errorSentence(error.code, error.message)];
     },
     asked() {
       if (texts.length === 0 || cancel !== null) return;

@@ -2,7 +2,8 @@
 
 import { refusedTarget, type LimitRefusal, type Robot } from '#shared/actions/robot/robot.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { words } from '../../words/words.ts';
+import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { words } from '../../i18n/words.ts';
 
 /** null where every target is within its servo's limits. */
 export function limitRefusal(robot: Robot, targets: readonly ServoTarget[]): string | null {
@@ -11,4 +12,4 @@ export function limitRefusal(robot: Robot, targets: readonly ServoTarget[]): str
 }
 
 export const refusalText = ({ servo, position }: LimitRefusal): string =>
-  words.refused(words.robots.called(servo), position, servo.min, servo.max);
+  words.refused({ name: servoLabel(servo), value: position, min: servo.min, max: servo.max });

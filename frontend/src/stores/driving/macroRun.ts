@@ -7,7 +7,7 @@ import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import { startsKnown } from '#shared/session/state.ts';
 import { FIRST_MOVE_STAGGER_MS } from '#shared/session/timings.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../i18n/words.ts';
 import type { Device } from '../device/device.ts';
 import { limitRefusal } from '../device/limits.ts';
 import { GENTLE_MOVE_MS } from '../device/moveTime.ts';

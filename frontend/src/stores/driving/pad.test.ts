@@ -3,7 +3,8 @@ import { FAMILIES } from '#shared/protocol/families.ts';
 import type { Input } from '#shared/actions/mapping/mapping.ts';
 import { addPose } from '#shared/actions/poses/poseEdits.ts';
 import { createRig } from '#shared/session/rig.ts';
-import { words } from '../../words/words.ts';
+import { stayingSentence } from '../../i18n/sentences/servos.ts';
+import { words } from '../../i18n/words.ts';
 import { createDevice } from '../device/device.ts';
 import { createMappings } from '../robots/mappings.ts';
 import { createNotices } from '../notices.ts';
@@ -119,7 +120,7 @@ describe('driving by pad', () => {
     const { hold, frames, device, told, target, movesIn } = await createDesk();
     hold(5);
     expect(await movesIn(300)).toBe(0);
-    expect(told()).toEqual([words.pad.unknown('Wrist roll')]);
+    expect(told()).toEqual([words.pad.unknown({ servo: 'Wrist roll' })]);
     hold();
     device.move([{ servo: 2, position: 1500 }], 1500);
     await frames(4000);
@@ -143,7 +144,7 @@ test('a servo that is pushed on at its limit is told once while driving goes on,
   };
   await push();
   expect(target()).toBe(2500);
-  expect(told()).toEqual([words.pad.atLimit('Gripper', 500, 2500)]);
+  expect(told()).toEqual([words.pad.atLimit({ servo: 'Gripper', min: 500, max: 2500 })]);
   expect(await movesIn(500)).toBe(0);
   hold();
   await frames(8000);
@@ -158,7 +159,7 @@ test('a locked servo stays, is told once a push, and turns once it is free', asy
   lock(1);
   hold(RIGHT_TRIGGER);
   expect(await movesIn(500)).toBe(0);
-  expect(told()).toEqual([words.servoPanel.staying(['Gripper'])]);
+  expect(told()).toEqual([stayingSentence(['Gripper'])]);
   lock();
   hold();
   await frames(50);

@@ -7,7 +7,8 @@ import type { Input, Mapping } from '#shared/actions/mapping/mapping.ts';
 import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/actions/mapping/mappingInputs.ts';
 import { AT_REST, step, type Begun, type DriveState } from '#shared/actions/mapping/mappingStep.ts';
 import type { RobotServo } from '#shared/actions/robot/robot.ts';
-import { words } from '../../words/words.ts';
+import { servoLabel, stayingSentence } from '../../i18n/sentences/servos.ts';
+import { words } from '../../i18n/words.ts';
 import { isLocked } from '../locks.ts';
 import type { View } from '../view.ts';
 import type { Device } from '../device/device.ts';
@@ -171,12 +172,12 @@ export function createPad(options: PadOptions): Pad {
     const among = (servos: readonly number[], told: readonly number[]): readonly RobotServo[] =>
       robot.servos.filter(({ servo }) => servos.includes(servo) && !told.includes(servo));
     for (const servo of among(moment.unknown, staying))
-      notices.tell('warning', words.pad.unknown(words.robots.called(servo)));
+      notices.tell('warning', words.pad.unknown({ servo: servoLabel(servo) }));
     for (const servo of among(moment.locked, staying))
-      notices.tell('info', words.servoPanel.staying([words.robots.called(servo)]));
+      notices.tell('info', stayingSentence([servoLabel(servo)]));
     staying = [...moment.unknown, ...moment.locked];
     for (const servo of among(moment.atLimit, limited)) {
-      notices.tell('info', words.pad.atLimit(words.robots.called(servo), servo.min, servo.max));
+      notices.tell('info', words.pad.atLimit({ servo: servoLabel(servo), min: servo.min, max: servo.max }));
       limited = [...limited, servo.servo];
     }
   }

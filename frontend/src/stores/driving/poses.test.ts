@@ -4,7 +4,7 @@ import { addPose, markRest } from '#shared/actions/poses/poseEdits.ts';
 import { undoLabel } from '#shared/actions/history.ts';
 import { poseBookToText } from '#shared/actions/poses/poseText.ts';
 import { createDesk } from '../deskUnderTest.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../i18n/words.ts';
 import { INITIAL_SERVO_VIEW } from '../servoView.ts';
 
 const at = (position: number) => ({ unit: 'us' as const, targets: [{ servo: 1, position }] });
@@ -144,7 +144,7 @@ describe('the book', () => {
     expect(desk.book().poses).toHaveLength(4);
     expect(desk.told()).toEqual([
       expect.stringContaining('Gripper: 2600 is out of range'),
-      words.poses.importFailed({ code: 'notOurs', at: '' }),
+      words.poses.importFailed({ flaw: words.flaws.notOurs }),
     ]);
   });
 
@@ -153,6 +153,6 @@ describe('the book', () => {
     const targets = [31, 1, 9].map((servo) => ({ servo, position: 1500 }));
     desk.poses.importText(poseBookToText(addPose(EMPTY_BOOK, { name: 'Odd', unit: 'us', targets })));
     expect(desk.book().poses.at(-1)?.name).toBe('Odd');
-    expect(desk.told()).toEqual([words.poses.strangers([9, 31])]);
+    expect(desk.told()).toEqual([words.poses.strangers({ servos: words.numbers.formatList([9, 31]) })]);
   });
 });

@@ -7,7 +7,8 @@ import { markApplied, withPosesOf } from '#shared/actions/poses/poseEdits.ts';
 import { homeTargets, strangersTo } from '#shared/actions/poses/poseShapes.ts';
 import { poseBookFromText, poseBookToText } from '#shared/actions/poses/poseText.ts';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { words } from '../../words/words.ts';
+import { flawSentence } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/words.ts';
 import type { Device } from '../device/device.ts';
 import { limitRefusal } from '../device/limits.ts';
 import { freeOf, stayingOf } from '../locks.ts';
@@ -45,7 +46,7 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
       robots,
       key: 'servodeck.poses',
       notSaved: () => words.poses.notSaved,
-      unreadable: (flaw) => words.poses.unreadable(flaw),
+      unreadable: (flaw) => words.poses.unreadable({ flaw: flawSentence(flaw) }),
     },
     ...{ fresh: () => EMPTY_BOOK, toText: poseBookToText, fromText: poseBookFromText },
     shared: { of: withoutPlace, onto: onPlaceOf },
@@ -83,7 +84,8 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
     );
     const targets = imported.poses.flatMap((pose) => pose.targets);
     const strangers = strangersTo(robots.current().robot, targets);
-    if (strangers.length > 0) notices.tell('warning', words.poses.strangers(strangers));
+    if (strangers.length > 0)
+      notices.tell('warning', words.poses.strangers({ servos: words.numbers.formatList(strangers) }));
   }
 
   return {
@@ -95,7 +97,7 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
       if (targets === null || !go(targets, durationMs)) return false;
       const name = poseName(present(), ref);
       book.edit(
-        () => words.poses.steps.apply(name),
+        () => words.poses.steps.apply({ name }),
         (before) => markApplied(before, ref),
       );
       return true;
@@ -105,7 +107,10 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
     },
     importText(text) {
       const read = poseBookFromText(text);
-      const problem = 'problem' in read ? words.poses.importFailed(read.problem) : flawOfImport(read.value);
+      const problem =
+        'problem' in read
+          ? words.poses.importFailed({ flaw: flawSentence(read.problem) })
+          : flawOfImport(read.value);
       if (problem !== null) notices.tell('warning', problem);
       else if ('value' in read) take(read.value);
     },

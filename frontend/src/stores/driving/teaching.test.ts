@@ -1,7 +1,8 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
 import { isProfileName } from '#shared/simulator/profileNames.ts';
-import { words } from '../../words/words.ts';
+import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { words } from '../../i18n/words.ts';
 import { captureFrame } from '../../actions/capture.ts';
 import { createDesk } from '../deskUnderTest.ts';
 import { canTeach, createTeaching } from './teaching.ts';
@@ -102,7 +103,7 @@ describe('teaching by hand', () => {
     expect(ofKind('move').flatMap(({ targets }) => targets.map(({ servo }) => servo))).toEqual([
       1, 3, 4, 5, 6,
     ]);
-    expect(told().some((text) => text.includes(words.robots.called(robot.servos[1]!)))).toBe(true);
+    expect(told().some((text) => text.includes(servoLabel(robot.servos[1]!)))).toBe(true);
   });
 
   test('a slider ends it, and moves its servo alone', async () => {

@@ -4,7 +4,8 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ServoTarget } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
-import { words } from '../../words/words.ts';
+import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { words } from '../../i18n/words.ts';
 import type { Device, DeviceState } from '../device/device.ts';
 import { limitRefusal } from '../device/limits.ts';
 import { GENTLE_MOVE_MS } from '../device/moveTime.ts';
@@ -113,7 +114,11 @@ export function createTeaching({ device, robots, notices }: TeachingOptions): Te
     const beyond = robot.servos.filter(
       ({ servo }) => motion(servo).reported !== 'commanded' && !held.some((target) => target.servo === servo),
     );
-    if (beyond.length > 0) notices.tell('warning', words.teach.notHeld(beyond.map(words.robots.called)));
+    if (beyond.length > 0)
+      notices.tell(
+        'warning',
+        words.teach.notHeld({ names: words.numbers.formatNames(beyond.map(servoLabel)) }),
+      );
   }
 
   device.store.subscribe((state) => {

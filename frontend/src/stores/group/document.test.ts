@@ -3,7 +3,7 @@ import { insertFrame, moveFrames } from '#shared/actions/group/groupEdits.ts';
 import { setDuration } from '#shared/actions/group/timeEdits.ts';
 import { groupFromText } from '#shared/actions/group/groupText.ts';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../i18n/words.ts';
 import { createDocument } from './document.ts';
 import type { TextStorage } from '../textStorage.ts';
 import { createNotices } from '../notices.ts';

@@ -5,7 +5,7 @@ import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
 import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
 import type { History } from '#shared/actions/history.ts';
 import type { Clock } from '#shared/clock.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../i18n/words.ts';
 import type { Notices } from '../notices.ts';
 import { createSoon } from '../soon.ts';
 import type { TextStorage } from '../textStorage.ts';

@@ -6,7 +6,8 @@ import { LibraryError, type Keeper } from '#shared/actions/library/keeper.ts';
 import { libraryFromText, type BundledDocument } from '#shared/actions/library/libraryText.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/simulator/virtualClock.ts';
 import { createMemoryKeeper } from '../../keepers/memoryKeeper.ts';
-import { words } from '../../words/whole.ts';
+import { libraryProblem } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/whole.ts';
 import { createVisit } from './libraryUnderTest.ts';
 
 const called = (name: string) => (group: Parameters<typeof rename>[0]) => rename(group, name);
@@ -122,7 +123,7 @@ describe('keeping', () => {
     const second = visit(first.texts);
     await second.later();
     expect(second.names()).toEqual(['Wave']);
-    expect(second.told()).toEqual([words.library.recovered(['Wave'])]);
+    expect(second.told()).toEqual([words.library.recovered({ names: words.numbers.formatNames(['Wave']) })]);
     expect(second.group().frames).toHaveLength(1);
   });
 
@@ -135,7 +136,7 @@ describe('keeping', () => {
     page.capture(1500);
     await page.later();
     await page.later();
-    expect(page.told()).toEqual([words.library.problem('unreachable', '')]);
+    expect(page.told()).toEqual([libraryProblem('unreachable', '')]);
     expect(page.library.store.getState().isKept).toBe(false);
     page.library.create();
     page.capture(1700);
@@ -158,11 +159,11 @@ describe('keeping', () => {
     state.isAway = true;
     page.capture(1600);
     await page.later();
-    expect(page.told()).toEqual([words.library.problem('unreachable', ''), words.library.notHeldHere]);
+    expect(page.told()).toEqual([libraryProblem('unreachable', ''), words.library.notHeldHere]);
     page.full.clear();
     page.capture(1700);
     await page.later();
-    expect(page.told()).toEqual([words.library.problem('unreachable', '')]);
+    expect(page.told()).toEqual([libraryProblem('unreachable', '')]);
     page.full.add('servodeck.unkept');
     page.capture(1800);
     await page.later();
@@ -195,7 +196,7 @@ describe('keeping', () => {
     await late.later();
     expect(late.names()).toEqual(['Bow', 'Wave', 'Wave, other version']);
     expect(late.library.store.getState().isKept).toBe(true);
-    expect(late.told()).toEqual([words.library.conflict('Wave', 'Wave, other version')]);
+    expect(late.told()).toEqual([words.library.conflict({ name: 'Wave', copy: 'Wave, other version' })]);
   });
 
   test('a drag is one write, and none while it lasts', async () => {
@@ -247,12 +248,12 @@ describe('two pages at one library', () => {
     other.capture(2222);
     await one.later();
     await one.library.refresh();
-    const copy = words.library.otherVersion('Wave');
+    const copy = words.library.otherVersion({ name: 'Wave' });
     expect(one.names()).toEqual(['Wave', copy]);
     expect((await textAt(keeper, id))!.frames[0]!.targets[0]!.position).toBe(1111);
     expect((await textAt(keeper, other.openId()))!.frames[0]!.targets[0]!.position).toBe(2222);
     expect(other.group().name).toBe(copy);
-    expect(other.told()).toEqual([words.library.conflict('Wave', copy)]);
+    expect(other.told()).toEqual([words.library.conflict({ name: 'Wave', copy })]);
     expect(one.told()).toEqual([]);
   });
 
@@ -318,7 +319,7 @@ describe('several documents', () => {
     page.document.edit(() => 'name', called('Wave'));
     await page.later();
     await page.library.duplicate(page.openId());
-    expect(page.names()).toEqual(['Wave', words.library.copyOf('Wave')]);
+    expect(page.names()).toEqual(['Wave', words.library.copyOf({ name: 'Wave' })]);
     const { documents, openId } = page.library.store.getState();
     const copy = documents.find(({ id }) => id !== openId)!.id;
     await page.library.change(copy, () => 'rename', called('Bow'));
@@ -355,7 +356,7 @@ describe('several documents', () => {
     const [one] = await page.library.versions(page.openId());
     await page.library.removeVersion(page.openId(), one!);
     expect(await names()).toEqual(['Two']);
-    expect(page.told()).toEqual([words.library.versionRemoved('One')]);
+    expect(page.told()).toEqual([words.library.versionRemoved({ name: 'One' })]);
     page.act();
     await page.later();
     expect((await names()).sort()).toEqual(['One', 'Two']);
@@ -372,7 +373,7 @@ describe('several documents', () => {
     await page.library.renameVersion(page.openId(), kept[0]!, 'Before the show');
     const renamed = { ...kept[0]!, name: 'Before the show' };
     expect(await page.library.versions(page.openId())).toEqual([renamed, kept[1]]);
-    expect(page.told()).toEqual([words.library.versionRenamed('One', 'Before the show')]);
+    expect(page.told()).toEqual([words.library.versionRenamed({ name: 'One', wanted: 'Before the show' })]);
     await page.library.restoreVersion(page.openId(), renamed);
     expect(page.group().frames).toHaveLength(1);
     page.act();
@@ -436,7 +437,7 @@ describe('files', () => {
     await page.library.refresh();
     expect(page.told().filter((text) => text === words.library.changesLost)).toHaveLength(1);
     await page.library.open(id);
-    expect(page.told()).toContain(words.library.problem('damaged', 'Wave is damaged.'));
+    expect(page.told()).toContain(libraryProblem('damaged', 'Wave is damaged.'));
     expect(page.openId()).not.toBe(id);
 
     const [version] = await page.library.versions(id);
@@ -454,7 +455,7 @@ describe('files', () => {
     const other = elsewhere.visit();
     await other.library.importText(text);
     expect(other.names()).toEqual(['Bow', 'Wave']);
-    expect(other.told()).toEqual([words.library.imported(2, 0, 0)]);
+    expect(other.told()).toEqual([words.library.imported({ added: 2, changed: 0, same: 0 })]);
     const wave = other.library.store.getState().documents.find(({ facts }) => facts.name === 'Wave')!;
     expect((await other.library.versions(wave.id)).map(({ name }) => name)).toEqual(['First']);
     expect(JSON.parse((await other.library.exportText())!)).toEqual(JSON.parse(text));
@@ -497,20 +498,30 @@ describe('files', () => {
     };
     expect(await exported('Bow')).toEqual({
       documents: all.filter(({ group }) => group.name === 'Wave'),
-      told: [words.library.exported(1), words.library.notExported(['Bow'])],
+      told: [
+        words.library.exported({ count: 1 }),
+        words.library.notExported({ names: words.numbers.formatNames(['Bow']) }),
+      ],
     });
     expect(await exported('First')).toEqual({
       documents: all.map((document) => ({ ...document, versions: [] })),
       told: [
-        words.library.exported(2),
-        words.library.notExported([words.library.versionOf('Wave', 'First')]),
+        words.library.exported({ count: 2 }),
+        words.library.notExported({
+          names: words.numbers.formatNames([words.library.versionOf({ name: 'Wave', version: 'First' })]),
+        }),
       ],
     });
     expect(await exported('Wave', 'Bow')).toEqual({
       documents: all.flatMap((document) => document.versions.map(({ group }) => ({ ...document, group }))),
       told: [
-        words.library.exported(1),
-        words.library.notExported([words.library.standsFor('Wave', 'First'), 'Bow']),
+        words.library.exported({ count: 1 }),
+        words.library.notExported({
+          names: words.numbers.formatNames([
+            words.library.standsFor({ name: 'Wave', version: 'First' }),
+            'Bow',
+          ]),
+        }),
       ],
     });
     const unlisted = createVisit(
@@ -519,11 +530,13 @@ describe('files', () => {
     );
     expect(documentsIn(await unlisted.library.exportText())).toHaveLength(2);
     expect(unlisted.told()).toContain(
-      words.library.notExported(['Wave', 'Bow'].map(words.library.versionsOf)),
+      words.library.notExported({
+        names: words.numbers.formatNames(['Wave', 'Bow'].map((name) => words.library.versionsOf({ name }))),
+      }),
     );
     expect(await exported('Wave', 'Bow', 'First')).toEqual({
       documents: [],
-      told: [expect.stringContaining(words.library.problem('damaged', '').trim()) as string],
+      told: [expect.stringContaining(libraryProblem('damaged', '').trim()) as string],
     });
   });
 
@@ -535,7 +548,7 @@ describe('files', () => {
     );
     await page.library.importText(text);
     expect(page.names()).toEqual(['Bow', 'Bow', 'Wave']);
-    expect(page.told()).toContain(words.library.imported(0, 1, 1));
+    expect(page.told()).toContain(words.library.imported({ added: 0, changed: 1, same: 1 }));
   });
 
   test('what is there already stays; what differs comes beside it', async () => {
@@ -543,7 +556,7 @@ describe('files', () => {
     page.capture(1700);
     await page.library.importText(text);
     expect(page.names()).toEqual(['Bow', 'Bow', 'Wave']);
-    expect(page.told()).toContain(words.library.imported(0, 1, 1));
+    expect(page.told()).toContain(words.library.imported({ added: 0, changed: 1, same: 1 }));
   });
 
   test('while the library is waited for, an import says so, and goes on once it answers', async () => {
@@ -556,7 +569,7 @@ describe('files', () => {
     expect(page.told()).toEqual([words.library.importWaits]);
     answer(createMemoryKeeper());
     await imported;
-    expect(page.told()).toEqual([words.library.imported(2, 0, 0)]);
+    expect(page.told()).toEqual([words.library.imported({ added: 2, changed: 0, same: 0 })]);
     expect(page.names()).toEqual(['Bow', 'Wave']);
   });
 
@@ -573,9 +586,9 @@ describe('files', () => {
       await asked;
       return page.told();
     };
-    const away = words.library.problem('unreachable', '');
+    const away = libraryProblem('unreachable', '');
     expect(await told(page.library.importText(text))).toEqual([
-      words.library.importFailed('unreachable', ''),
+      words.library.importFailed({ problem: libraryProblem('unreachable', '') }),
     ]);
     expect(await told(page.library.exportText())).toEqual([away]);
     expect(await told(page.library.keepVersion(page.openId(), 'First'))).toEqual([away]);
@@ -592,7 +605,7 @@ describe('files', () => {
     await other.library.importText(text);
     await other.library.refresh();
     expect(other.names()).toEqual([]);
-    expect(other.told()).toEqual([words.library.importFailed('full', '')]);
+    expect(other.told()).toEqual([words.library.importFailed({ problem: libraryProblem('full', '') })]);
   });
 
   test.each(['', '{}', '[]', '{"format":"servodeck-library","version":2,"content":{"documents":[]}}'])(

@@ -19,7 +19,8 @@ import {
   type Stored,
   type LibraryErrorCode,
 } from '#shared/actions/library/keeper.ts';
-import { words } from '../../words/words.ts';
+import { libraryProblem } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/words.ts';
 import type { Document } from '../group/document.ts';
 import type { TextStorage } from '../textStorage.ts';
 import type { Notices } from '../notices.ts';
@@ -121,7 +122,7 @@ export function createLibrary(options: LibraryOptions): Library {
       if (outbox.entries().length > 0) return;
       isBehind = isKeeperAway = false;
       tellHeld();
-      for (const code of WAITING) notices.takeBack(words.library.problem(code, ''));
+      for (const code of WAITING) notices.takeBack(libraryProblem(code, ''));
     },
     onConflict: keepBoth,
     onFailure(error) {
@@ -145,7 +146,7 @@ export function createLibrary(options: LibraryOptions): Library {
 
   function tell(error: unknown): void {
     const { code, message } = asLibraryError(error);
-    notices.tell('warning', words.library.problem(code, message));
+    notices.tell('warning', libraryProblem(code, message));
   }
 
   const attempt = (work: Promise<void>): Promise<void> => work.catch(tell);
@@ -201,7 +202,7 @@ export function createLibrary(options: LibraryOptions): Library {
       );
       put(copyId, groupToText(shown()));
     } else put(copyId, groupToText(rename(ours, copy)));
-    notices.tell('warning', words.library.conflict(ours.name, copy));
+    notices.tell('warning', words.library.conflict({ name: ours.name, copy }));
   }
 
   /** As it is here, if something of it waits here; else as the keeper has it. */
@@ -251,7 +252,7 @@ export function createLibrary(options: LibraryOptions): Library {
 
   /** Each once. */
   function tellDamage({ setAside, changesLost }: Listing): void {
-    const damage = setAside === null ? [] : [words.library.setAside(setAside)];
+    const damage = setAside === null ? [] : [words.library.setAside({ file: setAside })];
     if (changesLost) damage.push(words.library.changesLost);
     for (const text of damage.filter((text) => !toldDamage.has(text))) {
       toldDamage.add(text);
@@ -312,7 +313,7 @@ export function createLibrary(options: LibraryOptions): Library {
     await (await options.keeper).remove([id]);
     if (wasOpen) create();
     const undo = (): void => void attempt(restore(id).then(() => (wasOpen ? open(id) : undefined)));
-    notices.tell('info', words.library.removed(name), { label: words.library.undo, act: undo });
+    notices.tell('info', words.library.removed({ name }), { label: words.library.undo, act: undo });
     await refresh();
   }
 
@@ -330,7 +331,12 @@ export function createLibrary(options: LibraryOptions): Library {
     tellKept();
     if (!(await flush())) return;
     if (waiting.length > 0)
-      notices.tell('info', words.library.recovered(waiting.map(({ text }) => groupOf(text).name)));
+      notices.tell(
+        'info',
+        words.library.recovered({
+          names: words.numbers.formatNames(waiting.map(({ text }) => groupOf(text).name)),
+        }),
+      );
     await refresh();
   }
 

@@ -18,7 +18,8 @@ import {
   type BundledDocument,
   type BundledVersion,
 } from '#shared/actions/library/libraryText.ts';
-import { words } from '../../words/whole.ts';
+import { flawSentence, libraryProblem } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/whole.ts';
 import type { Notices } from '../notices.ts';
 import { groupOf } from './groupOf.ts';
 
@@ -58,8 +59,12 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
     const lost = read.flatMap((one) => one.lost);
     const [first] = lost;
     if (bundled.length === 0 && first !== undefined) throw first.error;
-    notices.tell('info', words.library.exported(bundled.length));
-    if (first !== undefined) notices.tell('warning', words.library.notExported(lost.map(({ name }) => name)));
+    notices.tell('info', words.library.exported({ count: bundled.length }));
+    if (first !== undefined)
+      notices.tell(
+        'warning',
+        words.library.notExported({ names: words.numbers.formatNames(lost.map(({ name }) => name)) }),
+      );
     return libraryToText({ documents: bundled });
   }
 
@@ -78,7 +83,10 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
     // Until here all of it lies in the trash: now it appears together, or never.
     await keeper.restore(staged);
     const count = (fate: Fate): number => fates.filter((one) => one === fate).length;
-    notices.tell('info', words.library.imported(count('added'), count('changed'), count('same')));
+    notices.tell(
+      'info',
+      words.library.imported({ added: count('added'), changed: count('changed'), same: count('same') }),
+    );
     await options.refresh();
   }
 
@@ -110,7 +118,8 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
       }),
     async importText(text) {
       const read = libraryFromText(text);
-      if ('problem' in read) notices.tell('warning', words.library.notImported(read.problem));
+      if ('problem' in read)
+        notices.tell('warning', words.library.notImported({ flaw: flawSentence(read.problem) }));
       else await whileToldOf(take(read.value.documents)).catch(tellNotImported);
     },
   };
@@ -127,7 +136,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
 
   function tellNotImported(error: unknown): void {
     const { code, message } = asLibraryError(error);
-    notices.tell('warning', words.library.importFailed(code, message));
+    notices.tell('warning', words.library.importFailed({ problem: libraryProblem(code, message) }));
   }
 }
 
@@ -138,15 +147,15 @@ async function bundle(keeper: Keeper, { id, facts }: Listed): Promise<Bundling> 
   const lost: Lost[] = [];
   const versions: BundledVersion[] = [];
   const listed = await wholeOrNot(() => keeper.versions(id));
-  if ('error' in listed) lost.push({ name: words.library.versionsOf(name), error: listed.error });
+  if ('error' in listed) lost.push({ name: words.library.versionsOf({ name }), error: listed.error });
   for (const { id: version, ...kept } of 'whole' in listed ? listed.whole : []) {
     const found = await wholeOrNot(async () => groupOf(await keeper.readVersion(id, version)));
     if ('whole' in found) versions.push({ ...kept, group: found.whole });
-    else lost.push({ name: words.library.versionOf(name, kept.name), error: found.error });
+    else lost.push({ name: words.library.versionOf({ name, version: kept.name }), error: found.error });
   }
   if ('whole' in read) return { bundled: { id, updatedAtMs, group: read.whole, versions }, lost };
   const newest = versions.at(-1);
-  const named = newest === undefined ? name : words.library.standsFor(name, newest.name);
+  const named = newest === undefined ? name : words.library.standsFor({ name, version: newest.name });
   lost.unshift({ name: named, error: read.error });
   return { bundled: newest ? { id, updatedAtMs, group: newest.group, versions } : null, lost };
 }

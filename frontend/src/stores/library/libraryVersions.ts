@@ -3,7 +3,7 @@
 import type { ActionGroup } from '#shared/actions/group/group.ts';
 import { groupToText } from '#shared/actions/group/groupText.ts';
 import type { Keeper, Version } from '#shared/actions/library/keeper.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../i18n/words.ts';
 import type { Document } from '../group/document.ts';
 import type { Notices } from '../notices.ts';
 import { groupOf } from './groupOf.ts';
@@ -49,7 +49,7 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
     const text = groupToText(await read(id));
     await settle();
     await (await options.keeper).keepVersion(id, { id: newId(), name, atMs: epochMs() }, text);
-    notices.say(words.library.versionKept(name));
+    notices.say(words.library.versionKept({ name }));
     await refresh();
   }
 
@@ -57,7 +57,7 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
     const keeper = await options.keeper;
     const text = await keeper.readVersion(id, version.id);
     await keeper.keepVersion(id, { ...version, name }, text);
-    tellUndoably(words.library.versionRenamed(version.name, name), () =>
+    tellUndoably(words.library.versionRenamed({ name: version.name, wanted: name }), () =>
       keeper.keepVersion(id, version, text),
     );
     await refresh();
@@ -67,7 +67,9 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
     const keeper = await options.keeper;
     const text = await keeper.readVersion(id, version.id);
     await keeper.removeVersion(id, version.id);
-    tellUndoably(words.library.versionRemoved(version.name), () => keeper.keepVersion(id, version, text));
+    tellUndoably(words.library.versionRemoved({ name: version.name }), () =>
+      keeper.keepVersion(id, version, text),
+    );
     await refresh();
   }
 
@@ -80,7 +82,7 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
     const group = groupOf(await (await options.keeper).readVersion(id, version));
     await open(id, group);
     document.edit(
-      () => words.library.steps.version(name),
+      () => words.library.steps.version({ name }),
       () => group,
     );
   }

@@ -1,6 +1,7 @@
 // Tells from whom the robot was handed to this page: whoever has not asked for it may be looking elsewhere.
 
-import { words } from '../../words/words.ts';
+import { personName } from '../../i18n/sentences/people.ts';
+import { words } from '../../i18n/words.ts';
 import type { Device } from '../device/device.ts';
 import type { Notices } from '../notices.ts';
 
@@ -11,6 +12,6 @@ export function tellHandedOver(
   store.subscribe(({ snapshot: { lease } }, { snapshot: before }) => {
     const giver = lease?.givenBy ?? null;
     if (lease !== null && giver !== null && giver !== before.lease?.givenBy)
-      notices.tell('info', words.lease.given(giver, lease.you));
+      notices.tell('info', words.lease.given({ name: personName(giver, lease.you) }));
   });
 }

@@ -2,8 +2,7 @@
 // invitation that was used is followed by a new one, so that a class comes in one after the other. Knows no request.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { PeopleErrorCode } from '../../words/people.ts';
-import { words } from '../../words/words.ts';
+import { peopleProblem, type PeopleErrorCode } from './problem.ts';
 import type { Notices } from '../notices.ts';
 import type {
   Invitation,
@@ -34,8 +33,6 @@ export interface PeopleApi {
   makeToken(wish: TokenWish): Promise<Token>;
   makeStopLink(name: string): Promise<StopLink>;
 }
-
-export type { PeopleErrorCode };
 
 export class PeopleError extends Error {
   constructor(
@@ -96,7 +93,7 @@ export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleSt
 
   const tellError = (error: unknown): void => {
     if (!(error instanceof PeopleError)) throw error;
-    notices.tell('danger', words.people.problem(error.code, error.message));
+    notices.tell('danger', peopleProblem(error.code, error.message));
   };
 
   function known(you: You): void {

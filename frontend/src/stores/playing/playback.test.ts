@@ -4,7 +4,7 @@ import { insertFrame, setMeta, type NewFrame } from '#shared/actions/group/group
 import { startHistory } from '#shared/actions/history.ts';
 import { positionAt, tracksOf } from '#shared/actions/group/tracks.ts';
 import type { Lease } from '#shared/session/lease.ts';
-import { words } from '../../words/words.ts';
+import { downloadCancelled } from '../../i18n/sentences/slots.ts';
 import { createDesk } from '../deskUnderTest.ts';
 import { createSharedSlots } from '../slots/sharedSlotsUnderTest.ts';
 import { INITIAL_SERVO_VIEW } from '../servoView.ts';
@@ -465,7 +465,7 @@ describe('playing on the board', () => {
     await draw(1000);
     expect(phase()).toBeNull();
     expect(ofKind('run')).toEqual([]);
-    expect(told()).toEqual([words.board.downloadCancelled(21)]);
+    expect(told()).toEqual([downloadCancelled(21)]);
   });
 
   describe('where the slot holds another group', () => {

@@ -5,7 +5,7 @@ import type { StoreApi } from 'zustand/vanilla';
 import { totalDurationMs } from '#shared/actions/group/group.ts';
 import { frameEnds } from '#shared/actions/group/tracks.ts';
 import type { Activity } from '#shared/session/state.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../i18n/words.ts';
 import { createBoardRun } from './boardRun.ts';
 import { obstacles, type CompiledGroup } from '../group/compiled.ts';
 import { problemText } from '../group/problemText.ts';

@@ -2,7 +2,8 @@
 
 import { EMPTY_PAGE, type MacroPage } from '#shared/actions/macros/macro.ts';
 import { macroPageFromText, macroPageToText } from '#shared/actions/macros/macroText.ts';
-import { words } from '../../words/words.ts';
+import { flawSentence } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/words.ts';
 import type { TextStorage } from '../textStorage.ts';
 import type { Notices } from '../notices.ts';
 import { createRobotDocument, type RobotDocument } from './robotDocument.ts';
@@ -15,7 +16,10 @@ export function createMacros(
 ): RobotDocument<MacroPage> {
   return createRobotDocument({
     ...{ storage, notices, robots, key: 'servodeck.buttons' },
-    ...{ notSaved: () => words.macros.notSaved, unreadable: (flaw) => words.macros.unreadable(flaw) },
+    ...{
+      notSaved: () => words.macros.notSaved,
+      unreadable: (flaw) => words.macros.unreadable({ flaw: flawSentence(flaw) }),
+    },
     ...{ fresh: () => EMPTY_PAGE, toText: macroPageToText, fromText: macroPageFromText },
   });
 }

@@ -4,7 +4,8 @@
 import type { Mapping } from '#shared/actions/mapping/mapping.ts';
 import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
 import { mappingFromText, mappingToText } from '#shared/actions/mapping/mappingText.ts';
-import { words } from '../../words/words.ts';
+import { flawSentence } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/words.ts';
 import type { TextStorage } from '../textStorage.ts';
 import type { Notices } from '../notices.ts';
 import { createRobotDocument, type RobotDocument } from './robotDocument.ts';
@@ -17,7 +18,10 @@ export function createMappings(
 ): RobotDocument<Mapping> {
   return createRobotDocument({
     ...{ storage, notices, robots, key: 'servodeck.mapping' },
-    ...{ notSaved: () => words.pad.notSaved, unreadable: (flaw) => words.pad.unreadable(flaw) },
+    ...{
+      notSaved: () => words.pad.notSaved,
+      unreadable: (flaw) => words.pad.unreadable({ flaw: flawSentence(flaw) }),
+    },
     ...{ fresh: readyMapping, toText: mappingToText, fromText: mappingFromText },
   });
 }

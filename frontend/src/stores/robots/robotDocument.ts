@@ -8,7 +8,7 @@ import type { TextStorage } from '../textStorage.ts';
 import type { Notices } from '../notices.ts';
 import type { OwnRobot, RobotStore } from './robots.ts';
 import { createUndoable, type Undoable } from '../undoable.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../i18n/words.ts';
 
 export interface RobotDocumentOptions<T> {
   readonly storage: TextStorage;

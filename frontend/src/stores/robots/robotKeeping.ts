@@ -18,7 +18,8 @@ import type { Mapping } from '#shared/actions/mapping/mapping.ts';
 import type { PoseBook } from '#shared/actions/poses/pose.ts';
 import { kitFromText, kitToText, mergedKits, sameKit, type Kit } from '#shared/actions/robot/kit.ts';
 import { robotFromText, robotToText } from '#shared/actions/robot/robotText.ts';
-import { words } from '../../words/words.ts';
+import { libraryProblem } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/words.ts';
 import type { TextStorage } from '../textStorage.ts';
 import { longerName } from '../longerName.ts';
 import { loadKnown, saveKnown, type Known } from './knownRobots.ts';
@@ -162,7 +163,7 @@ export function createRobotKeeping(options: RobotKeepingOptions): RobotKeeping {
   function keepBoth({ robot }: OwnRobot, ours: Kit): void {
     const name = longerName(robot.name, words.robots.otherVersion);
     take(null, { ...ours, robot: robotToText({ ...robot, name }) });
-    notices.tell('warning', words.robots.conflict(robot.name, name));
+    notices.tell('warning', words.robots.conflict({ name: robot.name, copy: name }));
   }
 
   /** False where somebody else was faster: it has to be met first. */
@@ -206,7 +207,7 @@ export function createRobotKeeping(options: RobotKeepingOptions): RobotKeeping {
       if (isNew && known.has(one.id)) added.push(one.robot.name);
     }
     if (added.length > 0 && store.getState().place === null && keeper.place === 'gateway')
-      notices.tell('info', words.robots.handedIn(added));
+      notices.tell('info', words.robots.handedIn({ names: words.numbers.formatNames(added) }));
     await removeGone(keeper);
     if (failures.length > 0) throw failures[0];
     return isWhole;
@@ -257,7 +258,11 @@ export function createRobotKeeping(options: RobotKeepingOptions): RobotKeeping {
 
   function tell(error: unknown): void {
     const { code, message } = asLibraryError(error);
-    notices.tell('warning', words.robots.notKept(code, message));
+    const text =
+      code === 'tooLarge'
+        ? words.robots.tooLarge
+        : words.robots.notKept({ problem: libraryProblem(code, message) });
+    notices.tell('warning', text);
   }
 
   const lookNow = (): Promise<boolean> => (turn = turn.then(attempt));

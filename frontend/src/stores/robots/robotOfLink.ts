@@ -7,7 +7,7 @@ import type { Lease } from '#shared/session/lease.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { SessionState } from '#shared/session/state.ts';
 import type { RobotOnBoard } from '#shared/session/transport.ts';
-import { words } from '../../words/words.ts';
+import { words } from '../../i18n/words.ts';
 import type { Notices } from '../notices.ts';
 import type { RobotKeeping } from './robotKeeping.ts';
 import type { RobotStore } from './robots.ts';
@@ -62,7 +62,7 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
   }
 
   const whyNot = (): string =>
-    mayWrite ? words.robots.othersHands(lease?.driver ?? '') : words.robots.onlyLooking;
+    mayWrite ? words.robots.othersHands({ driver: lease?.driver ?? '' }) : words.robots.onlyLooking;
 
   /** A link that has just opened tells it too, and may be asked anew. */
   function hear(word: RobotOnBoard | null): void {

@@ -1,4 +1,4 @@
-import { describe, expect, test } from 'vitest';
+import { describe, expect, test, vi } from 'vitest';
 import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
 import { READY_ROBOTS, readyRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
 import type { Robot } from '#shared/actions/robot/robot.ts';
@@ -43,12 +43,14 @@ describe('robots', () => {
     expect(shelf(storage).robots.current().robot.name).toBe('Desk arm');
   });
 
-  test('an edit that leaves nonsense is refused with its reason, and changes nothing', () => {
+  test('an edit that leaves nonsense is refused with its reason, and changes nothing', async () => {
     const { robots, told } = shelf();
     const before = robots.current();
     expect(robots.edit(() => 'limits', narrowed)).toBe(false);
     expect(robots.current()).toBe(before);
-    expect(told()).toEqual([expect.stringContaining('Elbow (servo 4): its lowest position 2000')]);
+    await vi.waitFor(() =>
+      expect(told()).toEqual([expect.stringContaining('Elbow (servo 4): its lowest position 2000')]),
+    );
   });
 
   test('a board brings the robot that was described for it, or the usual one', () => {

@@ -13,10 +13,11 @@ import {
   type Label,
 } from '#shared/actions/history.ts';
 import { readyRobot, usualRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
-import { flawOf, NAME_LENGTH, type Robot } from '#shared/actions/robot/robot.ts';
+import { flawOf, NAME_LENGTH, type Robot, type RobotFlaw } from '#shared/actions/robot/robot.ts';
 import { robotFromText, robotToText } from '#shared/actions/robot/robotText.ts';
 import type { FamilyId } from '#shared/protocol/families.ts';
-import { words } from '../../words/words.ts';
+import { robotNames } from '../../i18n/sentences/robots.ts';
+import { words } from '../../i18n/words.ts';
 import { longerName } from '../longerName.ts';
 import type { TextStorage } from '../textStorage.ts';
 import type { Notices } from '../notices.ts';
@@ -83,6 +84,14 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
   let refuse: (before: Robot, next: Robot | null) => string | null = () => null;
   const refusal = (next?: Robot): string | null => refuse(current().robot, next ?? null);
 
+  /** Its sentences come later than the first load: hardly an edit is refused. */
+  function tellFlaw(flaw: RobotFlaw): void {
+    void import('../../i18n/sentences/robotFlaws.ts').then(
+      ({ robotFlawSentence }) => notices.tell('warning', robotFlawSentence(flaw)),
+      notices.tellError,
+    );
+  }
+
   /** Tells the person. */
   function isRefused(next?: Robot): boolean {
     const why = refusal(next);
@@ -132,7 +141,7 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
       const { id, robot } = current();
       const next = edit(robot);
       const flaw = flawOf(next);
-      if (flaw !== null) notices.tell('warning', words.robots.flaw(flaw));
+      if (flaw !== null) tellFlaw(flaw);
       if (flaw !== null || (next !== robot && isRefused(next))) return false;
       if (next !== robot) step(label, replaced(present(), id, next));
       return true;
@@ -142,7 +151,10 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
       const { robot } = current();
       step(
         () => words.robots.steps.duplicate,
-        withRobot(present(), { ...robot, name: unusedName(present(), words.robots.copyOf(robot.name)) }),
+        withRobot(present(), {
+          ...robot,
+          name: unusedName(present(), words.robots.copyOf({ name: robot.name })),
+        }),
       );
     },
     remove(id) {
@@ -182,7 +194,7 @@ function unusedName({ own }: Robots, name: string): string {
   const names = new Set(own.map(({ robot }) => robot.name));
   let found = name.slice(0, NAME_LENGTH).trim();
   for (let number = 2; names.has(found); number += 1)
-    found = longerName(name, (some) => words.robots.numbered(some, number));
+    found = longerName(name, (some) => words.robots.numbered({ ...some, number }));
   return found;
 }
 
@@ -206,7 +218,7 @@ export function currentOf({ own, currentId }: Robots): OwnRobot {
 }
 
 export function freshRobot(id: ReadyRobotId, board: FamilyId): Robot {
-  return readyRobot(id, board, words.robots.names(id));
+  return readyRobot(id, board, robotNames(id));
 }
 
 function withRobot({ own, nextId }: Robots, robot: Robot, id = nextId): Robots {

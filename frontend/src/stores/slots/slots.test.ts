@@ -2,7 +2,9 @@ import { describe, expect, test } from 'vitest';
 import { recordOf } from '#shared/actions/slots/slotBook.ts';
 import { createDesk } from '../deskUnderTest.ts';
 import { createSharedSlots, storedGroup } from './sharedSlotsUnderTest.ts';
-import { words } from '../../words/words.ts';
+import { downloadedSentence, downloadCancelled } from '../../i18n/sentences/slots.ts';
+import { errorSentence } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/words.ts';
 import type { Way } from '../device/device.ts';
 
 const USB: Way = { kind: 'webSerial', label: 'USB 1A86:7523', isSimulated: false };
@@ -28,7 +30,7 @@ describe('the slots of a board', () => {
     expect(stored()).toEqual(['5 Wave']);
     await draw(4000);
     expect(activity()).toEqual({ kind: 'idle' });
-    expect(told()).toEqual([words.board.downloaded([5, 9])]);
+    expect(told()).toEqual([downloadedSentence([5, 9])]);
     expect(heard).toEqual([true]);
     expect(stored()).toEqual(['5 Wave', '9 Bow']);
     expect(transport.board.frameCount(9)).toBe(2);
@@ -42,7 +44,7 @@ describe('the slots of a board', () => {
     slots.cancel();
     await draw(4000);
     expect(heard).toEqual([false]);
-    expect(told()).toEqual([words.board.downloadCancelled(9)]);
+    expect(told()).toEqual([downloadCancelled(9)]);
     expect(stored()).toEqual([]);
   });
 
@@ -53,11 +55,11 @@ describe('the slots of a board', () => {
       await draw(40);
       slots.cancel();
       await draw(4000);
-      expect(told()).toEqual([words.board.downloadCancelled(9)]);
+      expect(told()).toEqual([downloadCancelled(9)]);
       if (mend === 'erase') slots.erase();
       else slots.download([BOW]);
       await draw(4000);
-      expect(told()).toEqual([mend === 'erase' ? words.board.erased : words.board.downloaded([9])]);
+      expect(told()).toEqual([mend === 'erase' ? words.board.erased : downloadedSentence([9])]);
     }
   });
 
@@ -70,7 +72,7 @@ describe('the slots of a board', () => {
     await draw(4000);
     expect(heard).toEqual([false]);
     expect(stored()).toEqual(['5 Wave']);
-    expect(told()).toEqual([words.board.downloadCancelled(null)]);
+    expect(told()).toEqual([downloadCancelled(null)]);
     expect(transport.board.frameCount(9)).toBe(0);
   });
 
@@ -152,7 +154,7 @@ describe('the slots of a board', () => {
       const slotMemory = { read: () => (breaks ? [9] : []), write: () => undefined };
       const later = await openDesk(texts, { way: USB, slotMemory });
       expect(later.stored()).toEqual(breaks ? [] : ['9 Bow']);
-      expect(later.told()).toEqual(breaks ? [] : [words.board.downloaded([9])]);
+      expect(later.told()).toEqual(breaks ? [] : [downloadedSentence([9])]);
       expect(later.state().book.begun).toEqual([]);
     }
   });
@@ -206,7 +208,7 @@ describe('the slots of a board', () => {
     expect(stored()).toEqual(['5 Wave']);
     slots.download([{ ...BOW, replaces: 'seen before' }]);
     await draw(100);
-    expect(told()).toContain(words.errorSentence('slotChanged', ''));
+    expect(told()).toContain(errorSentence('slotChanged', ''));
     expect(stored()).toEqual(['5 Wave']);
   });
 

@@ -16,7 +16,8 @@ import {
   type SlotRecord,
 } from '#shared/actions/slots/slotBook.ts';
 import type { SlotGroup } from '#shared/session/transport.ts';
-import { words } from '../../words/words.ts';
+import { downloadedSentence, downloadCancelled } from '../../i18n/sentences/slots.ts';
+import { words } from '../../i18n/words.ts';
 import { nameOf } from '../device/boards.ts';
 import { boardFingerprint } from '../group/workedOut.ts';
 import type { Settled } from '../device/boardVerbs.ts';
@@ -107,7 +108,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
   /** That a slot is broken is said until it is empty or whole. */
   function takeBackMended(before: readonly number[], now: readonly number[]): void {
     if (now === before) return;
-    for (const slot of before) if (!now.includes(slot)) notices.takeBack(words.board.downloadCancelled(slot));
+    for (const slot of before) if (!now.includes(slot)) notices.takeBack(downloadCancelled(slot));
   }
 
   /** Others may have stored something there while this page was away. */
@@ -162,7 +163,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     keep(next);
     const arrived = book.begun.filter((record) => next.stored.includes(record)).map(({ slot }) => slot);
     if (arrived.length === 0 || next.begun.length > 0 || isAsking) return;
-    notices.tell('info', words.board.downloaded(news !== null && isAbout(news, book) ? news.slots : arrived));
+    notices.tell('info', downloadedSentence(news !== null && isAbout(news, book) ? news.slots : arrived));
   }
 
   function download(groups: readonly SlotDownload[], settled: Settled = () => undefined): void {

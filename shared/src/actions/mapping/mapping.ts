@@ -7,7 +7,6 @@ import { whole } from '../schemas.ts';
 
 /** Which part of an axis counts: all of it with its sign, or one side as if it were a button. */
 export const SIDES = ['whole', 'minus', 'plus'] as const;
-export type Side = (typeof SIDES)[number];
 
 const index = whole(0, 63);
 const servo = whole(1, 253);

@@ -1,0 +1,53 @@
+// The words in use that the first load needs; for the others see whole.ts. English from the start, another language once it is spoken,
+// which is loaded then. They are read while something is drawn, never when its module is loaded: they change under a running page.
+
+import { words as english } from 'virtual:words/en/first';
+import { createStore, useStore } from 'zustand';
+import type { Numbers } from './numbers.ts';
+import type { Messages } from './words.generated.ts';
+
+/** The messages of a language, and how it writes numbers. */
+export interface Words extends Messages {
+  readonly numbers: Numbers;
+}
+
+interface LanguageEntry {
+  /** What it is called by those who speak it. */
+  readonly name: string;
+  /** English comes with the page. */
+  readonly load: () => Promise<{ readonly words: Words }>;
+}
+
+/** A further language is a file of messages beside en.json, and a line here. */
+export const LANGUAGES = {
+  en: { name: 'English', load: () => Promise.resolve({ words: english }) },
+  zh: { name: '中文', load: () => import('virtual:words/zh') },
+} as const satisfies Readonly<Record<string, LanguageEntry>>;
+
+export type Language = keyof typeof LANGUAGES;
+export const LANGUAGE_CODES = Object.keys(LANGUAGES) as readonly Language[];
+
+/** The language a browser prefers among ours; `tags` as in `navigator.languages`, the dearest first. */
+export function preferredLanguage(tags: readonly string[]): Language {
+  const wanted = tags.map((tag) => tag.split('-')[0]?.toLowerCase() ?? '');
+  return wanted.find((name): name is Language => Object.hasOwn(LANGUAGES, name)) ?? 'en';
+}
+
+export let words: Words = english;
+
+export const spoken = createStore(() => english);
+spoken.subscribe((now) => {
+  words = now;
+});
+
+let wanted: Language = 'en';
+
+/** Rejects where the words cannot be loaded; then those in use stay. Of several at once the last one is spoken. */
+export async function speak(language: Language): Promise<void> {
+  wanted = language;
+  const loaded = await LANGUAGES[language].load();
+  if (wanted === language) spoken.setState(loaded.words, true);
+}
+
+/** Draws its component again in each new language; its children follow. For the page, and whatever is drawn only as it changes. */
+export const useWords = (): Words => useStore(spoken);
