@@ -1,7 +1,9 @@
 // How long a visitor with an empty cache waits on a slow laptop and a modest network: until something is painted, and until the
-// first slider takes a hand. The board is known from a visit before.
+// first slider takes a hand; and how much of the page jumps while the rest of it comes, where the window is narrow. The board is known
+// from a visit before.
 
 import type { Page } from '@playwright/test';
+import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { mainThreadOf } from './mainThread.ts';
 import { openDashboard, withBoard, withPage } from './station.ts';
@@ -10,8 +12,13 @@ import { median } from './statistics.ts';
 const SLOWER = 4;
 const BITS_PER_S = 10_000_000;
 const LATENCY_MS = 40;
-const REPEATS = 5;
+const REPEATS = amount(5, 1);
 const USABLE_LIMIT_MS = 1500;
+const NARROW = { width: 820, height: 1180 };
+/** All parts of the page have come by then. */
+const COMPLETE_MS = 6_000;
+/** A quarter of what is called a good layout shift score. */
+const SHIFT_LIMIT = 0.025;
 
 interface Load {
   readonly paintMs: number;
@@ -44,6 +51,13 @@ export function measurePageLoad(): Promise<Figure[]> {
           ...{ key: 'page.usableMs', value: median(loads.map(({ usableMs }) => usableMs)), unit: 'ms' },
           ...{ limit: { atMost: USABLE_LIMIT_MS }, note: `until the first slider takes a hand: ${about}` },
         },
+        {
+          ...{ key: 'page.layoutShift', value: await layoutShift(page, url), unit: '' },
+          ...{
+            limit: { atMost: SHIFT_LIMIT },
+            note: `of the first ${COMPLETE_MS / 1_000} s, ${NARROW.width} px wide`,
+          },
+        },
       ];
     }),
   );
@@ -64,5 +78,25 @@ async function loadTimes(page: Page, url: string): Promise<Load> {
           resolve({ paintMs: paint.startTime, usableMs });
         });
       }),
+  );
+}
+
+/** The browser's own score: of all that moved, which share of the window and how far. */
+async function layoutShift(page: Page, url: string): Promise<number> {
+  await page.setViewportSize(NARROW);
+  await page.goto('about:blank');
+  await page.goto(url, { waitUntil: 'commit' });
+  return page.evaluate(
+    (completeMs) =>
+      new Promise<number>((resolve) => {
+        let score = 0;
+        const observer = new PerformanceObserver((list) => {
+          for (const entry of list.getEntries())
+            score += (entry as PerformanceEntry & { value: number }).value;
+        });
+        observer.observe({ type: 'layout-shift', buffered: true });
+        setTimeout(() => resolve(score), completeMs);
+      }),
+    COMPLETE_MS,
   );
 }

@@ -87,7 +87,7 @@ function Content() {
           <BodyPicture />
         </div>
       )}
-      {isPainted ? inOrder : inOrder.slice(0, 1)}
+      {isPainted ? inOrder : [inOrder[0], <div key="rest" className={styles.rest} />]}
     </>
   );
 }
