@@ -7,11 +7,12 @@ import type { Page } from '@playwright/test';
 import startSqlite from 'sql.js';
 import { mixedFiles } from '#shared/actions/files/mixedFilesUnderTest.ts';
 import { fileMeans } from '../frontend/src/files/means.ts';
+import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { mainThreadOf } from './mainThread.ts';
 import { openDashboard, temporaryFolder, withBoard, withPage } from './station.ts';
 
-const FILES = 103;
+const FILES = amount(103, 15);
 const TASK_LIMIT_MS = 50;
 const WAIT_MS = 60_000;
 const POLL_MS = 50;
