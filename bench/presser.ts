@@ -55,8 +55,13 @@ async function comesTo(socket: WebSocket) {
       return nonce;
     },
     async drive(): Promise<void> {
+      const known = hear(
+        (message) => message.type === 'state' && message.link.status === 'ready',
+        'that it knows the board',
+      );
+      say({ type: 'board', id: (lastId += 1), board: 'doc' });
+      await known;
       const ticked = hear(({ type }) => type === 'tick', 'tick');
-      say({ type: 'board', board: 'doc' });
       say({ type: 'lease', action: 'request' });
       await ticked;
     },

@@ -114,23 +114,26 @@ async function askInPage({
   const say = (message: object): void => socket.send(JSON.stringify(message));
   let nonce: unknown = null;
 
-  /** Resolves with the time of the message whose `field` says `value`. */
-  const heard = (field: 'type' | 'packet', value: string): Promise<number> =>
+  /** Resolves with the time of the message whose `field` says `value`, of the link `status` where one is given. */
+  const heard = (field: 'type' | 'packet', value: string, status?: string): Promise<number> =>
     new Promise((resolve, reject) => {
-      const late = setTimeout(() => reject(new Error(`no message with ${field} ${value}`)), 2_000);
+      const late = setTimeout(() => reject(new Error(`no message with ${field} ${value}`)), 5_000);
       socket.onmessage = ({ data }) => {
         const atMs = performance.now();
         const message = JSON.parse(String(data)) as Record<string, unknown>;
         if (message.type === 'refused') reject(new Error(String(data)));
         if (message.type === 'tick') say({ type: 'beat', nonce: (nonce = message.nonce) });
-        if (message[field] !== value) return;
+        const link = message.link as { readonly status: string } | undefined;
+        if (message[field] !== value || (status !== undefined && link?.status !== status)) return;
         clearTimeout(late);
         resolve(atMs);
       };
     });
 
   await heard('type', 'welcome');
-  say({ type: 'board', board: 'doc' });
+  const known = heard('type', 'state', 'ready');
+  say({ type: 'board', id: 0, board: 'doc' });
+  await known;
   const ticked = heard('type', 'tick');
   say({ type: 'lease', action: 'request' });
   await ticked;

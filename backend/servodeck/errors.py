@@ -13,6 +13,10 @@ ErrorCode = Literal[
     "portBusy",
     "portDenied",
     "otherDevice",
+    "boardUnknown",
+    "wrongBoard",
+    "echo",
+    "boardSilent",
     "noAnswer",
     "notSupported",
     "latched",
@@ -88,6 +92,37 @@ class ClosedError(GatewayError):
 
     code: ClassVar[ErrorCode] = "closed"
     status: ClassVar[int] = 409
+
+
+class BoardError(GatewayError):
+    """The line is open, and the board at its end cannot be driven."""
+
+    status: ClassVar[int] = 409
+
+
+class BoardUnknownError(BoardError):
+    """Nobody has said which board it is."""
+
+    code: ClassVar[ErrorCode] = "boardUnknown"
+
+
+class WrongBoardError(BoardError):
+    """Its answers are not those of the board it is taken for."""
+
+    code: ClassVar[ErrorCode] = "wrongBoard"
+
+
+class EchoError(BoardError):
+    """The line sends back what it is given."""
+
+    code: ClassVar[ErrorCode] = "echo"
+
+
+class BoardSilentError(BoardError):
+    """It does not answer what such a board always answers: it may be off. It is asked again."""
+
+    code: ClassVar[ErrorCode] = "boardSilent"
+    status: ClassVar[int] = 504
 
 
 class LatchedError(GatewayError):

@@ -13,9 +13,11 @@ from pydantic import ConfigDict, Field, TypeAdapter
 from servodeck.errors import ErrorCode
 from servodeck.schema import Message, schema_of
 from servodeck.told import (
+    IdentityTold,
     JobState,
     LatchedBy,
     LeaseState,
+    LinkState,
     MotionTold,
     PortState,
     RobotTold,
@@ -26,7 +28,7 @@ from servodeck.told import (
     UnheldServos,
 )
 
-PROTOCOL = 2
+PROTOCOL = 3
 """Counted up with each change that a page of before would not understand: it is told to load itself again."""
 
 # A packet is 255 bytes at most; one more is let in so that the gate can say what is wrong with it.
@@ -93,6 +95,7 @@ class BoardMessage(Message):
     """Which family the board is of, as a person has said; `unknown`: ask it again."""
 
     type: Literal["board"]
+    id: MessageId
     board: Annotated[str, Field(max_length=64)]
 
 
@@ -159,7 +162,8 @@ ClientMessage = Annotated[AnyClientMessage, Field(discriminator="type")]
 
 
 class Standing(Message):
-    """How the gateway stands, for everybody alike. `brokenSlots` hold half a group: nobody may run them.
+    """How the gateway stands, for everybody alike. `board` is the family that it is driven as.
+    `brokenSlots` hold half a group: nobody may run them.
     `slotVersions` tell what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
     people call whoever pressed STOP, or whose page did it for the battery, where that is known.
     `waitingToStart`: servos that were asked to move, but nobody knows where they stand, so they start one
@@ -168,6 +172,8 @@ class Standing(Message):
 
     board: str
     port: PortState
+    link: LinkState
+    identity: IdentityTold
     latch: bool
     latched_by: LatchedBy | None
     stopped_by: str | None
@@ -187,6 +193,13 @@ class WelcomeMessage(Standing):
     lease: LeaseState
     job: JobState | None
     motion: MotionTold
+
+
+class DoneMessage(Message):
+    """What the message of that id asked is done."""
+
+    type: Literal["done"] = "done"
+    id: MessageId
 
 
 class SentMessage(Message):
@@ -278,6 +291,7 @@ class TickMessage(Message):
 
 GatewayMessage = Annotated[
     WelcomeMessage
+    | DoneMessage
     | SentMessage
     | RefusedMessage
     | ReceivedMessage

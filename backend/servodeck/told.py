@@ -7,9 +7,11 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from servodeck.errors import ErrorCode
+from servodeck.protocol.families import Question
 from servodeck.schema import Message
 
 PortStatus = Literal["closed", "opening", "open", "lost"]
+LinkStatus = Literal["closed", "opening", "identifying", "ready", "stale", "refused", "lost"]
 
 
 class Candidate(Message):
@@ -48,6 +50,80 @@ class PortState(Message):
     code: ErrorCode | None = None
     detail: str | None = None
     retry_in_ms: int | None = None
+
+
+class LinkState(Message):
+    """The way to the board, and the board: `identifying` while it is asked who it is, `stale` while it does
+    not answer what such a board always answers, `refused` until a person says which board it is. `code` and
+    `detail` say why it is not ready.
+    """
+
+    status: LinkStatus
+    code: ErrorCode | None = None
+    detail: str | None = None
+
+
+class ServoPosition(Message):
+    """In the board's unit."""
+
+    servo: int
+    position: int
+
+
+class BatteryReport(Message):
+    kind: Literal["battery"] = "battery"
+    battery_mv: int
+
+
+class VersionReport(Message):
+    """Which servos the board drives, by the unit they count in, and its firmware."""
+
+    kind: Literal["version"] = "version"
+    unit: Literal["us", "steps"]
+    version: int
+
+
+class PositionsReport(Message):
+    kind: Literal["positions"] = "positions"
+    positions: list[ServoPosition]
+
+
+class AnsweredTold(Message):
+    """The board answered that question when it was asked who it is."""
+
+    kind: Literal["answered"] = "answered"
+    question: Question
+    report: Annotated[BatteryReport | VersionReport | PositionsReport, Field(discriminator="kind")]
+
+
+class SilentTold(Message):
+    """It did not answer that question."""
+
+    kind: Literal["silent"] = "silent"
+    question: Question
+
+
+class EchoedTold(Message):
+    """The question itself came back."""
+
+    kind: Literal["echoed"] = "echoed"
+
+
+class NoiseTold(Message):
+    """Bytes came that are no packets."""
+
+    kind: Literal["noise"] = "noise"
+    byte_count: int
+
+
+EvidenceTold = AnsweredTold | SilentTold | EchoedTold | NoiseTold
+
+
+class IdentityTold(Message):
+    """What the board answered when it was asked who it is, and the families that answer like that."""
+
+    evidence: list[Annotated[EvidenceTold, Field(discriminator="kind")]]
+    candidates: list[str]
 
 
 class UnattendedRun(Message):

@@ -57,13 +57,16 @@ class Simulator:
 class SteppedBoard:
     """It follows the clock of the running loop."""
 
-    def __init__(self, simulator: Simulator, board: str, history: History) -> None:
+    def __init__(
+        self, simulator: Simulator, board: str, history: History, faults: Sequence[dict[str, Any]] = ()
+    ) -> None:
+        """With `faults` it may say something at any time."""
         self._simulator = simulator
-        simulator.ask(start=board, history=history)
+        simulator.ask(start=board, history=history, faults=list(faults))
         self._happened: list[tuple[float, str]] = []
-        self._talks_until_s = 0.0
+        self._talks_until_s = inf if faults else 0.0
         self._is_running = False
-        self._port: BoardPort | None = None
+        self.ports: list[BoardPort] = []
         self.is_plugged = True
         self.last_byte_s = 0.0
         self.moved_s: Sequence[float] = [0.0 for _ in SERVOS]
@@ -76,8 +79,8 @@ class SteppedBoard:
     async def open(self, device: str) -> FakePort:
         if not self.is_plugged:
             raise PortMissingError(f"There is no {device}.")
-        self._port = BoardPort(self)
-        return self._port
+        self.ports.append(BoardPort(self))
+        return self.ports[-1]
 
     async def close(self, port: OpenPort) -> None:
         port.close()
@@ -95,12 +98,12 @@ class SteppedBoard:
             self._talks_until_s = max(self._talks_until_s, now() + lasts_s)
 
     def lose(self, for_s: float) -> None:
-        if not (self._port and self.is_plugged):
+        if not (self.ports and self.is_plugged):
             return
         self.is_plugged = False
         self._note("unplug")
-        if self._port.is_open:
-            self._port.unplug()
+        if self.ports[-1].is_open:
+            self.ports[-1].unplug()
         at(now() + for_s, self._plug_in)
 
     def run_on(self, until_s: float) -> float:
@@ -114,8 +117,8 @@ class SteppedBoard:
         if answer["said"]:
             # That was one byte, and what is behind it may belong to the same report.
             self._talks_until_s = max(self._talks_until_s, answer["atMs"] / 1000 + ANSWERS_WITHIN_S)
-        if answer["said"] and self._port and self._port.is_open:
-            self._port.say(bytes.fromhex(answer["said"]))
+        if answer["said"] and self.ports and self.ports[-1].is_open:
+            self.ports[-1].say(bytes.fromhex(answer["said"]))
         return until_s if answer["atMs"] == until_ms else float(answer["atMs"]) / 1000
 
     def _plug_in(self) -> None:

@@ -23,6 +23,8 @@ async def test_status_tells_how_everything_stands() -> None:
             "version": __version__,
             "board": "doc",
             "port": OPEN,
+            "link": {"status": "ready", "code": None, "detail": None},
+            "identity": {"evidence": [], "candidates": []},
             "latch": False,
             "clients": 0,
             "battery": None,

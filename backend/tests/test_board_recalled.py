@@ -1,6 +1,5 @@
 """Of which family the board at a place is, said once and gone by after the next start."""
 
-from servodeck.access.hub import Seat
 from servodeck.callers import THIS_COMPUTER
 from servodeck.driving.control import Control
 from servodeck.files.remembered import Remembered
@@ -41,7 +40,7 @@ async def family_after_a_start(remembered: Remembered, place: str = PLACE) -> st
 async def say(remembered: Remembered, *boards: str, simulated: bool = False) -> None:
     control = await start(remembered, simulated=simulated)
     for board in boards:
-        control.name_board(Seat(THIS_COMPUTER), board)
+        control.name_board(THIS_COMPUTER, board)
     await control.board.link.close()
 
 

@@ -64,7 +64,7 @@ def read(served: Served, name: str) -> object:
 
 def assert_control_goes_on(served: Served) -> None:
     with connect(f"ws{served.url.removeprefix('http')}/ws", close_timeout=0) as client:
-        client.send(json.dumps({"type": "board", "board": "doc"}))
+        client.send(json.dumps({"type": "board", "id": 1, "board": "doc"}))
         nonce = lease_of(client)
         client.send(json.dumps({"type": "send", "id": 1, "packet": MOVE.hex(), "nonce": nonce}))
         while (message := json.loads(client.recv(5)))["type"] != "sent":

@@ -117,7 +117,7 @@ def status_of(served: Served) -> str:
 @pytest.mark.exhaustive
 def test_no_packet_stands_in_the_log_at_any_level(json_served: Served) -> None:
     with connect(f"ws{json_served.url.removeprefix('http')}/ws") as client:
-        client.send(json.dumps({"type": "board", "board": "doc"}))
+        client.send(json.dumps({"type": "board", "id": 1, "board": "doc"}))
         nonce = lease_of(client)
         client.send(json.dumps({"type": "send", "id": 1, "packet": MOVE.hex(), "nonce": nonce}))
         while json.loads(client.recv())["type"] != "sent":

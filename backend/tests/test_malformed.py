@@ -25,7 +25,7 @@ WELL_FORMED: list[dict[str, Any]] = [
     {"type": "move", "id": 7, "targets": [{"servo": 1, "position": 1500}], "durationMs": 0},
     {"type": "stop", "why": "person"},
     {"type": "resume"},
-    {"type": "board", "board": "doc"},
+    {"type": "board", "id": 2, "board": "doc"},
     {"type": "calibrate", "servo": 1},
     {"type": "lease", "action": "request"},
     {"type": "beat", "nonce": "1-1"},

@@ -43,6 +43,7 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("POST", "/api/resume"): "driver",
     ("POST", "/api/move"): "driver",
     ("PUT", "/api/robot"): "driver",
+    ("PUT", "/api/board"): "driver",
     ("POST", "/api/poses/{pose}/apply"): "driver",
     ("POST", "/api/slots/{slot}/run"): "driver",
     ("POST", "/api/lease"): "driver",

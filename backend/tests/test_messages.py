@@ -25,7 +25,7 @@ from servodeck.messages import (
     json_schema,
 )
 from servodeck.protocol.families import FAMILIES
-from servodeck.told import PortState
+from servodeck.told import IdentityTold, LinkState, NoiseTold, PortState
 from servodeck.web.clients import hear, intake_of
 from tests.amount import TIMES
 from tests.fake_port import FakePort, FakePorts
@@ -79,6 +79,8 @@ def test_names_on_the_wire_are_camel_case() -> None:
     told = StateMessage(
         board="doc",
         port=port,
+        link=LinkState(status="lost", code="lost", detail="Gone."),
+        identity=IdentityTold(evidence=[NoiseTold(byte_count=3)], candidates=[]),
         latch=True,
         latched_by="person",
         stopped_by="Anna",
@@ -90,6 +92,7 @@ def test_names_on_the_wire_are_camel_case() -> None:
     )
     state = json.loads(encode(told))
     assert state["port"]["retryInMs"] == 250
+    assert state["identity"]["evidence"] == [{"kind": "noise", "byteCount": 3}]
     assert json.loads(encode(SentMessage(id=3))) == {"type": "sent", "id": 3}
     assert gateway_message.validate_json(encode(SentMessage(id=3))) == SentMessage(id=3)
 
@@ -98,7 +101,7 @@ def test_the_schema_names_both_directions_and_leaves_nothing_open() -> None:
     definitions = json_schema()["$defs"]
     assert {"ClientMessage", "GatewayMessage", "PortState"} <= set(definitions)
     assert len(definitions["ClientMessage"]["oneOf"]) == 10
-    assert len(definitions["GatewayMessage"]["oneOf"]) == 13
+    assert len(definitions["GatewayMessage"]["oneOf"]) == 14
     for name, definition in definitions.items():
         if "properties" in definition:
             assert definition.get("additionalProperties") is False or name == "StopMessage", name
@@ -128,7 +131,9 @@ messages = st.one_of(
         }
     ),
     st.fixed_dictionaries({"type": st.just("stop"), "why": st.just("battery") | scalars}),
-    st.fixed_dictionaries({"type": st.just("board"), "board": st.sampled_from(list(FAMILIES)) | scalars}),
+    st.fixed_dictionaries(
+        {"type": st.just("board"), "id": scalars, "board": st.sampled_from(list(FAMILIES)) | scalars}
+    ),
     st.dictionaries(st.sampled_from(["type", "id", "packet", "hold", "x"]), scalars),
     st.recursive(scalars, lambda inner: st.lists(inner, max_size=3), max_leaves=6),
 )

@@ -64,7 +64,7 @@ async def test_a_viewer_sees_and_stops_and_nothing_more(port: FakePort, gateway:
         assert (await hear(client))["code"] == "forbidden"
         for message in (
             {"type": "resume"},
-            {"type": "board", "board": "lsc-16"},
+            {"type": "board", "id": 2, "board": "lsc-16"},
             {"type": "calibrate", "servo": 1},
         ):
             await say(client, **message)

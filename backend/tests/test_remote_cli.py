@@ -116,11 +116,11 @@ def test_what_is_out_of_range_is_told_in_the_gateways_words(served: Served) -> N
 @pytest.mark.exhaustive
 def test_on_a_board_that_nobody_named_motion_says_how_to_name_it(tmp_path: Path) -> None:
     """Nothing answers on this port, so that the gateway cannot know either."""
-    unnamed = Served("--data", str(tmp_path), *SILENT)
+    unnamed = Served("--data", str(tmp_path), *SILENT, asks_board=True)
     try:
         refused = run("move", "1=1500", "--url", unnamed.url)
         assert (refused.exit_code, refused.stdout) == (FAILURE, "")
-        assert "serve --board FAMILY" in refused.stderr
+        assert "Name it: servodeck board FAMILY" in refused.stderr
     finally:
         unnamed.end()
 

@@ -123,6 +123,6 @@ async def test_while_nobody_has_said_which_board_it_is_the_way_out_is_told_and_n
             await here.post("poses/Greeting/apply"),
         )
         for answer in refused:
-            assert refusal(answer) == (409, "notSupported")
-            assert "serve --board FAMILY" in answer.json()["detail"]
+            assert refusal(answer) == (409, "boardUnknown")
+            assert "servodeck board FAMILY" in answer.json()["detail"]
         assert here.sent() == []

@@ -18,13 +18,17 @@ import pytest
 from httpx2 import AsyncClient
 from websockets.asyncio.client import ClientConnection, connect
 
+from servodeck.cli.exits import FAILURE
 from servodeck.port.background import BackgroundPorts
+from servodeck.protocol.decoder import COMMAND_AT
 from tests.running import Running, server_on
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, RUN, STOP
-from tests.test_cli import run
+from tests.test_cli import Served, run
 from tests.test_clients import drive, hear, hear_until, say
+from tests.test_ports import Pty
 
 ROOT = Path(__file__).parents[2]
+POSITIONS = 21
 SIMULATOR = ROOT / "build" / "simulator.mjs"
 NODE = shutil.which("node")
 
@@ -126,6 +130,27 @@ async def test_a_pulled_cable_is_told_and_a_plugged_one_found_again(board: Board
         nonce = await drive(client)
         await say(client, type="send", id=1, packet=MOVE.hex(), nonce=nonce)
         assert await hear_until(client, "sent") == {"type": "sent", "id": 1}
+
+
+@pytest.mark.parametrize("board", ["xarm"], indirect=True)
+def test_without_a_page_and_without_an_option_the_command_line_finds_out_which_board_it_is(
+    board: Board, tmp_path: Path
+) -> None:
+    for start in ("the first", "the next"):
+        place = ("--serial", str(board.link), "--data", str(tmp_path / "data"))
+        served = Served(*place, pty=Pty(), is_named=False, asks_board=True)
+        at = ("--url", served.url)
+        if start == "the first":
+            refused = run("move", "1=500", *at)
+            assert refused.exit_code == FAILURE
+            assert "It answers like: bus-ctrl, xarm. Name it: servodeck board FAMILY" in refused.stderr
+            assert "It answers like: bus-ctrl, xarm." in run("board", *at).stdout
+            assert "wrongBoard" in run("board", "learm-esp32", *at).stdout
+            assert "board    xarm, ready" in run("board", "xarm", *at).stdout
+        assert run("move", "1=500", *at).exit_code == 0, f"{start} start: it is remembered"
+        served.end()
+    kinds = {packet[COMMAND_AT] for _, packet in asyncio.run(board.packets_taken())}
+    assert kinds == {STOP[COMMAND_AT], BATTERY[COMMAND_AT], MOVE[COMMAND_AT], POSITIONS}
 
 
 SLOT, START, END, FRAME_MS = 5, 1000, 2000, 4000

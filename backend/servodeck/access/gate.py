@@ -19,7 +19,7 @@ from servodeck.errors import (
     WrongTypeError,
 )
 from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.protocol.families import FAMILIES, UNKNOWN
+from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import check_command, encode
 from servodeck.protocol.values import Command, Download
@@ -146,16 +146,6 @@ def judge_by_hand(packet: bytes) -> None:
     """A frame alone only breaks the slot it goes to (S33, S35). Raises NotSupportedError."""
     if packet[COMMAND_AT] == DOWNLOAD:
         raise NotSupportedError("Groups are stored as a whole: POST /api/download.")
-
-
-def judge_known(board: str) -> None:
-    """Raises NotSupportedError while nobody has said which board it is: none of its limits is known."""
-    if board == UNKNOWN.id:
-        raise NotSupportedError(
-            "Nobody has said yet which board is connected, so nothing goes to it that moves or stores. "
-            "Open the page once, which asks it; or name its family: servodeck serve --board FAMILY, or "
-            'PUT /api/port {"device": ..., "board": ...}. It is remembered for the port.'
-        )
 
 
 def refusal_of(error: PacketError) -> GatewayError:

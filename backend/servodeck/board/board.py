@@ -14,6 +14,9 @@ from servodeck.access.gate import STOP, is_harmless, judge_packet
 from servodeck.board.answers import Answers
 from servodeck.board.battery import BatteryWatch
 from servodeck.board.estimate import Estimate
+from servodeck.board.identification import Identification, Status
+from servodeck.board.identify import QUESTIONS
+from servodeck.board.identity import told_identity
 from servodeck.board.jobs import Jobs
 from servodeck.board.moves import Moves
 from servodeck.board.parts import Part
@@ -21,7 +24,17 @@ from servodeck.board.resync import filler_for
 from servodeck.board.slot_memory import SlotMemory
 from servodeck.board.stop_again import StopAgain
 from servodeck.board.unattended import Unattended
-from servodeck.errors import CancelledError, ClosedError, GatewayError, PortLostError
+from servodeck.errors import (
+    BoardSilentError,
+    BoardUnknownError,
+    CancelledError,
+    ClosedError,
+    GatewayError,
+    LatchedError,
+    MovingError,
+    NoAnswerError,
+    PortLostError,
+)
 from servodeck.motion.halt_plan import Unheld
 from servodeck.port.inbox import Inbox
 from servodeck.port.link import Link, Ports
@@ -29,10 +42,11 @@ from servodeck.port.ports import OpenPort
 from servodeck.port.silence import Silence
 from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, Wire
 from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
-from servodeck.protocol.families import FAMILIES, Family
+from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question
 from servodeck.protocol.packets import encode, parse_command, parse_report
-from servodeck.protocol.values import RunAccepted, RunStarted
-from servodeck.told import JobState, PortState, StoredGroup
+from servodeck.protocol.timings import IDENTIFY, wire_s
+from servodeck.protocol.values import Battery, Report, RunAccepted, RunStarted
+from servodeck.told import IdentityTold, JobState, LinkState, PortState, StoredGroup
 
 DRAIN_S = 0.5
 
@@ -41,11 +55,14 @@ class BoardEvents(Protocol):
     def port_opened(self) -> None:
         """Nothing was sent on it; `board_changed` follows."""
 
-    def port_lost(self) -> None:
-        """It was open and is gone, unasked; `board_changed` follows."""
+    def board_lost(self) -> None:
+        """Its port was open and is gone, unasked, or it has fallen silent; `board_changed` follows."""
 
     def board_changed(self) -> None:
-        """The port, what a slot holds, what goes on alone or what waits to start is another now."""
+        """The link, the board, a slot, what goes on alone or what waits to start is another now."""
+
+    def is_watched(self) -> bool:
+        """Somebody would see what the board says unasked."""
 
     def job_changed(self, state: JobState) -> None: ...
 
@@ -73,9 +90,14 @@ class Board:
         simulated_device: str | None,
         slot_memory: SlotMemory,
         events: BoardEvents,
+        *,
+        asks: bool = False,
     ) -> None:
-        """`taken_for` is a family's name. `simulated_device`: what is behind that port is no real board."""
+        """`taken_for` is a family's name; `asks` has that checked at each opening, and watched.
+        `simulated_device`: what is behind that port is no real board.
+        """
         self.taken_for = taken_for
+        self.identification = Identification(self, FAMILIES[taken_for], asks=asks)
         self._simulated_device = simulated_device
         self._events = events
         self._now = now
@@ -120,6 +142,36 @@ class Board:
         """By slot, as JSON has it."""
         return {str(slot): stored for slot, stored in self.jobs.stored(self.link.place).items()}
 
+    @property
+    def link_state(self) -> LinkState:
+        """The way to the board and the board itself, as clients are told."""
+        port = self.link.state
+        if port.status != "open":
+            return LinkState(status=port.status, code=port.code, detail=port.detail)
+        status, error = self.identification.state.status, self.identification.state.error
+        assert status != "closed"
+        return LinkState(
+            status=status, code=error.code if error else None, detail=error.detail if error else None
+        )
+
+    @property
+    def identity(self) -> IdentityTold:
+        return told_identity(self.identification.evidence)
+
+    def judge_known(self) -> None:
+        """Raises what keeps it from being told anything that moves or stores: nobody knows which board it is,
+        or whether it is there. Without a port nothing can be said but that.
+        """
+        state = self.identification.state
+        if state.error:
+            raise state.error
+        if state.status == "identifying":
+            raise MovingError("The board is being asked who it is: try again in a moment.")
+        if self.identification.claim is UNKNOWN:
+            raise BoardUnknownError(
+                "Nobody has said which board is connected, and no port is open to ask it."
+            )
+
     def may_move(self) -> bool:
         return self.motion.group_may_run(self._now()) or self.motion.is_moving(self._now())
 
@@ -128,12 +180,17 @@ class Board:
         return self.may_move() or self.motion.last_frame_may_go_on(self._now())
 
     def take_for(self, family: str) -> None:
-        """What was asked of the one it was taken for does not leave. Raises MovingError while it stores."""
+        """A person has said so; `unknown` has it asked again. Raises MovingError while it stores."""
         self.jobs.judge_idle()
+        self.identification.choose(FAMILIES[family])
+
+    def recall(self, family: str) -> None:
+        """What is connected next is taken for that until somebody says otherwise."""
+        self.identification.claim = FAMILIES[family]
         self.taken_for = family
-        self.battery.forget()
-        self._forget_motion()
-        reason = CancelledError("The board is taken for another one now.")
+
+    def _drop_all(self, reason: GatewayError) -> None:
+        """What waits for the wire does not leave any more, but stops."""
         self.moves.drop(reason)
         with contextlib.suppress(GatewayError):
             self.link.wire().purge(is_no_stop, reason)
@@ -190,10 +247,11 @@ class Board:
         self._lose_motion()
         self._motion.opened(self._now())
         wire.send(STOP_PACKET, self, urgent=True)
+        self.identification.begin()
 
     def port_lost(self, unfinished: bytes | None) -> None:
         metrics.port_losses.inc()
-        self._events.port_lost()
+        self._events.board_lost()
         self.jobs.end(PortLostError("The serial port went away before all of it was stored."))
         is_filler = unfinished is not None and unfinished == self._filler()
         if not is_filler:
@@ -202,9 +260,59 @@ class Board:
 
     def port_changed(self) -> None:
         if self.link.state.status != "open":
+            self.identification.ended()
             self.moves.drop(PortLostError("The serial port is not open any more."))
             self._lose_motion()  # also what left with the last breath of the port
         self._events.board_changed()
+
+    # What its identification asks and tells
+
+    async def ask(self, question: Question) -> Report | None:
+        if question == "readBattery" and self.identification.state.status != "identifying":
+            try:
+                return Battery(await self.battery.read())  # shared with whoever asks at the same time
+            except NoAnswerError:
+                return None
+        packet, answer = QUESTIONS[question].packet, QUESTIONS[question].answer
+        # No board answers what has not reached it yet.
+        earliest_s = self._now() + wire_s(len(packet))
+        try:
+            left = self.link.wire().send(packet, self)
+            return await self.answers.to(left, IDENTIFY.timeout_ms / 1000, answer, not_before_s=earliest_s)
+        except (LatchedError, CancelledError):
+            return None  # a stop empties the queue; it does not answer the question
+
+    def may_ask(self) -> bool:
+        return self._events.is_watched() and self.is_idle()
+
+    def is_idle(self) -> bool:
+        return not (self.jobs.is_busy() or self.may_move_on())
+
+    def drive(self, family: Family) -> None:
+        """What was asked of the one it was taken for does not leave."""
+        if family.id == self.taken_for:
+            return
+        self.taken_for = family.id
+        self.battery.forget()
+        self._forget_motion()
+        self._drop_all(CancelledError("The board is taken for another one now."))
+
+    def entered(self, before: Status) -> None:
+        status = self.identification.state.status
+        if before == "ready" and status not in ("ready", "closed"):
+            self._no_longer_ready(status)
+        if before == "stale" and status not in ("stale", "closed"):
+            self.halt_again()  # it may have moved or restarted behind our back
+        if self.link.state.status == "open":
+            self._events.board_changed()
+
+    def _no_longer_ready(self, status: Status) -> None:
+        """It may have moved, restarted or been changed for another before it is ready again."""
+        self._lose_motion()
+        self.jobs.end(BoardSilentError("The board fell silent before all of it was stored."))
+        self._drop_all(BoardSilentError("The board fell silent before that left."))
+        if status == "stale":
+            self._events.board_lost()
 
     # What a download tells
 
@@ -229,9 +337,10 @@ class Board:
             self.halt_again()
 
     def _hold(self) -> bytes | None:
-        """As the robot stands when it leaves."""
+        """As the robot stands when it leaves; of a board that nobody knows nothing is held."""
         hold = self.motion.hold(self._now())
-        return encode(hold, self.family) if hold else None
+        is_known = self.identification.state.status in ("ready", "stale")
+        return encode(hold, self.family) if hold and is_known else None
 
     def _forget_motion(self) -> None:
         """It may be another board, and whoever had the port before may have set something in motion."""
@@ -286,11 +395,12 @@ class Board:
         self._events.received(event)
         if not isinstance(event, PacketEvent):
             metrics.noise.inc(len(event.bytes))
+            self.identification.heard_noise(event.bytes)
             return
         metrics.received.labels(metrics.name_of(event.packet.command)).inc()
         with contextlib.suppress(GatewayError):
             self.link.wire().answered(event.packet.command)
-        report = parse_report(event.packet, self.family)
+        report = parse_report(event.packet, self.identification.heard_as or self.family)
         may_have_swallowed = self.motion.may_swallow
         self.motion.heard(report, self._now())
         self._stop_again.heard()
@@ -302,6 +412,7 @@ class Board:
         hears_again = may_have_swallowed and not self.motion.may_swallow
         if hears_again or isinstance(report, RunAccepted | RunStarted):
             self._events.may_have_missed_stops()
+        self.identification.heard(report, event.bytes)
 
 
 def is_no_stop(job: Job) -> bool:

@@ -12,16 +12,19 @@ class RecalledBoard:
     def __init__(self, remembered: Remembered, *, is_wanted: bool) -> None:
         """Not wanted where an option has said it."""
         self._remembered = remembered
-        self._is_wanted = is_wanted
+        self.is_wanted = is_wanted
 
     def port_opened(self, board: Board) -> None:
         known = self._remembered.board_at(board.link.place)
-        if self._is_wanted and board.taken_for == UNKNOWN.id and known in FAMILIES:
-            board.take_for(known)
+        if self.is_wanted and board.identification.claim is UNKNOWN and known in FAMILIES:
+            board.recall(known)
 
     def said(self, board: Board) -> None:
-        """Somebody has. A simulated one is what its starter says, each time anew."""
-        if board.port.status in ("open", "lost") and not board.port.simulated:
-            family = None if board.taken_for == UNKNOWN.id else board.taken_for
-            self._remembered.remember_board(board.link.place, family)
+        """Somebody has. What the board's answers contradict is not kept; a simulated one is what its starter
+        says, each time anew.
+        """
+        family, status = board.identification.claim, board.identification.state.status
+        is_contradicted = status == "refused" and family is not UNKNOWN
+        if board.port.status in ("open", "lost") and not board.port.simulated and not is_contradicted:
+            self._remembered.remember_board(board.link.place, None if family is UNKNOWN else family.id)
             self._remembered.keep_soon()

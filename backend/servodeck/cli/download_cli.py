@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
+from servodeck.cli.board_cli import when_asked
 from servodeck.cli.exits import FAILURE, INTERRUPTED, USAGE, fail
 from servodeck.cli.options_cli import AsJson, Take, asked, asking, show
 from servodeck.cli.remote import Remote
@@ -43,6 +44,7 @@ def download(
 def handed_over(remote: Remote, groups: list[dict[str, Any]], *, take: bool) -> dict[str, Any]:
     """As one job, in as many requests as the gateway needs to read them."""
     first, *rest = portions_of(groups)
+    when_asked(remote)
     job: dict[str, Any] = asked(remote, "POST", "/api/download", {"groups": first, "take": take})
     for portion in rest:
         body = {"groups": portion, "take": take, "behind": job["id"]}

@@ -8,6 +8,7 @@ from urllib.parse import quote
 
 import typer
 
+from servodeck.cli.board_cli import when_asked
 from servodeck.cli.options_cli import AsJson, Take, asked, asking, show
 from servodeck.cli.remote import Remote
 from servodeck.cli.remote_cli import MOVE_WAIT_S, begun_words
@@ -36,6 +37,7 @@ def pose(
     as_json: AsJson = False,
 ) -> None:
     """Go to a pose of the robot on the board."""
+    when_asked(remote)
     path = f"/api/poses/{quote(wanted, safe='')}/apply"
     begun = asked(remote, "POST", path, {"timeMs": time_ms, "take": take}, wait_s=MOVE_WAIT_S)
     show(begun, as_json, begun_words)

@@ -23,6 +23,8 @@ WHAT_TO_DO = {
     "closed": "Open one on the page, or start the gateway with --serial DEVICE. servodeck ports lists them.",
     "lost": "It is tried again by itself. servodeck status tells how it stands.",
     "noAnswer": "Is the board switched on?",
+    "boardUnknown": "servodeck board shows what it answered.",
+    "wrongBoard": "servodeck board shows what it answered.",
 }
 
 Url = Annotated[str, typer.Option(envvar="SERVODECK_URL", help="The gateway's address.")]

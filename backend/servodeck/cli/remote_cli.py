@@ -10,12 +10,12 @@ from typing import Annotated, Any
 
 import typer
 
+from servodeck.cli.board_cli import board, board_words, when_asked
 from servodeck.cli.exits import INTERRUPTED, TIMED_OUT, USAGE, fail
 from servodeck.cli.options_cli import AsJson, Take, asked, asking, explain, explain_silence, show
 from servodeck.cli.remote import RefusedError, Remote, UnreachableError
 from servodeck.cli.stop_words import stopped_words
 
-UNKNOWN, NAME_IT = "unknown", " (open the page once, which asks it, or: servodeck serve --board FAMILY)"
 BEAT_S = 1.0
 # What the gateway lets go on without its driver at most.
 LONGEST_ALONE_S = 3600
@@ -37,7 +37,7 @@ def status_words(state: dict[str, Any]) -> str:
     port, run, alone = state["port"], state["running"], state["unattended"]
     lines = [
         f"port     {port['status']} {port['device'] or ''} {port['detail'] or ''}".rstrip(),
-        f"board    {state['board']}{NAME_IT if state['board'] == UNKNOWN else ''}",
+        board_words(state),
         f"motion   {'stopped, waits for resume' if state['latch'] else 'allowed'}",
         f"driver   {state['driver'] or 'nobody'}",
     ]
@@ -78,6 +78,7 @@ def move(
 ) -> None:
     """Move servos together, in the board's unit."""
     body = {"timeMs": time_ms, "positions": positions_in(targets), "take": take}
+    when_asked(remote)
     answer = asked(remote, "POST", "/api/move", body, wait_s=MOVE_WAIT_S)
     show(answer, as_json, begun_words)
 
@@ -125,6 +126,7 @@ def run(
         fail("--continue returns at once: there is nothing that --timeout could end.", USAGE)
     if times == 0 and timeout_s is None and go_on is None:
         go_on = LONGEST_ALONE_S
+    when_asked(remote)
     body = {"times": times, "take": take, "continueForMs": None if go_on is None else go_on * 1000}
     answer = asked(remote, "POST", f"/api/slots/{slot}/run", body)
     show(answer, as_json, lambda begun: f"Slot {slot}: {begun['outcome']}.")
@@ -190,6 +192,7 @@ def erase(
     """Erase every slot of the board, for good. An owner's."""
     if not sure:
         typer.confirm("Every group on the board goes for good. Erase them?", abort=True)
+    when_asked(remote)
     show(asked(remote, "POST", "/api/erase", {"take": take}), as_json, lambda _: "Every slot is empty.")
 
 
@@ -214,4 +217,14 @@ def events(remote: Remote) -> None:
         raise typer.Exit(INTERRUPTED) from None
 
 
-COMMANDS: tuple[Callable[..., None], ...] = (status, stop, resume, move, run, erase, battery, events)
+COMMANDS: tuple[Callable[..., None], ...] = (
+    status,
+    board,
+    stop,
+    resume,
+    move,
+    run,
+    erase,
+    battery,
+    events,
+)

@@ -91,7 +91,7 @@ def serve(
         from servodeck.web.library_api import robots_in
 
     allow_descriptors()
-    recalls_board = not board
+    recalls_board = not (board or simulated)
     board = board or ("doc" if simulated else UNKNOWN.id)
     if board not in FAMILIES:
         fail(f"There is no board family {board}. Choose one of: {', '.join(FAMILIES)}.", USAGE)
@@ -122,6 +122,8 @@ def serve(
         slot_memory=SlotMemory(folder),
         remembered=remembered,
         recalls_board=recalls_board,
+        # A simulated one is what its starter says.
+        asks_board=not simulated,
         read_robot=robots_in(library),
     )
 

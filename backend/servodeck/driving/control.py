@@ -16,7 +16,6 @@ from servodeck.access.gate import (
     is_harmless,
     judge_by_hand,
     judge_command,
-    judge_known,
     judge_latch,
     role_for,
 )
@@ -77,12 +76,15 @@ class Control:
         slot_memory: SlotMemory | None = None,
         remembered: Remembered | None = None,
         recalls_board: bool = False,
+        asks_board: bool = False,
         read_robot: ReadFacts = no_robot,
     ) -> None:
         """`named_device` is the port named at the start: always offered, even where the system does not list
         it. `simulated`: what is behind it is no real board. `epoch`: leases are counted on from there.
         Without `slot_memory` and `remembered` these are forgotten at the end.
         `recalls_board`: where nobody has said of which family the board is, it is as it was last.
+        `asks_board`: who it is, at each opening and before anything moves, and then whether it is still
+        there; otherwise it is what it is taken for.
         `read_robot` asks the library.
         """
         self.named_device = named_device
@@ -96,7 +98,9 @@ class Control:
         self._watch = Watch(self)
         self.driving = Driving(self.hub, now, epoch, self._watch)
         simulated_device = named_device if simulated else None
-        self.board = Board(ports, now, board, simulated_device, slot_memory or SlotMemory(), self)
+        self.board = Board(
+            ports, now, board, simulated_device, slot_memory or SlotMemory(), self, asks=asks_board
+        )
         self._relay = Relay(self.hub, now, lambda: self.driving.driver)
         self._telling = Telling(self.hub, self.board, self._latch, self.robot, self.driving, now)
         self._halting: Left | None = None
@@ -169,7 +173,7 @@ class Control:
         """
         board, driving = self.board, self.driving
         seat.caller.require("driver")
-        judge_known(board.taken_for)
+        board.judge_known()
         judge_targets(targets, duration_ms, board.family)
         self.limits.judge(Move(duration_ms, tuple(targets)), seat)
         board.link.wire()
@@ -181,6 +185,7 @@ class Control:
 
         def judge(target: ServoTarget, starts: bool) -> None:
             driving.judge(waiting if starts else permit)
+            board.judge_known()
             judge_latch(MOVE, self.latch)
             self.limits.judge(Move(duration_ms, (target,)), seat)
 
@@ -194,6 +199,8 @@ class Control:
         seat.caller.require(role_for(packet))
         self.limits.judge(command, seat)
         wire = self.board.link.wire()
+        if not is_harmless(packet):
+            self.board.judge_known()
         judge_latch(packet[COMMAND_AT], self.latch)
         judge_by_hand(packet)
         self.board.jobs.judge_run(command, self.board.link.place)
@@ -228,22 +235,20 @@ class Control:
         if self._latch.open():
             self._telling.everybody(ResumedMessage(by=caller.name), but=seat)
 
-    def name_board(self, seat: Seat, board: str) -> None:
+    def name_board(self, caller: Caller, board: str) -> None:
         """Raises NotDrivingError where somebody else drives whatever else it was."""
-        if board != self.board.taken_for and not self.driving.may_rule(seat.caller):
+        if board != self.board.taken_for and not self.driving.may_rule(caller):
             raise NotDrivingError("Somebody else drives: which board it is changes only under their hands.")
         self.take_for(board)
 
     def take_for(self, board: str) -> None:
-        """What every later packet is judged by; `unknown` lets only harmless questions pass. Everybody is
-        told, also where nothing changed.
+        """What every later packet is judged by, where its answers do not contradict; `unknown` has it asked
+        again, and lets only harmless questions pass.
         """
         if board not in FAMILIES:
             raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
-        if board != self.board.taken_for:
-            self.board.take_for(board)
-            self._recalled_board.said(self.board)
-        self._telling.state()
+        self.board.take_for(board)
+        self._recalled_board.said(self.board)
         self._see_robot()
 
     def let_go_on(self, seat: Seat, for_ms: int | None) -> None:
@@ -274,6 +279,7 @@ class Control:
             claim()
             return board.jobs.add(behind, parts, by)
         wire = board.link.wire()
+        board.judge_known()
         judge_latch(DOWNLOAD, self.latch)
         board.jobs.judge_idle()
         is_clear = board.moves.is_empty and wire.is_clear_of(lambda command: command not in HARMLESS)
@@ -285,7 +291,9 @@ class Control:
     async def use_port(self, device: str, board: str | None = None) -> None:
         await self.board.quiet()
         self.robot.leave()
-        self.board.taken_for = board or self.board.taken_for
+        if board:
+            self._recalled_board.is_wanted = True
+            self.board.recall(board)
         await self.board.link.use(device)
         if board:
             self._recalled_board.said(self.board)
@@ -306,8 +314,11 @@ class Control:
     def port_opened(self) -> None:
         self._recalled_board.port_opened(self.board)
 
-    def port_lost(self) -> None:
-        self._latch.cause = Cause("loss")  # the change of the port's state follows and tells both
+    def board_lost(self) -> None:
+        self._latch.cause = Cause("loss")  # the change of the link's state follows and tells both
+
+    def is_watched(self) -> bool:
+        return len(self.hub) > 0
 
     def board_changed(self) -> None:
         self._telling.state()

@@ -11,7 +11,7 @@ from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from servodeck.access.gate import judge_known, judge_latch
+from servodeck.access.gate import judge_latch
 from servodeck.access.hub import Seat
 from servodeck.board.jobs import ERASE_TIMEOUT_S
 from servodeck.board.move_plan import packet_of, plan_move
@@ -218,7 +218,7 @@ class Scripts:
         return "silent" if taken is None else "acknowledged"
 
     def _family(self) -> Family:
-        judge_known(self._control.board.taken_for)
+        self._control.board.judge_known()
         return self._control.board.family
 
     def _seat_of(self, caller: Caller) -> ScriptSeat:

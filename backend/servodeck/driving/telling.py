@@ -57,6 +57,8 @@ class Telling:
         return {
             "board": board.taken_for,
             "port": board.port,
+            "link": board.link_state,
+            "identity": board.identity,
             "latch": latch.cause is not None,
             "latched_by": latch.by,
             "stopped_by": latch.name,

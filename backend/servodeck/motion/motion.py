@@ -85,7 +85,7 @@ ANSWERS: dict[type[Command], type[Report]] = {
     ReadBattery: Battery,
     Run: RunAccepted,
 }
-# These keep the board from its servos and packets until it has answered: flash work, slow talk (S41, X7,
+# These keep a board that answers them from its servos and packets until then: flash work, slow talk (S41, X7,
 # L13).
 DEAFENING = frozenset(ANSWERS) - {ReadBattery, Run}
 # What LEN does not count, and the whole of a packet without parameters.
@@ -163,7 +163,8 @@ def after_heard(motion: Motion, command: Command, at_ms: float, board: KnownBoar
         return moved(cut, command, at_ms, board)
     if isinstance(command, Release):
         return released(cut, command.servos)
-    return deafened(cut, command, at_ms, board) if type(command) in DEAFENING else cut
+    is_answered = command.kind in board.family.answers
+    return deafened(cut, command, at_ms, board) if is_answered and type(command) in DEAFENING else cut
 
 
 def moved(motion: Motion, move: Move, at_ms: float, board: KnownBoard) -> Motion:

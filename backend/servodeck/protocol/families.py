@@ -25,6 +25,8 @@ CommandKind = Literal[
     "readAllPositions",
     "readOffsets",
 ]
+# What may be asked of any board: it moves nothing, stores nothing and makes nothing drop.
+Question = Literal["readBattery", "readVersion", "readPositions"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +85,7 @@ class Family:
     erase_length: Literal[2, 3]
     answers: tuple[CommandKind, ...]
     # Harmless questions that every such board answers, the cheapest first.
-    certain_answers: tuple[CommandKind, ...]
+    certain_answers: tuple[Question, ...]
     # 6 and 8 with LEN 5 tell slot and times, whoever asked for the run; otherwise they are empty.
     run_reports_name_slot: bool
     # What an empty packet 7 says: opposite things per family.

@@ -26,7 +26,7 @@ from servodeck.port.ports import is_same_port, lasting_of, list_devices
 from servodeck.protocol.families import FAMILIES
 from servodeck.schema import Message
 from servodeck.threads import in_thread
-from servodeck.told import PortState, UnattendedRun, UnheldServos
+from servodeck.told import IdentityTold, LinkState, PortState, UnattendedRun, UnheldServos
 from servodeck.web.clients import serve_client
 
 
@@ -56,6 +56,8 @@ class Status(Message):
     version: str
     board: str
     port: PortState
+    link: LinkState
+    identity: IdentityTold
     latch: bool
     clients: int
     battery: BatteryAge | None
@@ -80,6 +82,12 @@ class Device(Message):
 class PortChoice(Message):
     device: Annotated[str, Field(min_length=1, max_length=256, pattern=r"^[^\x00-\x1f]+$")]
     board: str | None = None
+
+
+class BoardChoice(Message):
+    """A family of boards; `unknown`: ask it again."""
+
+    board: Annotated[str, Field(max_length=64)]
 
 
 class Battery(Message):
@@ -145,6 +153,8 @@ async def status(control: Controlled) -> Status:
         version=__version__,
         board=control.board.taken_for,
         port=control.board.port,
+        link=control.board.link_state,
+        identity=control.board.identity,
         latch=control.latch,
         clients=len(control.hub),
         battery=age_of(control),
@@ -202,6 +212,17 @@ async def close_port(control: Controlled) -> PortState:
     control.remembered.remember_port(None)
     await control.remembered.kept()
     return control.board.port
+
+
+@api.put("/board")
+async def name_board(
+    choice: BoardChoice, request: Request, control: Controlled, caller: Annotated[Caller, DRIVER]
+) -> Status:
+    """Says of which family the board is. It is driven as one once its answers do not contradict that; `link`
+    tells, and `identity` what it answered. Remembered for its port.
+    """
+    control.name_board(named(request, caller), choice.board)
+    return await status(control)
 
 
 def named(request: Request, caller: Caller) -> Caller:

@@ -30,6 +30,18 @@ STATUS = {
     "version": "0.1.0",
     "board": "lsc-16",
     "port": PORT,
+    "link": {"status": "ready", "code": None, "detail": None},
+    "identity": {
+        "evidence": [
+            {
+                "kind": "answered",
+                "question": "readBattery",
+                "report": {"kind": "battery", "batteryMv": 7500},
+            },
+            {"kind": "silent", "question": "readPositions"},
+        ],
+        "candidates": ["doc", "lsc-6", "lsc-16", "lsc-24", "lsc-32"],
+    },
     "latch": False,
     "clients": 2,
     "battery": {"batteryMv": 7500, "ageMs": 4200},
@@ -96,7 +108,18 @@ PERSON = {
     "unattendedSlot": None,
 }
 QR = "data:image/svg+xml;base64,PHN2Zy8+"
-ON_THE_WIRE: tuple[ErrorCode, ...] = ("closed", "lost", "latched", "notDriving", "outOfRange", "busy")
+ON_THE_WIRE: tuple[ErrorCode, ...] = (
+    "closed",
+    "lost",
+    "boardUnknown",
+    "wrongBoard",
+    "echo",
+    "boardSilent",
+    "latched",
+    "notDriving",
+    "outOfRange",
+    "busy",
+)
 
 EXAMPLES: dict[tuple[str, str], Example] = {
     ("GET", "/api/status"): Example(STATUS),
@@ -179,6 +202,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         ("outOfRange", "portMissing", "portBusy", "portDenied", "otherDevice"),
     ),
     ("DELETE", "/api/port"): Example(CLOSED),
+    ("PUT", "/api/board"): Example(STATUS, {"board": "lsc-16"}, ("busy", "notDriving", "outOfRange")),
     ("GET", "/api/library"): Example({"documents": [LISTED], "setAside": None, "changesLost": False}),
     ("POST", "/api/library/remove"): Example(None, {"ids": [DOCUMENT]}, ("notFound",)),
     ("POST", "/api/library/restore"): Example(None, {"ids": [DOCUMENT]}, ("notFound",)),
@@ -229,10 +253,13 @@ EXAMPLES: dict[tuple[str, str], Example] = {
 }
 
 PROBLEMS: dict[ErrorCode, str] = {
+    "boardSilent": "The board does not answer. Is it switched on? It is asked again by itself.",
+    "boardUnknown": "Nobody has said which board is connected. It answers like: bus-ctrl, xarm.",
     "busy": "A group runs for up to 4.2 s more: wait, or let go of the lease to end it.",
     "cancelled": "Stopped, or taken over, before all of it had left.",
     "closed": "No serial port is open.",
     "conflict": "Somebody else has changed this document meanwhile.",
+    "echo": "The line sends back what it is given: its RX and TX may be joined, or crossed.",
     "forbidden": "Dance is a viewer here; this takes the role driver.",
     "latched": "Stopped. Motion waits for Resume.",
     "lost": "The serial port is gone.",
@@ -253,6 +280,7 @@ PROBLEMS: dict[ErrorCode, str] = {
     "storageBusy": "The library is busy.",
     "storageFailed": "The library's file cannot be used: disk I/O error.",
     "storageFull": "The disk is full.",
+    "wrongBoard": "The board does not answer like lsc-6.",
     "tooMany": "Dance asks too often: come again in 0.4 s.",
     "tooLarge": "The request is larger than 3145728 bytes.",
 }

@@ -27,6 +27,7 @@ from servodeck.messages import (
     BoardMessage,
     CalibrateMessage,
     ContinueMessage,
+    DoneMessage,
     GiveMessage,
     LeaseMessage,
     MoveMessage,
@@ -148,7 +149,7 @@ def hear(text: str, seat: Seat, intake: Intake) -> None:
 
 
 def id_of(message: AnyClientMessage) -> int | None:
-    return message.id if isinstance(message, MoveMessage | SendMessage) else None
+    return message.id if isinstance(message, MoveMessage | SendMessage | BoardMessage) else None
 
 
 def merged(before: AnyClientMessage, message: AnyClientMessage) -> AnyClientMessage | None:
@@ -229,12 +230,17 @@ def give(message: GiveMessage, seat: Seat, control: Control) -> None:
         control.driving.give(seat, message.to)
 
 
+def name_board(message: BoardMessage, seat: Seat, control: Control) -> None:
+    control.name_board(seat.caller, message.board)
+    seat.put(encode(DoneMessage(id=message.id)))
+
+
 ACTS: dict[type[AnyClientMessage], Callable[[Any, Seat, Control], None]] = {
     MoveMessage: take_move,
     SendMessage: take_send,
     StopMessage: take_stop,
     ResumeMessage: lambda _, seat, control: control.resume(seat.caller, seat),
-    BoardMessage: lambda message, seat, control: control.name_board(seat, message.board),
+    BoardMessage: name_board,
     CalibrateMessage: lambda message, seat, control: control.limits.calibrate(seat, message.servo),
     LeaseMessage: act_on_lease,
     GiveMessage: give,

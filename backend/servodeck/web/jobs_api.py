@@ -7,7 +7,6 @@ from typing import Annotated
 
 from pydantic import Field
 
-from servodeck.access.gate import judge_known
 from servodeck.access.roles import DRIVER, VIEWER
 from servodeck.board.parts import Group, parts_of
 from servodeck.callers import Caller
@@ -82,7 +81,7 @@ async def download(
     the slot of the group in progress is broken: nobody may run it before another download to it has ended
     well.
     """
-    judge_known(control.board.taken_for)
+    control.board.judge_known()
     groups = [await body.group() for body in wish.groups]
     parts = await parts_of(groups, control.board.taken_for)
     nonce = wish.nonce

@@ -9,7 +9,6 @@ from typing import Annotated
 from fastapi import Path, Request
 from pydantic import Field
 
-from servodeck.access.gate import judge_known
 from servodeck.access.roles import VIEWER
 from servodeck.errors import NotFoundError, OutOfRangeError
 from servodeck.library.library_messages import Name, NamedPose
@@ -53,7 +52,7 @@ async def apply(
     wish: ApplyWish = GENTLY,
 ) -> MoveBegun:
     """Goes to the pose of that number or name; as `move` otherwise."""
-    judge_known(control.board.taken_for)
+    control.board.judge_known()
     found = find((await list_poses(control)).poses, pose)
     judge_unit(found, control.board.family)
     positions = {target.servo: target.position for target in found.targets}

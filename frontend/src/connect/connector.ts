@@ -121,11 +121,11 @@ export function createConnector(options: ConnectorOptions): Connector {
     else chosen(openSerial(port));
   }
 
-  /** A board in the page is what it was made as; any other is asked, and taken for what it was the last time. */
+  /** A board in the page is what it was made as; any other is asked, and taken for what it was the last time. A gateway asks itself. */
   async function connect(transport: Transport): Promise<void> {
     const { board } = store.getState();
     const isOwn = transport.kind === 'simulated';
-    const known = boards.recall(deviceOf(transport))?.family;
+    const known = boards.recall(transport)?.family;
     const session = createSession({
       transport,
       clock: device.clock,
@@ -149,14 +149,6 @@ export function createConnector(options: ConnectorOptions): Connector {
     await session.open().catch(() => undefined);
     // Some transports learn what they lead to only by opening it.
     device.describe(session, wayOf(transport));
-  }
-
-  /** The gateway's port is known before its transport is open. */
-  function deviceOf({ kind, label }: Transport): Pick<Way, 'kind' | 'label'> {
-    const { gateway } = store.getState();
-    return kind === 'gateway' && typeof gateway === 'object'
-      ? { kind, label: gateway.device ?? '' }
-      : { kind, label };
   }
 
   function chosen(transport: Transport): void {
@@ -231,7 +223,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     },
     useGateway: () => chosen(gatewayTransport()),
     async useGatewayPort(path) {
-      await openGatewayPort(path, boards.recall({ kind: 'gateway', label: path })?.family ?? 'unknown');
+      await openGatewayPort(path);
       await look();
       chosen(gatewayTransport());
     },

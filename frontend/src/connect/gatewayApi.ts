@@ -2,7 +2,6 @@
 // does it have, open that port. Trusts no answer's shape; every failure is a LinkError.
 
 import type { Clock } from '#shared/clock.ts';
-import type { BoardId } from '#shared/protocol/families.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import { isRecord } from '../gateway/request.ts';
 import { askGateway } from '../transports/gatewayHttp.ts';
@@ -63,8 +62,10 @@ export async function readPorts(withinMs = ANSWER_WITHIN_MS): Promise<readonly G
   return list.filter(isPort).map(({ device, description, inUse }) => ({ device, description, inUse }));
 }
 
-export async function openGatewayPort(device: string, board: BoardId): Promise<void> {
-  await askGateway('api/port', { method: 'PUT', body: { device, board }, withinMs: ANSWER_WITHIN_MS });
+/** Whatever board is there: the gateway knows it from before, or asks it. */
+export async function openGatewayPort(device: string): Promise<void> {
+  const body = { device, board: 'unknown' };
+  await askGateway('api/port', { method: 'PUT', body, withinMs: ANSWER_WITHIN_MS });
 }
 
 /** The gateway's WebSocket beside the page. */

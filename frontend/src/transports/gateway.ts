@@ -2,10 +2,10 @@
 // gateway's to decide. The socket stays open while the gateway's port is away, to hear of its return.
 
 import type { Clock } from '#shared/clock.ts';
-import type { BoardId } from '#shared/protocol/families.ts';
 import type { MotionBefore } from '#shared/motion/before.ts';
 import { fromHex } from '#shared/protocol/hex.ts';
 import { LinkError } from '#shared/session/linkError.ts';
+import type { SharedBoard } from '#shared/session/identity.ts';
 import type {
   RobotOnBoard,
   SharedLatchReason,
@@ -15,7 +15,7 @@ import type {
 import { refusal } from './gatewayHttp.ts';
 import { createGatewayMoves } from './gatewayMoves.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
-import { boardNamed, compactHex, isQuestion, LATCHED_BY, motionBefore, portError } from './gatewayWords.ts';
+import { boardTold, compactHex, isQuestion, LATCHED_BY, motionBefore, portError } from './gatewayWords.ts';
 import {
   PROTOCOL,
   type ClientMessage,
@@ -39,7 +39,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
   let latched: SharedLatchReason | null = null;
   let stoppedBy: string | null = null;
   let robot: RobotOnBoard = { document: null };
-  let board: BoardId = 'unknown';
+  let board: SharedBoard | null = null;
   let waitingToStart: readonly number[] = [];
   /** Until the link is open: from then on it follows by itself. */
   let before: MotionBefore | null = null;
@@ -51,10 +51,9 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     nextId: () => nextId++,
     failed: (error) => events?.moveFailed?.(error),
   });
-  const sending = new Map<number, Settle>();
+  const asking = new Map<number, Settle>();
   const halting = new Set<Settle>();
   const resuming = new Set<Settle>();
-  const naming = new Set<Settle>();
   const stateWaiters = new Set<Settle>();
   let notifyAvailable = (): void => undefined;
 
@@ -101,6 +100,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
       case 'noise':
         events?.received(fromHex(message.bytes));
         break;
+      case 'done':
       case 'sent':
         take(message.id)?.resolve();
         break;
@@ -123,7 +123,8 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     slots.toldHeld(state.brokenSlots, state.slotVersions);
     turn.counted(state.clients, state.unattended);
     leaseChanged();
-    boardChanged(state.board);
+    board = boardTold(state);
+    if (board !== null) events?.identified?.(board);
     portChanged(state.port);
     waitingChanged(state.waitingToStart);
     stoppedBy = state.stoppedBy;
@@ -154,12 +155,12 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
   }
 
   function rejectAll(error: LinkError): void {
-    for (const waiters of [halting, resuming, naming]) settleAll(waiters, (waiter) => waiter.reject(error));
+    for (const waiters of [halting, resuming]) settleAll(waiters, (waiter) => waiter.reject(error));
   }
 
   function take(id: number): Settle | undefined {
-    const waiter = sending.get(id);
-    sending.delete(id);
+    const waiter = asking.get(id);
+    asking.delete(id);
     return waiter;
   }
 
@@ -169,15 +170,6 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     settleAll(stateWaiters, (waiter) => waiter.resolve());
     if (next.status === 'open') notifyAvailable();
     else if (wasOpen) lose(portError(next));
-  }
-
-  /** Told also where nothing changed, when it was said from here. */
-  function boardChanged(text: string): void {
-    const next = boardNamed(text);
-    if (next === board && naming.size === 0) return;
-    board = next;
-    events?.identified?.(next);
-    settleAll(naming, (waiter) => waiter.resolve());
   }
 
   function latchChanged(next: SharedLatchReason | null): void {
@@ -192,8 +184,8 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     events = null;
     turn.fail(error);
     slots.gone(error);
-    for (const waiter of sending.values()) waiter.reject(error);
-    sending.clear();
+    for (const waiter of asking.values()) waiter.reject(error);
+    asking.clear();
     rejectAll(error);
     told?.lost(error);
   }
@@ -221,6 +213,15 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     if (socket?.readyState === WebSocket.OPEN) post(message);
   }
 
+  /** What has an outcome of its own. */
+  function ask(worded: (id: number) => ClientMessage): Promise<void> {
+    return new Promise((resolve, reject) => {
+      const id = nextId++;
+      post(worded(id));
+      asking.set(id, { resolve, reject });
+    });
+  }
+
   const nextState = (): Promise<void> =>
     new Promise((resolve, reject) => stateWaiters.add({ resolve: () => resolve(), reject }));
 
@@ -231,15 +232,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     get isSimulated() {
       return port?.simulated ?? false;
     },
-    get knownBoard() {
-      return board;
-    },
-    setBoard(next) {
-      return new Promise((resolve, reject) => {
-        post({ type: 'board', board: next });
-        naming.add({ resolve, reject });
-      });
-    },
+    setBoard: (next) => ask((id) => ({ type: 'board', id, board: next })),
     calibrate(servo) {
       if (mayDrive) postIfOpen({ type: 'calibrate', servo });
     },
@@ -251,6 +244,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
       while (port?.status === 'opening') await nextState();
       if (port?.status !== 'open') throw portError(port);
       events = next;
+      if (board !== null) next.identified?.(board);
       next.described?.(robot);
       if (before !== null) next.placed?.(before);
       before = null;
@@ -260,11 +254,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     },
     async send(packet) {
       if (!isQuestion(packet)) await turn.begin();
-      return new Promise((resolve, reject) => {
-        const id = nextId++;
-        post({ type: 'send', id, packet: compactHex(packet), nonce: turn.nonce });
-        sending.set(id, { resolve, reject });
-      });
+      return ask((id) => ({ type: 'send', id, packet: compactHex(packet), nonce: turn.nonce }));
     },
     lease: (action) =>
       postIfOpen(

@@ -5,6 +5,7 @@ import { isHarmless } from '#shared/protocol/commands.ts';
 import { FAMILIES, type BoardId } from '#shared/protocol/families.ts';
 import { toHex } from '#shared/protocol/hex.ts';
 import { commandIn } from '#shared/protocol/parse.ts';
+import type { Identity, SharedBoard } from '#shared/session/identity.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { SharedLatchReason } from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
@@ -17,9 +18,19 @@ export const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>,
   loss: 'reconnected',
 };
 
-/** A newer gateway may know boards that this page does not. */
-export function boardNamed(text: string): BoardId {
-  return text in FAMILIES ? (text as BoardId) : 'unknown';
+/** null while nothing is known of one: its port is not open. */
+export function boardTold({ board, link, identity }: Omit<StateMessage, 'type'>): SharedBoard | null {
+  const { status, code, detail } = link;
+  if (status === 'closed' || status === 'opening' || status === 'lost') return null;
+  // A newer gateway may know boards that this page does not.
+  const known = {
+    board: board in FAMILIES ? (board as BoardId) : 'unknown',
+    identity: identity as Identity,
+  } as const;
+  if (status === 'refused') return { ...known, status, error: refusal(code ?? 'internal', detail ?? '') };
+  return known.board === 'unknown' && status !== 'identifying'
+    ? { ...known, status: 'refused', error: refusal('boardUnknown', '') }
+    : { ...known, status, error: null };
 }
 
 /** Needs nobody's leave. */

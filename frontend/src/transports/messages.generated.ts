@@ -14,6 +14,7 @@ export type ClientMessage =
   | BeatMessage;
 export type GatewayMessage =
   | WelcomeMessage
+  | DoneMessage
   | SentMessage
   | RefusedMessage
   | ReceivedMessage
@@ -88,6 +89,10 @@ export interface ResumeMessage {
  */
 export interface BoardMessage {
   type: 'board';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
   board: string;
 }
 /**
@@ -136,6 +141,8 @@ export interface BeatMessage {
 export interface WelcomeMessage {
   board: string;
   port: PortState;
+  link: LinkState;
+  identity: IdentityTold;
   latch: boolean;
   latchedBy: ('person' | 'battery' | 'silence' | 'loss') | null;
   stoppedBy: string | null;
@@ -169,6 +176,10 @@ export interface PortState {
         | 'portBusy'
         | 'portDenied'
         | 'otherDevice'
+        | 'boardUnknown'
+        | 'wrongBoard'
+        | 'echo'
+        | 'boardSilent'
         | 'noAnswer'
         | 'notSupported'
         | 'latched'
@@ -199,6 +210,113 @@ export interface PortState {
     | null;
   detail: string | null;
   retryInMs: number | null;
+}
+/**
+ * The way to the board, and the board: `identifying` while it is asked who it is, `stale` while it does
+ * not answer what such a board always answers, `refused` until a person says which board it is. `code` and
+ * `detail` say why it is not ready.
+ */
+export interface LinkState {
+  status: 'closed' | 'opening' | 'identifying' | 'ready' | 'stale' | 'refused' | 'lost';
+  code:
+    | (
+        | 'closed'
+        | 'lost'
+        | 'portMissing'
+        | 'portBusy'
+        | 'portDenied'
+        | 'otherDevice'
+        | 'boardUnknown'
+        | 'wrongBoard'
+        | 'echo'
+        | 'boardSilent'
+        | 'noAnswer'
+        | 'notSupported'
+        | 'latched'
+        | 'notDriving'
+        | 'expired'
+        | 'busy'
+        | 'slotBroken'
+        | 'slotChanged'
+        | 'cancelled'
+        | 'outOfRange'
+        | 'malformed'
+        | 'forbidden'
+        | 'notPaired'
+        | 'pairingFailed'
+        | 'pairingLocked'
+        | 'wrongType'
+        | 'notFound'
+        | 'methodNotAllowed'
+        | 'conflict'
+        | 'tooLarge'
+        | 'tooMany'
+        | 'storageFull'
+        | 'storageBusy'
+        | 'storageFailed'
+        | 'damaged'
+        | 'internal'
+      )
+    | null;
+  detail: string | null;
+}
+/**
+ * What the board answered when it was asked who it is, and the families that answer like that.
+ */
+export interface IdentityTold {
+  evidence: (AnsweredTold | SilentTold | EchoedTold | NoiseTold)[];
+  candidates: string[];
+}
+/**
+ * The board answered that question when it was asked who it is.
+ */
+export interface AnsweredTold {
+  kind: 'answered';
+  question: 'readBattery' | 'readVersion' | 'readPositions';
+  report: BatteryReport | VersionReport | PositionsReport;
+}
+export interface BatteryReport {
+  kind: 'battery';
+  batteryMv: number;
+}
+/**
+ * Which servos the board drives, by the unit they count in, and its firmware.
+ */
+export interface VersionReport {
+  kind: 'version';
+  unit: 'us' | 'steps';
+  version: number;
+}
+export interface PositionsReport {
+  kind: 'positions';
+  positions: ServoPosition[];
+}
+/**
+ * In the board's unit.
+ */
+export interface ServoPosition {
+  servo: number;
+  position: number;
+}
+/**
+ * It did not answer that question.
+ */
+export interface SilentTold {
+  kind: 'silent';
+  question: 'readBattery' | 'readVersion' | 'readPositions';
+}
+/**
+ * The question itself came back.
+ */
+export interface EchoedTold {
+  kind: 'echoed';
+}
+/**
+ * Bytes came that are no packets.
+ */
+export interface NoiseTold {
+  kind: 'noise';
+  byteCount: number;
 }
 /**
  * A run that may go on without its driver `by`, for so long at most.
@@ -277,6 +395,10 @@ export interface JobState {
         | 'portBusy'
         | 'portDenied'
         | 'otherDevice'
+        | 'boardUnknown'
+        | 'wrongBoard'
+        | 'echo'
+        | 'boardSilent'
         | 'noAnswer'
         | 'notSupported'
         | 'latched'
@@ -328,6 +450,16 @@ export interface ServoWay {
   durationMs: number;
 }
 /**
+ * What the message of that id asked is done.
+ */
+export interface DoneMessage {
+  type: 'done';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+}
+/**
  * The packet's last bit has left the wire.
  */
 export interface SentMessage {
@@ -350,6 +482,10 @@ export interface RefusedMessage {
     | 'portBusy'
     | 'portDenied'
     | 'otherDevice'
+    | 'boardUnknown'
+    | 'wrongBoard'
+    | 'echo'
+    | 'boardSilent'
     | 'noAnswer'
     | 'notSupported'
     | 'latched'
@@ -420,6 +556,8 @@ export interface ResumedMessage {
 export interface StateMessage {
   board: string;
   port: PortState;
+  link: LinkState;
+  identity: IdentityTold;
   latch: boolean;
   latchedBy: ('person' | 'battery' | 'silence' | 'loss') | null;
   stoppedBy: string | null;
@@ -469,4 +607,4 @@ export interface JobMessage {
   job: JobState;
 }
 /** Of these messages. */
-export const PROTOCOL = 2;
+export const PROTOCOL = 3;

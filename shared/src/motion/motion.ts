@@ -38,7 +38,7 @@ export { UNKNOWN_MOTION, type KnownBoard, type Motion };
 
 const PLAYBACKS: Readonly<Record<Family['motion']['groups'], Playback>> = { deadlines, polled };
 
-/** These keep the board from its servos and packets until it has answered: flash work, slow talk (S41, X7, L13). */
+/** These keep a board that answers them from its servos and packets until then: flash work, slow talk (S41, X7, L13). */
 const DEAFENING: ReadonlySet<Command['kind']> = new Set([
   'download',
   'erase',
@@ -124,7 +124,8 @@ function afterHeard(motion: Motion, command: Command, atMs: number, board: Known
   const cut = playback.interrupt(motion, atMs);
   if (command.kind === 'move') return moved(cut, command, atMs, board);
   if (command.kind === 'release') return released(cut, command.servos);
-  return DEAFENING.has(command.kind) ? deafened(cut, command.kind, atMs) : cut;
+  const isAnswered = board.family.answers.includes(command.kind);
+  return isAnswered && DEAFENING.has(command.kind) ? deafened(cut, command.kind, atMs) : cut;
 }
 
 function moved(

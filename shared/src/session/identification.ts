@@ -3,18 +3,12 @@
 // identity.ts.
 
 import type { Clock } from '../clock.ts';
-import {
-  family as familyOf,
-  UNKNOWN_BOARD,
-  type BoardId,
-  type Family,
-  type Question,
-} from '../protocol/families.ts';
+import { family as familyOf, UNKNOWN_BOARD, type Family, type Question } from '../protocol/families.ts';
 import type { Report } from '../protocol/reports.ts';
 import { createExchange, isNoAnswer } from './exchange.ts';
 import { createHeartbeat } from './heartbeat.ts';
 import { isEcho, QUESTIONS, identify } from './identify.ts';
-import { fitOf, identityFrom, NOTHING_HEARD } from './identity.ts';
+import { fitOf, identityFrom, NOTHING_HEARD, type SharedBoard } from './identity.ts';
 import type { Lanes } from './lanes.ts';
 import { LinkError, type LinkErrorCode } from './linkError.ts';
 import type { Replies } from './replies.ts';
@@ -47,8 +41,8 @@ export interface Identification {
   begin(): void;
   /** The line is down. */
   ended(): void;
-  /** A shared link's word on which board this is. */
-  told(board: BoardId): void;
+  /** A shared link asks the board itself: its word counts. */
+  told(board: SharedBoard): void;
   again(): Promise<void>;
   choose(family: Family): Promise<void>;
   /** What a report is read as at this moment. */
@@ -62,6 +56,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
   const exchange = createExchange(UNKNOWN_BOARD, clock, lanes, replies);
   let claim = options.family;
   let lineIsOpen = false;
+  let shared: SharedBoard | null = null;
   /** Counts what makes a round of questions pointless: the line went, or another round began. */
   let round = 0;
   let noiseBytes = 0;
@@ -116,7 +111,6 @@ export function createIdentification(options: IdentificationOptions): Identifica
       refuse('echo', 'the line sends back what it is given');
     else if (claim === UNKNOWN_BOARD) refuse('boardUnknown', 'nobody has said which board this is');
     else if (fit === 'contradicts') refuse('wrongBoard', `this does not answer like a ${claim.name}`);
-    else if (fit === 'fits' && transport.knownBoard === 'unknown') share();
     else accept(fit === 'silent');
   }
 
@@ -126,27 +120,17 @@ export function createIdentification(options: IdentificationOptions): Identifica
     entered({ status: 'refused', error: new LinkError(code, message) });
   }
 
-  /** What this one remembers is true for everybody on the link; their word and ours come back by `told`. */
-  function share(): void {
-    transport.setBoard?.(claim.id).catch((error: unknown) => refuse('internal', String(error)));
-  }
-
   function accept(isSilent: boolean): void {
     drive(claim);
     entered(isSilent ? { status: 'stale', sinceMs: clock.now() } : { status: 'ready' });
     heartbeat.start(isSilent);
   }
 
-  function told(board: BoardId): void {
-    if (board === 'unknown') {
-      claim = UNKNOWN_BOARD;
-      drive(UNKNOWN_BOARD);
-      begunCheck();
-      return;
-    }
-    round += 1;
-    claim = familyOf(board);
-    accept(false);
+  function follow({ board, status, error, identity }: SharedBoard): void {
+    drive(board === 'unknown' ? UNKNOWN_BOARD : familyOf(board));
+    store.update({ identity });
+    if (status === 'refused') entered({ status, error });
+    else entered(status === 'stale' ? { status, sinceMs: clock.now() } : { status });
   }
 
   function hears(bytes: Uint8Array): void {
@@ -157,17 +141,20 @@ export function createIdentification(options: IdentificationOptions): Identifica
     begin() {
       lineIsOpen = true;
       store.update({ identity: NOTHING_HEARD });
-      const { knownBoard } = transport;
-      if (knownBoard !== undefined && knownBoard !== 'unknown') told(knownBoard);
-      else if (identifies || knownBoard === 'unknown') begunCheck();
+      if (shared !== null) follow(shared);
+      else if (identifies) begunCheck();
       else accept(false);
     },
     ended() {
       lineIsOpen = false;
+      shared = null;
       round += 1;
       heartbeat.stop();
     },
-    told,
+    told(board) {
+      shared = board;
+      if (lineIsOpen) follow(board);
+    },
     async again() {
       if (!lineIsOpen) throw new LinkError('closed', 'the link is not open');
       if (store.state.activity.kind !== 'idle' || options.isMoving())
@@ -176,8 +163,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
       begunCheck();
     },
     async choose(family) {
-      const fit = fitOf(family, store.state.identity.evidence);
-      if (transport.setBoard !== undefined && fit !== 'contradicts') return transport.setBoard(family.id);
+      if (transport.setBoard !== undefined) return transport.setBoard(family.id);
       claim = family;
       if (lineIsOpen && status() !== 'identifying') judge();
     },
@@ -185,8 +171,8 @@ export function createIdentification(options: IdentificationOptions): Identifica
     heard(report, bytes) {
       hears(bytes);
       heartbeat.heard();
-      if (status() !== 'stale' || report.kind === 'unknown') return;
-      if (identifies && transport.knownBoard === undefined) begunCheck();
+      if (status() !== 'stale' || shared !== null || report.kind === 'unknown') return;
+      if (identifies) begunCheck();
       else accept(false);
     },
     heardNoise(bytes) {

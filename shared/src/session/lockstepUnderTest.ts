@@ -6,6 +6,7 @@ import fc from 'fast-check';
 import type { Clock } from '../clock.ts';
 import { fromHex, toHex } from '../protocol/hex.ts';
 import { createBoard, type Board } from '../simulator/board.ts';
+import type { Fault } from '../simulator/faults.ts';
 import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
 import { SERVOS, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
 import { foreignFlash, SLOW_FLASH } from './stopUnderTest.ts';
@@ -14,7 +15,7 @@ type Happening = readonly [atMs: number, what: 'unplug' | 'plugIn' | (string & {
 
 type Request =
   | { readonly draw: string; readonly seed: number; readonly count: number }
-  | { readonly start: string; readonly history: StopHistory }
+  | { readonly start: string; readonly history: StopHistory; readonly faults?: readonly Fault[] }
   /** Until then, or until it says something. */
   | { readonly untilMs: number; readonly happened: readonly Happening[] };
 
@@ -58,9 +59,13 @@ interface Bench {
   readonly movedMs: number[];
 }
 
-function createBench(profile: ProfileName, { onForMs, hasPad, isSlow, unknown }: StopHistory): Bench {
+function createBench(
+  profile: ProfileName,
+  { onForMs, hasPad, isSlow, unknown }: StopHistory,
+  some: readonly Fault[],
+): Bench {
   const flash = foreignFlash(profile, unknown);
-  const faults = isSlow ? SLOW_FLASH : [];
+  const faults = [...(isSlow ? SLOW_FLASH : []), ...some];
   const clock = createSteppedClock();
   const send = (bytes: Uint8Array): void => void (bench.said += toHex(bytes));
   const board = createBoard({ clock, profile, flash, faults, onForMs, hasPad, send });
@@ -104,7 +109,7 @@ function answer(request: Request): unknown {
   }
   if ('start' in request) {
     bench?.board.powerOff();
-    bench = createBench(profileName(request.start), request.history);
+    bench = createBench(profileName(request.start), request.history, request.faults ?? []);
     return {};
   }
   if (bench === null) throw new RangeError('no board was started');

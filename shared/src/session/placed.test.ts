@@ -7,6 +7,8 @@ import { family as familyOf, type BoardId } from '../protocol/families.ts';
 import { commandIn } from '../protocol/parse.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
+import type { SharedBoard } from './identity.ts';
+import { LinkError } from './linkError.ts';
 import { createSession } from './session.ts';
 import { FIRST_MOVE_MS } from './timings.ts';
 import type { Transport, TransportEvents } from './transport.ts';
@@ -17,25 +19,29 @@ const BEFORE: MotionBefore = {
   released: [],
 };
 
+function wordOn(board: BoardId): SharedBoard {
+  const identity = { evidence: [], candidates: [] };
+  const error = new LinkError('boardUnknown', 'nobody has said which board this is');
+  return board === 'unknown'
+    ? { board, identity, status: 'refused', error }
+    : { board, identity, status: 'ready', error: null };
+}
+
 async function joined(before: MotionBefore, knownBoard: BoardId = 'doc') {
   const clock = createVirtualClock();
   const line = createSimulatedTransport(clock, { onForMs: 60_000 });
   const durations: number[] = [];
   let toTell: MotionBefore | null = before;
-  let board = knownBoard;
   let identified: TransportEvents['identified'];
   const transport: Transport = {
     ...line,
-    get knownBoard() {
-      return board;
-    },
     setBoard(next) {
-      board = next;
-      identified?.(next);
+      identified?.(wordOn(next));
       return Promise.resolve();
     },
     open(events) {
       ({ identified } = events);
+      identified?.(wordOn(knownBoard));
       if (toTell !== null) events.placed?.(toTell);
       toTell = null;
       return line.open(events);

@@ -5,6 +5,7 @@ import type { Unheld } from '../motion/haltPlan.ts';
 import type { MotionBefore } from '../motion/before.ts';
 import type { Frame, ServoTarget } from '../protocol/commands.ts';
 import type { BoardId } from '../protocol/families.ts';
+import type { SharedBoard } from './identity.ts';
 import type { Lease, LeaseAction } from './lease.ts';
 import type { LinkError } from './linkError.ts';
 
@@ -25,8 +26,8 @@ export interface TransportEvents {
   halted?(unheld: Unheld | null): void;
   /** Only a shared link: whoever else allowed motion again. */
   resumed?(by: string): void;
-  /** Only a shared link: somebody said which board this is, or wants it asked again (`unknown`). */
-  identified?(board: BoardId): void;
+  /** Only a shared link, which asks the board itself. Told before it is open, and on each change. */
+  identified?(board: SharedBoard): void;
   /** Only a shared link: which robot stands on the board. Told once it is open, and whenever any robot has changed there. */
   described?(robot: RobotOnBoard): void;
   /** Only a shared link: this packet has left the wire: somebody else's, one of `moves`, or of a stop, whoever pressed it. */
@@ -120,9 +121,7 @@ export interface Transport {
   readonly label: string;
   /** True where no real board is behind it; known once it is open. */
   readonly isSimulated: boolean;
-  /** Only a shared link: which board everybody takes this for. Known once it is open; its word counts. */
-  readonly knownBoard?: BoardId;
-  /** Says so to everybody; `identified` follows. */
+  /** Only a shared link: says for everybody which board this is; `unknown` has it asked again. `identified` tells what comes of it. */
   setBoard?(board: BoardId): Promise<void>;
   /** Only a shared link. */
   readonly slots?: SharedSlots;
