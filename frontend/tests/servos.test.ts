@@ -5,6 +5,30 @@ import { robotToText } from '#shared/actions/robot/robotText.ts';
 import { lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
 import { expect, poll, test } from './harness/test.ts';
 
+/** How many of the canvas's pixels around a point of the page are painted. */
+function paintedAround([x, y]: readonly [number, number]): number {
+  const REACH_PX = 8;
+  const canvases = [...document.querySelectorAll('canvas')].filter((canvas) => {
+    const { left, right, top, bottom } = canvas.getBoundingClientRect();
+    return left < x && x < right && top < y && y < bottom;
+  });
+  return canvases.reduce((sum, canvas) => {
+    const { left, top, width } = canvas.getBoundingClientRect();
+    const scale = canvas.width / width;
+    const [at, side] = [(one: number) => Math.round((one - REACH_PX) * scale), 2 * REACH_PX * scale];
+    const image = canvas.getContext('2d')?.getImageData(at(x - left), at(y - top), side, side);
+    return sum + (image?.data.filter((value, index) => index % 4 === 3 && value > 0).length ?? 0);
+  }, 0);
+}
+
+test('each slider has its thumb drawn where its servo is asked to be', async ({ dashboard, page }) => {
+  await dashboard.type(dashboard.target(2), 500);
+  const { x, y, width, height } = await dashboard.slider(2).boundingBox();
+  const middle = y + height / 2;
+  await poll(() => page.evaluate(paintedAround, [x + 9, middle] as const)).toBeGreaterThan(50);
+  await poll(() => page.evaluate(paintedAround, [x + width / 4, middle] as const)).toBe(0);
+});
+
 test('servos selected together turn together, the other way when mirrored', async ({
   dashboard,
   robot,

@@ -48,7 +48,7 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
     covered.current = cover;
     const { left, top, width, height } = cover;
     Object.assign(canvas.current.style, {
-      ...{ left: `${left}px`, top: `${top}px` },
+      transform: `translate(${left}px, ${top}px)`,
       ...{ width: `${width}px`, height: `${height}px` },
     });
   }
