@@ -5,7 +5,7 @@ import type { Command } from '../protocol/commands.ts';
 import type { Report } from '../protocol/reports.ts';
 import { requireReady, requireReleased, requireRest, setActivity, type Core } from './core.ts';
 import { refuseUnfit } from './exchange.ts';
-import { repeatStop, STOP_PACKET } from './halt.ts';
+import { repeatStop } from './halt.ts';
 import { LinkError } from './linkError.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import type { Activity } from './state.ts';
@@ -67,7 +67,7 @@ export function createGroups(
   /** Pressed again, it says so at once and again. */
   async function stop(): Promise<void> {
     requireReady(core.store);
-    const repeats = repeatStop(clock, () => lanes.stop(STOP_PACKET));
+    const repeats = repeatStop(clock, lanes);
     stopping = repeats;
     try {
       await repeats;

@@ -34,6 +34,23 @@ describe('STOP', () => {
     expect(rig.session.state.latch).toMatchObject({ reason: 'pressed', stop: 'sent' });
   });
 
+  test('keeps its stops 70 ms apart also where the hold between them is long on the wire (S54)', async () => {
+    const rig = await createRig({ profile: 'lsc-16', family: family('lsc-16') });
+    const all = (position: number) =>
+      Array.from({ length: 16 }, (_, index) => ({ servo: index + 1, position }));
+    rig.session.move(all(1_500), 0);
+    await rig.clock.advance(8_000);
+    rig.session.move(all(1_000), 3_000);
+    await rig.clock.advance(1_000);
+    const before = rig.heard.length;
+    void rig.session.halt();
+    await rig.clock.advance(600);
+    const stops = rig.heard.slice(before).filter(({ command }) => command.kind === 'stop');
+    const gaps = stops.slice(1).map(({ atMs }, index) => atMs - (stops[index]?.atMs ?? 0));
+    expect(gaps).toHaveLength(2);
+    expect(Math.min(...gaps)).toBeGreaterThanOrEqual(70);
+  });
+
   test('names the servos in their first move, which nobody can hold', async () => {
     const rig = await createRig();
     await knownAtRest(rig);

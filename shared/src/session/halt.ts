@@ -5,6 +5,7 @@ import { sleep, type Clock } from '../clock.ts';
 import type { HaltPlan, Unheld } from '../motion/haltPlan.ts';
 import { encodeCommand } from '../protocol/encode.ts';
 import { UNKNOWN_BOARD } from '../protocol/families.ts';
+import { wireMs } from '../protocol/packet.ts';
 import { requireReady } from './core.ts';
 import type { Lanes } from './lanes.ts';
 import { LinkError } from './linkError.ts';
@@ -35,13 +36,20 @@ export interface Halt {
   confirmed(): void;
 }
 
-/** Calls `send` now and at each repeat, counted from the first. */
-export async function repeatStop(clock: Clock, send: () => Promise<void>): Promise<void> {
-  const firstMs = clock.now();
-  await send();
-  for (let repeat = 1; repeat <= STOP_REPEATS; repeat += 1) {
-    await sleep(clock, Math.max(0, firstMs + repeat * STOP_EVERY_MS - clock.now()));
-    await send();
+/**
+ * Sends a stop now, and repeats of it: each begins to leave so long after the one before, or later where the wire is taken. Two that
+ * are closer may both fall into the time in which a board hears none (S54). `behind` follows each of them at once.
+ */
+export async function repeatStop(
+  clock: Clock,
+  lanes: Pick<Lanes, 'stop'>,
+  behind: (repeat: number) => Promise<void> = () => Promise.resolve(),
+): Promise<void> {
+  for (let repeat = 0; repeat <= STOP_REPEATS; repeat += 1) {
+    await lanes.stop(STOP_PACKET);
+    const begunMs = clock.now() - wireMs(STOP_PACKET.length);
+    await behind(repeat);
+    if (repeat < STOP_REPEATS) await sleep(clock, Math.max(0, begunMs + STOP_EVERY_MS - clock.now()));
   }
 }
 
@@ -105,11 +113,9 @@ export function createHalt(options: HaltOptions): Halt {
    */
   async function haltOwnLink(): Promise<Unheld | null> {
     const pressedMs = clock.now();
-    let holds = 0;
     stopsFollow = true;
-    await repeatStop(clock, async () => {
-      await lanes.stop(STOP_PACKET);
-      if (holds++ === 0) await sendHold();
+    await repeatStop(clock, lanes, async (repeat) => {
+      if (repeat === 0) await sendHold();
     }).finally(() => (stopsFollow = false));
     await sendHold();
     return options.unheldSince(pressedMs);
@@ -168,7 +174,7 @@ export function createHalt(options: HaltOptions): Halt {
       // Its failure is the latch's `failed`; there is no caller to tell.
       const returnedMs = clock.now();
       send(async () => {
-        await repeatStop(clock, () => lanes.stop(STOP_PACKET));
+        await repeatStop(clock, lanes);
         return options.unheldSince(returnedMs);
       }).catch(() => undefined);
     },
