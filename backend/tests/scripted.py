@@ -20,9 +20,9 @@ from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Move, ServoTarget
 from servodeck.run.app import create_app
 from servodeck.told import JobState
+from tests.downloading import ended
 from tests.fake_port import FakePort, FakePorts
 from tests.running import DEVICE, NO_LIBRARY, PORT, client_of
-from tests.test_download import ended
 from tests.virtual_time import now
 
 RUN_TAKEN = bytes.fromhex("55550206")

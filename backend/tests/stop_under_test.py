@@ -40,10 +40,10 @@ from servodeck.run.app import create_app
 from servodeck.told import UnheldServos
 from servodeck.web.clients import take
 from tests.client import ANNA, Client
+from tests.downloading import ended
 from tests.fake_port import FakePorts
 from tests.lockstep import SERVOS, History, Simulator, SteppedBoard
 from tests.running import DEVICE, NO_LIBRARY, client_of, entrance_to
-from tests.test_download import ended
 from tests.virtual_time import VirtualTimeLoop, at, now
 
 Step = dict[str, Any]

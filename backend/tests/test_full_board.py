@@ -9,9 +9,9 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Download, Frame, ServoTarget
 from tests.amount import TIMES
+from tests.downloading import AnsweringPort, ended
 from tests.fake_port import FakePorts
 from tests.running import http_to
-from tests.test_download import AnsweringPort, ended
 from tests.test_jobs_of_several import broken
 from tests.virtual_time import in_virtual_time, now
 

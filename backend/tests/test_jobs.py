@@ -22,9 +22,9 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Run, ServoTarget
 from tests.client import Client, gateway_on
+from tests.downloading import AnsweringPort, begin, ended
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, DOWNLOAD, ERASE, MOVE, RUN, STOP
-from tests.test_download import AnsweringPort, begin, ended
 from tests.virtual_time import in_virtual_time
 
 SLOT = 8

@@ -10,10 +10,10 @@ from servodeck.errors import (
     NotFoundError,
 )
 from tests.client import Client
+from tests.downloading import AnsweringPort
 from tests.fake_port import FakePort, FakePorts
 from tests.running import http_to
 from tests.samples import STOP
-from tests.test_download import AnsweringPort
 from tests.test_jobs import PUPIL, SLOT, broken
 from tests.virtual_time import in_virtual_time, now
 

@@ -12,9 +12,9 @@ from servodeck.errors import (
     SlotBrokenError,
 )
 from tests.client import Client, gateway_on
+from tests.downloading import STORED, AnsweringPort, begin, ended
 from tests.fake_port import FakePort
 from tests.samples import DOWNLOAD, ERASE, STOP
-from tests.test_download import STORED, AnsweringPort, begin, ended
 from tests.test_jobs import QUICK, RUN_WAVE, SLOT, WAVE, board_of, broken
 from tests.virtual_time import at, in_virtual_time, now
 

@@ -20,10 +20,10 @@ from servodeck.protocol.packets import encode
 from servodeck.protocol.timings import wire_s
 from servodeck.protocol.values import Frame, Run, ServoTarget
 from tests.client import ANNA, Client, gateway_on
+from tests.downloading import AnsweringPort, begin, ended
 from tests.fake_port import FakePorts
 from tests.running import http_to
 from tests.samples import DOWNLOAD, STOP
-from tests.test_download import AnsweringPort, begin, ended
 from tests.virtual_time import in_virtual_time, now
 
 WAVE, BOW, NOD = (

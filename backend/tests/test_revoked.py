@@ -18,10 +18,10 @@ from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Run
 from servodeck.web.clients import take
 from tests.client import ANNA, Client
+from tests.downloading import AnsweringPort
 from tests.fake_port import FakePort
 from tests.samples import DOWNLOAD, RUN, STOPS
 from tests.scripted import Scripted, move, refusal, script
-from tests.test_download import AnsweringPort
 from tests.virtual_time import in_virtual_time
 
 REVOKE, DEMOTE = "DELETE", "PATCH"

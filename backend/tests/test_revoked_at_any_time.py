@@ -32,10 +32,10 @@ from servodeck.protocol.values import Command, Download, Move, Run
 from servodeck.web.clients import merged, take
 from tests.amount import TIMES
 from tests.client import Client
+from tests.downloading import STORED
 from tests.fake_port import FakePort
 from tests.samples import DOWNLOAD, STOP
 from tests.scripted import Scripted, script
-from tests.test_download import STORED
 from tests.virtual_time import at, in_virtual_time, now
 
 NAMES = ("Anna", "Bert", "Cleo")

@@ -15,9 +15,9 @@ from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.told import ServoLimits
 from servodeck.web.clients import hear, intake_of
 from tests.client import Client, gateway_on
+from tests.downloading import begin
 from tests.fake_port import FakePort
 from tests.samples import MOVE, MOVE_ELSEWHERE, MOVE_S, RUN, STOP, hold_at
-from tests.test_download import begin
 from tests.virtual_time import in_virtual_time
 
 # MOVE takes servo 1 to 2000, DOWNLOAD and MOVE_ELSEWHERE to 1500.

@@ -12,10 +12,10 @@ from servodeck.errors import SlotChangedError
 from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.told import StoredGroup
 from tests.client import Client, gateway_on
+from tests.downloading import AnsweringPort, begin, ended
 from tests.fake_port import FakePort, FakePorts
 from tests.running import http_to
 from tests.samples import ERASE
-from tests.test_download import AnsweringPort, begin, ended
 from tests.virtual_time import in_virtual_time, now
 
 SLOT = 8

@@ -14,9 +14,9 @@ from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.web.clients import hear, intake_of, take
 from tests.amount import named, seeds
 from tests.client import Client, gateway_on
+from tests.downloading import AnsweringPort, begin
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, DOWNLOAD, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
-from tests.test_download import AnsweringPort, begin
 from tests.virtual_time import in_virtual_time, now
 
 GUEST = Caller("guest", "Bert", "viewer")

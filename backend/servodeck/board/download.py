@@ -2,7 +2,7 @@
 work overwrites the first one's data (S11).
 
 Knows packets, answers and time; no lease, no port and nobody who looks on. The page's session does the same
-on its own links (shared/src/session/download.ts, frameStore.ts); shared/protocol/vectors/downloads.json
+on its own links (shared/src/session/download.ts, frameStore.ts); shared/protocol/scenarios/download.json
 holds both to each other.
 """
 

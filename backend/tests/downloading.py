@@ -1,0 +1,46 @@
+"""A download at the gateway, for tests: a board that answers it, its begin and its end."""
+
+from collections.abc import Iterable, Sequence
+
+from servodeck.board.parts import Group, made_of, packets_of
+from servodeck.callers import Caller
+from servodeck.driving.control import Control
+from servodeck.protocol.timings import wire_s
+from servodeck.told import JobState
+from tests.client import ANNA, Client
+from tests.fake_port import FakePort
+from tests.samples import STOP
+from tests.virtual_time import at, now
+
+STORED = bytes.fromhex("55550219")
+GUEST = Caller("guest", "Bert", "viewer")
+
+
+class AnsweringPort(FakePort):
+    """Says "stored" as it is told: a list for each packet, of times after the packet's last bit."""
+
+    def __init__(self, answers_ms: Iterable[Sequence[float]] = ()) -> None:
+        super().__init__()
+        self._answers_ms = iter(answers_ms)
+
+    def write(self, data: bytes) -> None:
+        super().write(data)
+        if data != STOP:
+            for after_ms in next(self._answers_ms, ()):
+                at(now() + wire_s(len(data)) + after_ms / 1000, lambda: self.say(STORED))
+
+
+async def ended(control: Control, job: JobState) -> JobState:
+    """When it has; somebody looks on."""
+    bert = Client(control, GUEST)
+    while (state := control.board.jobs.find(job.id)).status == "running":
+        await bert.next()
+    control.leave(bert)
+    return state
+
+
+def begin(control: Control, *groups: Group) -> JobState:
+    """By somebody who may."""
+    board = control.board.taken_for
+    parts = [made_of(group, list(packets_of(group, board)), board) for group in groups]
+    return control.download(parts, ANNA, lambda: None)

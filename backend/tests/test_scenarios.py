@@ -1,0 +1,180 @@
+"""Every file of shared/protocol/scenarios, played at the gateway in virtual time: its inputs come at their
+times, and what leaves, what is told and how each intent ends must be as written. The page's session plays the
+same (shared/src/session/scenarios.test.ts) and writes the files; README.md there says what an event is.
+"""
+
+import asyncio
+import json
+from functools import partial
+from typing import Any
+
+import pytest
+
+from servodeck.board.parts import Group, made_of, packets_of
+from servodeck.driving.control import Control
+from servodeck.driving.scripts import Scripts
+from servodeck.errors import GatewayError, NoAnswerError
+from servodeck.protocol.values import Frame, ServoTarget
+from tests.client import ANNA, Client
+from tests.fake_port import FakePort, FakePorts
+from tests.running import DEVICE
+from tests.vectors import load_scenarios
+from tests.virtual_time import at, in_virtual_time, now
+
+Event = dict[str, Any]
+SCENARIOS = load_scenarios()
+# So long the port is open before the first input, as the link of the page's session is.
+OPEN_FOR_S = 0.1
+# Behind the last event: what should not come any more would be seen.
+QUIET_S = 5.0
+
+
+class Listener(Client):
+    """Who drives; notes when each thing was told."""
+
+    def __init__(self, control: Control) -> None:
+        self.told: list[tuple[float, Event]] = []
+        self.told_something = asyncio.Event()
+        super().__init__(control, ANNA)
+
+    def put(self, text: str) -> None:
+        self.told.append((now(), json.loads(text)))
+        self.told_something.set()
+        super().put(text)
+
+
+class Player:
+    """Takes the inputs of a scenario, and knows what came of them, in milliseconds since it began."""
+
+    def __init__(self, control: Control, port: FakePort) -> None:
+        self.ends: list[tuple[float, int, str]] = []
+        self.begun_s = now()
+        self._control = control
+        self._port = port
+        self._scripts = Scripts(control, lambda _caller: True)
+        self._seat = Listener(control)
+        self._tasks: list[asyncio.Task[None]] = []
+
+    def take(self, event: Event) -> None:
+        match event:
+            case {"says": packet}:
+                self._port.say(bytes.fromhex(packet))
+            case {"asks": intent}:
+                self._tasks.append(asyncio.create_task(self._ask(intent, event.get("id"))))
+
+    async def watch(self) -> None:
+        """Somebody is there as long as it is played: a group ends with whoever began it."""
+        while True:
+            await asyncio.sleep(1)
+            if self._control.driving.driver not in (None, self._seat):
+                self._scripts.act(ANNA, "beat")
+
+    def leaves(self) -> list[tuple[float, str]]:
+        return [
+            (self._ms(at_s), packet.hex(" ").upper())
+            for at_s, packet in self._port.written
+            if at_s >= self.begun_s
+        ]
+
+    def tells(self) -> list[tuple[float, str, Any]]:
+        """Each field when it has changed."""
+        known: dict[str, Any] = {}
+        changes = []
+        for at_s, message in self._seat.told:
+            told = fields_of(message)
+            new = {field: value for field, value in told.items() if known.get(field, ...) != value}
+            known |= new
+            if message["type"] != "welcome":
+                changes += [(self._ms(at_s), field, value) for field, value in new.items()]
+        return changes
+
+    async def _ask(self, intent: Event, number: int | None) -> None:
+        try:
+            how = await self._outcome(intent)
+        except GatewayError as error:
+            how = str(error.code)
+        if number is not None:
+            self.ends.append((self._ms(now()), number, how))
+
+    async def _outcome(self, intent: Event) -> str:
+        control = self._control
+        match intent:
+            case {"type": "move", "targets": targets, "durationMs": duration_ms}:
+                if control.driving.driver is None:
+                    control.driving.act(self._seat, "request")
+                control.move(self._seat, targets_of(targets), duration_ms, self._seat.nonce)
+            case {"type": "run", "slot": slot, "times": times}:
+                if await self._scripts.run(ANNA, slot, times, take=False) == "silent":
+                    raise NoAnswerError("The board did not say that it runs the group.")
+            case {"type": "stop"}:
+                await control.stop()
+            case {"type": "resume"}:
+                control.resume(ANNA, self._seat)
+            case {"type": "readBattery"}:
+                await control.board.battery.read()
+            case {"type": "download", "groups": groups}:
+                return await self._download([Group(one["slot"], "", frames_of(one)) for one in groups])
+            case {"type": "cancelDownload"}:
+                job = control.board.jobs.latest
+                assert job
+                control.board.jobs.cancel(job.id)
+            case _:
+                raise AssertionError(f"the gateway is not asked for {intent} here")
+        return "done"
+
+    async def _download(self, groups: list[Group]) -> str:
+        jobs, family = self._control.board.jobs, self._control.board.taken_for
+        parts = [made_of(group, list(packets_of(group, family)), family) for group in groups]
+        job = self._control.download(parts, ANNA, lambda: None)
+        while (state := jobs.find(job.id)).status == "running":
+            self._seat.told_something.clear()
+            await self._seat.told_something.wait()
+        return str(state.code or state.status)
+
+    def _ms(self, at_s: float) -> float:
+        return (at_s - self.begun_s) * 1000
+
+
+def fields_of(message: Event) -> dict[str, Any]:
+    match message["type"]:
+        case "welcome" | "state":
+            names = ("brokenSlots", "waitingToStart")
+            return {"latched": message["latch"], **{name: message[name] for name in names}}
+        case "halted":
+            return {"unheld": message["unheld"]}
+    return {}
+
+
+def targets_of(targets: list[Event]) -> list[ServoTarget]:
+    return [ServoTarget(one["servo"], one["position"]) for one in targets]
+
+
+def frames_of(group: Event) -> list[Frame]:
+    return [Frame(one["durationMs"], tuple(targets_of(one["targets"]))) for one in group["frames"]]
+
+
+def is_like(events: list[tuple[Any, ...]], expected: list[tuple[Any, ...]]) -> None:
+    """Each with its time first, which may be a hundredth of a millisecond off."""
+    assert [event for _, *event in events] == [event for _, *event in expected]
+    assert [at_ms for at_ms, *_ in events] == pytest.approx([at_ms for at_ms, *_ in expected], abs=0.01)
+
+
+@pytest.mark.parametrize("scenario", SCENARIOS, ids=[f"{one['part']}: {one['name']}" for one in SCENARIOS])
+@in_virtual_time
+async def test_what_comes_of_it_is_what_is_written(scenario: Event) -> None:
+    port, events = FakePort(), scenario["events"]
+    control = Control(FakePorts(port), now, scenario["family"])
+    await control.use_port(DEVICE)
+    await asyncio.sleep(OPEN_FOR_S)
+    player = Player(control, port)
+    for event in events:
+        at(player.begun_s + event["atMs"] / 1000, partial(player.take, event))
+    watching = asyncio.create_task(player.watch())
+    await asyncio.sleep(events[-1]["atMs"] / 1000 + QUIET_S)
+    watching.cancel()
+    is_like(player.leaves(), [(one["atMs"], one["leaves"]) for one in events if "leaves" in one])
+    is_like(player.ends, [(one["atMs"], one["ends"], one["with"]) for one in events if "ends" in one])
+    told = [(one["atMs"], *change) for one in events if "tells" in one for change in one["tells"].items()]
+    is_like(player.tells(), told)
+    await control.board.link.close()
+    port.close()

@@ -1,0 +1,146 @@
+// Plays a scenario of shared/protocol/scenarios on a session in virtual time: what is asked and what the board says come in at their
+// times, what the session sends, tells and ends with is noted. README.md there says what an event is. Knows no file.
+
+import { sleep } from '../clock.ts';
+import type { Frame, ServoTarget } from '../protocol/commands.ts';
+import { family as familyOf, type FamilyId } from '../protocol/families.ts';
+import { fromHex, toHex } from '../protocol/hex.ts';
+import { wireMs } from '../protocol/packet.ts';
+import { createVirtualClock } from '../simulator/virtualClock.ts';
+import { LinkError } from './linkError.ts';
+import { createSession, type Session } from './session.ts';
+import type { SessionState } from './state.ts';
+import type { Transport, TransportEvents } from './transport.ts';
+
+export type Intent =
+  | { readonly type: 'move'; readonly targets: readonly ServoTarget[]; readonly durationMs: number }
+  | { readonly type: 'run'; readonly slot: number; readonly times: number }
+  | { readonly type: 'stop' | 'resume' | 'cancelDownload' | 'readBattery' }
+  | {
+      readonly type: 'download';
+      readonly groups: readonly { readonly slot: number; readonly frames: readonly Frame[] }[];
+    };
+
+/** What comes from outside. */
+type Input = { readonly asks: Intent; readonly id?: number } | { readonly says: string };
+
+/** What must come of it. */
+type Output =
+  { readonly leaves: string } | { readonly tells: Told } | { readonly ends: number; readonly with: string };
+
+export type ScenarioEvent = { readonly atMs: number } & (Input | Output);
+
+export interface Scenario {
+  readonly name: string;
+  readonly family: FamilyId;
+  readonly events: readonly ScenarioEvent[];
+}
+
+/** The part of the state that a scenario tells: each only when it has changed. */
+interface Told {
+  readonly latched?: boolean;
+  /** Once the last packet of a stop has left. */
+  readonly unheld?: { readonly servos: readonly number[] | null; readonly forMs: number | null } | null;
+  readonly brokenSlots?: readonly number[];
+  readonly waitingToStart?: readonly number[];
+}
+
+/** Long after the last input, so that what should not come any more would be seen. */
+const QUIET_MS = 10_000;
+/** So long the link is open before the first input: what others had set in motion is then no longer than this from its end. */
+const OPEN_FOR_MS = 100;
+const isInput = (event: ScenarioEvent): boolean => 'asks' in event || 'says' in event;
+const exactly = (ms: number): number => Math.round(ms * 1000) / 1000;
+
+/** Its inputs with what came of them, in the order of time. */
+export async function played({ name, family, events }: Scenario): Promise<Scenario> {
+  const clock = createVirtualClock();
+  const inputs = events.filter(isInput);
+  const outputs: ScenarioEvent[] = [];
+  const note = (output: Output): void =>
+    void outputs.push({ atMs: exactly(clock.now() - OPEN_FOR_MS), ...output });
+  let board: TransportEvents | null = null;
+  const transport: Transport = {
+    ...{ kind: 'webSerial', label: 'Board', isSimulated: false },
+    open(next) {
+      board = next;
+      return Promise.resolve();
+    },
+    async send(packet) {
+      note({ leaves: toHex(packet) });
+      await sleep(clock, wireMs(packet.length));
+    },
+    close: () => Promise.resolve(),
+  };
+  const session = createSession({ transport, clock, family: familyOf(family) });
+  await session.open();
+  await clock.advance(OPEN_FOR_MS);
+  let before = toldOf(session.state);
+  session.subscribe({
+    state(state) {
+      const after = toldOf(state);
+      const changed = Object.entries(after).filter(
+        ([field, value]) => JSON.stringify(value) !== JSON.stringify(before[field as keyof Told]),
+      );
+      before = after;
+      if (changed.length > 0) note({ tells: Object.fromEntries(changed) });
+    },
+  });
+  for (const { atMs, ...input } of inputs)
+    clock.after(atMs, () => {
+      if ('says' in input) board?.received(fromHex(input.says));
+      else if ('asks' in input) begin(session, input.asks, input.id ?? null, note);
+    });
+  await clock.advance(Math.max(...inputs.map(({ atMs }) => atMs)) + QUIET_MS);
+  const all = [
+    ...inputs.map((event) => ({ ...event, rank: 0 })),
+    ...outputs.map((event) => ({ ...event, rank: 1 })),
+  ];
+  const inOrder = all.toSorted((one, other) => one.atMs - other.atMs || one.rank - other.rank);
+  return { name, family, events: inOrder.map(({ rank: _, ...event }) => event as ScenarioEvent) };
+}
+
+function begin(session: Session, intent: Intent, id: number | null, note: (output: Output) => void): void {
+  const end = (how: string): void => {
+    if (id !== null) note({ ends: id, with: how });
+  };
+  asked(session, intent).then(
+    () => end('done'),
+    (error: unknown) => end(error instanceof LinkError ? error.code : String(error)),
+  );
+}
+
+async function asked(session: Session, intent: Intent): Promise<unknown> {
+  switch (intent.type) {
+    case 'move':
+      session.move(intent.targets, intent.durationMs);
+      return;
+    case 'run':
+      return session.run(intent.slot, intent.times);
+    case 'stop':
+      return session.halt();
+    case 'resume':
+      return session.resume();
+    case 'readBattery':
+      return session.readBattery();
+    case 'download':
+      return session.download(intent.groups);
+    case 'cancelDownload':
+      return session.cancelDownload();
+  }
+}
+
+function toldOf({ latch, brokenSlots, waitingToStart }: SessionState): Told {
+  return {
+    latched: latch !== null,
+    ...((latch?.stop === 'sent' || latch?.stop === 'confirmed') && { unheld: rounded(latch.unheld) }),
+    brokenSlots,
+    waitingToStart,
+  };
+}
+
+function rounded(unheld: NonNullable<SessionState['latch']>['unheld']): NonNullable<Told['unheld']> | null {
+  if (unheld === null) return null;
+  const { servos, forMs } = unheld;
+  return { servos, forMs: forMs === Infinity ? null : Math.ceil(forMs) };
+}
