@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 from pydantic import ConfigDict, Field, TypeAdapter
 
 from servodeck.errors import ErrorCode
+from servodeck.intents import PlayIntent
 from servodeck.schema import Message, schema_of
 from servodeck.told import (
     IdentityTold,
@@ -19,6 +20,7 @@ from servodeck.told import (
     LeaseState,
     LinkState,
     MotionTold,
+    PlayState,
     PortState,
     RobotTold,
     ServoNumber,
@@ -146,9 +148,27 @@ class BeatMessage(Message):
     nonce: Nonce
 
 
+class PlayMessage(PlayIntent):
+    """Have the gateway play a group; `played` follows when it has ended, or `refused`. One that does not fit
+    into a message: `POST /api/play`.
+    """
+
+    type: Literal["play"]
+    id: MessageId
+    nonce: Nonce
+
+
+class StopPlayingMessage(Message):
+    """The driver's: what the gateway plays ends with its frame in progress."""
+
+    type: Literal["stopPlaying"]
+
+
 AnyClientMessage = (
     MoveMessage
     | SendMessage
+    | PlayMessage
+    | StopPlayingMessage
     | StopMessage
     | ResumeMessage
     | BoardMessage
@@ -192,6 +212,7 @@ class WelcomeMessage(Standing):
     robot: RobotTold | None
     lease: LeaseState
     job: JobState | None
+    play: PlayState | None
     motion: MotionTold
 
 
@@ -259,6 +280,21 @@ class JobMessage(Message):
     job: JobState
 
 
+class PlayToldMessage(Message):
+    """What the gateway plays began, came further or ended; the latest play, whoever began it."""
+
+    type: Literal["play"] = "play"
+    play: PlayState
+
+
+class PlayedMessage(Message):
+    """To whoever asked for it: that play has ended, and how."""
+
+    type: Literal["played"] = "played"
+    id: MessageId
+    play: PlayState
+
+
 class RobotMessage(Message):
     """Another robot stands on the board now, or any robot of the library has changed: look there."""
 
@@ -303,7 +339,9 @@ GatewayMessage = Annotated[
     | LeaseToldMessage
     | TickMessage
     | LeftMessage
-    | JobMessage,
+    | JobMessage
+    | PlayToldMessage
+    | PlayedMessage,
     Field(discriminator="type"),
 ]
 

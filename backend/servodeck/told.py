@@ -127,9 +127,11 @@ class IdentityTold(Message):
 
 
 class UnattendedRun(Message):
-    """A run that may go on without its driver `by`, for so long at most."""
+    """A run that may go on without its driver `by`, for so long at most. `slot` is null where the gateway
+    plays.
+    """
 
-    slot: int
+    slot: int | None
     times: int
     by: str
     ends_in_ms: int
@@ -190,6 +192,28 @@ class JobState(Message):
     bytes_sent: int
     bytes_total: int
     remaining_ms: int
+    code: ErrorCode | None = None
+    detail: str | None = None
+
+
+PlayStatus = Literal["playing", "done", "ended"]
+
+
+class PlayState(Message):
+    """Frames that the gateway plays by its own clock, and how far it is. `times` 0: until stopped. `by`: who
+    began it. `lateFrames` began so late that those behind them were put off, by `latestMs` at most;
+    `skippedFrames` did not leave. `ended`: before its last frame had ended; `code` and `detail` say why.
+    """
+
+    id: str
+    by: str
+    status: PlayStatus
+    frame_index: int
+    frame_count: int
+    times: int
+    late_frames: int = 0
+    latest_ms: int = 0
+    skipped_frames: int = 0
     code: ErrorCode | None = None
     detail: str | None = None
 

@@ -30,6 +30,7 @@ async def test_status_tells_how_everything_stands() -> None:
             "battery": None,
             "driver": None,
             "running": None,
+            "play": None,
             "unattended": None,
         }
 

@@ -50,6 +50,8 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("PUT", "/api/driver"): "driver",
     ("POST", "/api/erase"): "owner",
     ("POST", "/api/download"): "driver",
+    ("POST", "/api/play"): "driver",
+    ("DELETE", "/api/play"): "driver",
     ("GET", "/api/jobs/{job}"): "viewer",
     ("DELETE", "/api/jobs/{job}"): "driver",
     ("POST", "/api/library/remove"): "owner",

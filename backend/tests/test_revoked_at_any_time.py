@@ -1,7 +1,7 @@
 """Several callers ask for anything through every door, and are revoked, demoted or dropped at any instant.
 
-The oracle is what the port was given: each request moves for a time or to a place, or runs or fills a slot,
-that no other one has, so that a packet says whose it is.
+The oracle is what the port was given: each request moves for a time, moves or plays to a place, or runs or
+fills a slot, that no other one has, so that a packet says whose it is.
 """
 
 import asyncio
@@ -15,13 +15,16 @@ from hypothesis import strategies as st
 
 from servodeck.access.intake import Intake, Rate
 from servodeck.callers import THIS_COMPUTER, Caller
+from servodeck.intents import FrameBody
 from servodeck.messages import (
     AnyClientMessage,
     ContinueMessage,
     LeaseMessage,
     MoveMessage,
+    PlayMessage,
     SendMessage,
     StopMessage,
+    StopPlayingMessage,
     Target,
 )
 from servodeck.protocol.decoder import COMMAND_AT
@@ -41,23 +44,29 @@ from tests.virtual_time import at, in_virtual_time, now
 NAMES = ("Anna", "Bert", "Cleo")
 FRAMES, FRAME_COUNT = [{"durationMs": 500, "positions": {"1": 1500}}], 10
 STORED_AFTER_S = 0.02
+PLACES_FROM = 1100
 What = Literal[
     "script moves",
     "script runs",
+    "script plays",
     "script downloads",
     "script acts",
     "page moves",
     "page runs",
+    "page plays",
     "page ends a group",
+    "page ends a play",
     "page stops",
     "somebody resumes",
     "page drops",
     "is revoked",
     "is demoted",
 ]
-OFTEN: list[What] = ["script moves", "script runs", "script downloads", "page moves", "page runs"]
-OVER_HTTP: list[What] = ["script moves", "script runs", "script downloads", "script acts"]
-ON_PAGES: list[What] = ["page moves", "page runs", "page ends a group", "page stops"]
+MOTIONS: list[What] = ["script moves", "script runs", "script plays", "page moves", "page runs", "page plays"]
+OFTEN: list[What] = [*MOTIONS, "script downloads"]
+OVER_HTTP: list[What] = ["script moves", "script runs", "script plays", "script downloads", "script acts"]
+ENDS: list[What] = ["page ends a group", "page ends a play", "page stops"]
+ON_PAGES: list[What] = ["page moves", "page runs", "page plays", *ENDS]
 LOSSES: list[What] = ["page drops", "is revoked", "is demoted"]
 
 
@@ -102,6 +111,11 @@ class Page(Client):
         targets = [Target(servo=servo, position=position) for servo, position in positions.items()]
         move = MoveMessage(type="move", id=1, targets=targets, duration_ms=duration_ms, nonce=self.nonce)
         self.say(move)
+
+    def say_play(self, frames: list[FrameBody]) -> None:
+        self._claim()
+        nonce = self.nonce or "none"
+        self.say(PlayMessage(type="play", id=2, frames=frames, times=0, loop_from=0, nonce=nonce))
 
     def _claim(self) -> None:
         if self.control.driving.driver is None:
@@ -158,6 +172,11 @@ class History:
         elif what == "script runs":
             alone = {"continueForMs": 5000} if number % 2 else {}
             self._post(party, f"slots/{self._mark('run', number, sender)}/run", {"times": 1, **alone})
+        elif what == "script plays":
+            position = self._mark("position", PLACES_FROM + number, sender)
+            alone = {"continueForMs": 5000} if number % 2 else {}
+            frames = [{"durationMs": MOVE.first_ms, "positions": {"1": position}}] * 2
+            self._post(party, "play", {"frames": frames, "times": 0, **alone})
         elif what == "script downloads":
             slot = self._mark("download", number, sender)
             self._post(party, "download", {"groups": [{"slot": slot, "frames": FRAMES * FRAME_COUNT}]})
@@ -167,11 +186,16 @@ class History:
     def _say(self, party: Party, what: What, number: int) -> None:
         page, sender = party.page, f"{party.name} on a page"
         if what == "page moves":
-            position = self._mark("position", 1100 + number, sender)
+            position = self._mark("position", PLACES_FROM + number, sender)
             page.say_move(MOVE.first_ms * (number % 2), dict.fromkeys(range(1, 2 + number % 4), position))
         elif what == "page runs":
             page.say_packet(encode(Run(self._mark("run", number, sender), 1), FAMILIES["doc"]))
             page.say(ContinueMessage(type="continue", for_ms=5000))
+        elif what == "page plays":
+            position = self._mark("position", PLACES_FROM + number, sender)
+            page.say_play([FrameBody(duration_ms=MOVE.first_ms, positions={"1": position})] * 2)
+        elif what == "page ends a play":
+            page.say(StopPlayingMessage(type="stopPlaying"))
         elif what == "page ends a group":
             page.say_packet(STOP)
         else:

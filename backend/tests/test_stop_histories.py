@@ -114,6 +114,9 @@ async def test_a_known_group_is_held_where_its_frames_have_it(
 GROUP = {"slot": OTHER_SLOT, "frames": [{"durationMs": 700, "positions": {"1": 1500}}]}
 
 
+LONG_ALONE_MS = 5000
+
+
 async def idle(here: Scripted) -> None:
     await asyncio.sleep(7)
 
@@ -123,6 +126,11 @@ STEPS: dict[str, Callable[[Scripted], Awaitable[object]]] = {
     "run another": lambda here: here.post(f"slots/{OTHER_SLOT}/run", times=2),
     "run an unknown one": lambda here: here.post(f"slots/{NEVER_STORED}/run"),
     "move": lambda here: here.move(1500, s1=2000),
+    "play": lambda here: here.post("play", frames=GROUP["frames"]),
+    "play on and on": lambda here: here.post(
+        "play", frames=GROUP["frames"], times=0, continueForMs=LONG_ALONE_MS
+    ),
+    "stop playing": lambda here: here.client.delete("/api/play"),
     "download": lambda here: here.post("download", groups=[GROUP]),
     "erase": lambda here: here.post("erase"),
     "end": lambda here: here.post("lease", action="release"),

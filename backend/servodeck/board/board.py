@@ -20,6 +20,7 @@ from servodeck.board.identity import told_identity
 from servodeck.board.jobs import Jobs
 from servodeck.board.moves import Moves
 from servodeck.board.parts import Part
+from servodeck.board.playing import Playing, Plays
 from servodeck.board.resync import filler_for
 from servodeck.board.slot_memory import SlotMemory
 from servodeck.board.stop_again import StopAgain
@@ -45,8 +46,8 @@ from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question
 from servodeck.protocol.packets import encode, parse_command, parse_report
 from servodeck.protocol.timings import IDENTIFY, wire_s
-from servodeck.protocol.values import Battery, Report, RunAccepted, RunStarted
-from servodeck.told import IdentityTold, JobState, LinkState, PortState, StoredGroup
+from servodeck.protocol.values import Battery, Report, Run, RunAccepted, RunStarted
+from servodeck.told import IdentityTold, JobState, LinkState, PlayState, PortState, StoredGroup
 
 DRAIN_S = 0.5
 
@@ -65,6 +66,8 @@ class BoardEvents(Protocol):
         """Somebody would see what the board says unasked."""
 
     def job_changed(self, state: JobState) -> None: ...
+
+    def play_changed(self, state: PlayState) -> None: ...
 
     def time_alone_over(self) -> None:
         """The run that was let go on may not any more."""
@@ -106,6 +109,7 @@ class Board:
         self.battery = BatteryWatch(self.answers, self._ask, now)
         self.jobs = Jobs(self, self.answers, now, slot_memory)
         self.moves = Moves(self, now, events.board_changed)
+        self.plays = Plays(self.moves, self._play_changed, now)
         self._motion = Estimate(self.family)
         self._silence = Silence()
         self._cut: tuple[str, bytes] | None = None
@@ -172,7 +176,18 @@ class Board:
                 "Nobody has said which board is connected, and no port is open to ask it."
             )
 
+    @property
+    def run(self) -> Run | Playing | None:
+        """What may go on without its driver, if anything: the group that may run, or that a script has the
+        gateway play.
+        """
+        play = self.plays.present
+        return play if play and play.as_run else self.motion.run
+
     def may_move(self) -> bool:
+        return self.plays.present is not None or self._is_moving()
+
+    def _is_moving(self) -> bool:
         return self.motion.group_may_run(self._now()) or self.motion.is_moving(self._now())
 
     def may_move_on(self) -> bool:
@@ -191,6 +206,7 @@ class Board:
 
     def _drop_all(self, reason: GatewayError) -> None:
         """What waits for the wire does not leave any more, but stops."""
+        self.plays.end(reason)
         self.moves.drop(reason)
         with contextlib.suppress(GatewayError):
             self.link.wire().purge(is_no_stop, reason)
@@ -204,6 +220,7 @@ class Board:
     def halt(self, reason: GatewayError) -> Left:
         """Resolves when the stop sequence has left; raises when there is no port to stop."""
         self.halts += 1
+        self.plays.end(reason)
         self.moves.drop(reason)
         return self.link.wire().halt(self._hold, reason)
 
@@ -226,6 +243,7 @@ class Board:
     async def quiet(self) -> None:
         """Before the port is given up: ends what only this gateway could still stop."""
         self.jobs.end(ClosedError("The port was closed before all of it was stored."))
+        self.plays.end(ClosedError("The port was closed."))
         if self.motion.group_may_run(self._now()):
             with contextlib.suppress(GatewayError):
                 await self.halt(CancelledError("The port is being closed."))
@@ -253,6 +271,7 @@ class Board:
         metrics.port_losses.inc()
         self._events.board_lost()
         self.jobs.end(PortLostError("The serial port went away before all of it was stored."))
+        self.plays.end(PortLostError("The serial port went away."))
         is_filler = unfinished is not None and unfinished == self._filler()
         if not is_filler:
             self._cut = (self.link.place, unfinished) if unfinished else None
@@ -327,13 +346,17 @@ class Board:
 
     # Inside
 
+    def _play_changed(self, state: PlayState) -> None:
+        self.unattended.follow(self.run)
+        self._events.play_changed(state)
+
     def _ask(self, question: str) -> Left:
         packet = judge_packet(question, self.taken_for)
         self.jobs.judge_idle()
         return self.link.wire().send(packet, self)
 
     def _stop_unheard(self) -> None:
-        if self.may_move():
+        if self._is_moving():
             self.halt_again()
 
     def _hold(self) -> bytes | None:
@@ -385,7 +408,7 @@ class Board:
             self._stop_again.stopped(at_s)
         elif not (is_harmless(packet) or self.link.wire().is_halting):
             self._stop_again.void()
-        self.unattended.follow(self.motion.run)
+        self.unattended.follow(self.run)
         self.jobs.left(command, at_s, self.link.place)
         is_told = packet[COMMAND_AT] == STOP or not is_harmless(packet)
         if is_told and owner is not self:  # its own stop at the opening ends nothing that anybody began
@@ -405,7 +428,7 @@ class Board:
         self.motion.heard(report, self._now())
         self._stop_again.heard()
         self._silence.heard(event.packet.command)  # behind it: what was forgotten in the silence stays so
-        self.unattended.follow(self.motion.run)
+        self.unattended.follow(self.run)
         self.battery.heard(report)
         self.jobs.heard(report, self.link.place)
         self.answers.heard(report, self._now())

@@ -6,7 +6,7 @@ whoever asks. Twin of shared/src/session/moveBuffer.ts and turns.ts.
 """
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 from math import inf
 from typing import Protocol
@@ -72,6 +72,16 @@ class Moves:
     @property
     def is_empty(self) -> bool:
         return not self._wishes
+
+    def is_waiting(self, asked: Asked) -> bool:
+        """Something of it has not begun to leave."""
+        return any(wish.asked is asked for wish in self._wishes.values())
+
+    def starts_within_s(self, servos: Collection[int]) -> float:
+        """Until the last of them has started, if no others are asked for; others may be waiting already."""
+        motion, now = self._board.motion, self._now()
+        count = sum(motion.is_unknown(servo, now) for servo in {*self._wishes, *servos})
+        return max(0.0, self._next_start_s - now) + (count - 1) * FIRST_MOVE_STAGGER_S if count else 0.0
 
     def put(self, targets: Sequence[ServoTarget], duration_ms: int, asked: Asked) -> Left:
         """`duration_ms` 0: as fast as the soft limit and the link allow. Raises where no port is open."""

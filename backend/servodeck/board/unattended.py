@@ -1,4 +1,5 @@
-"""The run that may go on without whoever began it: which one, who said so, and until when at most.
+"""The run that may go on without whoever began it, of the board or played from here: which one, who said so,
+and until when at most.
 
 Knows time and one run; how it is stopped is for whoever is told that its time is over.
 """
@@ -8,13 +9,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from servodeck.access.hub import Seat
+from servodeck.board.playing import Playing
 from servodeck.protocol.values import Run
 from servodeck.told import UnattendedRun
 
 
 @dataclass(frozen=True, slots=True)
 class GoingOn:
-    run: Run
+    run: Run | Playing
     by: Seat
     until_s: float
 
@@ -38,11 +40,12 @@ class Unattended:
         if self._present is None:
             return None
         run, left_s = self._present.run, max(0.0, self._present.until_s - self._now())
+        slot = run.slot if isinstance(run, Run) else None
         return UnattendedRun(
-            slot=run.slot, times=run.times, by=self._present.by.caller.name, ends_in_ms=round(left_s * 1000)
+            slot=slot, times=run.times, by=self._present.by.caller.name, ends_in_ms=round(left_s * 1000)
         )
 
-    def allow(self, run: Run, by: Seat, for_s: float) -> None:
+    def allow(self, run: Run | Playing, by: Seat, for_s: float) -> None:
         self._show(GoingOn(run, by, self._now() + for_s))
 
     def end(self) -> None:
@@ -50,7 +53,7 @@ class Unattended:
         if self._present:
             self._show(None)
 
-    def follow(self, run: Run | None) -> None:
+    def follow(self, run: Run | Playing | None) -> None:
         """That one runs now, so far as anybody knows: another one has not been allowed anything."""
         if self._present and self._present.run is not run:
             self._show(None)

@@ -14,6 +14,7 @@ from servodeck.cli.download_cli import download
 from servodeck.cli.exits import USAGE, fail
 from servodeck.cli.library_cli import library, pose, poses
 from servodeck.cli.options_cli import Token, TokenFile, asked, remote_at
+from servodeck.cli.play_cli import play
 from servodeck.cli.remote_cli import COMMANDS
 from servodeck.cli.serve_cli import serve
 from servodeck.port.ports import PortInfo, list_devices
@@ -45,7 +46,7 @@ def main_options(
 
 
 app.command(context_settings={"auto_envvar_prefix": PREFIX})(serve)
-for command in (*COMMANDS, pose, poses, download, library):
+for command in (*COMMANDS, pose, poses, download, play, library):
     app.command()(command)
 
 

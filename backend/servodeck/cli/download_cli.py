@@ -99,6 +99,11 @@ def group_of(text: str) -> dict[str, Any]:
     if not separator or not slot.isascii() or not slot.isdigit():
         fail("A group is SLOT=FILE, for example 5=wave.json.", USAGE)
     file = Path(name)
+    return {"name": file.stem} | group_in(file) | {"slot": int(slot)}
+
+
+def group_in(file: Path) -> dict[str, Any]:
+    """As a board stores it; ends the program with an explanation for anything else."""
     try:
         group = json.loads(file.read_text("utf-8"))
     except OSError as error:
@@ -107,4 +112,4 @@ def group_of(text: str) -> dict[str, Any]:
         fail(f"{file} is no JSON. It holds one group: {SHAPE}", USAGE)
     if not isinstance(group, dict) or "frames" not in group or "format" in group:
         fail(f"{file} holds no frames as a board stores them: {SHAPE}", USAGE)
-    return {"name": file.stem} | group | {"slot": int(slot)}
+    return group

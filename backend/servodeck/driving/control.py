@@ -25,6 +25,7 @@ from servodeck.board.estimate import Estimate
 from servodeck.board.move_plan import judge_targets
 from servodeck.board.moves import Asked
 from servodeck.board.parts import Part, judge_parts
+from servodeck.board.playing import FrameGroup, judge_group
 from servodeck.board.recalled_board import RecalledBoard
 from servodeck.board.robot import RobotLimits
 from servodeck.board.slot_memory import SlotMemory
@@ -48,6 +49,7 @@ from servodeck.messages import (
     HaltedMessage,
     JobMessage,
     NoiseMessage,
+    PlayToldMessage,
     ReceivedMessage,
     ResumedMessage,
     RobotMessage,
@@ -57,8 +59,8 @@ from servodeck.port.link import Ports
 from servodeck.port.wire import Job, Left, Owner, always
 from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.values import Move, ServoTarget
-from servodeck.told import JobState, UnheldServos
+from servodeck.protocol.values import Erase, Move, Run, ServoTarget
+from servodeck.told import JobState, PlayState, UnheldServos
 
 SOMEBODY = Cause("person")
 
@@ -105,6 +107,7 @@ class Control:
         self._telling = Telling(self.hub, self.board, self._latch, self.robot, self.driving, now)
         self._halting: Left | None = None
         self._pressed_s = 0.0
+        self._stopped_s = -math.inf
         self._unheld: Unheld | None = None
 
     @property
@@ -205,6 +208,8 @@ class Control:
         judge_by_hand(packet)
         self.board.jobs.judge_run(command, self.board.link.place)
         self._judge_idle(packet)
+        if isinstance(command, Run | Erase):
+            self.board.plays.judge_idle()
         judge = always if is_harmless(packet) else self._permitted(seat, nonce)
         is_stop = packet[COMMAND_AT] == STOP
         if is_stop:
@@ -216,6 +221,7 @@ class Control:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
         stop. What may go on in spite of it `unheld` says.
         """
+        self._stopped_s = self.now()
         self._latch.close(cause)
         self.board.jobs.end(LatchedError("Stopped before all of it was stored."))
         left = self.board.halt(LatchedError("Stopped before it left."))
@@ -258,10 +264,50 @@ class Control:
         if for_ms is None:
             self.board.unattended.end()
             return
-        run = self.board.motion.run
+        run = self.board.run
         if run is None:
             raise CancelledError("Nothing runs any more.")
         self.board.unattended.allow(run, seat, for_ms / 1000)
+
+    def play(
+        self,
+        seat: Seat,
+        group: FrameGroup,
+        nonce: str | None,
+        ended: Callable[[PlayState], None],
+        *,
+        as_run: bool = False,
+    ) -> PlayState:
+        """Begins to play it; raises what keeps it from that before anything leaves. `ended` hears how it
+        ended. `as_run`: it ends with the silence that ends a run of the board, not with the one that ends
+        what is driven by hand.
+        """
+        board = self.board
+        seat.caller.require("driver")
+        board.judge_known()
+        self.limits.judge_targets(judge_group(group, board.family))
+        wire = board.link.wire()
+        judge_latch(MOVE, self.latch)
+        board.jobs.judge_idle()
+        board.plays.judge_idle()
+        if board.motion.group_may_run(self.now()) or wire.has_waiting(RUN):
+            raise MovingError(end_of_group(board.motion.group_ends_in_s(self.now())))
+        permit = self.driving.permit(seat, nonce)
+        if permit.issued_s < self._stopped_s:  # a large request may be slower than the STOP behind it
+            raise CancelledError("It was stopped since it was asked for.")
+
+        def judge(is_first: bool) -> None:
+            judge_latch(MOVE, self.latch)
+            if is_first:
+                self.driving.judge(permit)
+            elif board.unattended.by is not seat:
+                self.driving.judge(replace(permit, until_s=math.inf))
+
+        return board.plays.begin(group, seat, judge, ended, as_run=as_run)
+
+    def stop_playing(self) -> None:
+        """What the gateway plays ends with its frame in progress."""
+        self.board.plays.end(CancelledError("It was stopped."))
 
     def download(
         self, parts: Sequence[Part], by: Caller, claim: Callable[[], object], behind: str | None = None
@@ -282,6 +328,7 @@ class Control:
         board.judge_known()
         judge_latch(DOWNLOAD, self.latch)
         board.jobs.judge_idle()
+        board.plays.judge_idle()
         is_clear = board.moves.is_empty and wire.is_clear_of(lambda command: command not in HARMLESS)
         if board.may_move() or not is_clear:
             raise MovingError(still_moving(board.motion, self.now()))
@@ -327,6 +374,9 @@ class Control:
     def job_changed(self, state: JobState) -> None:
         self._telling.everybody(JobMessage(job=state))
 
+    def play_changed(self, state: PlayState) -> None:
+        self._telling.everybody(PlayToldMessage(play=state))
+
     def time_alone_over(self) -> None:
         self._watch.end_quietly(CancelledError("The time in which it might go on alone is over."))
 
@@ -352,6 +402,7 @@ class Control:
         """A stop always goes, but the frame it meets on the board is not stored for sure (S10)."""
         if packet[COMMAND_AT] == STOP:
             self.board.jobs.end(CancelledError("A stop ended it before all of it was stored."))
+            self.board.plays.end(CancelledError("A stop has ended it."))
         self.board.jobs.judge_idle()
 
     def _see_robot(self) -> None:

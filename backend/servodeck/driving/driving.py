@@ -132,14 +132,18 @@ class Driving:
         """For what a page asks beside its WebSocket: only the driver's has the nonce. A large request takes
         its time. Raises NotDrivingError or ExpiredError.
         """
-        driver = self._lease.driver
-        if driver is None or driver.caller.id != caller.id:
-            raise NotDrivingError(f"{driver.caller.name if driver else 'Nobody'} drives.")
-        self._lease.permit(driver, nonce, self._now(), GONE_S)
+        self._lease.permit(self.driving_page(caller), nonce, self._now(), GONE_S)
 
     def judge(self, permit: Permit) -> None:
         """Raises NotDrivingError or ExpiredError."""
         self._lease.judge(permit, self._now())
+
+    def driving_page(self, caller: Caller) -> Seat:
+        """The page that drives, for what it asks beside its WebSocket. Raises NotDrivingError."""
+        driver = self._lease.driver
+        if driver is None or driver.caller.id != caller.id:
+            raise NotDrivingError(f"{driver.caller.name if driver else 'Nobody'} drives.")
+        return driver
 
     def may_rule(self, caller: Caller) -> bool:
         """Whether they may change what moves are judged by: while another drives, only an owner may."""

@@ -42,9 +42,12 @@ class LeaseEvents(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Permit:
-    """One command's leave to move the robot: under that epoch and until that time."""
+    """One command's leave to move the robot: under that epoch, from when its words were new until that
+    time.
+    """
 
     epoch: int
+    issued_s: float
     until_s: float
 
 
@@ -146,7 +149,7 @@ class Lease(Generic[H]):
         if nonce is None or issued_s is None or now - issued_s > within_s:
             raise ExpiredError("This was said too long ago to be done now.")
         self.beat(who, nonce)
-        return Permit(self.epoch, issued_s + within_s)
+        return Permit(self.epoch, issued_s, issued_s + within_s)
 
     def judge(self, permit: Permit, now: float) -> None:
         """Asked when the command is about to leave. Raises NotDrivingError or ExpiredError."""

@@ -11,11 +11,12 @@ from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from servodeck.access.gate import judge_latch
+from servodeck.access.gate import MOVE, judge_latch
 from servodeck.access.hub import Seat
 from servodeck.board.jobs import ERASE_TIMEOUT_S
 from servodeck.board.move_plan import packet_of, plan_move
 from servodeck.board.parts import Part
+from servodeck.board.playing import FrameGroup
 from servodeck.callers import Caller, as_script
 from servodeck.driving.control import Control, end_of_group
 from servodeck.driving.script_seat import ScriptSeat
@@ -26,12 +27,11 @@ from servodeck.errors import (
     NotPairedError,
 )
 from servodeck.port.wire import Left
-from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import Family
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import Erase, Erased, Run, RunAccepted, RunStarted
-from servodeck.told import JobState, LeaseState
+from servodeck.told import JobState, LeaseState, PlayState
 
 RUN_WAIT_S = RUN.timeout_ms / 1000
 
@@ -50,14 +50,20 @@ class Moved:
 class Turn:
     """One request's leave to move the robot. It ends with the next stop, and with another driver."""
 
-    def __init__(self, control: Control, seat: Seat, packet: bytes, *, take: bool) -> None:
+    def __init__(self, control: Control, seat: Seat, *, take: bool) -> None:
         """Raises what keeps its first packet from leaving."""
         control.board.link.wire()
-        judge_latch(packet[COMMAND_AT], control.latch)
+        judge_latch(MOVE, control.latch)
         self._control = control
         self._seat = seat
         control.driving.speak_for(seat, take=take)
         self._mark = self._present()
+
+    async def after_the_stop(self) -> None:
+        """Where what another driver began is being stopped."""
+        self._judge()
+        if self._control.board.link.wire().is_halting:
+            await self.end_what_moves()
 
     async def end_what_moves(self) -> None:
         self._judge()
@@ -75,6 +81,20 @@ class Turn:
         driving.vouch(self._seat, 0.0)
         left.add_done_callback(lambda _: driving.vouch(self._seat, lasts_s))
         return left
+
+    def play(self, group: FrameGroup) -> PlayState:
+        self._judge()
+        driving = self._control.driving
+        nonce = driving.speak_for(self._seat, take=False)
+        state = self._control.play(self._seat, group, nonce, self._played, as_run=True)
+        driving.vouch(self._seat, 0.0)
+        return state
+
+    def _played(self, state: PlayState) -> None:
+        """The frame in progress goes on where somebody has ended it by hand."""
+        if state.code in (None, "cancelled"):
+            motion, now = self._control.board.motion, self._control.now()
+            self._control.driving.vouch(self._seat, motion.moves_for_s(now))
 
     def _present(self) -> tuple[int, int]:
         return self._control.driving.epoch, self._control.board.halts
@@ -121,7 +141,7 @@ class Scripts:
         plan = plan_move(duration_ms, positions, family, control.board.motion, now, control.limits.name_of)
         for step in plan.steps:
             control.limits.judge(parse_command(step.packet), seat)
-        turn = Turn(control, seat, plan.steps[0].packet, take=take)
+        turn = Turn(control, seat, take=take)
         for step in plan.steps:
             await asyncio.sleep(step.after_s)
             if not await is_wanted():
@@ -142,13 +162,32 @@ class Scripts:
         family = self._family()
         packet = packet_of(Run(slot, times), family)
         with self._asking_the_board():
-            turn = Turn(self._control, seat, packet, take=take)
+            turn = Turn(self._control, seat, take=take)
+            self._control.board.plays.judge_idle()
             await turn.end_what_moves()
             left = turn.send(packet)
             outcome = await self._outcome_of_run(left, family)
         if continue_ms is not None:
             self._control.let_go_on(seat, continue_ms)
         return outcome
+
+    async def play(
+        self, caller: Caller, group: FrameGroup, *, take: bool, continue_ms: int | None = None
+    ) -> PlayState:
+        """Begins it."""
+        seat = self._seat_of(caller)
+        return await seat.do(self._play(seat, group, take=take, continue_ms=continue_ms))
+
+    async def _play(
+        self, seat: ScriptSeat, group: FrameGroup, *, take: bool, continue_ms: int | None
+    ) -> PlayState:
+        self._family()
+        turn = Turn(self._control, seat, take=take)
+        await turn.after_the_stop()
+        state = turn.play(group)
+        if continue_ms is not None:
+            self._control.let_go_on(seat, continue_ms)
+        return state
 
     def download(self, caller: Caller, parts: Sequence[Part], behind: str | None, *, take: bool) -> JobState:
         """Needs the lease to begin with, and nobody from then on."""
@@ -171,7 +210,7 @@ class Scripts:
         if self._control.board.may_move():
             raise MovingError("The robot moves: wait for its end, or stop it first.")
         with self._asking_the_board():
-            turn = Turn(self._control, seat, packet, take=take)
+            turn = Turn(self._control, seat, take=take)
             left = turn.send(packet, ERASE_TIMEOUT_S)
             if await self._control.board.answers.to(left, ERASE_TIMEOUT_S, Erased) is None:
                 raise NoAnswerError("The board did not say whether its groups are erased.")

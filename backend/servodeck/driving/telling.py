@@ -40,6 +40,7 @@ class Telling:
             robot=self._robot.told(),
             lease=self._driving.state_for(seat),
             job=board.jobs.latest,
+            play=board.plays.latest,
             motion=board.motion.told(self._now()),
             **self._standing(),
         )

@@ -22,7 +22,10 @@ class Watch:
         control = self._control
         driver = control.driving.driver
         control.board.drop(driver, CancelledError("Its driver was not heard any more."))
-        if control.board.motion.is_moving(control.now()):
+        play = control.board.plays.present
+        if play and play.as_run:
+            return
+        if play or control.board.motion.is_moving(control.now()):
             self._stop_for_nobody()
 
     def driver_silent(self) -> None:

@@ -170,6 +170,9 @@ class Wire:
             self._queue.remove(job)
             fail(job.left, reason)
 
+    def has_waiting(self, command: int) -> bool:
+        return any(job.command == command for job in (*self._urgent, *self._queue))
+
     def is_clear_of(self, unwanted: Callable[[int], bool]) -> bool:
         """No packet of such a command number waits, and no stop sequence is under way."""
         return not self._halt and not any(unwanted(job.command) for job in (*self._urgent, *self._queue))

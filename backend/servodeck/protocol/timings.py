@@ -61,6 +61,9 @@ class Run(NamedTuple):
 class Play(NamedTuple):
     catch_up_share: float
     late_ms: int
+    look_ms: int
+    give_up_ms: int
+    message_bytes: int
 
 
 class Download(NamedTuple):

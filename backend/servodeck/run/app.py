@@ -37,6 +37,7 @@ from servodeck.web.motion_api import motion_api
 from servodeck.web.openapi import described
 from servodeck.web.page import STATIC, page
 from servodeck.web.people_api import people_api
+from servodeck.web.play_api import play_api
 from servodeck.web.poses_api import poses_api
 from servodeck.web.robots_api import robots_api
 
@@ -80,6 +81,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     app.include_router(events_api)
     app.include_router(health_api)
     app.include_router(jobs_api)
+    app.include_router(play_api)
     app.include_router(library_api)
     app.include_router(motion_api)
     app.include_router(people_api)

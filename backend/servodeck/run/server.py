@@ -30,9 +30,9 @@ from servodeck.access.impatient import (
 )
 from servodeck.driving.control import Control
 from servodeck.errors import PortError
+from servodeck.protocol.timings import PLAY
 from servodeck.run import supervisor
 
-MESSAGE_BYTES = 16 * 1024
 # Whoever has not gone by then is cut off. Later, uvicorn would cancel what they asked and call that an error.
 LEAVE_S = 1.0
 CANCEL_S = 2
@@ -54,7 +54,7 @@ class Server(uvicorn.Server):
                 ws_ping_interval=PING_S,
                 ws_ping_timeout=PONG_S,
                 ws_per_message_deflate=False,
-                ws_max_size=MESSAGE_BYTES,
+                ws_max_size=PLAY.message_bytes,
                 timeout_keep_alive=IDLE_S,
                 timeout_graceful_shutdown=CANCEL_S,
                 log_config=None,  # ours

@@ -26,7 +26,7 @@ from servodeck.port.ports import is_same_port, lasting_of, list_devices
 from servodeck.protocol.families import FAMILIES
 from servodeck.schema import Message
 from servodeck.threads import in_thread
-from servodeck.told import IdentityTold, LinkState, PortState, UnattendedRun, UnheldServos
+from servodeck.told import IdentityTold, LinkState, PlayState, PortState, UnattendedRun, UnheldServos
 from servodeck.web.clients import serve_client
 
 
@@ -53,6 +53,8 @@ class Running(Message):
 
 
 class Status(Message):
+    """`play`: what the gateway plays now, or played last."""
+
     version: str
     board: str
     port: PortState
@@ -63,6 +65,7 @@ class Status(Message):
     battery: BatteryAge | None
     driver: str | None
     running: Running | None
+    play: PlayState | None
     unattended: UnattendedRun | None
 
 
@@ -160,6 +163,7 @@ async def status(control: Controlled) -> Status:
         battery=age_of(control),
         driver=name_of(control.driving.driver),
         running=running_in(control),
+        play=control.board.plays.latest,
         unattended=control.board.unattended.told(),
     )
 

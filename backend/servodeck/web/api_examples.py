@@ -25,6 +25,19 @@ PORT = {
     "detail": None,
     "retryInMs": None,
 }
+PLAY = {
+    "id": "45c48cce2e2d",
+    "by": "Dance",
+    "status": "playing",
+    "frameIndex": 1,
+    "frameCount": 12,
+    "times": 2,
+    "lateFrames": 0,
+    "latestMs": 0,
+    "skippedFrames": 0,
+    "code": None,
+    "detail": None,
+}
 CLOSED = PORT | {"device": None, "status": "closed"}
 STATUS = {
     "version": "0.1.0",
@@ -47,6 +60,7 @@ STATUS = {
     "battery": {"batteryMv": 7500, "ageMs": 4200},
     "driver": "Anna's tablet",
     "running": {"slot": 3, "times": 2, "endsInMs": 4200},
+    "play": PLAY,
     "unattended": {"slot": 3, "times": 2, "by": "Anna's tablet", "endsInMs": 245000},
 }
 LEASE = {
@@ -161,6 +175,25 @@ EXAMPLES: dict[tuple[str, str], Example] = {
             "take": False,
         },
         (*ON_THE_WIRE, "slotChanged", "notFound", "cancelled"),
+    ),
+    ("POST", "/api/play"): Example(
+        PLAY,
+        {
+            "frames": [
+                {"durationMs": 1500, "positions": {"1": 1200}},
+                {"durationMs": 400, "positions": {"1": 1800}},
+            ],
+            "times": 2,
+            "loopFrom": 0,
+            "id": None,
+            "nonce": None,
+            "continueForMs": 60000,
+            "take": False,
+        },
+        (*ON_THE_WIRE, "cancelled"),
+    ),
+    ("DELETE", "/api/play"): Example(
+        PLAY | {"status": "ended", "code": "cancelled", "detail": "It was stopped."}
     ),
     ("GET", "/api/jobs/{job}"): Example(JOB, errors=("notFound",)),
     ("DELETE", "/api/jobs/{job}"): Example(

@@ -16,6 +16,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from servodeck import metrics
 from servodeck.access.hub import AGAINST_THE_RULES, Seat
 from servodeck.access.intake import Intake, Rate
+from servodeck.board.playing import FrameGroup
 from servodeck.callers import Caller, Role
 from servodeck.driving.control import Control
 from servodeck.driving.latch import Cause
@@ -31,17 +32,21 @@ from servodeck.messages import (
     GiveMessage,
     LeaseMessage,
     MoveMessage,
+    PlayedMessage,
+    PlayMessage,
     RefusedMessage,
     ResumeMessage,
     SendMessage,
     SentMessage,
     StopMessage,
+    StopPlayingMessage,
     Target,
     client_message,
     encode,
 )
 from servodeck.port.wire import Left
 from servodeck.protocol.values import ServoTarget
+from servodeck.told import PlayState
 
 UNSUPPORTED_DATA, OUTDATED_PAGE = 1003, 4001
 CLOSE_WAIT_S = 0.1
@@ -53,6 +58,8 @@ VIEWER_RATE = (2.0, 10)
 # what it does.
 ROLES: dict[type[AnyClientMessage], Role] = {
     MoveMessage: "driver",
+    PlayMessage: "driver",
+    StopPlayingMessage: "driver",
     SendMessage: "viewer",
     StopMessage: "stopper",
     ResumeMessage: "driver",
@@ -149,7 +156,8 @@ def hear(text: str, seat: Seat, intake: Intake) -> None:
 
 
 def id_of(message: AnyClientMessage) -> int | None:
-    return message.id if isinstance(message, MoveMessage | SendMessage | BoardMessage) else None
+    identified = MoveMessage | PlayMessage | SendMessage | BoardMessage
+    return message.id if isinstance(message, identified) else None
 
 
 def merged(before: AnyClientMessage, message: AnyClientMessage) -> AnyClientMessage | None:
@@ -195,6 +203,20 @@ def answer_move(seat: Seat, message_id: int, left: Left) -> None:
         left.result()
 
 
+def take_play(message: PlayMessage, seat: Seat, control: Control) -> None:
+    frames = [body.frame() for body in message.frames]
+    group = FrameGroup(frames, message.times, message.loop_from)
+    with refusing(seat, message.id):
+        play(group, message.id, message.nonce, seat, control)
+
+
+def play(group: FrameGroup, message_id: int, nonce: str, seat: Seat, control: Control) -> PlayState:
+    """Raises what keeps it from beginning. Whoever asked hears how it ended."""
+    return control.play(
+        seat, group, nonce, lambda state: seat.put(encode(PlayedMessage(id=message_id, play=state)))
+    )
+
+
 def take_send(message: SendMessage, seat: Seat, control: Control) -> None:
     with refusing(seat, message.id):
         left = control.send(seat, message.packet, message.nonce)
@@ -237,6 +259,8 @@ def name_board(message: BoardMessage, seat: Seat, control: Control) -> None:
 
 ACTS: dict[type[AnyClientMessage], Callable[[Any, Seat, Control], None]] = {
     MoveMessage: take_move,
+    PlayMessage: take_play,
+    StopPlayingMessage: lambda _, _seat, control: control.stop_playing(),
     SendMessage: take_send,
     StopMessage: take_stop,
     ResumeMessage: lambda _, seat, control: control.resume(seat.caller, seat),

@@ -3,6 +3,7 @@
 """
 
 import asyncio
+from collections.abc import Sequence
 from typing import Annotated
 
 from pydantic import Field
@@ -10,24 +11,13 @@ from pydantic import Field
 from servodeck.access.roles import DRIVER, VIEWER
 from servodeck.board.parts import Group, parts_of
 from servodeck.callers import Caller
+from servodeck.intents import FrameBody
 from servodeck.messages import Nonce
-from servodeck.protocol.values import Frame, ServoTarget
+from servodeck.protocol.values import Frame
 from servodeck.schema import Message
 from servodeck.told import JobState
 from servodeck.web.api import Controlled, routes
-from servodeck.web.motion_api import Scripted, Servo, Take
-
-
-class FrameBody(Message):
-    """Positions by servo number, in the board's unit, reached after `durationMs`."""
-
-    duration_ms: int
-    positions: Annotated[dict[Servo, int], Field(max_length=32)]
-
-    def frame(self) -> Frame:
-        targets = (ServoTarget(int(servo), position) for servo, position in self.positions.items())
-        return Frame(self.duration_ms, tuple(targets))
-
+from servodeck.web.motion_api import Scripted, Take
 
 Version = Annotated[str, Field(max_length=64)]
 
@@ -46,12 +36,17 @@ class GroupBody(Message):
     frames: Annotated[list[FrameBody], Field(min_length=1, max_length=255)]
 
     async def group(self) -> Group:
-        """As `parts` does: others go on between two frames."""
-        frames = []
-        for body in self.frames:
-            frames.append(body.frame())
-            await asyncio.sleep(0)
+        frames = await frames_of(self.frames)
         return Group(self.slot, self.name, frames, self.version, self.replaces, self.document)
+
+
+async def frames_of(bodies: Sequence[FrameBody]) -> list[Frame]:
+    """As `parts` does: others go on between two frames."""
+    frames = []
+    for body in bodies:
+        frames.append(body.frame())
+        await asyncio.sleep(0)
+    return frames
 
 
 class DownloadWish(Message):

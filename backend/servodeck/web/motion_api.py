@@ -12,12 +12,12 @@ from starlette.requests import HTTPConnection
 from servodeck.access.roles import DRIVER, OWNER
 from servodeck.callers import Caller
 from servodeck.driving.scripts import RunOutcome, ScriptAction, Scripts
+from servodeck.intents import Servo
 from servodeck.messages import ContinueMs, PersonId
 from servodeck.schema import Message
 from servodeck.told import LeaseState
 from servodeck.web.api import routes
 
-Servo = Annotated[str, Field(pattern=r"^[1-9][0-9]{0,2}$")]
 Take = Annotated[bool, Field(description="An owner's: without asking the driver.")]
 
 

@@ -4,6 +4,8 @@ export type Message = ClientMessage | GatewayMessage;
 export type ClientMessage =
   | MoveMessage
   | SendMessage
+  | PlayMessage
+  | StopPlayingMessage
   | StopMessage
   | ResumeMessage
   | BoardMessage
@@ -26,7 +28,9 @@ export type GatewayMessage =
   | LeaseToldMessage
   | TickMessage
   | LeftMessage
-  | JobMessage;
+  | JobMessage
+  | PlayToldMessage
+  | PlayedMessage;
 
 /**
  * Move servos. Of each the newest value counts; what waits for the wire leaves together, servos whose
@@ -69,6 +73,47 @@ export interface SendMessage {
    */
   packet: string;
   nonce: string | null;
+}
+/**
+ * Have the gateway play a group; `played` follows when it has ended, or `refused`. One that does not fit
+ * into a message: `POST /api/play`.
+ */
+export interface PlayMessage {
+  /**
+   * @minItems 1
+   * @maxItems 8192
+   */
+  frames: FrameBody[];
+  times?: number;
+  loopFrom?: number;
+  type: 'play';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+  /**
+   * Of the latest `tick`: shows how old this is.
+   */
+  nonce: string;
+}
+/**
+ * Positions by servo number, in the board's unit, reached after `durationMs`.
+ */
+export interface FrameBody {
+  durationMs: number;
+  positions: {
+    /**
+     * This interface was referenced by `undefined`'s JSON-Schema definition
+     * via the `patternProperty` "^[1-9][0-9]{0,2}$".
+     */
+    [k: string]: number;
+  };
+}
+/**
+ * The driver's: what the gateway plays ends with its frame in progress.
+ */
+export interface StopPlayingMessage {
+  type: 'stopPlaying';
 }
 /**
  * STOP: drop all that waits, send stop three times, hold the robot where it is, and latch. Whatever else
@@ -158,6 +203,7 @@ export interface WelcomeMessage {
   robot: RobotTold | null;
   lease: LeaseState;
   job: JobState | null;
+  play: PlayState | null;
   motion: MotionTold;
 }
 /**
@@ -319,10 +365,11 @@ export interface NoiseTold {
   byteCount: number;
 }
 /**
- * A run that may go on without its driver `by`, for so long at most.
+ * A run that may go on without its driver `by`, for so long at most. `slot` is null where the gateway
+ * plays.
  */
 export interface UnattendedRun {
-  slot: number;
+  slot: number | null;
   times: number;
   by: string;
   endsInMs: number;
@@ -387,6 +434,63 @@ export interface JobState {
   bytesSent: number;
   bytesTotal: number;
   remainingMs: number;
+  code:
+    | (
+        | 'closed'
+        | 'lost'
+        | 'portMissing'
+        | 'portBusy'
+        | 'portDenied'
+        | 'otherDevice'
+        | 'boardUnknown'
+        | 'wrongBoard'
+        | 'echo'
+        | 'boardSilent'
+        | 'noAnswer'
+        | 'notSupported'
+        | 'latched'
+        | 'notDriving'
+        | 'expired'
+        | 'busy'
+        | 'slotBroken'
+        | 'slotChanged'
+        | 'cancelled'
+        | 'outOfRange'
+        | 'malformed'
+        | 'forbidden'
+        | 'notPaired'
+        | 'pairingFailed'
+        | 'pairingLocked'
+        | 'wrongType'
+        | 'notFound'
+        | 'methodNotAllowed'
+        | 'conflict'
+        | 'tooLarge'
+        | 'tooMany'
+        | 'storageFull'
+        | 'storageBusy'
+        | 'storageFailed'
+        | 'damaged'
+        | 'internal'
+      )
+    | null;
+  detail: string | null;
+}
+/**
+ * Frames that the gateway plays by its own clock, and how far it is. `times` 0: until stopped. `by`: who
+ * began it. `lateFrames` began so late that those behind them were put off, by `latestMs` at most;
+ * `skippedFrames` did not leave. `ended`: before its last frame had ended; `code` and `detail` say why.
+ */
+export interface PlayState {
+  id: string;
+  by: string;
+  status: 'playing' | 'done' | 'ended';
+  frameIndex: number;
+  frameCount: number;
+  times: number;
+  lateFrames: number;
+  latestMs: number;
+  skippedFrames: number;
   code:
     | (
         | 'closed'
@@ -605,6 +709,24 @@ export interface LeftMessage {
 export interface JobMessage {
   type: 'job';
   job: JobState;
+}
+/**
+ * What the gateway plays began, came further or ended; the latest play, whoever began it.
+ */
+export interface PlayToldMessage {
+  type: 'play';
+  play: PlayState;
+}
+/**
+ * To whoever asked for it: that play has ended, and how.
+ */
+export interface PlayedMessage {
+  type: 'played';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+  play: PlayState;
 }
 /** Of these messages. */
 export const PROTOCOL = 3;
