@@ -20,6 +20,7 @@ import { missed } from './limits.ts';
 import { measureNetwork } from './network.ts';
 import { measurePageLoad } from './pageLoad.ts';
 import { measurePageSize } from './pageSize.ts';
+import { measurePlay } from './play.ts';
 import { measureRelay } from './relay.ts';
 import { measureStart } from './start.ts';
 import { measureStopDragging, measureStopIdle } from './stop.ts';
@@ -33,6 +34,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   drag: measureDrag,
   relay: measureRelay,
   network: measureNetwork,
+  play: measurePlay,
   'stop.idle': measureStopIdle,
   'stop.dragging': measureStopDragging,
   'stop.running': measureStopRunning,

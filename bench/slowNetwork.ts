@@ -6,23 +6,25 @@ import { connect, createServer, type AddressInfo, type Socket } from 'node:net';
 
 const HOST = '127.0.0.1';
 
-/** Lends `work` an address behind which is `target` (`host:port`), `delayMs` away each way. */
+/** Lends `work` an address behind which is `target` (`host:port`), `delayMs` away each way, more or less by up to `jitterMs`. */
 export async function withDelay<Result>(
   target: string,
   delayMs: number,
   work: (address: string) => Promise<Result>,
+  jitterMs = 0,
 ): Promise<Result> {
   const sockets = new Set<Socket>();
   const server = createServer((near) => {
     const { hostname, port } = new URL(`http://${target}`);
     const far = connect(Number(port), hostname);
+    const [there, back] = [createWay(delayMs, jitterMs), createWay(delayMs, jitterMs)];
     const named = `${HOST}:${(server.address() as AddressInfo).port}`;
     near.once('data', (head) => {
       const renamed = head.toString('latin1').replaceAll(named, target);
-      later(delayMs, () => far.write(renamed, 'latin1'));
-      near.on('data', (bytes) => later(delayMs, () => far.write(bytes)));
+      there(() => far.write(renamed, 'latin1'));
+      near.on('data', (bytes) => there(() => far.write(bytes)));
     });
-    far.on('data', (bytes) => later(delayMs, () => near.write(bytes)));
+    far.on('data', (bytes) => back(() => near.write(bytes)));
     for (const [one, other] of [
       [near, far],
       [far, near],
@@ -42,7 +44,12 @@ export async function withDelay<Result>(
   }
 }
 
-function later(delayMs: number, run: () => void): void {
-  if (delayMs === 0) run();
-  else setTimeout(run, delayMs);
+/** What is said later arrives later. */
+function createWay(delayMs: number, jitterMs: number): (run: () => void) => void {
+  let lastMs = 0;
+  return (run) => {
+    if (delayMs === 0) return run();
+    lastMs = Math.max(lastMs, performance.now() + delayMs + jitterMs * (2 * Math.random() - 1));
+    setTimeout(run, lastMs - performance.now());
+  };
 }
