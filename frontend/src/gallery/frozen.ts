@@ -40,7 +40,7 @@ export function frozenSession(
     download: nothing,
     cancelDownload: nothing,
     sendRaw: nothing,
-    play: () => Promise.resolve({ lateFrames: 0, latestMs: 0, skippedFrames: 0 }),
+    play: () => Promise.resolve({ lateFrames: 0, latestMs: 0, skippedFrames: 0, isWhole: true }),
     stopPlaying: () => undefined,
     motions: () => (servo) => motions[servo] ?? { target: null, estimated: null },
   };

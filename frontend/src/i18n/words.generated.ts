@@ -623,6 +623,7 @@ export interface Messages {
     readonly refuse: string;
     readonly release: string;
     readonly mayGoOn: (values: { readonly slot: number }) => string;
+    readonly playingMayGoOn: string;
     readonly goesOnFor: (values: { readonly ms: number }) => string;
     readonly goesOnLabel: string;
     readonly keep: string;
@@ -642,6 +643,7 @@ export interface Messages {
     readonly asked: (values: { readonly name: string }) => string;
     readonly asker: (values: { readonly name: string }) => string;
     readonly goesOn: (values: { readonly slot: number; readonly name: string }) => string;
+    readonly playingGoesOn: (values: { readonly name: string }) => string;
     readonly given: (values: { readonly name: string }) => string;
   };
   readonly record: {

@@ -28,9 +28,7 @@ export function UnattendedChip() {
         <Mark truth="commanded" />
         <div className={styles.words}>
           <p className={styles.text} aria-live="polite">
-            {isOurs
-              ? words.lease.mayGoOn({ slot: run.slot })
-              : words.lease.goesOn({ slot: run.slot, name: personWithin(run.by, you) })}
+            {isOurs ? mayGoOn(run) : goesOn(run, you)}
           </p>
           <p className={styles.more}>
             <Left key={run.endsInMs} run={run} />
@@ -44,6 +42,15 @@ export function UnattendedChip() {
       )}
     </div>
   );
+}
+
+function mayGoOn({ slot }: Unattended): string {
+  return slot === null ? words.lease.playingMayGoOn : words.lease.mayGoOn({ slot });
+}
+
+function goesOn({ slot, by }: Unattended, you: string): string {
+  const name = personWithin(by, you);
+  return slot === null ? words.lease.playingGoesOn({ name }) : words.lease.goesOn({ slot, name });
 }
 
 /** Counts from when it was told. */

@@ -6,20 +6,25 @@ import type { MotionBefore } from '#shared/motion/before.ts';
 import { fromHex } from '#shared/protocol/hex.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { SharedBoard } from '#shared/session/identity.ts';
+import type { Played } from '#shared/session/player.ts';
 import type {
+  PlayProgress,
   RobotOnBoard,
   SharedLatchReason,
+  SharedPlayer,
   Transport,
   TransportEvents,
 } from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
 import { createGatewayMoves } from './gatewayMoves.ts';
+import type { GatewayPlayer } from './gatewayPlayer.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
 import { boardTold, compactHex, isQuestion, LATCHED_BY, motionBefore, portError } from './gatewayWords.ts';
 import {
   PROTOCOL,
   type ClientMessage,
   type GatewayMessage,
+  type PlayState,
   type PortState,
   type RobotTold,
   type StateMessage,
@@ -51,6 +56,10 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     nextId: () => nextId++,
     failed: (error) => events?.moveFailed?.(error),
   });
+  /** Comes when it is first asked for. */
+  let player: Promise<GatewayPlayer> | null = null;
+  let playId = 0;
+  let progress: PlayProgress | null = null;
   const asking = new Map<number, Settle>();
   const halting = new Set<Settle>();
   const resuming = new Set<Settle>();
@@ -70,6 +79,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
         robotChanged(message.robot);
         before = motionBefore(message.motion);
         slots.told(message.job);
+        playTold(message.play);
         stateChanged(message);
         break;
       case 'state':
@@ -90,6 +100,12 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
         break;
       case 'job':
         slots.told(message.job);
+        break;
+      case 'play':
+        playTold(message.play);
+        break;
+      case 'played':
+        tellPlayer((one) => one.ended(message));
         break;
       case 'tick':
         turn.ticked(message.nonce);
@@ -114,8 +130,8 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     }
   }
 
-  async function beginTurn(): Promise<string> {
-    await turn.begin();
+  async function beginTurn(withinMs?: number): Promise<string> {
+    await turn.begin(withinMs);
     return turn.nonce ?? '';
   }
 
@@ -146,12 +162,18 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     events?.described?.(robot);
   }
 
+  function playTold(play: PlayState | null): void {
+    progress = play?.status === 'playing' ? play : null;
+    events?.playing?.(progress);
+  }
+
   /** Without an id it was a stop or a resume. */
   function refused(id: number | null, error: LinkError): void {
     if (id === null) return rejectAll(error);
     const packet = take(id);
-    if (packet === undefined) moves.refused(id, error);
-    else packet.reject(error);
+    if (packet !== undefined) return packet.reject(error);
+    if (id === playId) tellPlayer((one) => one.refused(id, error));
+    else moves.refused(id, error);
   }
 
   function rejectAll(error: LinkError): void {
@@ -184,6 +206,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     events = null;
     turn.fail(error);
     slots.gone(error);
+    tellPlayer((one) => one.gone(error));
     for (const waiter of asking.values()) waiter.reject(error);
     asking.clear();
     rejectAll(error);
@@ -213,6 +236,31 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     if (socket?.readyState === WebSocket.OPEN) post(message);
   }
 
+  async function play(...wish: Parameters<SharedPlayer['play']>): Promise<Played> {
+    player ??= import('./gatewayPlayer.ts').then(({ createGatewayPlayer }) =>
+      createGatewayPlayer(postIfOpen, beginTurn, () => (playId = nextId++)),
+    );
+    return (await player.catch(notLoaded)).play(...wish);
+  }
+
+  /** It is tried again when it is asked for again. */
+  function notLoaded(error: unknown): never {
+    player = null;
+    throw error;
+  }
+
+  /** In the order of what was asked of it. */
+  const tellPlayer = (tell: (player: GatewayPlayer) => void): void =>
+    void player?.then(tell, () => undefined);
+  const stopPlaying = (): void => tellPlayer((one) => one.stop());
+
+  function answered(waiters: Set<Settle>, message: ClientMessage): Promise<void> {
+    return new Promise((resolve, reject) => {
+      post(message);
+      waiters.add({ resolve, reject });
+    });
+  }
+
   /** What has an outcome of its own. */
   function ask(worded: (id: number) => ClientMessage): Promise<void> {
     return new Promise((resolve, reject) => {
@@ -229,6 +277,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     kind: 'gateway',
     slots,
     moves,
+    player: { play, stop: stopPlaying },
     get isSimulated() {
       return port?.simulated ?? false;
     },
@@ -251,6 +300,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
       if (turn.lease !== null) next.leased?.(turn.lease);
       next.waiting?.(waitingToStart);
       if (latched !== null) next.latched?.(latched, stoppedBy);
+      next.playing?.(progress);
     },
     async send(packet) {
       if (!isQuestion(packet)) await turn.begin();
@@ -261,18 +311,13 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
         typeof action === 'string' ? { type: 'lease', action } : { type: 'give', to: action.giveTo },
       ),
     letGoOn: (forMs) => postIfOpen({ type: 'continue', forMs }),
-    halt(why) {
-      return new Promise((resolve, reject) => {
-        post({ type: 'stop', why: why === 'battery' ? 'battery' : 'person' });
-        halting.add({ resolve, reject });
-      });
+    async halt(why) {
+      stopPlaying();
+      await answered(halting, { type: 'stop', why: why === 'battery' ? 'battery' : 'person' });
     },
-    resume() {
-      return new Promise((resolve, reject) => {
-        post({ type: 'resume' });
-        if (latched !== null) resuming.add({ resolve, reject });
-        else resolve();
-      });
+    async resume() {
+      if (latched !== null) await answered(resuming, { type: 'resume' });
+      else post({ type: 'resume' });
     },
     whenAvailable(notify) {
       notifyAvailable = notify;

@@ -2,12 +2,12 @@
 // itself and goes on when the page has gone. Knows jobs and their route; no socket.
 
 import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
-import type { Frame } from '#shared/protocol/commands.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import { DOWNLOAD_PORTION_BYTES } from '#shared/session/timings.ts';
 import type { SharedSlots, SlotGroup, SlotVersions } from '#shared/session/transport.ts';
 import { isRecord } from '../gateway/request.ts';
 import { askGateway, refusal } from './gatewayHttp.ts';
+import { frameBody } from './gatewayWords.ts';
 import type { JobState, StateMessage } from './messages.generated.ts';
 
 /** As large as half a megabyte, which a slow network takes a while for. */
@@ -138,11 +138,4 @@ function isAlike(one: SlotVersions, other: SlotVersions): boolean {
       (slot) => one[slot]?.version === other[slot]?.version && one[slot]?.atMs === other[slot]?.atMs,
     )
   );
-}
-
-function frameBody({ durationMs, targets }: Frame): object {
-  return {
-    durationMs,
-    positions: Object.fromEntries(targets.map(({ servo, position }) => [servo, position])),
-  };
 }

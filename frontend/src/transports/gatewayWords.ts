@@ -1,7 +1,7 @@
 // What the gateway says in its own words, as the session has it, and the other way round. Pure: knows no socket.
 
 import type { MotionBefore } from '#shared/motion/before.ts';
-import { isHarmless } from '#shared/protocol/commands.ts';
+import { isHarmless, type Frame } from '#shared/protocol/commands.ts';
 import { FAMILIES, type BoardId } from '#shared/protocol/families.ts';
 import { toHex } from '#shared/protocol/hex.ts';
 import { commandIn } from '#shared/protocol/parse.ts';
@@ -9,7 +9,7 @@ import type { Identity, SharedBoard } from '#shared/session/identity.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { SharedLatchReason } from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
-import type { MotionTold, PortState, StateMessage } from './messages.generated.ts';
+import type { FrameBody, MotionTold, PortState, StateMessage } from './messages.generated.ts';
 
 export const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, SharedLatchReason>> = {
   person: 'elsewhere',
@@ -42,6 +42,13 @@ export function isQuestion(packet: Uint8Array): boolean {
 export function motionBefore({ servos, runSlot, released }: MotionTold): MotionBefore {
   const ways = servos.map(({ start, target, ...way }) => ({ ...way, from: start, to: target }));
   return { ways, runSlot, released };
+}
+
+export function frameBody({ durationMs, targets }: Frame): FrameBody {
+  return {
+    durationMs,
+    positions: Object.fromEntries(targets.map(({ servo, position }) => [servo, position])),
+  };
 }
 
 export function portError(port: PortState | null): LinkError {

@@ -61,6 +61,16 @@ test('a page that was busy says nothing with an old nonce, but waits for the nex
   expect(said.map(({ type }) => type)).toEqual(['beat', 'beat']);
 });
 
+test('whoever needs newer words waits for the next tick', async () => {
+  const { turn, pass } = page(OURS);
+  turn.ticked('1-1');
+  pass(150);
+  const begun = turn.begin(100);
+  turn.ticked('1-2');
+  await begun;
+  expect(turn.nonce).toBe('1-2');
+});
+
 test('a page that wakes when its turn is over is told so, and waits for no tick', async () => {
   const { turn, said, pass } = page(OURS);
   turn.ticked('1-1');

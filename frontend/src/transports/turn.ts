@@ -13,8 +13,8 @@ export interface Turn {
   /** How many are at the gateway, this page among them, and what goes on without anybody. */
   counted(clients: number, unattended: Unattended | null): void;
   ticked(nonce: string): void;
-  /** Resolves when this page drives and its nonce is of now; rejects where somebody else drives. */
-  begin(): Promise<void>;
+  /** Resolves when this page drives and its nonce is of now, no older than `withinMs`; rejects where somebody else drives. */
+  begin(withinMs?: number): Promise<void>;
   /** Whoever waits for it waits in vain. */
   fail(error: LinkError): void;
   /** The gateway is not there any more: what it told is void. */
@@ -72,8 +72,8 @@ export function createTurn(post: (message: ClientMessage) => void, now: () => nu
       post({ type: 'beat', nonce });
       settle(({ resolve }) => resolve());
     },
-    begin() {
-      if (nonce !== null && now() - tickedMs <= FRESH_MS) return Promise.resolve();
+    begin(withinMs = FRESH_MS) {
+      if (nonce !== null && now() - tickedMs <= withinMs) return Promise.resolve();
       if (isWatching(lease)) return Promise.reject(notDriving(lease));
       return new Promise((resolve, reject) => {
         if (nonce === null) post({ type: 'lease', action: 'request' });

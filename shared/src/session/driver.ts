@@ -17,7 +17,7 @@ import type { Replies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { setSpeed } from './speed.ts';
-import type { SharedMoves, SharedSlots } from './transport.ts';
+import type { SharedMoves, SharedPlayer, SharedSlots } from './transport.ts';
 import { createTurns } from './turns.ts';
 
 export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
@@ -26,6 +26,7 @@ export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
   readonly shared: SharedSlots | undefined;
   /** Then nothing of the page's moves waits here. */
   readonly sharedMoves: SharedMoves | undefined;
+  readonly sharedPlayer: SharedPlayer | undefined;
 }
 
 export interface Driver {
@@ -56,7 +57,7 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
   const buffer = createMoveBuffer(family);
   const moves = sharedMoves ?? buffer;
   const turns = createTurns({ clock, isUnknown: robot.isUnknown, due: lanes.wake, waiting });
-  const live = createLive(core, moves, turns);
+  const live = createLive(core, moves, turns, options.sharedPlayer);
   const groups = createGroups(core, slotMemory, shared);
   const readBattery = createBatteryReader(core);
   const readings = createReadings(core);

@@ -4,7 +4,8 @@ import { LinkError } from './linkError.ts';
 
 /** A run that may go on without whoever began it. */
 export interface Unattended {
-  readonly slot: number;
+  /** null where the gateway plays. */
+  readonly slot: number | null;
   readonly times: number;
   readonly by: string;
   /** At the latest, from when this was told. */

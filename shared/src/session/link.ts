@@ -12,21 +12,7 @@ export type LineState =
   | Extract<LinkState, { status: 'closed' | 'opening' | 'lost' | 'refused' }>
   | { readonly status: 'open'; readonly isReturn: boolean };
 
-export interface LinkOptions extends Pick<
-  TransportEvents,
-  | 'received'
-  | 'latched'
-  | 'halted'
-  | 'resumed'
-  | 'identified'
-  | 'described'
-  | 'placed'
-  | 'leased'
-  | 'slotsChanged'
-  | 'followed'
-  | 'waiting'
-  | 'moveFailed'
-> {
+export interface LinkOptions extends Omit<TransportEvents, 'lost'> {
   readonly transport: Transport;
   readonly clock: Clock;
   changed(state: LineState): void;
@@ -82,26 +68,12 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
   async function connect(): Promise<void> {
     const mine = (generation += 1);
     if (!isDown()) enter({ status: 'opening' });
-    const ifMine =
-      <A extends readonly unknown[]>(tell: ((...values: A) => void) | undefined) =>
-      (...values: A): void =>
-        mine === generation ? tell?.(...values) : undefined;
+    const told = Object.entries({ ...events, lost: fail }).map(([name, tell]) => [
+      name,
+      (...values: unknown[]) => void (mine === generation && Reflect.apply(tell, undefined, values)),
+    ]);
     try {
-      await transport.open({
-        received: ifMine(events.received),
-        latched: ifMine(events.latched),
-        halted: ifMine(events.halted),
-        resumed: ifMine(events.resumed),
-        identified: ifMine(events.identified),
-        described: ifMine(events.described),
-        placed: ifMine(events.placed),
-        leased: ifMine(events.leased),
-        slotsChanged: ifMine(events.slotsChanged),
-        followed: ifMine(events.followed),
-        waiting: ifMine(events.waiting),
-        moveFailed: ifMine(events.moveFailed),
-        lost: ifMine(fail),
-      });
+      await transport.open(Object.fromEntries(told) as TransportEvents);
     } catch (error) {
       const reason =
         error instanceof LinkError ? error : new LinkError('internal', String(error), { cause: error });

@@ -3,7 +3,7 @@
 
 import type { Clock } from '../clock.ts';
 import type { Frame } from '../protocol/commands.ts';
-import { CATCH_UP, FIRST_MOVE_MS, LATE_MS } from './timings.ts';
+import { CATCH_UP, FIRST_MOVE_MS, GIVE_UP_MS, LATE_MS, LOOK_MS } from './timings.ts';
 
 export interface PlayerOptions {
   readonly clock: Clock;
@@ -29,6 +29,8 @@ export interface Played {
   readonly latestMs: number;
   /** Frames that had not left when the next one took their place, or that the link refused. */
   readonly skippedFrames: number;
+  /** The last frame has ended. */
+  readonly isWhole: boolean;
 }
 
 export interface Playing {
@@ -38,10 +40,6 @@ export interface Playing {
   refused(): void;
   stop(): void;
 }
-
-/** How often it is looked whether a frame has left, and how long at most: longer than any packet takes. */
-const LOOK_MS = 5;
-const GIVE_UP_MS = 250;
 
 export function play(options: PlayerOptions): Playing {
   const { clock, frames, times, loopFrom, startsWithinMs, move, isWaiting, frameBegan } = options;
@@ -57,7 +55,7 @@ export function play(options: PlayerOptions): Playing {
   /** Not before: the frame under way would be cut short. */
   let earliestMs = -Infinity;
   let before: Frame | null = null;
-  let played: Played = { lateFrames: 0, latestMs: 0, skippedFrames: 0 };
+  let played: Played = { lateFrames: 0, latestMs: 0, skippedFrames: 0, isWhole: false };
 
   const frameAfter = (count: number): number =>
     count < frames.length ? count : loopFrom + ((count - frames.length) % (frames.length - loopFrom));
@@ -88,7 +86,7 @@ export function play(options: PlayerOptions): Playing {
     const index = frameAfter(begun);
     const frame = frames[index];
     const count = frames.length + (times - 1) * (frames.length - loopFrom);
-    if (frame === undefined || (times > 0 && begun === count)) return finish(played);
+    if (frame === undefined || (times > 0 && begun === count)) return finish({ ...played, isWhole: true });
     if (!mayBegin(Math.max(deadlineMs, earliestMs))) return;
     const isFirst = begun === 0;
     const durationMs = isFirst ? Math.max(frame.durationMs, FIRST_MOVE_MS) : frame.durationMs;

@@ -128,6 +128,7 @@ export function createSession(options: SessionOptions): Session {
       if (store.state.link.status === 'ready') driver.groups.linked();
     },
     followed: sentElsewhere,
+    playing: (progress) => driver.live.told(progress),
     waiting: (waitingToStart) => store.update({ waitingToStart }),
     moveFailed,
     latched(reason, by = null) {
@@ -182,8 +183,9 @@ export function createSession(options: SessionOptions): Session {
   });
 
   function driverFor(next: Family): Driver {
-    const shared = { shared: transport.slots, sharedMoves: transport.moves };
-    return createDriver(next, { clock, store, lanes, replies, slotMemory, ...shared });
+    const { slots: shared, moves: sharedMoves, player: sharedPlayer } = transport;
+    const links = { shared, sharedMoves, sharedPlayer };
+    return createDriver(next, { clock, store, lanes, replies, slotMemory, ...links });
   }
 
   function moveFailed(error: LinkError): void {

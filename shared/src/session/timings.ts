@@ -28,6 +28,9 @@ export const RUN_END_GRACE_MS = timings.run.endGraceMs;
 
 export const CATCH_UP = timings.play.catchUpShare;
 export const LATE_MS = timings.play.lateMs;
+export const LOOK_MS = timings.play.lookMs;
+export const GIVE_UP_MS = timings.play.giveUpMs;
+export const MESSAGE_BYTES = timings.play.messageBytes;
 
 export const BATTERY_TIMEOUT_MS = timings.battery.timeoutMs;
 export const BATTERY_SILENT_LIMIT = timings.battery.silentLimit;

@@ -8,6 +8,7 @@ import type { BoardId } from '../protocol/families.ts';
 import type { SharedBoard } from './identity.ts';
 import type { Lease, LeaseAction } from './lease.ts';
 import type { LinkError } from './linkError.ts';
+import type { Played } from './player.ts';
 
 /** Why a shared link (gateway) refuses motion: another screen, no driver while it moved, or a port that was lost. */
 export type SharedLatchReason = 'elsewhere' | 'battery' | 'unwatched' | 'reconnected';
@@ -38,6 +39,8 @@ export interface TransportEvents {
   leased?(lease: Lease): void;
   /** Only a shared link: something of its `slots` is another now. */
   slotsChanged?(): void;
+  /** Only a shared link: how far what it plays is, whoever asked for it; null: nothing any more. */
+  playing?(progress: PlayProgress | null): void;
   /** Only a shared link: who waits to start. */
   waiting?(servos: readonly number[]): void;
   /** Only a shared link: something of its `moves` did not leave. */
@@ -110,6 +113,19 @@ export interface SharedMoves {
   clear(): void;
 }
 
+export interface PlayProgress {
+  readonly frameIndex: number;
+  readonly frameCount: number;
+}
+
+/** How a shared link plays frames, by its own clock. */
+export interface SharedPlayer {
+  /** Resolves when it has ended, however. `times` 0: until stopped; each pass but the first begins with frame `loopFrom`. */
+  play(frames: readonly Frame[], times: number, loopFrom: number): Promise<Played>;
+  /** What was begun from here ends with its frame in progress. */
+  stop(): void;
+}
+
 /** Which document of a shared link's library describes the robot on its board; null for none. */
 export interface RobotOnBoard {
   readonly document: string | null;
@@ -126,6 +142,7 @@ export interface Transport {
   /** Only a shared link. */
   readonly slots?: SharedSlots;
   readonly moves?: SharedMoves;
+  readonly player?: SharedPlayer;
   /** Only a shared link: about who drives; `leased` follows. */
   lease?(action: LeaseAction): void;
   /** Only a shared link: the run under way may go on without this end, for so long at most; null: it may not. */

@@ -1,5 +1,5 @@
 // What is asked of the board and its session besides motion by hand: STOP, groups, readings, memory. Whatever fails becomes a
-// notice. Keeps nothing but whether what plays was paused; knows no panel.
+// notice. Keeps nothing; knows no panel.
 
 import type { Frame } from '#shared/protocol/commands.ts';
 import type { Family } from '#shared/protocol/families.ts';
@@ -62,10 +62,7 @@ export function createBoardVerbs({
   lateNews,
   tellError,
 }: BoardVerbsOptions): BoardVerbs {
-  let paused = false;
   let mayBegin: RunGuard = () => true;
-
-  const setPaused = (on: boolean): boolean => (paused = on);
 
   function attempt(work: (session: Session) => Promise<unknown>, settled: Settled = () => undefined): void {
     const session = now();
@@ -148,17 +145,16 @@ export function createBoardVerbs({
         return;
       }
       attemptRun(async (current) => {
-        setPaused(false);
-        const { lateFrames, latestMs, skippedFrames } = await current.play(onIt, { times, loopFrom });
+        const { lateFrames, latestMs, skippedFrames, isWhole } = await current.play(onIt, {
+          times,
+          loopFrom,
+        });
         if (skippedFrames > 0) notices.tell('warning', words.play.skipped({ frames: skippedFrames }));
         else if (lateFrames > 0) notices.tell('info', words.play.late({ frames: lateFrames, ms: latestMs }));
-        return !paused && current.state.latch === null && current.state.link.status === 'ready';
+        return isWhole;
       }, settled);
     },
-    stopPlaying() {
-      setPaused(true);
-      now()?.stopPlaying();
-    },
+    stopPlaying: () => now()?.stopPlaying(),
   };
 }
 
