@@ -27,6 +27,7 @@ SCENARIOS = load_scenarios()
 OPEN_FOR_S = 0.1
 # Behind the last event: what should not come any more would be seen.
 QUIET_S = 5.0
+BEFORE_HEARTBEAT_S = 1.5
 
 
 class Listener(Client):
@@ -70,11 +71,8 @@ class Player:
                 self._scripts.act(ANNA, "beat")
 
     def leaves(self) -> list[tuple[float, str]]:
-        return [
-            (self._ms(at_s), packet.hex(" ").upper())
-            for at_s, packet in self._port.written
-            if at_s >= self.begun_s
-        ]
+        """Behind the stop that is the gateway's own: it sends one at each opening."""
+        return [(self._ms(at_s), packet.hex(" ").upper()) for at_s, packet in self._port.written[1:]]
 
     def tells(self) -> list[tuple[float, str, Any]]:
         """Each field when it has changed."""
@@ -100,27 +98,38 @@ class Player:
         control = self._control
         match intent:
             case {"type": "move", "targets": targets, "durationMs": duration_ms}:
-                if control.driving.driver is None:
-                    control.driving.act(self._seat, "request")
-                control.move(self._seat, targets_of(targets), duration_ms, self._seat.nonce)
+                self._move(targets_of(targets), duration_ms)
             case {"type": "run", "slot": slot, "times": times}:
-                if await self._scripts.run(ANNA, slot, times, take=False) == "silent":
-                    raise NoAnswerError("The board did not say that it runs the group.")
+                await self._run(slot, times)
             case {"type": "stop"}:
                 await control.stop()
             case {"type": "resume"}:
                 control.resume(ANNA, self._seat)
             case {"type": "readBattery"}:
                 await control.board.battery.read()
+            case {"type": "board", "family": family}:
+                control.name_board(ANNA, family)
             case {"type": "download", "groups": groups}:
                 return await self._download([Group(one["slot"], "", frames_of(one)) for one in groups])
             case {"type": "cancelDownload"}:
-                job = control.board.jobs.latest
-                assert job
-                control.board.jobs.cancel(job.id)
+                self._cancel_download()
             case _:
                 raise AssertionError(f"the gateway is not asked for {intent} here")
         return "done"
+
+    def _move(self, targets: list[ServoTarget], duration_ms: int) -> None:
+        if self._control.driving.driver is None:
+            self._control.driving.act(self._seat, "request")
+        self._control.move(self._seat, targets, duration_ms, self._seat.nonce)
+
+    async def _run(self, slot: int, times: int) -> None:
+        if await self._scripts.run(ANNA, slot, times, take=False) == "silent":
+            raise NoAnswerError("The board did not say that it runs the group.")
+
+    def _cancel_download(self) -> None:
+        job = self._control.board.jobs.latest
+        assert job
+        self._control.board.jobs.cancel(job.id)
 
     async def _download(self, groups: list[Group]) -> str:
         jobs, family = self._control.board.jobs, self._control.board.taken_for
@@ -139,7 +148,9 @@ def fields_of(message: Event) -> dict[str, Any]:
     match message["type"]:
         case "welcome" | "state":
             names = ("brokenSlots", "waitingToStart")
-            return {"latched": message["latch"], **{name: message[name] for name in names}}
+            status, code = message["link"]["status"], message["link"]["code"]
+            link = f"refused: {code}" if status == "refused" else status
+            return {"link": link, "latched": message["latch"], **{name: message[name] for name in names}}
         case "halted":
             return {"unheld": message["unheld"]}
     return {}
@@ -163,14 +174,16 @@ def is_like(events: list[tuple[Any, ...]], expected: list[tuple[Any, ...]]) -> N
 @in_virtual_time
 async def test_what_comes_of_it_is_what_is_written(scenario: Event) -> None:
     port, events = FakePort(), scenario["events"]
-    control = Control(FakePorts(port), now, scenario["family"])
+    identifies = scenario.get("identifies", False)
+    control = Control(FakePorts(port), now, scenario["family"], asks_board=identifies)
     await control.use_port(DEVICE)
-    await asyncio.sleep(OPEN_FOR_S)
+    if not identifies:
+        await asyncio.sleep(OPEN_FOR_S)
     player = Player(control, port)
     for event in events:
         at(player.begun_s + event["atMs"] / 1000, partial(player.take, event))
     watching = asyncio.create_task(player.watch())
-    await asyncio.sleep(events[-1]["atMs"] / 1000 + QUIET_S)
+    await asyncio.sleep(events[-1]["atMs"] / 1000 + (BEFORE_HEARTBEAT_S if identifies else QUIET_S))
     watching.cancel()
     is_like(player.leaves(), [(one["atMs"], one["leaves"]) for one in events if "leaves" in one])
     is_like(player.ends, [(one["atMs"], one["ends"], one["with"]) for one in events if "ends" in one])

@@ -3,7 +3,7 @@
 
 import { sleep } from '../clock.ts';
 import type { Frame, ServoTarget } from '../protocol/commands.ts';
-import { family as familyOf, type FamilyId } from '../protocol/families.ts';
+import { family as familyOf, type BoardId, type FamilyId } from '../protocol/families.ts';
 import { fromHex, toHex } from '../protocol/hex.ts';
 import { wireMs } from '../protocol/packet.ts';
 import { createVirtualClock } from '../simulator/virtualClock.ts';
@@ -16,6 +16,7 @@ export type Intent =
   | { readonly type: 'move'; readonly targets: readonly ServoTarget[]; readonly durationMs: number }
   | { readonly type: 'run'; readonly slot: number; readonly times: number }
   | { readonly type: 'stop' | 'resume' | 'cancelDownload' | 'readBattery' }
+  | { readonly type: 'board'; readonly family: FamilyId }
   | {
       readonly type: 'download';
       readonly groups: readonly { readonly slot: number; readonly frames: readonly Frame[] }[];
@@ -32,12 +33,17 @@ export type ScenarioEvent = { readonly atMs: number } & (Input | Output);
 
 export interface Scenario {
   readonly name: string;
-  readonly family: FamilyId;
+  /** What the board is taken for. */
+  readonly family: BoardId;
+  /** The link opens at 0, and the board is asked who it is. Otherwise it has been open for a while, and the family's word is enough. */
+  readonly identifies?: true;
   readonly events: readonly ScenarioEvent[];
 }
 
 /** The part of the state that a scenario tells: each only when it has changed. */
 interface Told {
+  /** The status, and where it is refused the code. */
+  readonly link?: string;
   readonly latched?: boolean;
   /** Once the last packet of a stop has left. */
   readonly unheld?: { readonly servos: readonly number[] | null; readonly forMs: number | null } | null;
@@ -53,13 +59,15 @@ const isInput = (event: ScenarioEvent): boolean => 'asks' in event || 'says' in 
 const exactly = (ms: number): number => Math.round(ms * 1000) / 1000;
 
 /** Its inputs with what came of them, in the order of time. */
-export async function played({ name, family, events }: Scenario): Promise<Scenario> {
+export async function played({ events, ...head }: Scenario): Promise<Scenario> {
   const clock = createVirtualClock();
+  const openForMs = head.identifies ? 0 : OPEN_FOR_MS;
   const inputs = events.filter(isInput);
   const outputs: ScenarioEvent[] = [];
   const note = (output: Output): void =>
-    void outputs.push({ atMs: exactly(clock.now() - OPEN_FOR_MS), ...output });
+    void outputs.push({ atMs: exactly(clock.now() - openForMs), ...output });
   let board: TransportEvents | null = null;
+  let isBegun = false;
   const transport: Transport = {
     ...{ kind: 'webSerial', label: 'Board', isSimulated: false },
     open(next) {
@@ -72,9 +80,9 @@ export async function played({ name, family, events }: Scenario): Promise<Scenar
     },
     close: () => Promise.resolve(),
   };
-  const session = createSession({ transport, clock, family: familyOf(family) });
-  await session.open();
-  await clock.advance(OPEN_FOR_MS);
+  const session = createSession({
+    ...{ transport, clock, family: familyOf(head.family), identifies: head.identifies },
+  });
   let before = toldOf(session.state);
   session.subscribe({
     state(state) {
@@ -83,21 +91,24 @@ export async function played({ name, family, events }: Scenario): Promise<Scenar
         ([field, value]) => JSON.stringify(value) !== JSON.stringify(before[field as keyof Told]),
       );
       before = after;
-      if (changed.length > 0) note({ tells: Object.fromEntries(changed) });
+      if (changed.length > 0 && isBegun) note({ tells: Object.fromEntries(changed) });
     },
   });
+  await session.open();
+  await clock.advance(openForMs);
+  isBegun = true;
   for (const { atMs, ...input } of inputs)
     clock.after(atMs, () => {
       if ('says' in input) board?.received(fromHex(input.says));
       else if ('asks' in input) begin(session, input.asks, input.id ?? null, note);
     });
-  await clock.advance(Math.max(...inputs.map(({ atMs }) => atMs)) + QUIET_MS);
+  await clock.advance(Math.max(0, ...inputs.map(({ atMs }) => atMs)) + QUIET_MS);
   const all = [
     ...inputs.map((event) => ({ ...event, rank: 0 })),
     ...outputs.map((event) => ({ ...event, rank: 1 })),
   ];
   const inOrder = all.toSorted((one, other) => one.atMs - other.atMs || one.rank - other.rank);
-  return { name, family, events: inOrder.map(({ rank: _, ...event }) => event as ScenarioEvent) };
+  return { ...head, events: inOrder.map(({ rank: _, ...event }) => event as ScenarioEvent) };
 }
 
 function begin(session: Session, intent: Intent, id: number | null, note: (output: Output) => void): void {
@@ -123,6 +134,8 @@ async function asked(session: Session, intent: Intent): Promise<unknown> {
       return session.resume();
     case 'readBattery':
       return session.readBattery();
+    case 'board':
+      return session.choose(familyOf(intent.family));
     case 'download':
       return session.download(intent.groups);
     case 'cancelDownload':
@@ -130,8 +143,9 @@ async function asked(session: Session, intent: Intent): Promise<unknown> {
   }
 }
 
-function toldOf({ latch, brokenSlots, waitingToStart }: SessionState): Told {
+function toldOf({ link, latch, brokenSlots, waitingToStart }: SessionState): Told {
   return {
+    link: link.status === 'refused' ? `refused: ${link.error.code}` : link.status,
     latched: latch !== null,
     ...((latch?.stop === 'sent' || latch?.stop === 'confirmed') && { unheld: rounded(latch.unheld) }),
     brokenSlots,
