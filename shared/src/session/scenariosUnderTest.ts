@@ -15,7 +15,13 @@ import type { Transport, TransportEvents } from './transport.ts';
 export type Intent =
   | { readonly type: 'move'; readonly targets: readonly ServoTarget[]; readonly durationMs: number }
   | { readonly type: 'run'; readonly slot: number; readonly times: number }
-  | { readonly type: 'stop' | 'resume' | 'cancelDownload' | 'readBattery' }
+  | { readonly type: 'stop' | 'resume' | 'cancelDownload' | 'readBattery' | 'stopPlaying' }
+  | {
+      readonly type: 'play';
+      readonly frames: readonly Frame[];
+      readonly times: number;
+      readonly loopFrom: number;
+    }
   | { readonly type: 'board'; readonly family: FamilyId }
   | {
       readonly type: 'download';
@@ -49,6 +55,8 @@ interface Told {
   readonly unheld?: { readonly servos: readonly number[] | null; readonly forMs: number | null } | null;
   readonly brokenSlots?: readonly number[];
   readonly waitingToStart?: readonly number[];
+  /** The frame under way; null where nothing is played. */
+  readonly playedFrame?: number | null;
 }
 
 /** Long after the last input, so that what should not come any more would be seen. */
@@ -138,18 +146,24 @@ async function asked(session: Session, intent: Intent): Promise<unknown> {
       return session.choose(familyOf(intent.family));
     case 'download':
       return session.download(intent.groups);
+    case 'play':
+      return session.play(intent.frames, intent);
+    case 'stopPlaying':
+      session.stopPlaying();
+      return;
     case 'cancelDownload':
       return session.cancelDownload();
   }
 }
 
-function toldOf({ link, latch, brokenSlots, waitingToStart }: SessionState): Told {
+function toldOf({ link, latch, brokenSlots, waitingToStart, activity }: SessionState): Told {
   return {
     link: link.status === 'refused' ? `refused: ${link.error.code}` : link.status,
     latched: latch !== null,
     ...((latch?.stop === 'sent' || latch?.stop === 'confirmed') && { unheld: rounded(latch.unheld) }),
     brokenSlots,
     waitingToStart,
+    playedFrame: activity.kind === 'playing' ? activity.frameIndex : null,
   };
 }
 
