@@ -14,6 +14,7 @@ from servodeck.errors import ErrorCode
 from servodeck.intents import PlayIntent
 from servodeck.schema import Message, schema_of
 from servodeck.told import (
+    BatteryTold,
     IdentityTold,
     JobState,
     LatchedBy,
@@ -30,7 +31,7 @@ from servodeck.told import (
     UnheldServos,
 )
 
-PROTOCOL = 3
+PROTOCOL = 5
 """Counted up with each change that a page of before would not understand: it is told to load itself again."""
 
 # A packet is 255 bytes at most; one more is let in so that the gate can say what is wrong with it.
@@ -99,6 +100,14 @@ class BoardMessage(Message):
     type: Literal["board"]
     id: MessageId
     board: Annotated[str, Field(max_length=64)]
+
+
+class ReadMessage(Message):
+    """Ask the board now; what it says is told to everybody, and `done` once it has. Needs no lease."""
+
+    type: Literal["read"]
+    id: MessageId
+    what: Literal["battery"]
 
 
 class CalibrateMessage(Message):
@@ -172,6 +181,7 @@ AnyClientMessage = (
     | StopMessage
     | ResumeMessage
     | BoardMessage
+    | ReadMessage
     | CalibrateMessage
     | LeaseMessage
     | GiveMessage
@@ -214,6 +224,14 @@ class WelcomeMessage(Standing):
     job: JobState | None
     play: PlayState | None
     motion: MotionTold
+    battery: Annotated[BatteryTold, Field(discriminator="kind")]
+
+
+class BatteryMessage(Message):
+    """The board has told its battery, which the gateway asks for now and then, or stays silent about it."""
+
+    type: Literal["battery"] = "battery"
+    battery: Annotated[BatteryTold, Field(discriminator="kind")]
 
 
 class DoneMessage(Message):
@@ -310,8 +328,8 @@ class LeaseToldMessage(Message):
 
 
 class LeftMessage(Message):
-    """What others have put on the wire since the last of these, or the gateway itself, moves among it; no
-    questions.
+    """What others have put on the wire since the last of these, or the gateway itself, moves and questions
+    among it.
     """
 
     type: Literal["left"] = "left"
@@ -327,6 +345,7 @@ class TickMessage(Message):
 
 GatewayMessage = Annotated[
     WelcomeMessage
+    | BatteryMessage
     | DoneMessage
     | SentMessage
     | RefusedMessage

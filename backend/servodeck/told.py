@@ -126,6 +126,26 @@ class IdentityTold(Message):
     candidates: list[str]
 
 
+class BatteryUnread(Message):
+    kind: Literal["unread"] = "unread"
+
+
+class BatteryRead(Message):
+    kind: Literal["read"] = "read"
+    battery_mv: int
+    age_ms: int
+
+
+class BatterySilent(Message):
+    """Several questions in a row stayed unanswered; `lastMv` is what it said before."""
+
+    kind: Literal["silent"] = "silent"
+    last_mv: int | None
+
+
+BatteryTold = BatteryUnread | BatteryRead | BatterySilent
+
+
 class UnattendedRun(Message):
     """A run that may go on without its driver `by`, for so long at most. `slot` is null where the gateway
     plays.

@@ -83,6 +83,7 @@ async def test_a_conversation_from_welcome_to_resume(port: FakePort, gateway: Ru
         assert await hear_until(client, "sent") == {"type": "sent", "id": 2}
         port.say(BATTERY_REPORT)
         assert await hear(client) == {"type": "received", "packet": BATTERY_REPORT.hex()}
+        assert (await hear(client))["battery"]["batteryMv"] == 7500
         await say(client, type="send", id=3, packet="55550203")
         assert (await hear(client))["code"] == "malformed"
         await say(client, type="stop", hold=RUN.hex())  # a page of before: whatever it says, it is a stop

@@ -1,4 +1,5 @@
-"""The battery: one question to the board for all who want to know, and the newest word of it.
+"""The battery: one question to the board for all who want to know, and its newest word. Remembers how often
+the board stayed silent. Twin of shared/src/session/batteryReader.ts.
 
 Knows the question and its answer; no client, and not how a packet leaves.
 """
@@ -6,12 +7,15 @@ Knows the question and its answer; no client, and not how a packet leaves.
 import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 from servodeck.board.answers import Answers
 from servodeck.errors import NoAnswerError
 from servodeck.port.wire import Left
+from servodeck.protocol.families import Family
 from servodeck.protocol.timings import BATTERY
 from servodeck.protocol.values import Battery, Report
+from servodeck.told import BatteryRead, BatterySilent, BatteryTold, BatteryUnread
 
 BATTERY_PACKET = "5555020f"
 BATTERY_WAIT_S = BATTERY.timeout_ms / 1000
@@ -23,22 +27,47 @@ class BatteryReading:
     at_s: float
 
 
+class PoweredBoard(Protocol):
+    @property
+    def family(self) -> Family: ...
+
+    def ask_battery(self, question: str) -> Left:
+        """Puts that packet on the wire. Raises what keeps it from being asked."""
+
+    def battery_changed(self) -> None: ...
+
+
 class BatteryWatch:
-    def __init__(self, answers: Answers, ask: Callable[[str], Left], now: Callable[[], float]) -> None:
-        """`ask` puts that packet on the wire."""
+    def __init__(self, board: PoweredBoard, answers: Answers, now: Callable[[], float]) -> None:
         self.newest: BatteryReading | None = None
+        self.is_silent = False
+        """So many questions in a row stayed unanswered that such a board is taken to have no answer."""
+        self._board = board
         self._answers = answers
-        self._ask = ask
         self._now = now
+        self._silences = 0
         self._question: asyncio.Task[int] | None = None
 
     def heard(self, report: Report) -> None:
         if isinstance(report, Battery):
             self.newest = BatteryReading(report.battery_mv, self._now())
+            self._silences, self.is_silent = 0, False
+            self._board.battery_changed()
 
     def forget(self) -> None:
         """It is another board now."""
-        self.newest = None
+        was_known = self.newest or self.is_silent
+        self.newest, self._silences, self.is_silent = None, 0, False
+        if was_known:
+            self._board.battery_changed()
+
+    def told(self) -> BatteryTold:
+        newest = self.newest
+        if self.is_silent:
+            return BatterySilent(last_mv=newest.battery_mv if newest else None)
+        if newest is None:
+            return BatteryUnread()
+        return BatteryRead(battery_mv=newest.battery_mv, age_ms=round((self._now() - newest.at_s) * 1000))
 
     async def read(self) -> int:
         """In mV. Whoever asks while a question is under way shares its answer."""
@@ -48,10 +77,21 @@ class BatteryWatch:
         return await asyncio.shield(self._question)
 
     async def _read(self) -> int:
-        report = await self._answers.to(self._ask(BATTERY_PACKET), BATTERY_WAIT_S, Battery)
+        left = self._board.ask_battery(BATTERY_PACKET)
+        report = await self._answers.to(left, BATTERY_WAIT_S, Battery)
         if not isinstance(report, Battery):
+            self._count_silence()
             raise NoAnswerError("The board did not tell its battery voltage. Not every board can.")
         return report.battery_mv
+
+    def _count_silence(self) -> None:
+        # Where every such board answers, silence says that the board is gone, not that it cannot tell.
+        if "readBattery" in self._board.family.certain_answers:
+            return
+        self._silences += 1
+        if self._silences >= BATTERY.silent_limit and not self.is_silent:
+            self.is_silent = True
+            self._board.battery_changed()
 
     def _asked(self, question: asyncio.Task[int]) -> None:
         self._question = None

@@ -13,6 +13,7 @@ from servodeck import metrics
 from servodeck.access.gate import STOP, is_harmless, judge_packet
 from servodeck.board.answers import Answers
 from servodeck.board.battery import BatteryWatch
+from servodeck.board.battery_poll import BatteryPoll
 from servodeck.board.estimate import Estimate
 from servodeck.board.identification import Identification, Status
 from servodeck.board.identify import QUESTIONS
@@ -45,7 +46,7 @@ from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, Wire
 from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question
 from servodeck.protocol.packets import encode, parse_command, parse_report
-from servodeck.protocol.timings import IDENTIFY, wire_s
+from servodeck.protocol.timings import BATTERY, IDENTIFY, wire_s
 from servodeck.protocol.values import Battery, Report, Run, RunAccepted, RunStarted
 from servodeck.told import IdentityTold, JobState, LinkState, PlayState, PortState, StoredGroup
 
@@ -64,6 +65,8 @@ class BoardEvents(Protocol):
 
     def is_watched(self) -> bool:
         """Somebody would see what the board says unasked."""
+
+    def battery_changed(self) -> None: ...
 
     def job_changed(self, state: JobState) -> None: ...
 
@@ -96,17 +99,20 @@ class Board:
         *,
         asks: bool = False,
     ) -> None:
-        """`taken_for` is a family's name; `asks` has that checked at each opening, and watched.
+        """`taken_for` is a family's name; `asks` has that checked at each opening, watched, and
+        the battery read.
         `simulated_device`: what is behind that port is no real board.
         """
         self.taken_for = taken_for
         self.identification = Identification(self, FAMILIES[taken_for], asks=asks)
+        self._asks = asks
         self._simulated_device = simulated_device
         self._events = events
         self._now = now
         self.link = Link(ports, self._make_wire, self, now)
         self.answers = Answers()
-        self.battery = BatteryWatch(self.answers, self._ask, now)
+        self.battery = BatteryWatch(self, self.answers, now)
+        self._battery_poll = BatteryPoll(self._may_poll_battery, self.battery.read)
         self.jobs = Jobs(self, self.answers, now, slot_memory)
         self.moves = Moves(self, now, events.board_changed)
         self.plays = Plays(self.moves, self._play_changed, now)
@@ -115,6 +121,7 @@ class Board:
         self._cut: tuple[str, bytes] | None = None
         """The packet that a loss has cut on its way to the board at that place, until filler has ended it."""
         self._stop_again = StopAgain(now, lambda: self._motion.deaf_until_s, self._stop_unheard)
+        self._run: Run | Playing | None = None
         self.unattended = Unattended(now, events.time_alone_over, events.board_changed)
         self.halts = 0
         """How often what was under way has been ended."""
@@ -322,6 +329,10 @@ class Board:
             self._no_longer_ready(status)
         if before == "stale" and status not in ("stale", "closed"):
             self.halt_again()  # it may have moved or restarted behind our back
+        if self._asks and status == "ready" and before != "ready":
+            self._battery_poll.begin()
+        elif status != "ready":
+            self._battery_poll.end()
         if self.link.state.status == "open":
             self._events.board_changed()
 
@@ -333,9 +344,34 @@ class Board:
         if status == "stale":
             self._events.board_lost()
 
+    # What its battery asks and tells
+
+    def ask_battery(self, question: str) -> Left:
+        wire = self.link.wire()
+        if self.identification.state.status != "stale":
+            self.judge_known()
+        packet = judge_packet(question, self.taken_for)
+        self.jobs.judge_idle()
+        return wire.send(packet, self)
+
+    def battery_changed(self) -> None:
+        self._events.battery_changed()
+
+    def looked_at(self) -> None:
+        """Somebody begins to look on: what nobody wanted to know for a while is asked now."""
+        newest = self.battery.newest
+        if newest is None or self._now() - newest.at_s > BATTERY.every_ms / 1000:
+            self._battery_poll.looked_at()
+
+    def _may_poll_battery(self) -> bool:
+        can_tell = "readBattery" in self.family.answers and not self.battery.is_silent
+        return can_tell and self.identification.state.status == "ready" and self.may_ask()
+
     # What a download tells
 
     def job_changed(self, state: JobState) -> None:
+        if state.status != "running":
+            self._battery_poll.has_ended()
         self._events.job_changed(state)
 
     def slots_changed(self) -> None:
@@ -347,13 +383,10 @@ class Board:
     # Inside
 
     def _play_changed(self, state: PlayState) -> None:
-        self.unattended.follow(self.run)
+        self._follow_run()
+        if self.plays.present is None:
+            self._battery_poll.has_ended()
         self._events.play_changed(state)
-
-    def _ask(self, question: str) -> Left:
-        packet = judge_packet(question, self.taken_for)
-        self.jobs.judge_idle()
-        return self.link.wire().send(packet, self)
 
     def _stop_unheard(self) -> None:
         if self._is_moving():
@@ -364,6 +397,13 @@ class Board:
         hold = self.motion.hold(self._now())
         is_known = self.identification.state.status in ("ready", "stale")
         return encode(hold, self.family) if hold and is_known else None
+
+    def _follow_run(self) -> None:
+        run, before = self.run, self._run
+        self._run = run
+        self.unattended.follow(run)
+        if before and not run:
+            self._battery_poll.has_ended()
 
     def _forget_motion(self) -> None:
         """It may be another board, and whoever had the port before may have set something in motion."""
@@ -408,10 +448,10 @@ class Board:
             self._stop_again.stopped(at_s)
         elif not (is_harmless(packet) or self.link.wire().is_halting):
             self._stop_again.void()
-        self.unattended.follow(self.run)
+        self._follow_run()
         self.jobs.left(command, at_s, self.link.place)
-        is_told = packet[COMMAND_AT] == STOP or not is_harmless(packet)
-        if is_told and owner is not self:  # its own stop at the opening ends nothing that anybody began
+        is_opening = packet[COMMAND_AT] == STOP and owner is self
+        if not is_opening:  # which ends nothing that anybody began
             self._events.leaving(owner, packet, at_s)
 
     def _take(self, event: DecoderEvent) -> None:
@@ -428,7 +468,7 @@ class Board:
         self.motion.heard(report, self._now())
         self._stop_again.heard()
         self._silence.heard(event.packet.command)  # behind it: what was forgotten in the silence stays so
-        self.unattended.follow(self.run)
+        self._follow_run()
         self.battery.heard(report)
         self.jobs.heard(report, self.link.place)
         self.answers.heard(report, self._now())

@@ -46,6 +46,7 @@ from servodeck.errors import (
 from servodeck.files.remembered import Remembered
 from servodeck.library.robot_of_board import ReadFacts, RobotOfBoard, no_robot
 from servodeck.messages import (
+    BatteryMessage,
     HaltedMessage,
     JobMessage,
     NoiseMessage,
@@ -133,6 +134,7 @@ class Control:
         self.hub.join(seat)
         self._telling.welcome(seat)
         self._telling.state(but=seat)
+        self.board.looked_at()
         self.driving.seated(seat)
 
     def leave(self, seat: Seat) -> None:
@@ -371,6 +373,9 @@ class Control:
         self._telling.state()
         self._see_robot()
 
+    def battery_changed(self) -> None:
+        self._telling.everybody(BatteryMessage(battery=self.board.battery.told()))
+
     def job_changed(self, state: JobState) -> None:
         self._telling.everybody(JobMessage(job=state))
 
@@ -383,6 +388,7 @@ class Control:
     def received(self, event: DecoderEvent) -> None:
         is_packet = isinstance(event, PacketEvent)
         text = event.bytes.hex()
+        self._relay.tell_left()  # a question before its answer
         self._telling.everybody(ReceivedMessage(packet=text) if is_packet else NoiseMessage(bytes=text))
 
     def may_have_missed_stops(self) -> None:

@@ -50,6 +50,12 @@ class Relay:
         if self._timer is None:
             self._plan()
 
+    def tell_left(self) -> None:
+        """What has left by now is told before what follows from it."""
+        if self._timer:
+            self._timer.cancel()
+            self._flush()
+
     def forget(self, seat: Seat) -> None:
         self._behind.pop(seat, None)
 

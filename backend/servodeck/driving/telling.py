@@ -42,6 +42,7 @@ class Telling:
             job=board.jobs.latest,
             play=board.plays.latest,
             motion=board.motion.told(self._now()),
+            battery=board.battery.told(),
             **self._standing(),
         )
         seat.put(encode(welcome))

@@ -34,6 +34,7 @@ from servodeck.messages import (
     MoveMessage,
     PlayedMessage,
     PlayMessage,
+    ReadMessage,
     RefusedMessage,
     ResumeMessage,
     SendMessage,
@@ -64,6 +65,7 @@ ROLES: dict[type[AnyClientMessage], Role] = {
     StopMessage: "stopper",
     ResumeMessage: "driver",
     BoardMessage: "driver",
+    ReadMessage: "viewer",
     CalibrateMessage: "driver",
     LeaseMessage: "viewer",
     GiveMessage: "driver",
@@ -156,7 +158,7 @@ def hear(text: str, seat: Seat, intake: Intake) -> None:
 
 
 def id_of(message: AnyClientMessage) -> int | None:
-    identified = MoveMessage | PlayMessage | SendMessage | BoardMessage
+    identified = MoveMessage | PlayMessage | SendMessage | BoardMessage | ReadMessage
     return message.id if isinstance(message, identified) else None
 
 
@@ -257,6 +259,17 @@ def name_board(message: BoardMessage, seat: Seat, control: Control) -> None:
     seat.put(encode(DoneMessage(id=message.id)))
 
 
+def read(message: ReadMessage, seat: Seat, control: Control) -> None:
+    reading = asyncio.create_task(control.board.battery.read())
+    reading.add_done_callback(lambda read: answer_read(seat, message.id, read))
+
+
+def answer_read(seat: Seat, message_id: int, reading: asyncio.Task[int]) -> None:
+    with refusing(seat, message_id):
+        reading.result()
+        seat.put(encode(DoneMessage(id=message_id)))
+
+
 ACTS: dict[type[AnyClientMessage], Callable[[Any, Seat, Control], None]] = {
     MoveMessage: take_move,
     PlayMessage: take_play,
@@ -265,6 +278,7 @@ ACTS: dict[type[AnyClientMessage], Callable[[Any, Seat, Control], None]] = {
     StopMessage: take_stop,
     ResumeMessage: lambda _, seat, control: control.resume(seat.caller, seat),
     BoardMessage: name_board,
+    ReadMessage: read,
     CalibrateMessage: lambda message, seat, control: control.limits.calibrate(seat, message.servo),
     LeaseMessage: act_on_lease,
     GiveMessage: give,

@@ -2,7 +2,7 @@
 
 import { readingKind, type Level } from '#shared/actions/battery/batteryGauge.ts';
 import type { Supply } from '#shared/actions/battery/batterySupply.ts';
-import type { Battery } from '#shared/session/state.ts';
+import type { Battery } from '#shared/session/battery.ts';
 import type { Truth } from '../ui/Chip.tsx';
 import { words } from '../i18n/words.ts';
 

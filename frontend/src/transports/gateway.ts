@@ -5,6 +5,7 @@ import type { Clock } from '#shared/clock.ts';
 import type { MotionBefore } from '#shared/motion/before.ts';
 import { fromHex } from '#shared/protocol/hex.ts';
 import { LinkError } from '#shared/session/linkError.ts';
+import type { Battery } from '#shared/session/battery.ts';
 import type { SharedBoard } from '#shared/session/identity.ts';
 import type { Played } from '#shared/session/player.ts';
 import type {
@@ -19,9 +20,18 @@ import { refusal } from './gatewayHttp.ts';
 import { createGatewayMoves } from './gatewayMoves.ts';
 import type { GatewayPlayer } from './gatewayPlayer.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
-import { boardTold, compactHex, isQuestion, LATCHED_BY, motionBefore, portError } from './gatewayWords.ts';
+import {
+  batteryTold,
+  boardTold,
+  compactHex,
+  isQuestion,
+  LATCHED_BY,
+  motionBefore,
+  portError,
+} from './gatewayWords.ts';
 import {
   PROTOCOL,
+  type BatteryMessage,
   type ClientMessage,
   type GatewayMessage,
   type PlayState,
@@ -45,6 +55,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
   let stoppedBy: string | null = null;
   let robot: RobotOnBoard = { document: null };
   let board: SharedBoard | null = null;
+  let battery: Battery = { kind: 'unread' };
   let waitingToStart: readonly number[] = [];
   /** Until the link is open: from then on it follows by itself. */
   let before: MotionBefore | null = null;
@@ -80,10 +91,14 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
         before = motionBefore(message.motion);
         slots.told(message.job);
         playTold(message.play);
+        batteryChanged(message.battery);
         stateChanged(message);
         break;
       case 'state':
         stateChanged(message);
+        break;
+      case 'battery':
+        batteryChanged(message.battery);
         break;
       case 'robot':
         robotChanged(message.robot);
@@ -155,6 +170,11 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
 
   function leaseChanged(): void {
     if (turn.lease !== null) events?.leased?.(turn.lease);
+  }
+
+  function batteryChanged(told: BatteryMessage['battery']): void {
+    battery = batteryTold(told, clock.now());
+    events?.battery?.(battery);
   }
 
   function robotChanged(told: RobotTold | null): void {
@@ -281,6 +301,10 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     get isSimulated() {
       return port?.simulated ?? false;
     },
+    async readBattery() {
+      await ask((id) => ({ type: 'read', id, what: 'battery' }));
+      return battery.kind === 'read' ? battery.batteryMv : 0;
+    },
     setBoard: (next) => ask((id) => ({ type: 'board', id, board: next })),
     calibrate(servo) {
       if (mayDrive) postIfOpen({ type: 'calibrate', servo });
@@ -294,6 +318,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
       if (port?.status !== 'open') throw portError(port);
       events = next;
       if (board !== null) next.identified?.(board);
+      next.battery?.(battery);
       next.described?.(robot);
       if (before !== null) next.placed?.(before);
       before = null;

@@ -5,11 +5,12 @@ import { isHarmless, type Frame } from '#shared/protocol/commands.ts';
 import { FAMILIES, type BoardId } from '#shared/protocol/families.ts';
 import { toHex } from '#shared/protocol/hex.ts';
 import { commandIn } from '#shared/protocol/parse.ts';
+import type { Battery } from '#shared/session/battery.ts';
 import type { Identity, SharedBoard } from '#shared/session/identity.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { SharedLatchReason } from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
-import type { FrameBody, MotionTold, PortState, StateMessage } from './messages.generated.ts';
+import type { BatteryMessage, FrameBody, MotionTold, PortState, StateMessage } from './messages.generated.ts';
 
 export const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, SharedLatchReason>> = {
   person: 'elsewhere',
@@ -37,6 +38,11 @@ export function boardTold({ board, link, identity }: Omit<StateMessage, 'type'>)
 export function isQuestion(packet: Uint8Array): boolean {
   const command = commandIn(packet);
   return command !== null && isHarmless(command);
+}
+
+export function batteryTold(told: BatteryMessage['battery'], nowMs: number): Battery {
+  if (told.kind !== 'read') return told;
+  return { kind: 'read', batteryMv: told.batteryMv, atMs: nowMs - told.ageMs };
 }
 
 export function motionBefore({ servos, runSlot, released }: MotionTold): MotionBefore {

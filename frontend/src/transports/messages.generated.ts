@@ -9,6 +9,7 @@ export type ClientMessage =
   | StopMessage
   | ResumeMessage
   | BoardMessage
+  | ReadMessage
   | CalibrateMessage
   | LeaseMessage
   | GiveMessage
@@ -16,6 +17,7 @@ export type ClientMessage =
   | BeatMessage;
 export type GatewayMessage =
   | WelcomeMessage
+  | BatteryMessage
   | DoneMessage
   | SentMessage
   | RefusedMessage
@@ -141,6 +143,17 @@ export interface BoardMessage {
   board: string;
 }
 /**
+ * Ask the board now; what it says is told to everybody, and `done` once it has. Needs no lease.
+ */
+export interface ReadMessage {
+  type: 'read';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+  what: 'battery';
+}
+/**
  * This client looks for the limits of `servo` and may pass the present ones with it, until `null` or the
  * end of its connection.
  */
@@ -205,6 +218,7 @@ export interface WelcomeMessage {
   job: JobState | null;
   play: PlayState | null;
   motion: MotionTold;
+  battery: BatteryUnread | BatteryRead | BatterySilent;
 }
 /**
  * How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
@@ -553,6 +567,28 @@ export interface ServoWay {
   begunMsAgo: number;
   durationMs: number;
 }
+export interface BatteryUnread {
+  kind: 'unread';
+}
+export interface BatteryRead {
+  kind: 'read';
+  batteryMv: number;
+  ageMs: number;
+}
+/**
+ * Several questions in a row stayed unanswered; `lastMv` is what it said before.
+ */
+export interface BatterySilent {
+  kind: 'silent';
+  lastMv: number | null;
+}
+/**
+ * The board has told its battery, which the gateway asks for now and then, or stays silent about it.
+ */
+export interface BatteryMessage {
+  type: 'battery';
+  battery: BatteryUnread | BatteryRead | BatterySilent;
+}
 /**
  * What the message of that id asked is done.
  */
@@ -696,8 +732,8 @@ export interface TickMessage {
   nonce: string;
 }
 /**
- * What others have put on the wire since the last of these, or the gateway itself, moves among it; no
- * questions.
+ * What others have put on the wire since the last of these, or the gateway itself, moves and questions
+ * among it.
  */
 export interface LeftMessage {
   type: 'left';
@@ -729,4 +765,4 @@ export interface PlayedMessage {
   play: PlayState;
 }
 /** Of these messages. */
-export const PROTOCOL = 3;
+export const PROTOCOL = 5;

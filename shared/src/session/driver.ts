@@ -17,7 +17,7 @@ import type { Replies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { setSpeed } from './speed.ts';
-import type { SharedMoves, SharedPlayer, SharedSlots } from './transport.ts';
+import type { SharedMoves, SharedPlayer, SharedSlots, Transport } from './transport.ts';
 import { createTurns } from './turns.ts';
 
 export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
@@ -27,6 +27,7 @@ export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
   /** Then nothing of the page's moves waits here. */
   readonly sharedMoves: SharedMoves | undefined;
   readonly sharedPlayer: SharedPlayer | undefined;
+  readonly sharedBattery: Transport['readBattery'];
 }
 
 export interface Driver {
@@ -59,7 +60,7 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
   const turns = createTurns({ clock, isUnknown: robot.isUnknown, due: lanes.wake, waiting });
   const live = createLive(core, moves, turns, options.sharedPlayer);
   const groups = createGroups(core, slotMemory, shared);
-  const readBattery = createBatteryReader(core);
+  const readBattery = createBatteryReader(core, options.sharedBattery);
   const readings = createReadings(core);
   const releaseServos = (servos: readonly number[]): Promise<void> => release(core, servos);
 

@@ -121,6 +121,7 @@ export function createSession(options: SessionOptions): Session {
     received: (bytes, whole = false) => receiver.push(bytes, whole),
     changed: lineChanged,
     identified: (board) => identification.told(board),
+    battery: (battery) => store.update({ battery }),
     described: (robotOnBoard) => store.update({ robotOnBoard }),
     placed: (motion) => (before = motion),
     leased,
@@ -183,8 +184,8 @@ export function createSession(options: SessionOptions): Session {
   });
 
   function driverFor(next: Family): Driver {
-    const { slots: shared, moves: sharedMoves, player: sharedPlayer } = transport;
-    const links = { shared, sharedMoves, sharedPlayer };
+    const { slots: shared, moves: sharedMoves, player: sharedPlayer, readBattery: sharedBattery } = transport;
+    const links = { shared, sharedMoves, sharedPlayer, sharedBattery };
     return createDriver(next, { clock, store, lanes, replies, slotMemory, ...links });
   }
 
@@ -199,8 +200,10 @@ export function createSession(options: SessionOptions): Session {
     driver.drop(new LinkError('cancelled', 'the board is taken for another one now'));
     driver = driverFor(next);
     store.update({
-      ...{ family: next, battery: { kind: 'unread' }, brokenSlots: [], storedSlots: [], lastDownload: null },
+      ...{ family: next, brokenSlots: [], storedSlots: [], lastDownload: null },
       ...NOTHING_READ,
+      // A shared link tells of its own.
+      ...(transport.readBattery === undefined ? { battery: { kind: 'unread' } } : {}),
     });
   }
 

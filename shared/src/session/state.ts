@@ -2,6 +2,7 @@
 // log. Knows no transport and no user interface. Every figure says how true it is: requested, estimated or confirmed.
 
 import type { Command } from '../protocol/commands.ts';
+import type { Battery } from './battery.ts';
 import type { Unheld } from '../motion/haltPlan.ts';
 import type { Report, ServoOffset } from '../protocol/reports.ts';
 import type { Family } from '../protocol/families.ts';
@@ -58,12 +59,6 @@ export type Activity =
   /** `slot` is being filled now. */
   | ({ readonly kind: 'downloading'; readonly slot: number } & DownloadProgress)
   | { readonly kind: 'erasing' };
-
-export type Battery =
-  | { readonly kind: 'unread' }
-  | { readonly kind: 'read'; readonly batteryMv: number; readonly atMs: number }
-  /** Three questions in a row stayed unanswered. */
-  | { readonly kind: 'silent'; readonly lastMv: number | null };
 
 /** What the board said of one servo, in its unit, and when, on the session's clock. */
 export interface Reading {

@@ -5,6 +5,7 @@ import type { Unheld } from '../motion/haltPlan.ts';
 import type { MotionBefore } from '../motion/before.ts';
 import type { Frame, ServoTarget } from '../protocol/commands.ts';
 import type { BoardId } from '../protocol/families.ts';
+import type { Battery } from './battery.ts';
 import type { SharedBoard } from './identity.ts';
 import type { Lease, LeaseAction } from './lease.ts';
 import type { LinkError } from './linkError.ts';
@@ -29,6 +30,8 @@ export interface TransportEvents {
   resumed?(by: string): void;
   /** Only a shared link, which asks the board itself. Told before it is open, and on each change. */
   identified?(board: SharedBoard): void;
+  /** Only a shared link, which asks for the battery itself. Told before it is open, and whenever the board has said more. */
+  battery?(battery: Battery): void;
   /** Only a shared link: which robot stands on the board. Told once it is open, and whenever any robot has changed there. */
   described?(robot: RobotOnBoard): void;
   /** Only a shared link: this packet has left the wire: somebody else's, one of `moves`, or of a stop, whoever pressed it. */
@@ -139,6 +142,8 @@ export interface Transport {
   readonly isSimulated: boolean;
   /** Only a shared link: says for everybody which board this is; `unknown` has it asked again. `identified` tells what comes of it. */
   setBoard?(board: BoardId): Promise<void>;
+  /** Only a shared link: asks for the battery now, for everybody. Resolves with millivolts, behind `battery`. */
+  readBattery?(): Promise<number>;
   /** Only a shared link. */
   readonly slots?: SharedSlots;
   readonly moves?: SharedMoves;

@@ -7,7 +7,7 @@ import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
 import { createSession } from '#shared/session/session.ts';
-import type { Transport } from '#shared/session/transport.ts';
+import type { Transport, TransportEvents } from '#shared/session/transport.ts';
 import { createSimulatedTransport } from '#shared/simulator/transport.ts';
 import { words } from '../../i18n/words.ts';
 import { createBattery } from './battery.ts';
@@ -242,12 +242,19 @@ describe('a robot that goes to rest', () => {
       ...{ asker: null, asks: false, answerInMs: null, others: 1 },
       ...{ you: 'Ben', mayDrive: true, mayTake: false, givenBy: null, candidates: [], unattended: null },
     };
+    /** A shared link asks by itself. */
+    const tell = (events: TransportEvents): void => {
+      events.battery?.({ kind: 'read', batteryMv: 6500, atMs: clock.now() });
+      clock.after(5000, () => tell(events));
+    };
     const transport: Transport = {
       ...line,
       async open(events) {
         await line.open(events);
         events.leased?.({ driver, drives, ...others });
+        tell(events);
       },
+      readBattery: () => Promise.resolve(6500),
     };
     const session = createSession({ transport, clock, family: FAMILIES.doc });
     device.attach(session, WAY);

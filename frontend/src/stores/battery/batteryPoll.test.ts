@@ -1,6 +1,8 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/protocol/families.ts';
 import { createRig } from '#shared/session/rig.ts';
+import { createSession } from '#shared/session/session.ts';
+import type { Transport } from '#shared/session/transport.ts';
 import { canReadBattery, pollBattery } from './batteryPoll.ts';
 import { createDevice } from '../device/device.ts';
 import { createNotices } from '../notices.ts';
@@ -66,6 +68,36 @@ describe('the battery poll', () => {
     end();
     await clock.advance(20_000);
     expect(asked()).toBe(1);
+  });
+
+  test('asks nothing of a shared robot: its link does', async () => {
+    const { clock, device } = await createDesk();
+    const rig = await createRig();
+    const readBattery = () => Promise.reject(new Error('asked by the page'));
+    const lease = { driver: null, drives: false, asker: null, asks: false, answerInMs: null, others: 0 };
+    const person = {
+      you: 'Ben',
+      mayDrive: true,
+      mayTake: false,
+      givenBy: null,
+      candidates: [],
+      unattended: null,
+    };
+    const transport: Transport = {
+      ...rig.transport,
+      readBattery,
+      open(events) {
+        events.leased?.({ ...lease, ...person });
+        events.battery?.({ kind: 'read', batteryMv: 7_200, atMs: 0 });
+        return rig.transport.open(events);
+      },
+    };
+    const session = createSession({ transport, clock, family: FAMILIES.doc });
+    device.attach(session, { kind: 'gateway', label: 'Gateway', isSimulated: true });
+    await session.open();
+    await clock.advance(20_000);
+    expect(rig.ofKind('readBattery')).toEqual([]);
+    expect(session.state.battery).toEqual({ kind: 'read', batteryMv: 7_200, atMs: 0 });
   });
 
   test('only boards that answer are asked', () => {

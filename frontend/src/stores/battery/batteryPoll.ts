@@ -1,6 +1,6 @@
 // Asks for the battery when a link becomes ready, soon after a run, and every five seconds while nothing moves: on some boards
 // any packet disturbs what runs, and under load the voltage sags anyway. A board that stayed silent is asked again only by a
-// person.
+// person, and a shared one by its link.
 
 import { BATTERY_AFTER_RUN_MS, BATTERY_EVERY_MS } from '#shared/session/timings.ts';
 import type { Device, DeviceState } from '../device/device.ts';
@@ -36,6 +36,6 @@ export function canReadBattery({ family }: Pick<DeviceState, 'family'>): boolean
 const isIdle = ({ snapshot }: DeviceState): boolean => snapshot.activity.kind === 'idle';
 
 function mayAsk(state: DeviceState): boolean {
-  const { link, battery } = state.snapshot;
-  return canReadBattery(state) && link.status === 'ready' && battery.kind !== 'silent';
+  const { link, battery, lease } = state.snapshot;
+  return lease === null && canReadBattery(state) && link.status === 'ready' && battery.kind !== 'silent';
 }
