@@ -40,7 +40,7 @@ async def batteries(here: Here, for_s: float) -> int:
 
 @in_virtual_time
 async def test_it_is_asked_at_once_and_every_5_s_and_all_are_told(simulator: Simulator) -> None:
-    async with asked(simulator, "lsc-6", "lsc-6") as here:
+    async with asked(simulator, "lsc-6", "lsc-6", polls_battery=True) as here:
         anna, bert = Client(here.control), Client(here.control)
         await asyncio.sleep(READY_S)
         await anna.heard()
@@ -57,7 +57,7 @@ async def test_it_is_asked_at_once_and_every_5_s_and_all_are_told(simulator: Sim
 
 @in_virtual_time
 async def test_a_question_is_told_before_its_answer(simulator: Simulator) -> None:
-    async with asked(simulator, "lsc-6", "lsc-6") as here:
+    async with asked(simulator, "lsc-6", "lsc-6", polls_battery=True) as here:
         await asyncio.sleep(READY_S)
         anna = Client(here.control)
         await asyncio.sleep(4.5)
@@ -72,7 +72,7 @@ async def test_a_question_is_told_before_its_answer(simulator: Simulator) -> Non
 async def test_nothing_is_asked_while_nobody_looks_and_at_once_when_somebody_does(
     simulator: Simulator,
 ) -> None:
-    async with asked(simulator, "lsc-6", "lsc-6") as here:
+    async with asked(simulator, "lsc-6", "lsc-6", polls_battery=True) as here:
         await asyncio.sleep(READY_S)
         assert await batteries(here, 30) == 0
         anna = Client(here.control)
@@ -83,7 +83,7 @@ async def test_nothing_is_asked_while_nobody_looks_and_at_once_when_somebody_doe
 
 @in_virtual_time
 async def test_nothing_is_asked_while_something_moves_and_soon_after_a_run(simulator: Simulator) -> None:
-    async with asked(simulator, "lsc-6", "lsc-6") as here:
+    async with asked(simulator, "lsc-6", "lsc-6", polls_battery=True) as here:
         await asyncio.sleep(READY_S)
         anna = Client(here.control)
         await asyncio.sleep(1)
@@ -101,7 +101,7 @@ async def test_nothing_is_asked_while_something_moves_and_soon_after_a_run(simul
 
 @in_virtual_time
 async def test_nothing_is_asked_while_the_board_works_on_its_flash(simulator: Simulator) -> None:
-    async with asked(simulator, "doc", "doc") as here:
+    async with asked(simulator, "doc", "doc", polls_battery=True) as here:
         Client(here.control)
         await asyncio.sleep(READY_S)
         group = Group(1, "", [Frame(100, (ServoTarget(1, 1500),))] * 200)
@@ -117,7 +117,7 @@ async def test_nothing_is_asked_while_the_board_works_on_its_flash(simulator: Si
 
 @in_virtual_time
 async def test_a_board_that_stays_silent_is_asked_again_only_by_a_person(simulator: Simulator) -> None:
-    async with asked(simulator, "openarm-new", "doc") as here:
+    async with asked(simulator, "openarm-new", "doc", polls_battery=True) as here:
         anna = Client(here.control)
         await asyncio.sleep(READY_S + 20)
         assert told(await anna.heard())[-1] == {"kind": "silent", "lastMv": None}
@@ -129,7 +129,7 @@ async def test_a_board_that_stays_silent_is_asked_again_only_by_a_person(simulat
 
 @in_virtual_time
 async def test_a_person_asks_for_everybody(simulator: Simulator) -> None:
-    async with asked(simulator, "lsc-6", "lsc-6") as here:
+    async with asked(simulator, "lsc-6", "lsc-6", polls_battery=True) as here:
         anna, bert = Client(here.control), Client(here.control)
         await asyncio.sleep(READY_S + 1)
         await anna.heard()
@@ -144,7 +144,7 @@ async def test_a_person_asks_for_everybody(simulator: Simulator) -> None:
 
 @in_virtual_time
 async def test_a_board_that_does_not_tell_its_battery_is_not_asked(simulator: Simulator) -> None:
-    async with asked(simulator, "openarm-new", "openarm-new") as here:
+    async with asked(simulator, "openarm-new", "openarm-new", polls_battery=True) as here:
         anna = Client(here.control)
         await asyncio.sleep(READY_S)
         assert await batteries(here, 30) == 0

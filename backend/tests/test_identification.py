@@ -97,11 +97,20 @@ async def asked(
     on_for_ms: float = 60_000,
     faults: Sequence[dict[str, Any]] = (),
     remembered: Remembered | None = None,
+    polls_battery: bool = False,
 ) -> AsyncIterator[Here]:
     frames = [{"durationMs": 4000, "targets": [{"servo": 2, "position": 1500}]}]
     history = {"onForMs": on_for_ms, "hasPad": False, "isSlow": False, "unknown": frames}
     stepped = SteppedBoard(simulator, board, history, faults)
-    control = Control(stepped, now, claim, asks_board=True, recalls_board=True, remembered=remembered)
+    control = Control(
+        stepped,
+        now,
+        claim,
+        asks_board=True,
+        polls_battery=polls_battery,
+        recalls_board=True,
+        remembered=remembered,
+    )
     await control.use_port(DEVICE)
     try:
         yield Here(control, stepped)

@@ -98,14 +98,15 @@ class Board:
         events: BoardEvents,
         *,
         asks: bool = False,
+        polls_battery: bool = False,
     ) -> None:
-        """`taken_for` is a family's name; `asks` has that checked at each opening, watched, and
-        the battery read.
-        `simulated_device`: what is behind that port is no real board.
+        """`taken_for` is a family's name; `asks` has that checked at each opening, and watched.
+        `polls_battery`: it is asked for its battery now and then. `simulated_device`: what is behind that
+        port is no real board.
         """
         self.taken_for = taken_for
         self.identification = Identification(self, FAMILIES[taken_for], asks=asks)
-        self._asks = asks
+        self._polls_battery = polls_battery
         self._simulated_device = simulated_device
         self._events = events
         self._now = now
@@ -329,7 +330,7 @@ class Board:
             self._no_longer_ready(status)
         if before == "stale" and status not in ("stale", "closed"):
             self.halt_again()  # it may have moved or restarted behind our back
-        if self._asks and status == "ready" and before != "ready":
+        if self._polls_battery and status == "ready" and before != "ready":
             self._battery_poll.begin()
         elif status != "ready":
             self._battery_poll.end()

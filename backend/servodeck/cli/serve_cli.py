@@ -124,6 +124,7 @@ def serve(
         recalls_board=recalls_board,
         # A simulated one is what its starter says.
         asks_board=not simulated,
+        polls_battery=True,
         read_robot=robots_in(library),
     )
 

@@ -80,6 +80,7 @@ class Control:
         remembered: Remembered | None = None,
         recalls_board: bool = False,
         asks_board: bool = False,
+        polls_battery: bool = False,
         read_robot: ReadFacts = no_robot,
     ) -> None:
         """`named_device` is the port named at the start: always offered, even where the system does not list
@@ -87,7 +88,7 @@ class Control:
         Without `slot_memory` and `remembered` these are forgotten at the end.
         `recalls_board`: where nobody has said of which family the board is, it is as it was last.
         `asks_board`: who it is, at each opening and before anything moves, and then whether it is still
-        there; otherwise it is what it is taken for.
+        there; otherwise it is what it is taken for. `polls_battery`: the battery is read for everybody.
         `read_robot` asks the library.
         """
         self.named_device = named_device
@@ -102,7 +103,14 @@ class Control:
         self.driving = Driving(self.hub, now, epoch, self._watch)
         simulated_device = named_device if simulated else None
         self.board = Board(
-            ports, now, board, simulated_device, slot_memory or SlotMemory(), self, asks=asks_board
+            ports,
+            now,
+            board,
+            simulated_device,
+            slot_memory or SlotMemory(),
+            self,
+            asks=asks_board,
+            polls_battery=polls_battery,
         )
         self._relay = Relay(self.hub, now, lambda: self.driving.driver)
         self._telling = Telling(self.hub, self.board, self._latch, self.robot, self.driving, now)
