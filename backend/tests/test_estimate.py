@@ -65,6 +65,24 @@ def test_a_new_target_takes_the_others_with_it_where_boards_share_the_time_and_o
     assert told_ways(told(*ways, family="lsc-6"), 2.0) == [(1, 1000, 2000, 1000, 1000), anew]
 
 
+def test_what_others_may_have_moved_before_the_port_was_opened_makes_no_hold_slow() -> None:
+    ways = [(1.0 + number / 10, move(100, s1=1000 + 100 * number)) for number in range(5)]
+    motion = told()
+    motion.opened(0.0)
+    assert motion.halt_plan(0.0).unheld is not None
+    for at_s, command in ((0.0, move(0, s1=1000)), *ways):
+        motion.left(encode(command, DOC), at_s)
+    hold = held(motion, 1.41)
+    assert isinstance(hold, Move)
+    assert hold.duration_ms == held_after(told((0.0, move(0, s1=1000)), *ways), 1.41)
+
+
+def held_after(motion: Estimate, now: float) -> int:
+    hold = held(motion, now)
+    assert isinstance(hold, Move)
+    return hold.duration_ms
+
+
 def test_a_servo_let_go_is_not_held() -> None:
     motion = told((0.0, move(0, s1=500, s2=600)), (1.0, Release((1,))), family="bus-ctrl")
     assert held(motion, 2.0) == move(20, s2=600)

@@ -5,7 +5,6 @@ Pure: time comes in, in seconds. Knows packets; no wire, no client.
 """
 
 from collections.abc import Collection, Sequence
-from dataclasses import replace
 from math import inf
 
 from servodeck.board.group_memory import GroupMemory
@@ -20,6 +19,7 @@ from servodeck.motion.motion import (
     forgotten,
     gentle_ms,
     hears,
+    inherited,
     latest_end_ms,
     position_at,
     remaining_ms,
@@ -28,7 +28,6 @@ from servodeck.motion.motion import (
 )
 from servodeck.motion.reports import after_cut, after_end, after_report
 from servodeck.motion.told import held_at, only_let_go
-from servodeck.motion.tracks import LONGEST_MOVE_MS
 from servodeck.protocol.families import Family
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.timings import RUN
@@ -141,7 +140,7 @@ class Estimate:
     def opened(self, now: float) -> None:
         """Whoever had the port before may have set something in motion."""
         self.lost(now)
-        self._motion = replace(self._motion, restless_until_ms=self._advance(now) + LONGEST_MOVE_MS)
+        self._motion = inherited(self._motion, self._advance(now))
 
     @property
     def may_swallow(self) -> bool:

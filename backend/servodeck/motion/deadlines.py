@@ -21,9 +21,9 @@ from servodeck.motion.tracks import (
     board_duration_ms,
     contested,
     ordered,
-    restless_behind,
     retarget,
     stopped_before,
+    unrest_behind,
 )
 from servodeck.protocol.families import Family
 from servodeck.protocol.timings import ESTIMATE, wire_ms
@@ -107,13 +107,15 @@ def begin_frame(motion: Motion, run: DeadlineRun, board: KnownBoard) -> Motion:
     order = Order("frame", frame.targets, run.next_at_ms, end_ms, motion.tracks)
     recent = ordered(motion.recent, order, family)
     tracks = retarget(motion.tracks, frame.targets, frame.duration_ms, run.next_at_ms, family)
+    unrest = [motion.restless_until_ms, motion.inherited_until_ms]
+    if frame.targets:
+        unrest = [unrest_behind(each, frame.duration_ms, run.next_at_ms, family) for each in unrest]
     return replace(
         motion,
         recent=recent,
         tracks=contested(tracks, recent),
-        restless_until_ms=restless_behind(motion.restless_until_ms, frame.duration_ms, run.next_at_ms, family)
-        if frame.targets
-        else motion.restless_until_ms,
+        restless_until_ms=unrest[0],
+        inherited_until_ms=unrest[1],
         # The raw time, not the one the servos were given (S43).
         run=replace(run, next=run.next + 1, next_at_ms=run.next_at_ms + frame.duration_ms),
     )

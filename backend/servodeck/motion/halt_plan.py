@@ -98,7 +98,7 @@ def unheld_since(pressed_ms: float, motion: Motion, last_ms: float, board: Known
 
 def unknown_until_ms(motion: Motion, last_ms: float) -> float:
     """Until then servos may move that no track is known of; a group runs on only where no stop was heard."""
-    restless_ms = motion.restless_until_ms if motion.run is None else inf
+    restless_ms = max(motion.restless_until_ms, motion.inherited_until_ms) if motion.run is None else inf
     if motion.may_swallow > 0:
         return restless_ms
     return min(restless_ms, max(last_ms, motion.deaf_until_ms) + LONGEST_MOVE_MS)

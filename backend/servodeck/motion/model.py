@@ -84,6 +84,8 @@ class Motion:
     """So many more packets the board may take for the rest of one that was cut."""
     restless_until_ms: float = -inf
     """Until then a servo we know nothing of may still be on its way."""
+    inherited_until_ms: float = -inf
+    """Until then what others set in motion before the port was opened may go on. Only STOP speaks of it."""
     skips_first: Literal["no", "maybe", "yes"] = "no"
     """The next run skips its first frame (L11)."""
 

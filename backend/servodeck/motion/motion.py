@@ -38,11 +38,11 @@ from servodeck.motion.tracks import (
     only,
     ordered,
     position_of,
-    restless_behind,
     retarget,
     share,
     standing_at,
     stands,
+    unrest_behind,
 )
 from servodeck.protocol.decoder import HEADER
 from servodeck.protocol.families import Family
@@ -181,12 +181,12 @@ def moved(motion: Motion, move: Move, at_ms: float, board: KnownBoard) -> Motion
         board.family,
         is_sure=is_sure,
     )
-    restless_until_ms = restless_behind(motion.restless_until_ms, move.duration_ms, at_ms, board.family)
     return replace(
         motion,
         recent=recent,
         tracks=contested(tracks, recent),
-        restless_until_ms=restless_until_ms,
+        restless_until_ms=unrest_behind(motion.restless_until_ms, move.duration_ms, at_ms, board.family),
+        inherited_until_ms=unrest_behind(motion.inherited_until_ms, move.duration_ms, at_ms, board.family),
     )
 
 
@@ -282,9 +282,15 @@ def forgotten(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
         run=UnknownRun(None, until_ms=latest_end_ms(motion, board)) if motion.run else None,
         deaf_until_ms=motion.deaf_until_ms,
         may_swallow=motion.may_swallow,
+        inherited_until_ms=motion.inherited_until_ms,
         restless_until_ms=max(motion.restless_until_ms, at_ms + still_ms),
         skips_first="maybe",
     )
+
+
+def inherited(motion: Motion, at_ms: float) -> Motion:
+    """Whoever had the port before it was opened at `at_ms` may have set something in motion."""
+    return replace(motion, inherited_until_ms=at_ms + LONGEST_MOVE_MS)
 
 
 def either_of(one: Motion, other: Motion) -> Motion:
@@ -294,6 +300,7 @@ def either_of(one: Motion, other: Motion) -> Motion:
         run=one.run or other.run,
         deaf_until_ms=max(one.deaf_until_ms, other.deaf_until_ms),
         restless_until_ms=max(one.restless_until_ms, other.restless_until_ms),
+        inherited_until_ms=max(one.inherited_until_ms, other.inherited_until_ms),
     )
 
 

@@ -99,13 +99,13 @@ def leeway_of(track: Track, now_ms: float, family: Family) -> float:
     return way * tick + track.to_leeway + (track.start_leeway - track.to_leeway) * left
 
 
-def restless_behind(restless_until_ms: float, requested_ms: float, at_ms: float, family: Family) -> float:
-    """Where the board re-times every servo, also what nobody knows of arrives with what takes effect at
-    `at_ms` (S26).
+def unrest_behind(until_ms: float, requested_ms: float, at_ms: float, family: Family) -> float:
+    """Where the board re-times every servo, also what nobody knows of, which may move until then, arrives
+    with what takes effect at `at_ms` (S26).
     """
     traits = family.motion
-    if traits.timing != "shared" or restless_until_ms <= at_ms:
-        return restless_until_ms
+    if traits.timing != "shared" or until_ms <= at_ms:
+        return until_ms
     return at_ms + board_duration_ms(requested_ms, family) + traits.tick_ms + traits.talk_ms
 
 
