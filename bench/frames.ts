@@ -107,13 +107,13 @@ async function centre(page: Page): Promise<void> {
 }
 
 async function moveAll(page: Page): Promise<void> {
-  await page.getByRole('radio', { name: 'In a set time' }).check();
+  await page.getByRole('radio', { name: 'Fixed time' }).check();
   const time = page.getByRole('textbox', { name: 'Move time in milliseconds' });
   await time.fill(String(MOVE_MS));
   await time.press('Enter');
   await page.getByRole('button', { name: 'Select all' }).click();
   await page.getByRole('slider').first().press('End');
-  await page.getByRole('radio', { name: 'As fast as my hand' }).check();
+  await page.getByRole('radio', { name: 'Follow the pointer' }).check();
 }
 
 function framesDrawn(page: Page, forMs: number): Promise<number> {

@@ -59,7 +59,7 @@ test('a newcomer starts, drives, captures, downloads, runs, stops, pulls the cab
   await test.step('pulls the cable and sees what happened', async () => {
     terminal.pressEnter();
     await expect(dashboard.link).toHaveText(/^Lost/);
-    await expect(dashboard.status).toContainText(/Check the cable|Plug the robot in/);
+    await expect(dashboard.status).toContainText(/Check the robot’s cable|Plug the robot in/);
     await expect(dashboard.bar).toContainText(/Next try in \d+ s/);
   });
 

@@ -16,7 +16,7 @@ test('a run that may go on outlives its page; the next page sees it, and stops i
   await dashboard.goOn.check();
   await dashboard.type(dashboard.field('Minutes at most'), 5);
   await dashboard.button('Run').click();
-  await expect(dashboard.alone).toContainText('Slot 6 may go on without you');
+  await expect(dashboard.alone).toContainText('Slot 6 may keep running without you');
   await expect(dashboard.goOn).not.toBeChecked();
   await dashboard.page.close();
 
@@ -24,7 +24,7 @@ test('a run that may go on outlives its page; the next page sees it, and stops i
   const next = dashboardOf(await context.newPage());
   await robot.open(next.page);
   await expect(next.link).toHaveText(READY);
-  await expect(next.alone).toContainText('Slot 6 goes on without another window');
+  await expect(next.alone).toContainText('Slot 6 keeps running without another window');
   // Longer than anybody's silence is waited for.
   await expect(next.alone).toContainText(/4:5[0-5]/, { timeout: 15_000 });
   expect(ofKind((await robot.bus()).slice(before), 'stop')).toHaveLength(0);
@@ -44,7 +44,7 @@ test('an endless run that may go on can be bound to its page again, and then end
   await dashboard.untilStopped.check();
   await dashboard.goOn.check();
   await dashboard.button('Run').click();
-  await dashboard.alone.getByRole('button', { name: 'Not without me' }).click();
+  await dashboard.alone.getByRole('button', { name: 'End it when I leave' }).click();
   await expect(dashboard.alone).toHaveCount(0);
   await context.newPage();
   const before = (await robot.bus()).length;

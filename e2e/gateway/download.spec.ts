@@ -100,7 +100,7 @@ test.describe('on a board that seems to be silent', () => {
 
     // A whole copy was there before the next one that is called off.
     await dashboard.button('Download').click();
-    await expect(dashboard.board).toContainText('Holds this group, as it is now.');
+    await expect(dashboard.board).toContainText('Holds this group, up to date.');
     await dashboard.button('Download').click();
     await dashboard.board.getByRole('button', { name: 'Cancel' }).click();
     await expect(dashboard.board).toContainText('Its download did not finish.');

@@ -20,7 +20,7 @@ test.describe('a bus servo board', () => {
     const dashboard = dashboardOf(page);
     await page.goto(url);
     await expect(page.getByRole('region', { name: 'Which board is this?' })).toContainText(
-      'It told where its servos stand',
+      'Positions of its servos',
     );
     await expect(dashboard.stop).toBeEnabled();
     await dashboard.takeFor('xArm').click();
@@ -56,11 +56,11 @@ const TROUBLES: readonly Trouble[] = [
     settings: { board: 'lsc-16', faults: ['brownOut=0@600000'] },
     says: /Nothing answered.*off, not wired/,
   },
-  { trouble: 'a looped line', settings: { faults: ['loopback'] }, says: /sends back everything.*RX to TX/ },
+  { trouble: 'a looped line', settings: { faults: ['loopback'] }, says: /returns everything.*RX to TX/ },
   {
     trouble: 'a line that damages bytes',
     settings: { board: 'lsc-16', faults: ['flippedByte=0.4'] },
-    says: /Something speaks here, but not in packets/,
+    says: /Something sends data, but not packets/,
   },
 ];
 
@@ -84,8 +84,8 @@ test.describe('another board under the name of a known one', () => {
   test('is not driven as the one before @exhaustive', async ({ page, ptyBoard, newGateway }) => {
     const { url } = await newGateway({ serial: ptyBoard.device, board: 'lsc-6' });
     await page.goto(url);
-    const question = page.getByRole('region', { name: 'Another board answers here' });
-    await expect(question).toContainText('It told its version');
+    const question = page.getByRole('region', { name: 'A different board answers' });
+    await expect(question).toContainText('Firmware version');
     await dashboardOf(page).takeFor('LeArm AI').click();
     await expect(dashboardOf(page).slider(1)).toBeEnabled();
   });

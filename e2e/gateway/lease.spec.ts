@@ -13,7 +13,7 @@ const act = ({ turn }: Dashboard, verb: string): Promise<void> =>
 
 /** So long that it is under way still when the test has looked. */
 async function movesSlowly(who: Dashboard, servo: number, position: number): Promise<void> {
-  await who.page.getByRole('radio', { name: 'In a set time' }).check();
+  await who.page.getByRole('radio', { name: 'Fixed time' }).check();
   await who.type(who.field('Move time in milliseconds'), 20_000);
   await who.type(who.target(servo), position);
 }
@@ -91,11 +91,11 @@ test('whoever calibrates asks to drive where it is said @exhaustive', async ({
   const robots = robotDialogOf(other);
   await robots.opener.click();
   await robots.button('Calibrate').click();
-  await expect(robots.dialog).toContainText('Choose “Ask to drive” for a turn.');
+  await expect(robots.dialog).toContainText('Choose “Ask to drive” first.');
   await robots.button('Ask to drive').click();
-  await expect(robots.button('Do not ask')).toBeVisible();
+  await expect(robots.button('Cancel request')).toBeVisible();
   await act(dashboard, 'Allow');
-  await expect(robots.button('Do not ask')).toBeHidden();
+  await expect(robots.button('Cancel request')).toBeHidden();
   await expect(robots.button('Go slowly to the middle').or(robots.creep('lower'))).toBeVisible();
 });
 
@@ -158,7 +158,7 @@ test('when the driver’s window closes in a move the robot is stopped, and the 
   const before = (await robot.bus()).length;
   await driver.page.close();
   await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
-  await expect(dashboard.status).toContainText('Its driver was gone while it moved');
+  await expect(dashboard.status).toContainText('The driver was gone while the robot moved');
   await dashboard.resume.click();
   await dashboard.type(dashboard.target(2), 1700);
   await poll(() => lastTarget(robot.bus, 2)).toBe(1700);

@@ -14,7 +14,7 @@ test('a port that is not there at the start says what to do, and is found when i
   const gateway = await newGateway({ serial: ptyBoard.device });
   await page.goto(gateway.url);
   const dashboard = dashboardOf(page);
-  await expect(dashboard.status).toContainText('The port is not there. Plug the robot in and switch it on');
+  await expect(dashboard.status).toContainText('The port was not found. Plug the robot in and switch it on');
   await expect(page.getByRole('heading', { name: 'No robot yet' })).toBeVisible();
   await ptyBoard.plugIn();
   await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
@@ -44,7 +44,7 @@ test('a port in use is said to be, and not offered once more @exhaustive', async
   await dashboard.link.click();
   const ports = dashboard.connectDialog.getByRole('group', { name: 'Gateway' });
   await expect(ports.getByRole('button', { name: `${ptyBoard.device} is open` })).toBeDisabled();
-  await expect(ports).toContainText('In use here. Disconnect, below, takes this page off it');
+  await expect(ports).toContainText('In use here. Choose Disconnect below to disconnect this page');
   await dashboard.button('Disconnect').click();
   await dashboard.link.click();
   await ports.getByRole('button', { name: `Open ${ptyBoard.device}` }).click();

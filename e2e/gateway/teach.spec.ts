@@ -75,7 +75,7 @@ test('somebody who takes over ends it: nothing moves, the teacher is told, and a
   await other.turn.getByRole('button', { name: 'Ask to drive' }).click();
   await dashboard.turn.getByRole('button', { name: 'Allow' }).click();
   await expect(other.turn).toContainText('You drive');
-  await expect(dashboard.notices).toContainText('Teaching has ended. The servos were not told to hold');
+  await expect(dashboard.notices).toContainText('Teaching has ended. The servos are still released');
   await expect(dashboard.page.getByText('Teaching: turn the servos by hand')).toHaveCount(0);
   arm.turn(2, 555);
   expect(arm.pulse(2)).toBe(555);

@@ -43,7 +43,7 @@ test('what another browser stored in a slot is told, and whether it is the group
   await other.button('Slots').click();
   const slots = other.page.getByRole('dialog', { name: 'Slots of the board' });
   await slots
-    .getByRole('option', { name: 'Slot 0: Bow of the other browser. Not this group as it is now' })
+    .getByRole('option', { name: 'Slot 0: Bow of the other browser. Another group or version' })
     .click();
   await expect(slots.getByRole('region', { name: 'Slot 0' })).toContainText(
     /Bow of the other browser, 2 frames, 0.8 sec, downloaded by .+, .*\d\d:\d\d.*, version [0-9a-f]{6}/,
@@ -59,7 +59,7 @@ test('what another browser stored in a slot is told, and whether it is the group
   const library = libraryOf(other.page);
   await library.show();
   await library.open('Bow of the other browser');
-  await expect(other.board).toContainText('Holds this group, as it is now.');
+  await expect(other.board).toContainText('Holds this group, up to date.');
   await other.button('Take over').click();
   await other.button('Erase everything').click();
   const question = other.page.getByRole('alertdialog');

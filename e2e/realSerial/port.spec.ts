@@ -43,6 +43,6 @@ test('STOP goes out three times over a real port, and holds', async ({ openPort,
 test('an adapter that goes away is told as such @exhaustive', async ({ openPort, ptyBoard }) => {
   await ptyBoard.unplug();
   await expect(openPort.link).toHaveText(/^Lost/);
-  await expect(openPort.status).toContainText(/Check the cable|Plug the robot in|Another program/);
+  await expect(openPort.status).toContainText(/Check the robot’s cable|Plug the robot in|Another program/);
   await expect(openPort.bar).toContainText(/Next try in \d+ s/);
 });

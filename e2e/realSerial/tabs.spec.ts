@@ -47,7 +47,7 @@ test('a hidden tab pauses; the next one is told who drives, moves the robot here
 
   await other.button('Move it here').click();
   await expect(other.link).toHaveText(READY);
-  await expect(openPort.status).toContainText('Another tab has taken this robot over.');
+  await expect(openPort.status).toContainText('Another tab took over this robot.');
   await poll(async () => ofKind(await ptyBoard.bus(), 'stop').length).toBe(3);
   // A hold behind the first stop, and one behind the last.
   await poll(() => moveCount(ptyBoard.bus)).toBe(movesSoFar + 2);
@@ -55,7 +55,7 @@ test('a hidden tab pauses; the next one is told who drives, moves the robot here
   await openPort.page.bringToFront();
   await openPort.button('Move it here').click();
   await expect(openPort.link).toHaveText(READY);
-  await expect(other.status).toContainText('Another tab has taken this robot over.');
+  await expect(other.status).toContainText('Another tab took over this robot.');
 });
 
 const ENDINGS: readonly {

@@ -50,7 +50,7 @@ test('a cable that is pulled and comes back is told within half a second', async
   await expect(openPort.bar).toContainText('Next try in 5 s', ONCE_BACK);
   await plugIn();
   await expect(openPort.link).toHaveText(READY);
-  await expect(openPort.status).toContainText('The link came back; look at the robot first');
+  await expect(openPort.status).toContainText('The link was restored; check the robot first');
 
   const list = await seen();
   expect(timeOf(list, 'Lost') - timeOf(list, 'disconnect')).toBeLessThan(TOLD_WITHIN_MS);

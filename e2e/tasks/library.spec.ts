@@ -63,12 +63,12 @@ test.describe('at a gateway that is there late', () => {
     await captureGroup(dashboard, [1500, 1700]);
     await library.call('Early');
     await library.show();
-    await expect(library.dialog).toContainText('Until then each change is kept in this browser.');
+    await expect(library.dialog).toContainText('Until it answers, every change is stored in this browser.');
     isThere = true;
-    await expect(library.dialog).toContainText('Kept by the gateway');
+    await expect(library.dialog).toContainText('Stored by the gateway');
     await expect(library.card('Early')).toContainText('2 frames');
     await page.keyboard.press('Escape');
-    await dashboard.notices.getByRole('button', { name: 'Go to the gateway' }).click();
+    await dashboard.notices.getByRole('button', { name: 'Connect to the gateway' }).click();
     await expect(dashboard.link).not.toContainText('Simulated');
     await expect(dashboard.link).toContainText('Ready');
   });

@@ -14,7 +14,7 @@ test('an example is written out for the board, plays at twice its speed, pauses 
   await expect(dashboard.frames).toHaveCount(4);
   await expect(dashboard.board).toContainText(/Fits\s*\d+ of 255 frames/);
   await expect(dashboard.board).toContainText(
-    /At most \d µs \(0\.\d°\) off: (Gripper|Wrist|Wrist roll|Elbow|Shoulder|Base) at/,
+    /Largest error \d µs \(0\.\d°\): (Gripper|Wrist|Wrist roll|Elbow|Shoulder|Base) at/,
   );
 
   const tools = page.getByRole('group', { name: 'Play the group' });
@@ -27,7 +27,7 @@ test('an example is written out for the board, plays at twice its speed, pauses 
   const said = await noteTexts(tools.getByRole('status'));
   await dashboard.button(/^Play/).click();
   await poll(async () => (await said()).at(-1)).toBe('Playing, 200% of the speed');
-  expect(await said()).toContain('Going gently to the first pose');
+  expect(await said()).toContain('Moving slowly to the first pose');
   await dashboard.button('Pause').click();
   await expect(dashboard.status).toHaveText('Idle');
   const sent = ofKind(await robot.bus(), 'move').length;

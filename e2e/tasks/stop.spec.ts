@@ -14,7 +14,7 @@ test('STOP holds a moving servo where it is, and only Resume lets it move again 
 }) => {
   await dashboard.type(dashboard.target(1), 1500);
   await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
-  await page.getByRole('radio', { name: 'In a set time' }).check();
+  await page.getByRole('radio', { name: 'Fixed time' }).check();
   await dashboard.type(dashboard.field('Move time in milliseconds'), 5000);
   await dashboard.type(dashboard.target(1), 2500);
   await expect(dashboard.estimate(1)).toHaveText(/≈ 1(5[1-9]|[6-9]\d)\d/);

@@ -16,7 +16,7 @@ test('a pulled cable is told, comes back without a reload, and moves only after 
 
   await robot.unplug();
   await expect(dashboard.link).toHaveText(/^Lost/);
-  await expect(dashboard.status).toContainText(/Check the cable|Plug the robot in/);
+  await expect(dashboard.status).toContainText(/Check the robot’s cable|Plug the robot in/);
   await expect(dashboard.bar).toContainText(/Next try in \d+ s/);
   await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');
   await expect(dashboard.button('Run')).toBeDisabled();
@@ -24,7 +24,7 @@ test('a pulled cable is told, comes back without a reload, and moves only after 
 
   await robot.plugIn();
   await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
-  await expect(dashboard.status).toContainText('The link came back; look at the robot first');
+  await expect(dashboard.status).toContainText('The link was restored; check the robot first');
   await expect(dashboard.frames).toHaveCount(2);
   await expect(dashboard.slot).toHaveValue('5');
   await expect(dashboard.estimate(1)).toBeHidden();

@@ -20,7 +20,7 @@ test('of a pack it tells what is left, and how it went in words', async ({ dashb
   await expect(dashboard.battery).toContainText('≈ 54 %', { timeout: 20_000 });
   await expect(
     page.getByRole('img', {
-      name: 'Volts measured in this visit: lowest 7.50 V, highest 7.50 V, now 7.50 V; 0 runs',
+      name: 'Voltage in this session: lowest 7.50 V, highest 7.50 V, now 7.50 V; 0 runs',
     }),
   ).toBeVisible();
 });
@@ -53,7 +53,7 @@ test.describe('at its alarm', () => {
     await expect(dashboard.notices).toContainText('New runs are refused', { timeout: 20_000 });
     await dashboard.button('Run').click();
     await expect(dashboard.notices).toContainText(
-      'Not started: the battery is at its alarm, 6.50 V at rest.',
+      'Not started because of the battery alarm: 6.50 V at rest.',
     );
     expect(ofKind(await robot.bus(), 'run')).toEqual([]);
     await dashboard.button('Start anyway').click();
@@ -62,7 +62,7 @@ test.describe('at its alarm', () => {
 
   test('a robot that was taken to rest says that nobody pressed Stop', async ({ dashboard }) => {
     await dashboard.feedBy('2S pack', { policy: 'Go to rest and stop' });
-    await expect(dashboard.status).toContainText('The robot’s setting for a low battery stopped it', {
+    await expect(dashboard.status).toContainText('Stopped by the robot’s low-battery setting', {
       timeout: 40_000,
     });
   });

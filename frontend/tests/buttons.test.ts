@@ -168,5 +168,5 @@ test('a key that is given to another button is said to have left the first', asy
   await page.keyboard.press('g');
   await expect(buttonOf(page, 'Button 2')).toHaveAccessibleName('Button 2, key G');
   await expect(buttonOf(page, 'Pose 1')).toHaveAccessibleName('Pose 1');
-  await expect(dashboard.notices).toContainText('G was the key of Pose 1, which has none now.');
+  await expect(dashboard.notices).toContainText('G was the key of Pose 1, which now has none.');
 });

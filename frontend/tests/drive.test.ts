@@ -50,7 +50,7 @@ test('a number typed is where the servo goes; one out of range is refused with t
 test('in a set time the move takes that time', async ({ dashboard, robot, page }) => {
   await dashboard.slider(4).press('ArrowLeft');
   await expect(dashboard.estimate(4)).toHaveText('≈ 1499');
-  await page.getByRole('radio', { name: 'In a set time' }).check();
+  await page.getByRole('radio', { name: 'Fixed time' }).check();
   await dashboard.type(dashboard.field('Move time in milliseconds'), 700);
   await dashboard.slider(4).press('Shift+ArrowRight');
   await poll(() => lastTarget(robot.bus, 4)).toBe(1509);

@@ -68,10 +68,10 @@ test('several files come at once; a broken one tells where and why, and changes 
   const broken = textOf(await vector('nod.xml')).replace('P1900', 'P19.0');
   await files.open(await vector('secret.rob'), fileOf('broken.xml', broken), await vector('step.rob'));
   await expect(files.file('broken.xml')).toContainText('broken.xml was not opened.');
-  await expect(files.file('broken.xml')).toContainText('Line 8: “19.0” is no position');
+  await expect(files.file('broken.xml')).toContainText('Line 8: “19.0” is not a position');
   await expect(files.file('secret.rob')).toContainText('It is encrypted.');
-  await expect(files.file('step.rob')).toContainText('It is made for boards that count in another unit.');
-  await files.file('broken.xml').getByRole('button', { name: 'Take broken.xml off the list' }).click();
+  await expect(files.file('step.rob')).toContainText('It is made for boards that use another unit.');
+  await files.file('broken.xml').getByRole('button', { name: 'Remove broken.xml from the list' }).click();
   await expect(files.file('broken.xml')).toBeHidden();
   // Turned or made smaller, the window has other panels; what was opened stays.
   await page.setViewportSize({ width: 820, height: 900 });
@@ -178,7 +178,7 @@ test.describe('on a board that counts in steps', () => {
     const files = filesDialogOf(dashboard);
     await files.open(await vector('nod.xml'));
     const nod = files.file('nod.xml');
-    await expect(nod).toContainText('It is made for boards that count in another unit.');
+    await expect(nod).toContainText('It is made for boards that use another unit.');
     const converts = nod.getByRole('switch', { name: /^Convert to steps/ });
     await expect(converts).not.toBeChecked();
     await converts.check();

@@ -79,7 +79,7 @@ test('each group keeps its own undo; versions, tags, copies and the trash work f
   await library.button('Delete').click();
   await expect(library.button('Open Salute, copy')).toBeHidden();
   await library.dialog.getByRole('switch', { name: 'Deleted' }).check();
-  await library.card('Salute, copy').getByRole('button', { name: 'Bring back' }).click();
+  await library.card('Salute, copy').getByRole('button', { name: 'Restore' }).click();
   await library.dialog.getByRole('switch', { name: 'Deleted' }).uncheck();
   await library.open('Salute, copy');
 });
@@ -204,10 +204,10 @@ test('the whole library moves into another browser as one file', async ({ dashbo
   await page.forget();
   await page.goto(url);
   await library.show();
-  await expect(library.dialog).toContainText('Kept in this browser');
+  await expect(library.dialog).toContainText('Stored in this browser');
   await expect(library.dialog).toContainText('No groups in the library yet');
   await importInto(library, page, text.slice(0, text.length / 2));
-  await expect(dashboard.notices).toContainText('Nothing was taken');
+  await expect(dashboard.notices).toContainText('Nothing was imported');
   await importInto(library, page, text);
   await library.open('Travelling');
   await page.reload();

@@ -16,7 +16,7 @@ test('the log shows packets in words and in bytes, both ways, and can be thinned
   await poll(() => lastTarget(robot.bus, 1)).toBe(2000);
   await expect(dashboard.log).toContainText('Move 1 → 2000 in 2000 ms');
   await expect(dashboard.log).toContainText('55 55 08 03 01 D0 07 01 D0 07');
-  await expect(dashboard.log).toContainText('Ask for the battery');
+  await expect(dashboard.log).toContainText('Read the battery');
   await expect(dashboard.log).toContainText('Battery 7.50 V');
   await expect(dashboard.log).toContainText('55 55 04 0F 4C 1D');
 

@@ -111,9 +111,7 @@ test('the curve shows where a stick is and what comes of it, without driving', a
 }) => {
   await expect(dashboard.link).toHaveText(READY);
   await page.getByRole('radio', { name: 'Keys and pad' }).check();
-  const dot = page
-    .getByRole('img', { name: 'How far a stick is pushed, and what comes of it' })
-    .locator('circle');
+  const dot = page.getByRole('img', { name: 'Stick deflection and resulting speed' }).locator('circle');
   const at = () => dot.evaluate((circle) => circle.style.translate);
   await pad.push(0.1);
   await expect.poll(at).toBe('4px');
@@ -150,7 +148,7 @@ test('T keeps what the pad has just done, also while it drives', async ({ dashbo
 test('servos that nobody knows are asked for and go home slowly', async ({ dashboard, robot, page }) => {
   await switchOn(page);
   await pad.hold(RIGHT_TRIGGER);
-  await expect(dashboard.notices).toContainText('Gripper stays: nobody knows where it is.');
+  await expect(dashboard.notices).toContainText('Gripper does not move: its position is unknown.');
   expect(ofKind(await robot.bus(), 'move')).toEqual([]);
   await pad.hold();
   await dashboard.button('First move, slowly').click();
@@ -166,8 +164,8 @@ test('an input is bound by pressing it, says what it conflicts with, and is kept
   await page.getByRole('radio', { name: 'Keys and pad' }).check();
   await dashboard.button('Add a key or stick').click();
   await pad.hold(RIGHT_TRIGGER);
-  const form = page.getByRole('form', { name: 'What does Right trigger do' });
-  await form.getByRole('combobox', { name: 'It does' }).selectOption('Run a slot');
+  const form = page.getByRole('form', { name: 'Action of Right trigger' });
+  await form.getByRole('combobox', { name: 'Action', exact: true }).selectOption('Run a slot');
   await dashboard.type(form.getByRole('textbox', { name: 'Slot to run' }), 7);
   const conflicts = page.getByRole('list', { name: 'Conflicts' });
   await expect(conflicts).toHaveText('Right trigger is bound to Gripper and to Run slot 7.');
@@ -186,13 +184,13 @@ test('a button of the pad goes to a pose in the time that was chosen', async ({ 
   await page.getByRole('radio', { name: 'Keys and pad' }).check();
   await dashboard.button('Add a key or stick').click();
   await pad.hold(LEFT_BUTTON);
-  const form = page.getByRole('form', { name: 'What does X do' });
+  const form = page.getByRole('form', { name: 'Action of X' });
   await pad.hold();
-  await form.getByRole('combobox', { name: 'It does' }).selectOption('Go to a pose');
+  await form.getByRole('combobox', { name: 'Action', exact: true }).selectOption('Go to a pose');
   await form.getByRole('combobox', { name: 'Pose to go to' }).selectOption('Home');
   await form.getByRole('textbox', { name: 'Time to reach a pose in milliseconds' }).fill('2500');
   await dashboard.button('Bind').click();
-  const rows = page.getByRole('list', { name: 'Which key or stick does what' });
+  const rows = page.getByRole('list', { name: 'Bindings of keys and sticks' });
   await expect(rows.getByRole('listitem').filter({ hasText: 'Go to Home' })).toContainText('X');
 
   await switchOn(page);
@@ -207,7 +205,7 @@ test('pulling the pad while it is held ends the motion', async ({ dashboard, rob
   await pad.hold(RIGHT_TRIGGER);
   await poll(() => lastTarget(robot.bus, 1)).toBeGreaterThan(1600);
   await pad.unplug();
-  await expect(dashboard.notices).toContainText('The pad is gone.');
+  await expect(dashboard.notices).toContainText('The pad was disconnected.');
   await expect(driveSwitch(page)).not.toBeChecked();
   await expectRest(robot.bus);
   expect(await lastTarget(robot.bus, 1)).toBeLessThan(2500);

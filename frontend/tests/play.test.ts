@@ -60,9 +60,7 @@ test('the map of slots knows an older copy, compares it, and brings back what an
   await dashboard.button('Slots').click();
   const dialog = page.getByRole('dialog', { name: 'Slots of the board' });
   const slot = (name: RegExp) => dialog.getByRole('option', { name });
-  await expect(slot(/^Slot 8: New group/)).toHaveAccessibleName(
-    'Slot 8: New group. This group, as it is now',
-  );
+  await expect(slot(/^Slot 8: New group/)).toHaveAccessibleName('Slot 8: New group. This group, up to date');
   await expect(dialog).toContainText('Played by circle of the wireless pad');
   await dialog.getByRole('button', { name: 'Close' }).click();
 
@@ -139,13 +137,13 @@ test('several groups of the library go to their slots with one progress', async 
   await several.getByRole('checkbox', { name: /^Bow for seven/ }).click();
   await expect(slotOf('Bow for seven')).toHaveValue('21');
   await dashboard.type(slotOf('Bow for seven'), 6);
-  await expect(several).toContainText('Slot 6 is wanted twice.');
+  await expect(several).toContainText('Slot 6 is chosen twice.');
   await expect(several.getByRole('button', { name: 'Download these' })).toBeDisabled();
   await dashboard.type(slotOf('Bow for seven'), 7);
   await several.getByRole('button', { name: 'Download these' }).click();
   await expect(dialog.getByRole('option', { name: /^Slot 6: Wave for six/ })).toBeVisible();
   await expect(
-    dialog.getByRole('option', { name: 'Slot 7: Bow for seven. This group, as it is now' }),
+    dialog.getByRole('option', { name: 'Slot 7: Bow for seven. This group, up to date' }),
   ).toBeVisible();
   const stored = ofKind(await robot.bus(), 'download');
   expect(stored.map(({ slot, frame }) => [slot, frame.targets[0]?.position])).toEqual([
@@ -233,7 +231,7 @@ test('on a phone a recording goes on while the sliders are in front', async ({ d
 
 test('what begins and ends moves nothing, and keeps the focus', async ({ dashboard, page }) => {
   await captureGroup(dashboard, [1000, 1400], 400);
-  const steady = [dashboard.frame(1), dashboard.button('Run on board'), dashboard.button('A frame on')];
+  const steady = [dashboard.frame(1), dashboard.button('Run on board'), dashboard.button('Frame forward')];
   const places = () => Promise.all(steady.map((one) => one.boundingBox()));
   const before = await places();
   for (const [begins, ends] of [
@@ -254,7 +252,7 @@ test('the robot follows the playhead step by step, and no longer after STOP', as
   await captureGroup(dashboard, [1000, 1400], 400);
   const follows = page.getByRole('switch', { name: 'Robot follows' });
   await follows.check();
-  await dashboard.button('A frame back').click();
+  await dashboard.button('Frame back').click();
   await expect(dashboard.estimate(1)).toHaveText('≈ 1000');
   await dashboard.type(dashboard.frameTime(1), 500);
   await page.keyboard.press('Escape');

@@ -40,11 +40,11 @@ test('a captured pose is gone to slowly; undoing that moves nothing', async ({ d
   await dashboard.button('Go to Wave, in 1500 ms').click();
   await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
   expect(ofKind(await robot.bus(), 'move').at(-1)).toMatchObject({ durationMs: 1500 });
-  await expect(poses.card('Wave')).toHaveAccessibleName(/Went here last$/);
+  await expect(poses.card('Wave')).toHaveAccessibleName(/Last used$/);
 
   const moves = ofKind(await robot.bus(), 'move').length;
   await dashboard.button('Undo: go to Wave').click();
-  await expect(poses.card('Wave')).not.toHaveAccessibleName(/Went here last$/);
+  await expect(poses.card('Wave')).not.toHaveAccessibleName(/Last used$/);
   await expect(dashboard.estimate(1)).toHaveText('≈ 1800');
   expect(ofKind(await robot.bus(), 'move')).toHaveLength(moves);
 });
@@ -159,7 +159,7 @@ test('poses become frames of the action group, one behind the other', async ({ d
   await dashboard.button('Add to group').click();
   await poses.card('Wave').click();
   await dashboard.button('Add to group').click();
-  await expect(dashboard.notices).toContainText('Wave is a frame of the action group now.');
+  await expect(dashboard.notices).toContainText('Wave was added to the action group as a frame.');
   await dashboard.notices.getByRole('button', { name: 'Show it' }).last().click();
   await expect(dashboard.frames).toHaveCount(2);
   await expect(dashboard.frame(2)).toHaveAccessibleName(/^Frame 2, 1000 ms, moves servo 1/);

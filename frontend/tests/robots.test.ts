@@ -45,7 +45,7 @@ test('a servo is calibrated from nothing, and what was set holds everywhere', as
   await robots.button('Turn a little').click();
   await robots.button('No, the other way').click();
   // How far it crept depends on the computer: there is a trim for it, or there is none.
-  await robots.button(/^(Leave it as it is|Go on)$/).click();
+  await robots.button(/^(Leave it as it is|Continue)$/).click();
   await expect(robots.button('Gripper, 5 of 5 steps done')).toBeVisible();
   await robots.button('Close').click();
 
@@ -177,7 +177,7 @@ test('a robot goes to a file and comes back; a file that is none changes nothing
     ).setFiles({ name, mimeType: 'application/json', buffer: new TextEncoder().encode(content) });
   };
   await choose('holiday.json', '{}');
-  await expect(robots.dialog).toContainText('holiday.json was not imported: this is no robot file');
+  await expect(robots.dialog).toContainText('holiday.json was not imported: this is not a robot file');
   await choose('low.json', text.replace('"min": 500', '"min": 100'));
   await expect(robots.dialog).toContainText('low.json was not imported: Gripper (servo 1): ');
   await choose('fast.json', text.replace('"degreesPerUnit": 0.09', '"degreesPerUnit": 3'));

@@ -61,7 +61,7 @@ test('weighted, each turns by its share, and all stop where the first meets its 
   await poll(() => lastTarget(robot.bus, 2)).toBe(2500);
   expect(await lastTarget(robot.bus, 1)).toBe(2000);
   await expect(dashboard.notices).toContainText(
-    'All stopped where Wrist roll met its limit: it takes 500 µs to 2500 µs.',
+    'All servos stopped because Wrist roll reached its limit: it takes 500 µs to 2500 µs.',
   );
 });
 

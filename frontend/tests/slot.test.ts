@@ -144,7 +144,7 @@ test('behind an erase a run runs nothing: a move is held by STOP, and nothing is
 
   await dashboard.button('Run').click();
   await poll(async () => ofKind(await robot.bus(), 'run')).toEqual([{ kind: 'run', slot: 21, times: 1 }]);
-  await page.getByRole('radio', { name: 'In a set time' }).check();
+  await page.getByRole('radio', { name: 'Fixed time' }).check();
   await dashboard.type(dashboard.field('Move time in milliseconds'), 10_000);
   await dashboard.type(dashboard.target(1), 2000);
   await poll(() => lastTarget(robot.bus, 1)).toBe(2000);

@@ -74,7 +74,7 @@ for (const viewport of SIZES) {
       await expect(page.getByRole('switch', { name: 'Drive', exact: true })).toBeVisible();
       await expectSteady('a pad is gone', async () => {
         await page.evaluate(() => void (window.padInPage.isPlugged = false));
-        await expect(page.getByText('No pad seen')).toBeVisible();
+        await expect(page.getByText('No pad found')).toBeVisible();
       });
 
       const show = async (part: string): Promise<void> => {

@@ -421,7 +421,7 @@ test('a box takes the keys of one row, and a stretch of them leaves the other ro
   await page.mouse.up();
   await expect(timeline.region).toContainText('3 keys');
   await page.mouse.move(last.x + 12, frames.y);
-  await expect(timeline.region).toContainText('Ripple carries what is behind along.');
+  await expect(timeline.region).toContainText('With Ripple, later frames move along.');
   await page.mouse.down();
   await page.mouse.move(last.x + 12 - (last.x - second.x) / 2, frames.y, { steps: 6 });
   await page.mouse.up();
@@ -476,7 +476,7 @@ test('a marked part that ends far from where it begins goes back gently and says
   await page.getByRole('switch', { name: 'Loop' }).check();
   await dashboard.button('Play').click();
   await expect(page.getByRole('group', { name: 'Play the group' }).getByRole('status')).toHaveText(
-    'The loop ends far from where it begins: going back gently',
+    'The loop ends far from its start: moving back slowly',
   );
   const moves = ofKind(await robot.bus(), 'move').filter(({ durationMs }) => durationMs === 1500);
   expect(moves.length, 'to the first pose, and back to it').toBeGreaterThanOrEqual(2);
@@ -523,7 +523,7 @@ test.describe('with fingers', () => {
     await page.getByRole('tab', { name: 'Actions' }).click();
     const timeline = timelineOf(page);
     const arrow = (name: string) =>
-      timeline.region.getByRole('group', { name: 'By a little' }).getByRole('button', { name });
+      timeline.region.getByRole('group', { name: 'Nudge' }).getByRole('button', { name });
     await expect(arrow('Later by 20 ms')).toBeDisabled();
     const key = timeline.key('Gripper, 1.00 s, 1200 µs, linear');
     await key.scrollIntoViewIfNeeded();

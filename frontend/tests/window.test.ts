@@ -47,7 +47,7 @@ function controlsOf(page: Page): Readonly<Record<string, Locator>> {
     Stop: dashboard.stop,
     'Centre all': button('Centre all'),
     ...Object.fromEntries(sliders),
-    'Move time': page.getByRole('radio', { name: 'In a set time' }),
+    'Move time': page.getByRole('radio', { name: 'Fixed time' }),
     'Capture frame': dashboard.capture,
     Record: button('Record'),
     Play: page.getByRole('group', { name: 'Play the group' }).getByRole('button').nth(1),

@@ -49,7 +49,7 @@ describe('a line of the log', () => {
     expect(said({ kind: 'setSpeed', slot: null, percent: 50 })).toBe('Speed of every slot to 50 %');
     expect(said({ kind: 'setSpeed', slot: 8, percent: 300 })).toBe('Speed of slot 8 to 300 %');
     expect(said({ kind: 'release', servos: [1, 2, 3] })).toBe('Release servos 1, 2, 3');
-    expect(said({ kind: 'readPositions', servos: [4] })).toBe('Ask where servo 4 stands');
+    expect(said({ kind: 'readPositions', servos: [4] })).toBe('Read the position of servo 4');
     const positions = line('received', '55 55 06 15 01 04 FD FF', 'bus-ctrl');
     expect(meaning(positions)).toBe('Positions 4 → -3');
     expect(kindOf(positions)).toBe('move');
@@ -66,7 +66,7 @@ describe('a line of the log', () => {
     expect(kindOf(line('received', '55 55 02 06'))).toBe('group');
     expect(kindOf(line('garbage', '41 0D'))).toBe('noise');
     expect(meaning(line('received', '55 55 04 0F 4C 1D'))).toBe('Battery 7.50\u00a0V');
-    expect(meaning(line('truncated', '55 55 04 0F'))).toBe('Packet cut short, 4 bytes');
+    expect(meaning(line('truncated', '55 55 04 0F'))).toBe('Truncated packet, 4 bytes');
     const lost = { id: 1, board: 'doc', entry: { atMs: 0, mark: 'link', happening: 'lost' } } as const;
     expect([kindOf(lost), meaning(lost), arrowOf(lost.entry), bytesText(lost)]).toEqual([
       'link',
@@ -80,7 +80,7 @@ describe('a line of the log', () => {
 
   test('says what is no command of ours', () => {
     expect(meaning(line('sent', '55 55 02 63'))).toBe('Command 99, unknown to this board');
-    expect(meaning(line('sent', '00 FD FD'))).toBe('Filler that frees the board from a cut packet, 3 bytes');
+    expect(meaning(line('sent', '00 FD FD'))).toBe('Filler after a truncated packet, 3 bytes');
     expect(kindOf(line('sent', '55 55 02 63'))).toBe('group');
   });
 

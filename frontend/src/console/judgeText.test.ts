@@ -12,15 +12,15 @@ describe('a packet that is being typed', () => {
   test.each([
     ['', words.raw.hint],
     ['5', words.raw.hint],
-    ['55 5', 'Goes on with 55 55, LEN and the command'],
-    ['55 55 02', 'Not whole: 1 byte missing for this LEN'],
-    ['55 55 02 0', 'Not whole: 1 byte missing for this LEN'],
-    ['5555020f', 'Ask for the battery'],
+    ['55 5', 'Continue with 55 55, LEN and the command'],
+    ['55 55 02', 'Incomplete: 1 byte missing for this LEN'],
+    ['55 55 02 0', 'Incomplete: 1 byte missing for this LEN'],
+    ['5555020f', 'Read the battery'],
     ['55 55 02 0F 00', 'Too long: 1 byte more than LEN says.'],
     ['55 55 01', 'LEN 1 is too small; it counts itself and the command, so it is 2 at least.'],
     ['55 55 ff', 'LEN 255 is too large; Generic board takes 253 at most.'],
     ['41', 'A packet begins with 55 55.'],
-    ['55 55 02 06', '“Run” does not look like this; the board would act on bytes of earlier packets.'],
+    ['55 55 02 06', '“Run” has another format; the board would use bytes of earlier packets.'],
     ['55 55 03 08', 'This writes to the board’s memory and needs its answers: use the Board panel.'],
     ['55 55 02 63', 'Command 99 is unknown to Generic board, which ignores it'],
     ['battery', words.raw.notHex],
@@ -29,7 +29,7 @@ describe('a packet that is being typed', () => {
   });
 
   test('is refused where the family must not get it, or nobody knows', () => {
-    expect(judge('55 55 02 0C', 'learm-esp32').explanation).toMatch(/^Command 12 never goes to LeArm AI/u);
+    expect(judge('55 55 02 0C', 'learm-esp32').explanation).toMatch(/^Command 12 is never sent to LeArm AI/u);
     expect(judge('55 55 02 63', 'lsc-6')).toMatchObject({ packet: null, isRefused: true });
     expect(judge('55 55 08 03 01 E8 03 01 28 0A').explanation).toContain(
       'position of servo 1 is 2600, allowed is 500 to 2500',

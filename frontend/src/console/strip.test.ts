@@ -78,5 +78,5 @@ test('a log that was cleared shows nothing, and then what comes', () => {
   log.clear();
   expect(says()).toBe('');
   sends('battery');
-  expect(says()).toBe('Ask for the battery');
+  expect(says()).toBe('Read the battery');
 });

@@ -1453,7 +1453,7 @@ export interface Messages {
       readonly longLength: (values: { readonly length: number; readonly board: string; readonly limit: number }) => string;
       readonly tooLong: (values: { readonly count: number }) => string;
       readonly neverSend: (values: { readonly number: number; readonly board: string }) => string;
-      readonly unknownNumber: (values: { readonly board: string; readonly number: number }) => string;
+      readonly unknownNumber: (values: { readonly number: number; readonly board: string }) => string;
       readonly flash: string;
       readonly otherShape: (values: { readonly command: string }) => string;
       readonly limits: (values: { readonly reason: string }) => string;

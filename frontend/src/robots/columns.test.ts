@@ -32,11 +32,11 @@ describe('a text typed into a column', () => {
   });
 
   test.each([
-    ['min', '', '“” is no whole number.'],
-    ['max', '12.5', '“12.5” is no whole number.'],
-    ['servo', 'two', '“two” is no whole number.'],
-    ['degreesPerUnit', '0.1.2', '“0.1.2” is no number.'],
-    ['name', ' ', 'A name has at least one letter.'],
+    ['min', '', '“” is not a whole number.'],
+    ['max', '12.5', '“12.5” is not a whole number.'],
+    ['servo', 'two', '“two” is not a whole number.'],
+    ['degreesPerUnit', '0.1.2', '“0.1.2” is not a number.'],
+    ['name', ' ', 'A name needs at least one character.'],
   ] as const)('%s does not take “%s”', (id, text, problem) => {
     expect(typed(id, text)).toEqual({ problem });
   });

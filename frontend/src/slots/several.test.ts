@@ -24,7 +24,7 @@ test('what does not fit, is empty or wants the slot of another is told; the rest
   ];
   const hindrances = [wave, bow, far, none].map((one) => hindranceOf(one, [wave, bow, far, none]));
   expect(hindrances.map((text) => text !== null)).toEqual([false, false, true, true]);
-  expect(hindranceOf(bow, [{ ...wave, slot: 2 }, bow])).toBe('Slot 2 is wanted twice.');
+  expect(hindranceOf(bow, [{ ...wave, slot: 2 }, bow])).toBe('Slot 2 is chosen twice.');
   expect(downloadOf(wave)).toMatchObject({ documentId: 'wave', slot: 1, name: 'wave', frames: [{}, {}] });
 });
 

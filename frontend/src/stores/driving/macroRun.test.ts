@@ -161,6 +161,6 @@ describe('a button', () => {
     await desk.clock.advance(5000);
     expect(desk.positions()).toEqual([]);
     expect(desk.told()[0]).toContain('Gripper: 1200 is out of range');
-    expect(desk.told()[1]).toContain('This pose is gone');
+    expect(desk.told()[1]).toContain('This pose was deleted');
   });
 });

@@ -600,7 +600,7 @@ describe('files', () => {
     const keeper = createMemoryKeeper();
     let writes = 0;
     const write: Keeper['write'] = (id, writing) =>
-      ++writes > 1 ? Promise.reject(new LibraryError('full', 'no room')) : keeper.write(id, writing);
+      ++writes > 1 ? Promise.reject(new LibraryError('full', 'no space')) : keeper.write(id, writing);
     const other = createPlace({ ...keeper, write }).visit();
     await other.library.importText(text);
     await other.library.refresh();

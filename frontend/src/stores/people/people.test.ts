@@ -113,7 +113,7 @@ test('what the gateway refuses is told with its reason', async () => {
   people.revoke('ben', false);
   await settled();
   expect(told).toEqual([
-    'The gateway refuses that: This is the last owner',
+    'The gateway refused this: This is the last owner',
     'The gateway does not answer. Is this device still on the robot’s network?',
   ]);
 });
