@@ -55,7 +55,7 @@ class Driver:
             await asyncio.sleep(max(0.0, begun_s + number * PERIOD_S - time.perf_counter()))
             self.said_s.append(time.perf_counter())
             packet = move_to(FIRST_POSITION + number).hex()
-            await self._say(type="send", id=number, packet=packet, nonce=self._nonce)
+            await self._say(type="packet", id=number, bytes=packet, nonce=self._nonce)
 
     async def _listen(self) -> None:
         async for text in self._client:

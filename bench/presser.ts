@@ -67,9 +67,9 @@ async function comesTo(socket: WebSocket) {
     },
     async send(command: Command): Promise<void> {
       const id = (lastId += 1);
-      const sent = hear((message) => message.type === 'sent' && message.id === id, `sent ${id}`);
+      const sent = hear((message) => message.type === 'done' && message.id === id, `sent ${id}`);
       const packet = Buffer.from(encodeCommand(command, family('doc'))).toString('hex');
-      say({ type: 'send', id, packet, nonce });
+      say({ type: 'packet', id, bytes: packet, nonce });
       await sent;
     },
     /** When, in milliseconds since the epoch; the sequence goes on behind it. */

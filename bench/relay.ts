@@ -142,7 +142,7 @@ async function askInPage({
     await new Promise((resolve) => setTimeout(resolve, pauseMs));
     const answered = heard('packet', answer);
     const askedMs = performance.now();
-    say({ type: 'send', id, packet: question, nonce });
+    say({ type: 'packet', id, bytes: question, nonce });
     microseconds.push(((await answered) - askedMs) * 1_000);
   }
   socket.close();

@@ -21,6 +21,7 @@ from servodeck.told import (
     LeaseState,
     LinkState,
     MotionTold,
+    Outcome,
     PlayState,
     PortState,
     RobotTold,
@@ -43,6 +44,7 @@ MessageId = Annotated[
 ]
 
 
+Slot = Annotated[int, Field(ge=0, le=255)]
 LeaseAction = Literal["request", "release", "take", "refuse"]
 Nonce = Annotated[str, Field(max_length=40, description="Of the latest `tick`: shows how old this is.")]
 
@@ -68,12 +70,56 @@ class MoveMessage(Message):
     nonce: Nonce | None
 
 
-class SendMessage(Message):
-    """Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none."""
+class RunMessage(Message):
+    """Run the group in `slot`; `times` 0: until it is stopped. What moves ends first."""
 
-    type: Literal["send"]
+    type: Literal["run"]
     id: MessageId
-    packet: Hex
+    slot: Slot
+    times: Annotated[int, Field(ge=0, le=0xFFFF)]
+    nonce: Nonce | None
+
+
+class StopGroupMessage(Message):
+    """End the running group behind its frame in progress. Everything else is free to move."""
+
+    type: Literal["stopGroup"]
+    id: MessageId
+
+
+class EraseMessage(Message):
+    """Erase every slot of the board."""
+
+    type: Literal["erase"]
+    id: MessageId
+    nonce: Nonce | None
+
+
+class SetSpeedMessage(Message):
+    """How fast the board plays the group in `slot`, `null` every group, until it is switched off."""
+
+    type: Literal["setSpeed"]
+    id: MessageId
+    slot: Slot | None
+    percent: Annotated[int, Field(ge=0, le=0xFFFF)]
+    nonce: Nonce | None
+
+
+class ReleaseMessage(Message):
+    """Take the torque off these servos: what they carry drops."""
+
+    type: Literal["release"]
+    id: MessageId
+    servos: Annotated[list[ServoNumber], Field(min_length=1, max_length=253)]
+    nonce: Nonce | None
+
+
+class PacketMessage(Message):
+    """Put one packet on the wire as it is. A question needs no `nonce`."""
+
+    type: Literal["packet"]
+    id: MessageId
+    bytes: Hex
     nonce: Nonce | None
 
 
@@ -175,9 +221,14 @@ class StopPlayingMessage(Message):
 
 AnyClientMessage = (
     MoveMessage
-    | SendMessage
     | PlayMessage
     | StopPlayingMessage
+    | RunMessage
+    | StopGroupMessage
+    | EraseMessage
+    | SetSpeedMessage
+    | ReleaseMessage
+    | PacketMessage
     | StopMessage
     | ResumeMessage
     | BoardMessage
@@ -235,17 +286,11 @@ class BatteryMessage(Message):
 
 
 class DoneMessage(Message):
-    """What the message of that id asked is done."""
+    """What was asked with that `id` is done. `outcome`: of a command for the board."""
 
     type: Literal["done"] = "done"
     id: MessageId
-
-
-class SentMessage(Message):
-    """The packet's last bit has left the wire."""
-
-    type: Literal["sent"] = "sent"
-    id: MessageId
+    outcome: Outcome | None = None
 
 
 class RefusedMessage(Message):
@@ -328,9 +373,7 @@ class LeaseToldMessage(Message):
 
 
 class LeftMessage(Message):
-    """What others have put on the wire since the last of these, or the gateway itself, moves and questions
-    among it.
-    """
+    """What has left the wire since the last of these, whoever asked for it."""
 
     type: Literal["left"] = "left"
     packets: list[str]
@@ -347,7 +390,6 @@ GatewayMessage = Annotated[
     WelcomeMessage
     | BatteryMessage
     | DoneMessage
-    | SentMessage
     | RefusedMessage
     | ReceivedMessage
     | NoiseMessage

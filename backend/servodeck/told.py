@@ -266,6 +266,11 @@ class UnheldServos(Message):
     for_ms: int | None
 
 
+Outcome = Literal["acknowledged", "silent", "sent"]
+"""The board has taken it, which says nothing of what it makes of it; it should have said so and has not; such
+a board never says.
+"""
+
 StopFor = Literal["person", "battery"]
 """Somebody pressed STOP; the policy for a low battery, on the page of whoever drives."""
 

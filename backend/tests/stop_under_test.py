@@ -12,6 +12,7 @@ from math import inf
 from typing import Any
 
 from fastapi import FastAPI
+from pydantic import ValidationError
 
 from servodeck.access.guard import Guard
 from servodeck.board.parts import Group, made_of, packets_of
@@ -19,22 +20,15 @@ from servodeck.callers import Caller
 from servodeck.driving.control import SOMEBODY, Control
 from servodeck.driving.latch import Cause
 from servodeck.errors import GatewayError
-from servodeck.messages import StopMessage
+from servodeck.messages import StopMessage, client_message
 from servodeck.port.wire import Left
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import (
-    Command,
-    Erase,
     Frame,
-    Move,
     ReadPositions,
-    Release,
-    Run,
     ServoTarget,
-    SetSpeed,
-    Stop,
 )
 from servodeck.run.app import create_app
 from servodeck.told import UnheldServos
@@ -44,7 +38,7 @@ from tests.downloading import ended
 from tests.fake_port import FakePorts
 from tests.lockstep import SERVOS, History, Simulator, SteppedBoard
 from tests.running import DEVICE, NO_LIBRARY, client_of, entrance_to
-from tests.virtual_time import VirtualTimeLoop, at, now
+from tests.virtual_time import VirtualTimeLoop, now
 
 Step = dict[str, Any]
 
@@ -185,9 +179,17 @@ class Driven:
         self.control = Watched(board, family)
         self.page: Client
 
-    def send(self, command: Command) -> None:
-        with contextlib.suppress(GatewayError, PacketError):
-            self.page.send(encode(command, self.family)).add_done_callback(taken)
+    def say(self, message: dict[str, Any]) -> None:
+        """As its page would; what cannot be said is not."""
+        control = self.control
+        with contextlib.suppress(GatewayError):
+            if control.driving.driver is None:
+                control.driving.act(self.page, "request")
+        asked = {"id": 1, **message}
+        if message["type"] != "stopGroup":
+            asked["nonce"] = self.page.nonce
+        with contextlib.suppress(ValidationError):
+            take(client_message.validate_python(asked), self.page, control)
 
     def download(self, slot: int, frames: Sequence[Frame]) -> None:
         group = Group(slot, "", frames)
@@ -197,8 +199,8 @@ class Driven:
 
     async def take(self, step: Step) -> None:
         kind = step["kind"]
-        if make := COMMANDS.get(kind):
-            self.send(make(step))
+        if make := INTENTS.get(kind):
+            self.say({"type": kind, **make(step)})
         elif act := ACTS.get(kind):
             with contextlib.suppress(GatewayError, PacketError):
                 act(self, step)
@@ -206,10 +208,9 @@ class Driven:
         pause_ms = step["ms"] if kind == "wait" else step.get("awayMs", 1500) if kind == "loss" else 0
         await asyncio.sleep(pause_ms / 1000)
 
-    def end_group(self) -> None:
-        self.send(Stop())
-        for after_s in STOP_REPEATS_S:
-            at(now() + after_s, lambda: self.send(Stop()))
+    def read(self) -> None:
+        packet = encode(ReadPositions(SERVOS), self.family)
+        self.say({"type": "packet", "bytes": packet.hex()})
 
     def cancel(self) -> None:
         if job := self.control.board.jobs.latest:
@@ -224,26 +225,29 @@ class Driven:
         await asyncio.sleep(OPENED_LONG_AGO_S)
         self.page = Client(self.control, OLGA)
         centre = (self.family.position.min + self.family.position.max) // 2
-        self.send(Move(1500, tuple(ServoTarget(servo, centre) for servo in SERVOS[:2])))
+        targets = [{"servo": servo, "position": centre} for servo in SERVOS[:2]]
+        self.say({"type": "move", "targets": targets, "durationMs": 1500})
         await asyncio.sleep(2.5)
         if "download" in self.family.commands:
             if history.get("wasErased"):
-                self.send(Erase())
+                self.say({"type": "erase"})
                 await asyncio.sleep(ERASED_WITHIN_S)
             self.download(KNOWN_SLOT, frames_of(history["known"]))
             await self.stored()
 
 
-COMMANDS: dict[str, Callable[[Step], Command]] = {
-    "move": lambda step: Move(step["durationMs"], targets_of(step)),
-    "run": lambda step: Run(step["slot"], step["times"]),
-    "erase": lambda _step: Erase(),
-    "read": lambda _step: ReadPositions(SERVOS),
-    "release": lambda step: Release(tuple(step["servos"])),
-    "speed": lambda step: SetSpeed(step["slot"], step["percent"]),
+INTENTS: dict[str, Callable[[Step], dict[str, Any]]] = {
+    "move": lambda step: {"durationMs": step["durationMs"], "targets": step["targets"]},
+    "run": lambda step: {"slot": step["slot"], "times": step["times"]},
+    "erase": lambda _step: {},
+    "release": lambda step: {"servos": step["servos"]},
 }
 ACTS: dict[str, Callable[[Driven, Step], None]] = {
-    "endGroup": lambda here, _step: here.end_group(),
+    "endGroup": lambda here, _step: here.say({"type": "stopGroup"}),
+    "read": lambda here, _step: here.read(),
+    "speed": lambda here, step: here.say(
+        {"type": "setSpeed", "slot": step["slot"], "percent": step["percent"]}
+    ),
     "halt": lambda here, _step: here.control.stop().add_done_callback(taken),
     "resume": lambda here, _step: here.control.resume(OLGA),
     "download": lambda here, step: here.download(step.get("slot", KNOWN_SLOT), frames_of(step["frames"])),

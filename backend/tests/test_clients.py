@@ -66,7 +66,7 @@ async def drive(client: ClientConnection) -> str:
 
 
 async def say(client: ClientConnection, **message: object) -> None:
-    if message["type"] == "send":
+    if message["type"] in ("packet", "run", "move"):
         message.setdefault("nonce", None)
     await client.send(json.dumps(message))
 
@@ -77,19 +77,19 @@ async def test_a_conversation_from_welcome_to_resume(port: FakePort, gateway: Ru
     ) as client:
         assert (await hear(client))["type"] == "welcome"
         nonce = await drive(client)
-        await say(client, type="send", id=1, packet=MOVE.hex(), nonce=nonce)
-        await say(client, type="send", id=2, packet=BATTERY.hex())
-        assert await hear_until(client, "sent") == {"type": "sent", "id": 1}
-        assert await hear_until(client, "sent") == {"type": "sent", "id": 2}
+        await say(client, type="packet", id=1, bytes=MOVE.hex(), nonce=nonce)
+        await say(client, type="packet", id=2, bytes=BATTERY.hex())
+        assert await hear_until(client, "done") == {"type": "done", "id": 1, "outcome": "sent"}
+        assert await hear_until(client, "done") == {"type": "done", "id": 2, "outcome": "sent"}
         port.say(BATTERY_REPORT)
         assert await hear(client) == {"type": "received", "packet": BATTERY_REPORT.hex()}
         assert (await hear(client))["battery"]["batteryMv"] == 7500
-        await say(client, type="send", id=3, packet="55550203")
+        await say(client, type="packet", id=3, bytes="55550203")
         assert (await hear(client))["code"] == "malformed"
         await say(client, type="stop", hold=RUN.hex())  # a page of before: whatever it says, it is a stop
         assert (await hear(client))["latch"] is True
         assert (await hear_until(client, "halted"))["unheld"]["servos"] is None
-        await say(client, type="send", id=4, packet=MOVE.hex(), nonce=nonce)
+        await say(client, type="packet", id=4, bytes=MOVE.hex(), nonce=nonce)
         refused = await hear(client)
         assert (refused["id"], refused["code"]) == (4, "latched")
         await say(client, type="resume")
@@ -101,7 +101,7 @@ async def test_more_than_eight_waiting_packets_are_refused_as_busy(gateway: Runn
     async with connect(gateway.ws) as client:
         nonce = await drive(client)
         for number in range(20):
-            await say(client, type="send", id=number, packet=MOVE.hex(), nonce=nonce)
+            await say(client, type="packet", id=number, bytes=MOVE.hex(), nonce=nonce)
         assert (await hear_until(client, "refused"))["code"] == "busy"
 
 
@@ -162,8 +162,8 @@ async def test_a_client_that_never_reads_is_dropped_and_the_others_lose_nothing(
                 noises += 1
         assert len(gateway.control.hub) == 1
         nonce = await drive(client)
-        await say(client, type="send", id=1, packet=MOVE.hex(), nonce=nonce)
-        assert await hear_until(client, "sent") == {"type": "sent", "id": 1}
+        await say(client, type="packet", id=1, bytes=MOVE.hex(), nonce=nonce)
+        assert await hear_until(client, "done") == {"type": "done", "id": 1, "outcome": "sent"}
         async with asyncio.timeout(PATIENCE_S):
             while len(gateway.server.server_state.connections) > 1:  # noqa: ASYNC110 (nothing announces it)
                 await asyncio.sleep(0.01)
@@ -175,8 +175,8 @@ async def test_when_the_last_window_closes_a_running_group_is_stopped(
 ) -> None:
     async with connect(gateway.ws) as client:
         nonce = await drive(client)
-        await say(client, type="send", id=1, packet=RUN.hex(), nonce=nonce)
-        await hear_until(client, "sent")
+        await say(client, type="packet", id=1, bytes=RUN.hex(), nonce=nonce)
+        await hear_until(client, "done")
     await asyncio.wait_for(port.until_written(5), PATIENCE_S)
     assert port.packets() == [STOP, RUN, STOP, STOP, STOP]
 
@@ -185,8 +185,8 @@ async def test_at_the_end_the_robot_is_stopped_and_clients_are_told(port: FakePo
     async with server_on(FakePorts(port)) as running:
         client = await connect(running.ws)
         nonce = await drive(client)
-        await say(client, type="send", id=1, packet=RUN.hex(), nonce=nonce)
-        await hear_until(client, "sent")
+        await say(client, type="packet", id=1, bytes=RUN.hex(), nonce=nonce)
+        await hear_until(client, "done")
     with pytest.raises(ConnectionClosed):
         await hear_until(client, "nothing")
     assert client.close_code == 1012

@@ -80,7 +80,7 @@ class Hand:
     async def move(self, position: int) -> bytes:
         packet = MOVE[:8] + position.to_bytes(2, "little")
         self.sent += 1
-        await self.say(type="send", id=self.sent, packet=packet.hex(), nonce=self.nonce)
+        await self.say(type="packet", id=self.sent, bytes=packet.hex(), nonce=self.nonce)
         return packet
 
     async def _listen(self) -> None:

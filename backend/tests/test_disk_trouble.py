@@ -66,8 +66,8 @@ def assert_control_goes_on(served: Served) -> None:
     with connect(f"ws{served.url.removeprefix('http')}/ws", close_timeout=0) as client:
         client.send(json.dumps({"type": "board", "id": 1, "board": "doc"}))
         nonce = lease_of(client)
-        client.send(json.dumps({"type": "send", "id": 1, "packet": MOVE.hex(), "nonce": nonce}))
-        while (message := json.loads(client.recv(5)))["type"] != "sent":
+        client.send(json.dumps({"type": "packet", "id": 1, "bytes": MOVE.hex(), "nonce": nonce}))
+        while (message := json.loads(client.recv(5)))["type"] != "done":
             assert message["type"] != "refused", message
     stopped = httpx2.post(f"{served.url}/api/stop").json()
     assert (stopped["latch"], stopped["halted"]) == (True, True)

@@ -97,7 +97,7 @@ def test_clients_that_talk_on_do_not_put_it_off(served: Served) -> None:
     with connect(f"ws{served.url.removeprefix('http')}/ws", close_timeout=0) as client:
         nonce = lease_of(client)
         for number in range(30):
-            client.send(json.dumps({"type": "send", "id": number, "packet": MOVE.hex(), "nonce": nonce}))
+            client.send(json.dumps({"type": "packet", "id": number, "bytes": MOVE.hex(), "nonce": nonce}))
         end_in_time(served)
 
 

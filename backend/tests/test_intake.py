@@ -9,8 +9,8 @@ from servodeck.access.intake import Intake, Rate
 from servodeck.messages import (
     AnyClientMessage,
     MoveMessage,
+    PacketMessage,
     ResumeMessage,
-    SendMessage,
     StopMessage,
     Target,
 )
@@ -46,8 +46,8 @@ def moved(number: int, *servos: int, duration_ms: int = 0) -> MoveMessage:
     return MoveMessage(type="move", id=number, targets=targets, duration_ms=duration_ms, nonce="1-1")
 
 
-def sent(number: int) -> SendMessage:
-    return SendMessage(type="send", id=number, packet="", nonce=None)
+def sent(number: int) -> PacketMessage:
+    return PacketMessage(type="packet", id=number, bytes="", nonce=None)
 
 
 @in_virtual_time
@@ -135,6 +135,6 @@ async def check_rate(pauses_s: list[float]) -> None:
     for first, at_s in enumerate(times_s):
         within = sum(at_s <= other <= at_s + 10 for other in times_s[first:])
         assert within <= 2 + 10 + 1
-    ids = [message.id for _, message in listener.taken if isinstance(message, SendMessage)]
+    ids = [message.id for _, message in listener.taken if isinstance(message, PacketMessage)]
     assert ids == sorted(ids)
     assert not pauses_s or ids[-1] == len(pauses_s) - 1

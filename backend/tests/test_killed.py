@@ -63,7 +63,7 @@ class Driver:
     def insist(self) -> None:
         """Says again what it had in mind, with old words."""
         for number in range(8):
-            self._say(type="send", id=1000 + number, packet=MOVE.hex(), nonce=self._nonce)
+            self._say(type="packet", id=1000 + number, bytes=MOVE.hex(), nonce=self._nonce)
 
     def press_stop(self) -> None:
         self._say(type="stop")
@@ -76,7 +76,7 @@ class Driver:
         with contextlib.suppress(ConnectionClosed, OSError):
             for number in range(1_000_000):
                 packet = (MOVE, MOVE_ELSEWHERE)[number % 2]
-                self._say(type="send", id=number, packet=packet.hex(), nonce=self._nonce)
+                self._say(type="packet", id=number, bytes=packet.hex(), nonce=self._nonce)
                 if self._still.is_set() or not self._hear_answer(number):
                     return
                 if self.answer["type"] == "refused":
@@ -89,7 +89,7 @@ class Driver:
                 if message["type"] == "tick":
                     self._nonce = message["nonce"]
                     self._say(type="beat", nonce=self._nonce)
-                if message["type"] == "sent":
+                if message["type"] == "done":
                     self.begun.set()
                 if message.get("id") == number:
                     self.answer = message

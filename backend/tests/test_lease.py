@@ -194,6 +194,17 @@ def test_a_command_counts_from_its_nonce_at_the_gate_and_again_at_the_port() -> 
             lease.permit("anna", late, COMMAND_S + 0.001)
 
 
+def test_what_had_to_wait_for_an_end_may_begin_as_long_as_its_driver_is_heard() -> None:
+    lease, _ = new_lease()
+    lease.request("anna", 0.0)
+    lease.beat("anna", lease.issue(1.0))
+    lease.judge(lease.standing("anna", 1.0 + QUIET_S), 1.0 + QUIET_S)
+    with pytest.raises(ExpiredError):
+        lease.standing("anna", 1.001 + QUIET_S)
+    with pytest.raises(NotDrivingError):
+        lease.standing("bert", 1.0)
+
+
 def test_what_waits_at_the_port_does_not_outlive_its_epoch() -> None:
     lease, _ = new_lease()
     lease.request("anna", 0.0)

@@ -119,8 +119,8 @@ def test_no_packet_stands_in_the_log_at_any_level(json_served: Served) -> None:
     with connect(f"ws{json_served.url.removeprefix('http')}/ws") as client:
         client.send(json.dumps({"type": "board", "id": 1, "board": "doc"}))
         nonce = lease_of(client)
-        client.send(json.dumps({"type": "send", "id": 1, "packet": MOVE.hex(), "nonce": nonce}))
-        while json.loads(client.recv())["type"] != "sent":
+        client.send(json.dumps({"type": "packet", "id": 1, "bytes": MOVE.hex(), "nonce": nonce}))
+        while json.loads(client.recv())["type"] != "done":
             pass
     assert MOVE.hex() not in json.dumps(lines_of(json_served))
 

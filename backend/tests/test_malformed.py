@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from servodeck.access.gate import judge_packet
 from servodeck.callers import THIS_COMPUTER
 from servodeck.errors import GatewayError
-from servodeck.messages import SendMessage, client_message
+from servodeck.messages import PacketMessage, client_message
 from servodeck.web.clients import hear, intake_of
 from tests.amount import TIMES
 from tests.client import Client, gateway_on
@@ -21,8 +21,9 @@ from tests.virtual_time import in_virtual_time
 
 MESSAGES = 20_000 * TIMES
 WELL_FORMED: list[dict[str, Any]] = [
-    *({"type": "send", "id": 7, "packet": packet.hex()} for packet in (MOVE, RUN, ERASE, DOWNLOAD)),
+    *({"type": "packet", "id": 7, "bytes": packet.hex()} for packet in (MOVE, RUN, ERASE, DOWNLOAD)),
     {"type": "move", "id": 7, "targets": [{"servo": 1, "position": 1500}], "durationMs": 0},
+    {"type": "run", "id": 7, "slot": 1, "times": 1},
     {"type": "stop", "why": "person"},
     {"type": "resume"},
     {"type": "board", "id": 2, "board": "doc"},
@@ -30,7 +31,21 @@ WELL_FORMED: list[dict[str, Any]] = [
     {"type": "lease", "action": "request"},
     {"type": "beat", "nonce": "1-1"},
 ]
-ODD: list[Any] = [None, True, -1, 2**70, 1.5, "", "\0", "é" * 50, [], {}, [[[[]]]], {"type": "send"}, "5555"]
+ODD: list[Any] = [
+    None,
+    True,
+    -1,
+    2**70,
+    1.5,
+    "",
+    "\0",
+    "é" * 50,
+    [],
+    {},
+    [[[[]]]],
+    {"type": "run"},
+    "5555",
+]
 
 
 def spoilt_text(chance: random.Random, text: str) -> str:
@@ -61,11 +76,11 @@ def spoilt_fields(chance: random.Random, message: dict[str, Any]) -> str:
 
 
 def spoilt_packet(chance: random.Random, message: dict[str, Any]) -> str:
-    packet = bytearray(bytes.fromhex(message.get("packet", MOVE.hex())))
+    packet = bytearray(bytes.fromhex(message.get("bytes", MOVE.hex())))
     for _ in range(chance.randrange(1, 4)):
         at = chance.randrange(len(packet))
         packet[at : at + chance.randrange(2)] = chance.randbytes(chance.randrange(3))
-    return json.dumps({"type": "send", "id": 7, "nonce": message.get("nonce"), "packet": packet.hex()})
+    return json.dumps({"type": "packet", "id": 7, "nonce": message.get("nonce"), "bytes": packet.hex()})
 
 
 SPOILERS: list[Callable[[random.Random, dict[str, Any]], str]] = [
@@ -79,8 +94,8 @@ def is_sound(text: str) -> bool:
     """A message that somebody might mean; those say nothing here."""
     try:
         message = client_message.validate_json(text)
-        if isinstance(message, SendMessage):
-            judge_packet(message.packet, "doc")
+        if isinstance(message, PacketMessage):
+            judge_packet(message.bytes, "doc")
     except (ValidationError, GatewayError):
         return False
     return True
@@ -89,7 +104,7 @@ def is_sound(text: str) -> bool:
 def malformed(chance: random.Random, nonce: str | None) -> Iterator[str]:
     while True:
         message = dict(chance.choice(WELL_FORMED))
-        if message["type"] in ("move", "send"):
+        if message["type"] in ("move", "packet", "run"):
             message["nonce"] = nonce
         text = chance.choice(SPOILERS)(chance, message)
         if not is_sound(text):

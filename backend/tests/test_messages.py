@@ -12,10 +12,10 @@ from servodeck.access.hub import Seat
 from servodeck.callers import THIS_COMPUTER
 from servodeck.driving.control import Control
 from servodeck.messages import (
+    DoneMessage,
     MoveMessage,
+    PacketMessage,
     ResumeMessage,
-    SendMessage,
-    SentMessage,
     StateMessage,
     StopMessage,
     Target,
@@ -35,8 +35,8 @@ from tests.virtual_time import in_virtual_time, now
 
 def test_each_client_message_is_read_as_what_it_is() -> None:
     assert client_message.validate_json(
-        '{"type":"send","id":7,"packet":"55550207","nonce":null}'
-    ) == SendMessage(type="send", id=7, packet="55550207", nonce=None)
+        '{"type":"packet","id":7,"bytes":"55550207","nonce":null}'
+    ) == PacketMessage(type="packet", id=7, bytes="55550207", nonce=None)
     assert client_message.validate_json(
         '{"type":"move","id":7,"targets":[{"servo":1,"position":1500}],"durationMs":0,"nonce":"1-1"}'
     ) == MoveMessage(type="move", id=7, targets=[Target(servo=1, position=1500)], duration_ms=0, nonce="1-1")
@@ -53,14 +53,14 @@ def test_each_client_message_is_read_as_what_it_is() -> None:
         "null",
         "{}",
         '{"type":"dance"}',
-        '{"type":"send","id":1}',
-        '{"type":"send","id":"1","packet":"55550207","nonce":null}',
-        '{"type":"send","id":1.5,"packet":"55550207","nonce":null}',
-        '{"type":"send","id":-1,"packet":"55550207","nonce":null}',
-        '{"type":"send","id":true,"packet":"55550207","nonce":null}',
-        '{"type":"send","id":1,"packet":["55"],"nonce":null}',
-        '{"type":"send","id":1,"packet":"55550207","nonce":null,"more":0}',
-        '{"type":"send","id":1,"packet":"' + "5" * 600 + '","nonce":null}',
+        '{"type":"packet","id":1}',
+        '{"type":"packet","id":"1","bytes":"55550207","nonce":null}',
+        '{"type":"packet","id":1.5,"bytes":"55550207","nonce":null}',
+        '{"type":"packet","id":-1,"bytes":"55550207","nonce":null}',
+        '{"type":"packet","id":true,"bytes":"55550207","nonce":null}',
+        '{"type":"packet","id":1,"bytes":["55"],"nonce":null}',
+        '{"type":"packet","id":1,"bytes":"55550207","nonce":null,"more":0}',
+        '{"type":"packet","id":1,"bytes":"' + "5" * 600 + '","nonce":null}',
         '{"type":"move","id":1,"targets":[],"durationMs":0,"nonce":"1-1"}',
         '{"type":"move","id":1,"targets":[{"servo":0,"position":1500}],"durationMs":0,"nonce":"1-1"}',
         '{"type":"move","id":1,"targets":[{"servo":1,"position":-1}],"durationMs":0,"nonce":"1-1"}',
@@ -93,15 +93,21 @@ def test_names_on_the_wire_are_camel_case() -> None:
     state = json.loads(encode(told))
     assert state["port"]["retryInMs"] == 250
     assert state["identity"]["evidence"] == [{"kind": "noise", "byteCount": 3}]
-    assert json.loads(encode(SentMessage(id=3))) == {"type": "sent", "id": 3}
-    assert gateway_message.validate_json(encode(SentMessage(id=3))) == SentMessage(id=3)
+    assert json.loads(encode(DoneMessage(id=3, outcome="sent"))) == {
+        "type": "done",
+        "id": 3,
+        "outcome": "sent",
+    }
+    assert gateway_message.validate_json(encode(DoneMessage(id=3, outcome="sent"))) == DoneMessage(
+        id=3, outcome="sent"
+    )
 
 
 def test_the_schema_names_both_directions_and_leaves_nothing_open() -> None:
     definitions = json_schema()["$defs"]
     assert {"ClientMessage", "GatewayMessage", "PortState"} <= set(definitions)
-    assert len(definitions["ClientMessage"]["oneOf"]) == 13
-    assert len(definitions["GatewayMessage"]["oneOf"]) == 17
+    assert len(definitions["ClientMessage"]["oneOf"]) == 18
+    assert len(definitions["GatewayMessage"]["oneOf"]) == 16
     for name, definition in definitions.items():
         if "properties" in definition:
             assert definition.get("additionalProperties") is False or name == "StopMessage", name
@@ -115,9 +121,24 @@ packets = st.one_of(
     st.text(max_size=20),
 )
 scalars = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=20), packets)
+
+
+def some_of(message: dict[str, Any]) -> st.SearchStrategy[dict[str, Any]]:
+    """With the fields that such a message has, and perhaps others."""
+    fields = {
+        "run": {"slot", "times", "nonce"},
+        "stopGroup": set[str](),
+        "erase": {"nonce"},
+        "setSpeed": {"slot", "percent", "nonce"},
+        "release": {"servos", "nonce"},
+    }[message["type"]]
+    own = {key: value for key, value in message.items() if key in fields | {"type", "id"}}
+    return st.sampled_from([own, own, message])
+
+
 messages = st.one_of(
     st.fixed_dictionaries(
-        {"type": st.just("send"), "id": st.integers() | scalars, "packet": packets, "nonce": scalars}
+        {"type": st.just("packet"), "id": st.integers() | scalars, "bytes": packets, "nonce": scalars}
     ),
     st.fixed_dictionaries(
         {
@@ -130,6 +151,17 @@ messages = st.one_of(
             "nonce": scalars,
         }
     ),
+    st.fixed_dictionaries(
+        {
+            "type": st.sampled_from(["run", "stopGroup", "erase", "setSpeed", "release"]),
+            "id": st.integers(min_value=0, max_value=9) | scalars,
+            "slot": st.integers(0, 9) | scalars,
+            "times": st.just(1) | scalars,
+            "percent": st.just(100) | scalars,
+            "servos": st.lists(st.integers(1, 6) | scalars, max_size=2),
+            "nonce": scalars,
+        }
+    ).flatmap(some_of),
     st.fixed_dictionaries({"type": st.just("stop"), "why": st.just("battery") | scalars}),
     st.fixed_dictionaries(
         {"type": st.just("board"), "id": scalars, "board": st.sampled_from(list(FAMILIES)) | scalars}

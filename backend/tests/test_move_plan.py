@@ -8,7 +8,7 @@ from servodeck.board.estimate import Estimate
 from servodeck.board.move_plan import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S, MovePlan, plan_move
 from servodeck.errors import NotSupportedError, OutOfRangeError
 from servodeck.protocol.families import FAMILIES, Family
-from servodeck.protocol.packets import encode, parse_command
+from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Move, ServoTarget
 
 BUS = FAMILIES["bus-ctrl"]
@@ -32,8 +32,7 @@ def plan(
 
 
 def commands_of(made: MovePlan) -> list[Move]:
-    commands = [parse_command(step.packet) for step in made.steps]
-    return [command for command in commands if isinstance(command, Move)]
+    return [step.move for step in made.steps]
 
 
 def test_servos_that_were_moved_before_go_together_and_at_once() -> None:

@@ -365,7 +365,7 @@ async def check(asked: list[tuple[int, str | dict[int, int]]]) -> None:
 
         def leaving(owner: Owner, packet: bytes, at_s: float) -> None:
             """Nobody asked for what a stop holds."""
-            if owner is control.board.moves:
+            if not control.board.link.wire().is_halting:
                 wished.append((now(), packet))
             told(owner, packet, at_s)
 

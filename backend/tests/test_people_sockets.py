@@ -60,7 +60,7 @@ async def test_a_viewer_sees_and_stops_and_nothing_more(port: FakePort, gateway:
     _, viewer = token_for(gateway, "viewer")
     async with connect(gateway.ws, additional_headers=viewer) as client:
         await hear_until(client, "welcome")
-        await say(client, type="send", id=1, packet=MOVE.hex())
+        await say(client, type="packet", id=1, bytes=MOVE.hex())
         assert (await hear(client))["code"] == "forbidden"
         for message in (
             {"type": "resume"},
@@ -79,12 +79,12 @@ async def test_a_driver_does_not_erase(port: FakePort, gateway: Running) -> None
     _, driver = token_for(gateway, "driver")
     _, owner = token_for(gateway, "owner")
     async with connect(gateway.ws, additional_headers=driver) as client:
-        await say(client, type="send", id=1, packet=ERASE.hex())
+        await say(client, type="packet", id=1, bytes=ERASE.hex())
         assert (await hear_until(client, "refused"))["code"] == "forbidden"
     async with connect(gateway.ws, additional_headers=owner) as client:
         nonce = await drive(client)
-        await say(client, type="send", id=2, packet=ERASE.hex(), nonce=nonce)
-        assert (await hear_until(client, "sent"))["id"] == 2
+        await say(client, type="packet", id=2, bytes=ERASE.hex(), nonce=nonce)
+        assert (await hear_until(client, "done"))["id"] == 2
 
 
 async def test_one_device_takes_no_more_than_its_share_of_seats(gateway: Running) -> None:

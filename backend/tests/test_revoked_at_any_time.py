@@ -21,8 +21,8 @@ from servodeck.messages import (
     ContinueMessage,
     LeaseMessage,
     MoveMessage,
+    PacketMessage,
     PlayMessage,
-    SendMessage,
     StopMessage,
     StopPlayingMessage,
     Target,
@@ -104,7 +104,7 @@ class Page(Client):
 
     def say_packet(self, packet: bytes) -> None:
         self._claim()
-        self.say(SendMessage(type="send", id=1, packet=packet.hex(), nonce=self.nonce))
+        self.say(PacketMessage(type="packet", id=1, bytes=packet.hex(), nonce=self.nonce))
 
     def say_move(self, duration_ms: int, positions: Mapping[int, int]) -> None:
         self._claim()

@@ -41,7 +41,7 @@ async def test_a_limit_holds_for_all() -> None:
                 owner.send(MOVE)
         control.leave(anna)
         await bert.heard()
-        say(control, bert, type="send", id=7, packet=MOVE.hex(), nonce=bert.nonce)
+        say(control, bert, type="packet", id=7, bytes=MOVE.hex(), nonce=bert.nonce)
         assert await bert.heard() == [{"type": "refused", "id": 7, "code": "outOfRange", "detail": REFUSAL}]
         await bert.send(MOVE_ELSEWHERE)
         await bert.send(RUN)

@@ -91,7 +91,7 @@ async def shout(client: Client, intake: Intake, from_s: float) -> None:
     """Questions, which anybody may ask, far more than the rate and the wire take."""
     await asyncio.sleep(from_s)
     for number in range(SAID_EACH):
-        hear(f'{{"type":"send","id":{number},"packet":"{BATTERY.hex()}","nonce":null}}', client, intake)
+        hear(f'{{"type":"packet","id":{number},"bytes":"{BATTERY.hex()}","nonce":null}}', client, intake)
 
 
 FILLER_HEAD = b"\x00\xfd"

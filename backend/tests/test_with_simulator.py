@@ -101,10 +101,10 @@ async def test_moves_battery_and_stop_reach_the_board_in_order(board: Board, gat
     async with connect(gateway.ws) as client:
         await hear_port(client, "open")
         nonce = await drive(client)
-        await say(client, type="send", id=1, packet=MOVE.hex(), nonce=nonce)
-        await say(client, type="send", id=2, packet=BATTERY.hex())
+        await say(client, type="packet", id=1, bytes=MOVE.hex(), nonce=nonce)
+        await say(client, type="packet", id=2, bytes=BATTERY.hex())
         assert (await hear_until(client, "received"))["packet"] == BATTERY_REPORT.hex()
-        await say(client, type="send", id=3, packet=RUN.hex(), nonce=nonce)
+        await say(client, type="packet", id=3, bytes=RUN.hex(), nonce=nonce)
         await say(client, type="stop")
         await hear_until(client, "halted")
         await asyncio.sleep(0.05)  # the board takes its last byte one byte time after we counted it
@@ -128,8 +128,8 @@ async def test_a_pulled_cable_is_told_and_a_plugged_one_found_again(board: Board
         await say(client, type="resume")
         await hear_until(client, "state")
         nonce = await drive(client)
-        await say(client, type="send", id=1, packet=MOVE.hex(), nonce=nonce)
-        assert await hear_until(client, "sent") == {"type": "sent", "id": 1}
+        await say(client, type="packet", id=1, bytes=MOVE.hex(), nonce=nonce)
+        assert await hear_until(client, "done") == {"type": "done", "id": 1, "outcome": "sent"}
 
 
 @pytest.mark.parametrize("board", ["xarm"], indirect=True)

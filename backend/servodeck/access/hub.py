@@ -5,8 +5,9 @@ Knows seats, who sits there, and text; no socket, no message's meaning, no port.
 """
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Coroutine
 from dataclasses import dataclass, replace
+from typing import Any, TypeVar
 
 from servodeck.callers import THIS_COMPUTER, Caller, Role
 
@@ -19,6 +20,9 @@ SEATS: dict[Role, int] = {"stopper": 200, "viewer": 200, "driver": 208, "owner":
 # Nobody needs more windows; a single phone shall not take every seat.
 SEATS_EACH = 8
 TRY_AGAIN_LATER, AGAINST_THE_RULES, GOING_AWAY = 1013, 1008, 1012
+
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +43,7 @@ class Seat:
         self._outbox: asyncio.Queue[str | Callable[[], str]] = asyncio.Queue(OUTBOX_MESSAGES)
         self.ended = asyncio.Event()
         self.farewell: Farewell | None = None
+        self._pending: set[asyncio.Task[Any]] = set()
 
     def put(self, text: str) -> None:
         self._put(text)
@@ -58,6 +63,20 @@ class Seat:
     def end(self, code: int, reason: str) -> None:
         self.farewell = self.farewell or Farewell(code, reason)
         self.ended.set()
+
+    def begin(self, work: Coroutine[Any, Any, T]) -> asyncio.Task[T]:
+        """What it has asked for and is not done at once; it ends with the seat."""
+        task = asyncio.create_task(work)
+        self._pending.add(task)
+        task.add_done_callback(self._pending.discard)
+        return task
+
+    def drop_pending(self) -> Collection[asyncio.Task[Any]]:
+        """They end where they wait now."""
+        pending = tuple(self._pending)
+        for task in pending:
+            task.cancel()
+        return pending
 
     @property
     def waiting(self) -> int:

@@ -26,7 +26,7 @@ FIRST_MOVE_STAGGER_S = MOVE.first_stagger_ms / 1000
 class Step:
     """`after_s`: since the step before."""
 
-    packet: bytes
+    move: Move
     after_s: float
 
 
@@ -54,13 +54,15 @@ def plan_move(
     needs_ms = max(first_ms(known, motion, now), first_ms(new, motion, now))
     judge_time(duration_ms, new, needs_ms, family, name_of)
     portions = [*portions_of(known, family.servos_per_move), *((servo,) for servo in new)]
-    packets = [
-        packet_of(Move(duration_ms, tuple(ServoTarget(servo, positions[servo]) for servo in portion)), family)
+    moves = [
+        Move(duration_ms, tuple(ServoTarget(servo, positions[servo]) for servo in portion))
         for portion in portions
     ]
-    starts = len(packets) - len(new)
-    waits = [FIRST_MOVE_STAGGER_S if index > starts else 0.0 for index in range(len(packets))]
-    return MovePlan(tuple(map(Step, packets, waits)), new)
+    for move in moves:
+        judge_command(move, family)
+    starts = len(moves) - len(new)
+    waits = [FIRST_MOVE_STAGGER_S if index > starts else 0.0 for index in range(len(moves))]
+    return MovePlan(tuple(map(Step, moves, waits)), new)
 
 
 def judge_time(
@@ -134,9 +136,14 @@ def portions_of(servos: Sequence[int], size: int) -> Iterator[Sequence[int]]:
 
 def judge_targets(targets: Sequence[ServoTarget], duration_ms: int, family: Family) -> None:
     """Raises what the board cannot take of any of them; how many there are does not matter."""
+    for target in targets:
+        judge_command(Move(duration_ms, (target,)), family)
+
+
+def judge_command(command: Command, family: Family) -> None:
+    """Raises what the board cannot take of it."""
     try:
-        for target in targets:
-            check(Move(duration_ms, (target,)), family)
+        check(command, family)
     except PacketError as error:
         raise refusal_of(error) from error
 

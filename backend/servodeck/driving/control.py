@@ -22,7 +22,7 @@ from servodeck.access.gate import (
 from servodeck.access.hub import AGAINST_THE_RULES, Hub, Seat
 from servodeck.board.board import Board
 from servodeck.board.estimate import Estimate
-from servodeck.board.move_plan import judge_targets
+from servodeck.board.move_plan import judge_targets, packet_of
 from servodeck.board.moves import Asked
 from servodeck.board.parts import Part, judge_parts
 from servodeck.board.playing import FrameGroup, judge_group
@@ -32,6 +32,8 @@ from servodeck.board.slot_memory import SlotMemory
 from servodeck.callers import Caller
 from servodeck.driving.driving import Driving
 from servodeck.driving.latch import Cause, Latch
+from servodeck.driving.lease import Permit
+from servodeck.driving.operations import Operations
 from servodeck.driving.relay import Relay
 from servodeck.driving.telling import Telling
 from servodeck.driving.watch import Watch
@@ -57,10 +59,10 @@ from servodeck.messages import (
 )
 from servodeck.motion.halt_plan import Unheld
 from servodeck.port.link import Ports
-from servodeck.port.wire import Job, Left, Owner, always
+from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, always
 from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.values import Erase, Move, Run, ServoTarget
+from servodeck.protocol.values import Command, Erase, Move, Run, ServoTarget
 from servodeck.told import JobState, PlayState, UnheldServos
 
 SOMEBODY = Cause("person")
@@ -114,6 +116,7 @@ class Control:
         )
         self._relay = Relay(self.hub, now, lambda: self.driving.driver)
         self._telling = Telling(self.hub, self.board, self._latch, self.robot, self.driving, now)
+        self.operations = Operations(self)
         self._halting: Left | None = None
         self._pressed_s = 0.0
         self._stopped_s = -math.inf
@@ -148,6 +151,7 @@ class Control:
     def leave(self, seat: Seat) -> None:
         """What waits of it does not leave, and what it still says is not heard. Twice is harmless."""
         seat.ended.set()
+        seat.drop_pending()
         self.board.drop(seat, CancelledError("The client has left."))
         self.limits.forget(seat)
         self.hub.leave(seat)
@@ -216,16 +220,41 @@ class Control:
             self.board.judge_known()
         judge_latch(packet[COMMAND_AT], self.latch)
         judge_by_hand(packet)
+        if packet[COMMAND_AT] == STOP:
+            return self.stop_once(seat)
         self.board.jobs.judge_run(command, self.board.link.place)
-        self._judge_idle(packet)
+        self.board.jobs.judge_idle()
         if isinstance(command, Run | Erase):
             self.board.plays.judge_idle()
         judge = always if is_harmless(packet) else self._permitted(seat, nonce)
-        is_stop = packet[COMMAND_AT] == STOP
-        if is_stop:
-            # A stop overtakes all that waits; a run it overtook must not start the group again behind it.
-            wire.purge(is_run, CancelledError("A stop has overtaken this run."))
-        return wire.send(packet, seat, urgent=is_stop, judge=judge)
+        return wire.send(packet, seat, judge=judge)
+
+    def put(self, seat: Seat, command: Command, permit: Permit) -> Left:
+        """As `send`, of somebody who may have that command sent."""
+        board = self.board
+        packet = packet_of(command, board.family)
+        seat.caller.require(role_for(packet))
+        self.limits.judge(command, seat)
+        wire = board.link.wire()
+        board.judge_known()
+        judge_latch(packet[COMMAND_AT], self.latch)
+        board.jobs.judge_run(command, board.link.place)
+        board.jobs.judge_idle()
+        if isinstance(command, Run | Erase):
+            board.plays.judge_idle()
+        return wire.send(packet, seat, judge=lambda: self.driving.judge(permit))
+
+    def stop_once(self, seat: Seat) -> Left:
+        """Ends the running group behind its frame in progress. It overtakes all that waits, and a run that it
+        overtook does not start the group again behind it.
+        """
+        wire = self.board.link.wire()
+        # It always goes, but the frame that it meets on the board is not stored for sure (S10).
+        self.board.jobs.end(CancelledError("A stop ended it before all of it was stored."))
+        self.board.plays.end(CancelledError("A stop has ended it."))
+        self.board.jobs.judge_idle()
+        wire.purge(is_run, CancelledError("A stop has overtaken this run."))
+        return wire.send(STOP_PACKET, seat, urgent=True)
 
     def stop(self, cause: Cause = SOMEBODY) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
@@ -411,13 +440,6 @@ class Control:
     def _permitted(self, seat: Seat, nonce: str | None) -> Callable[[], None]:
         permit = self.driving.permit(seat, nonce)
         return lambda: self.driving.judge(permit)
-
-    def _judge_idle(self, packet: bytes) -> None:
-        """A stop always goes, but the frame it meets on the board is not stored for sure (S10)."""
-        if packet[COMMAND_AT] == STOP:
-            self.board.jobs.end(CancelledError("A stop ended it before all of it was stored."))
-            self.board.plays.end(CancelledError("A stop has ended it."))
-        self.board.jobs.judge_idle()
 
     def _see_robot(self) -> None:
         link = self.board.link

@@ -128,6 +128,12 @@ class Driving:
         """Raises NotDrivingError or ExpiredError."""
         return self._lease.permit(seat, nonce, self._now())
 
+    def standing(self, seat: Seat) -> Permit:
+        """For what its driver has asked for already, and what had to end first has ended. Raises
+        NotDrivingError or ExpiredError.
+        """
+        return self._lease.standing(seat, self._now())
+
     def judge_request(self, caller: Caller, nonce: str) -> None:
         """For what a page asks beside its WebSocket: only the driver's has the nonce. A large request takes
         its time. Raises NotDrivingError or ExpiredError.

@@ -151,6 +151,16 @@ class Lease(Generic[H]):
         self.beat(who, nonce)
         return Permit(self.epoch, issued_s, issued_s + within_s)
 
+    def standing(self, who: H, now: float) -> Permit:
+        """For what that driver has asked for already, and what had to end first has ended. Raises
+        NotDrivingError, or ExpiredError where nothing was heard for so long that nothing may begin.
+        """
+        permit = Permit(self.epoch, self._heard_s, self._heard_s + QUIET_S)
+        if who is not self.driver:
+            raise NotDrivingError("Somebody else drives now.")
+        self.judge(permit, now)
+        return permit
+
     def judge(self, permit: Permit, now: float) -> None:
         """Asked when the command is about to leave. Raises NotDrivingError or ExpiredError."""
         if permit.epoch != self.epoch:

@@ -1,4 +1,4 @@
-"""What left the wire, told to everybody who has not sent its packet: to the driver at once, to the others
+"""What left the wire, told to everybody: to the driver and whoever has asked for it at once, to the others
 twenty times a second at most, so that a hand on one page's sliders is seen on all of them.
 
 Knows seats and packets, no port. Whoever reads slowly gets the newest of it and misses what that made void.
@@ -24,11 +24,11 @@ Packets = tuple[bytes, ...]
 
 @dataclass(frozen=True, slots=True)
 class Leaving:
-    """`known_to` needs not be told."""
+    """`known_to` was told apart."""
 
     packet: bytes
     at_s: float
-    known_to: Collection[Owner]
+    known_to: Collection[Seat]
 
 
 class Relay:
@@ -41,12 +41,13 @@ class Relay:
         self._timer: asyncio.TimerHandle | None = None
 
     def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
-        """Its last bit leaves then; it is told when it has: the driver of each packet, and at once."""
+        """Its last bit leaves then; it is told when it has: at once to its `owner`, and to the driver."""
         driver = self._driver()
-        if driver and owner is not driver:
+        known_to = [seat for seat in self._hub.seats if seat is owner or seat is driver]
+        for seat in known_to:
             text = text_of((packet,))
-            asyncio.get_running_loop().call_later(max(0.0, at_s - self._now()), driver.put, text)
-        self._leaving.append(Leaving(packet, at_s, (owner, driver)))
+            asyncio.get_running_loop().call_later(max(0.0, at_s - self._now()), seat.put, text)
+        self._leaving.append(Leaving(packet, at_s, known_to))
         if self._timer is None:
             self._plan()
 
@@ -71,7 +72,7 @@ class Relay:
         if self._leaving:
             self._plan()
         told = newest(tuple(each.packet for each in left))
-        knowing = {owner for each in left for owner in each.known_to}
+        knowing = {seat for each in left for seat in each.known_to}
         for seat in self._hub.seats:
             known = seat in knowing
             unheard = tuple(each.packet for each in left if seat not in each.known_to) if known else ()

@@ -8,7 +8,6 @@ from collections.abc import Coroutine
 from typing import Any, TypeVar
 
 from servodeck.access.hub import Seat
-from servodeck.callers import Caller
 from servodeck.errors import CancelledError
 
 T = TypeVar("T")
@@ -17,30 +16,19 @@ T = TypeVar("T")
 class ScriptSeat(Seat):
     """Nobody is there to be told anything."""
 
-    def __init__(self, caller: Caller) -> None:
-        super().__init__(caller)
-        self._pending: set[asyncio.Task[Any]] = set()
-
     def put(self, text: str) -> None:
         """Unread."""
 
     async def do(self, work: Coroutine[Any, Any, T]) -> T:
         """What `work` gives or raises; CancelledError where this seat ended before."""
-        task = asyncio.create_task(work)
-        self._pending.add(task)
         try:
-            return await task
+            return await self.begin(work)
         except asyncio.CancelledError:
             if self.farewell:
                 raise CancelledError(self.farewell.reason) from None
             raise
-        finally:
-            self._pending.discard(task)
 
     async def end_pending(self) -> None:
         """Returns when nothing of it is under way any more."""
-        pending = tuple(self._pending)
-        for task in pending:
-            task.cancel()
-        if pending:
+        if pending := self.drop_pending():
             await asyncio.wait(pending)

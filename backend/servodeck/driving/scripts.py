@@ -6,37 +6,29 @@ Knows what is asked and in which order it leaves; no HTTP. Who may drive is `dri
 """
 
 import asyncio
-import contextlib
-from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from servodeck.access.gate import MOVE, judge_latch
 from servodeck.access.hub import Seat
-from servodeck.board.jobs import ERASE_TIMEOUT_S
-from servodeck.board.move_plan import packet_of, plan_move
+from servodeck.board.move_plan import plan_move
 from servodeck.board.parts import Part
 from servodeck.board.playing import FrameGroup
 from servodeck.callers import Caller, as_script
 from servodeck.driving.control import Control, end_of_group
+from servodeck.driving.lease import Permit
+from servodeck.driving.operations import Turn
 from servodeck.driving.script_seat import ScriptSeat
 from servodeck.errors import (
     CancelledError,
     MovingError,
-    NoAnswerError,
     NotPairedError,
 )
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
-from servodeck.protocol.packets import parse_command
-from servodeck.protocol.timings import RUN
-from servodeck.protocol.values import Erase, Erased, Run, RunAccepted, RunStarted
-from servodeck.told import JobState, LeaseState, PlayState
-
-RUN_WAIT_S = RUN.timeout_ms / 1000
+from servodeck.told import JobState, LeaseState, Outcome, PlayState
 
 ScriptAction = Literal["request", "take", "release", "beat"]
-RunOutcome = Literal["acknowledged", "silent", "sent"]
 IsWanted = Callable[[], Awaitable[bool]]
 
 
@@ -47,40 +39,36 @@ class Moved:
     first_moves: tuple[int, ...]
 
 
-class Turn:
-    """One request's leave to move the robot. It ends with the next stop, and with another driver."""
+class ScriptClaim:
+    """Of a program, which asks for one thing at a time and has no heartbeat: the lease is asked for with it,
+    and kept for as long as what it asked lasts.
+    """
 
     def __init__(self, control: Control, seat: Seat, *, take: bool) -> None:
-        """Raises what keeps its first packet from leaving."""
-        control.board.link.wire()
-        judge_latch(MOVE, control.latch)
-        self._control = control
-        self._seat = seat
-        control.driving.speak_for(seat, take=take)
-        self._mark = self._present()
+        self.seat = seat
+        self._driving = control.driving
+        self._take = take
 
-    async def after_the_stop(self) -> None:
-        """Where what another driver began is being stopped."""
-        self._judge()
-        if self._control.board.link.wire().is_halting:
-            await self.end_what_moves()
+    def claim(self) -> None:
+        self._driving.speak_for(self.seat, take=self._take)
 
-    async def end_what_moves(self) -> None:
-        self._judge()
-        ended = self._control.board.end_motion()
-        self._mark = self._present()  # now: whatever else stops the robot meanwhile ends this turn, too
-        if ended:
-            await asyncio.shield(ended)  # others may wait for it
+    def permit(self) -> Permit:
+        return self._driving.permit(self.seat, self._driving.speak_for(self.seat, take=False))
 
-    def send(self, packet: bytes, lasts_s: float = 0.0) -> Left:
-        """`lasts_s`: what it sets in motion."""
-        self._judge()
-        driving = self._control.driving
-        nonce = driving.speak_for(self._seat, take=False)
-        left = self._control.send(self._seat, packet.hex(), nonce)
-        driving.vouch(self._seat, 0.0)
-        left.add_done_callback(lambda _: driving.vouch(self._seat, lasts_s))
-        return left
+    def renew(self) -> None:
+        """Each of its packets asks anew."""
+
+    def lasts(self, left: Left, for_s: float) -> None:
+        self._driving.vouch(self.seat, 0.0)
+        left.add_done_callback(lambda _: self._driving.vouch(self.seat, for_s))
+
+
+class ScriptTurn(Turn):
+    """That may play a group, too."""
+
+    def __init__(self, control: Control, claim: ScriptClaim) -> None:
+        super().__init__(control, claim)
+        self._seat = claim.seat
 
     def play(self, group: FrameGroup) -> PlayState:
         self._judge()
@@ -96,13 +84,6 @@ class Turn:
             motion, now = self._control.board.motion, self._control.now()
             self._control.driving.vouch(self._seat, motion.moves_for_s(now))
 
-    def _present(self) -> tuple[int, int]:
-        return self._control.driving.epoch, self._control.board.halts
-
-    def _judge(self) -> None:
-        if self._mark != self._present():
-            raise CancelledError("Stopped, or taken over, before all of it had left.")
-
 
 class Scripts:
     def __init__(self, control: Control, still_lets_in: Callable[[Caller], bool]) -> None:
@@ -110,7 +91,6 @@ class Scripts:
         self._control = control
         self._still_lets_in = still_lets_in
         self._seats: dict[str, ScriptSeat] = {}
-        self._asks_the_board = False
 
     async def move(
         self,
@@ -140,33 +120,27 @@ class Scripts:
             raise MovingError(end_of_group(control.board.motion.group_ends_in_s(now)))
         plan = plan_move(duration_ms, positions, family, control.board.motion, now, control.limits.name_of)
         for step in plan.steps:
-            control.limits.judge(parse_command(step.packet), seat)
-        turn = Turn(control, seat, take=take)
+            control.limits.judge(step.move, seat)
+        turn = Turn(control, ScriptClaim(control, seat, take=take))
         for step in plan.steps:
             await asyncio.sleep(step.after_s)
             if not await is_wanted():
                 raise CancelledError("The client has hung up.")
-            await turn.send(step.packet, duration_ms / 1000)
+            await turn.send(step.move, duration_ms / 1000)
         return Moved(len(plan.steps), duration_ms, plan.first_moves)
 
     async def run(
         self, caller: Caller, slot: int, times: int, *, take: bool, continue_ms: int | None = None
-    ) -> RunOutcome:
+    ) -> Outcome:
         """What moves ends first."""
         seat = self._seat_of(caller)
         return await seat.do(self._run(seat, slot, times, take=take, continue_ms=continue_ms))
 
     async def _run(
         self, seat: ScriptSeat, slot: int, times: int, *, take: bool, continue_ms: int | None
-    ) -> RunOutcome:
-        family = self._family()
-        packet = packet_of(Run(slot, times), family)
-        with self._asking_the_board():
-            turn = Turn(self._control, seat, take=take)
-            self._control.board.plays.judge_idle()
-            await turn.end_what_moves()
-            left = turn.send(packet)
-            outcome = await self._outcome_of_run(left, family)
+    ) -> Outcome:
+        claim = ScriptClaim(self._control, seat, take=take)
+        outcome = await self._control.operations.run(claim, slot, times)
         if continue_ms is not None:
             self._control.let_go_on(seat, continue_ms)
         return outcome
@@ -182,7 +156,7 @@ class Scripts:
         self, seat: ScriptSeat, group: FrameGroup, *, take: bool, continue_ms: int | None
     ) -> PlayState:
         self._family()
-        turn = Turn(self._control, seat, take=take)
+        turn = ScriptTurn(self._control, ScriptClaim(self._control, seat, take=take))
         await turn.after_the_stop()
         state = turn.play(group)
         if continue_ms is not None:
@@ -203,17 +177,8 @@ class Scripts:
     async def erase(self, caller: Caller, *, take: bool) -> None:
         """Until the board says that it is done."""
         seat = self._seat_of(caller)
-        await seat.do(self._erase(seat, take=take))
-
-    async def _erase(self, seat: ScriptSeat, *, take: bool) -> None:
-        packet = packet_of(Erase(), self._family())
-        if self._control.board.may_move():
-            raise MovingError("The robot moves: wait for its end, or stop it first.")
-        with self._asking_the_board():
-            turn = Turn(self._control, seat, take=take)
-            left = turn.send(packet, ERASE_TIMEOUT_S)
-            if await self._control.board.answers.to(left, ERASE_TIMEOUT_S, Erased) is None:
-                raise NoAnswerError("The board did not say whether its groups are erased.")
+        claim = ScriptClaim(self._control, seat, take=take)
+        await seat.do(self._control.operations.erase(claim))
 
     def act(self, caller: Caller, action: ScriptAction) -> LeaseState:
         """On the lease alone; `beat` says that somebody watches over what this script has begun."""
@@ -249,13 +214,6 @@ class Scripts:
         if own:
             await own.end_pending()
 
-    async def _outcome_of_run(self, left: Left, family: Family) -> RunOutcome:
-        if "run" not in family.answers:
-            await left
-            return "sent"
-        taken = await self._control.board.answers.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
-        return "silent" if taken is None else "acknowledged"
-
     def _family(self) -> Family:
         self._control.board.judge_known()
         return self._control.board.family
@@ -266,14 +224,3 @@ class Scripts:
         seat = self._seats.setdefault(caller.id, ScriptSeat(caller))
         seat.caller = as_script(caller)  # an owner may call it otherwise by now
         return seat
-
-    @contextlib.contextmanager
-    def _asking_the_board(self) -> Iterator[None]:
-        """One at a time: the board's answers do not say to whom."""
-        if self._asks_the_board:
-            raise MovingError("The board is being asked for something else.")
-        self._asks_the_board = True
-        try:
-            yield
-        finally:
-            self._asks_the_board = False

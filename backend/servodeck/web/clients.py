@@ -7,7 +7,7 @@ fatal.
 
 import asyncio
 import contextlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Coroutine, Iterator, Sequence
 from typing import Any
 
 from pydantic import ValidationError
@@ -20,6 +20,7 @@ from servodeck.board.playing import FrameGroup
 from servodeck.callers import Caller, Role
 from servodeck.driving.control import Control
 from servodeck.driving.latch import Cause
+from servodeck.driving.operations import PageClaim
 from servodeck.errors import BusyError, GatewayError, MalformedError
 from servodeck.messages import (
     PROTOCOL,
@@ -29,16 +30,20 @@ from servodeck.messages import (
     CalibrateMessage,
     ContinueMessage,
     DoneMessage,
+    EraseMessage,
     GiveMessage,
     LeaseMessage,
     MoveMessage,
+    PacketMessage,
     PlayedMessage,
     PlayMessage,
     ReadMessage,
     RefusedMessage,
+    ReleaseMessage,
     ResumeMessage,
-    SendMessage,
-    SentMessage,
+    RunMessage,
+    SetSpeedMessage,
+    StopGroupMessage,
     StopMessage,
     StopPlayingMessage,
     Target,
@@ -47,7 +52,7 @@ from servodeck.messages import (
 )
 from servodeck.port.wire import Left
 from servodeck.protocol.values import ServoTarget
-from servodeck.told import PlayState
+from servodeck.told import Outcome, PlayState
 
 UNSUPPORTED_DATA, OUTDATED_PAGE = 1003, 4001
 CLOSE_WAIT_S = 0.1
@@ -61,7 +66,12 @@ ROLES: dict[type[AnyClientMessage], Role] = {
     MoveMessage: "driver",
     PlayMessage: "driver",
     StopPlayingMessage: "driver",
-    SendMessage: "viewer",
+    RunMessage: "driver",
+    StopGroupMessage: "stopper",
+    EraseMessage: "owner",
+    SetSpeedMessage: "driver",
+    ReleaseMessage: "driver",
+    PacketMessage: "viewer",
     StopMessage: "stopper",
     ResumeMessage: "driver",
     BoardMessage: "driver",
@@ -158,8 +168,9 @@ def hear(text: str, seat: Seat, intake: Intake) -> None:
 
 
 def id_of(message: AnyClientMessage) -> int | None:
-    identified = MoveMessage | PlayMessage | SendMessage | BoardMessage | ReadMessage
-    return message.id if isinstance(message, identified) else None
+    """Of whoever asks for something; the others are about the lease, or a stop."""
+    number = getattr(message, "id", None)
+    return number if isinstance(number, int) else None
 
 
 def merged(before: AnyClientMessage, message: AnyClientMessage) -> AnyClientMessage | None:
@@ -219,10 +230,37 @@ def play(group: FrameGroup, message_id: int, nonce: str, seat: Seat, control: Co
     )
 
 
-def take_send(message: SendMessage, seat: Seat, control: Control) -> None:
+def take_packet(message: PacketMessage, seat: Seat, control: Control) -> None:
     with refusing(seat, message.id):
-        left = control.send(seat, message.packet, message.nonce)
+        left = control.send(seat, message.bytes, message.nonce)
         left.add_done_callback(lambda left: answer(seat, message.id, left))
+
+
+def take_run(message: RunMessage, seat: Seat, control: Control) -> None:
+    claim = PageClaim(control, seat, message.nonce)
+    perform(seat, message.id, control.operations.run(claim, message.slot, message.times))
+
+
+def take_erase(message: EraseMessage, seat: Seat, control: Control) -> None:
+    perform(seat, message.id, control.operations.erase(PageClaim(control, seat, message.nonce)))
+
+
+def take_set_speed(message: SetSpeedMessage, seat: Seat, control: Control) -> None:
+    claim = PageClaim(control, seat, message.nonce)
+    perform(seat, message.id, control.operations.set_speed(claim, message.slot, message.percent))
+
+
+def take_release(message: ReleaseMessage, seat: Seat, control: Control) -> None:
+    claim = PageClaim(control, seat, message.nonce)
+    perform(seat, message.id, control.operations.release(claim, message.servos))
+
+
+def perform(seat: Seat, message_id: int, work: Coroutine[Any, Any, Outcome]) -> None:
+    async def answered() -> None:
+        with refusing(seat, message_id):
+            seat.put(encode(DoneMessage(id=message_id, outcome=await work)))
+
+    seat.begin(answered())
 
 
 @contextlib.contextmanager
@@ -274,7 +312,14 @@ ACTS: dict[type[AnyClientMessage], Callable[[Any, Seat, Control], None]] = {
     MoveMessage: take_move,
     PlayMessage: take_play,
     StopPlayingMessage: lambda _, _seat, control: control.stop_playing(),
-    SendMessage: take_send,
+    RunMessage: take_run,
+    StopGroupMessage: lambda message, seat, control: perform(
+        seat, message.id, control.operations.end_group(seat)
+    ),
+    EraseMessage: take_erase,
+    SetSpeedMessage: take_set_speed,
+    ReleaseMessage: take_release,
+    PacketMessage: take_packet,
     StopMessage: take_stop,
     ResumeMessage: lambda _, seat, control: control.resume(seat.caller, seat),
     BoardMessage: name_board,
@@ -290,7 +335,7 @@ ACTS: dict[type[AnyClientMessage], Callable[[Any, Seat, Control], None]] = {
 def answer(seat: Seat, message_id: int, left: Left) -> None:
     with refusing(seat, message_id):
         left.result()
-        seat.put(encode(SentMessage(id=message_id)))
+        seat.put(encode(DoneMessage(id=message_id, outcome="sent")))
 
 
 @contextlib.contextmanager

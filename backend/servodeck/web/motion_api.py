@@ -11,11 +11,11 @@ from starlette.requests import HTTPConnection
 
 from servodeck.access.roles import DRIVER, OWNER
 from servodeck.callers import Caller
-from servodeck.driving.scripts import RunOutcome, ScriptAction, Scripts
+from servodeck.driving.scripts import ScriptAction, Scripts
 from servodeck.intents import Servo
 from servodeck.messages import ContinueMs, PersonId
 from servodeck.schema import Message
-from servodeck.told import LeaseState
+from servodeck.told import LeaseState, Outcome
 from servodeck.web.api import routes
 
 Take = Annotated[bool, Field(description="An owner's: without asking the driver.")]
@@ -52,7 +52,7 @@ class RunBegun(Message):
     so and has not. `sent`: such a board never says.
     """
 
-    outcome: RunOutcome
+    outcome: Outcome
 
 
 class EraseWish(Message):

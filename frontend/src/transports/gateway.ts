@@ -9,6 +9,7 @@ import type { Battery } from '#shared/session/battery.ts';
 import type { SharedBoard } from '#shared/session/identity.ts';
 import type { Played } from '#shared/session/player.ts';
 import type {
+  Outcome,
   PlayProgress,
   RobotOnBoard,
   SharedLatchReason,
@@ -24,7 +25,7 @@ import {
   batteryTold,
   boardTold,
   compactHex,
-  isQuestion,
+  isHarmlessPacket,
   LATCHED_BY,
   motionBefore,
   portError,
@@ -44,6 +45,7 @@ import { createTurn } from './turn.ts';
 /** As in backend/servodeck/web/clients.py. */
 const OUTDATED_PAGE = 4001;
 
+type SettleDone = { resolve: (outcome: Outcome) => void; reject: (error: LinkError) => void };
 type Settle = { resolve: () => void; reject: (error: LinkError) => void };
 
 /** `url` is the gateway's WebSocket, e.g. `ws://127.0.0.1:8300/ws`. Whoever only looks on calibrates nothing. */
@@ -71,7 +73,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
   let player: Promise<GatewayPlayer> | null = null;
   let playId = 0;
   let progress: PlayProgress | null = null;
-  const asking = new Map<number, Settle>();
+  const asked = new Map<number, SettleDone>();
   const halting = new Set<Settle>();
   const resuming = new Set<Settle>();
   const stateWaiters = new Set<Settle>();
@@ -132,8 +134,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
         events?.received(fromHex(message.bytes));
         break;
       case 'done':
-      case 'sent':
-        take(message.id)?.resolve();
+        take(message.id)?.resolve(message.outcome ?? 'sent');
         break;
       case 'refused':
         refused(message.id, refusal(message.code, message.detail));
@@ -190,8 +191,8 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
   /** Without an id it was a stop or a resume. */
   function refused(id: number | null, error: LinkError): void {
     if (id === null) return rejectAll(error);
-    const packet = take(id);
-    if (packet !== undefined) return packet.reject(error);
+    const waiter = take(id);
+    if (waiter !== undefined) return waiter.reject(error);
     if (id === playId) tellPlayer((one) => one.refused(id, error));
     else moves.refused(id, error);
   }
@@ -200,10 +201,24 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     for (const waiters of [halting, resuming]) settleAll(waiters, (waiter) => waiter.reject(error));
   }
 
-  function take(id: number): Settle | undefined {
-    const waiter = asking.get(id);
-    asking.delete(id);
+  function take(id: number): SettleDone | undefined {
+    const waiter = asked.get(id);
+    asked.delete(id);
     return waiter;
+  }
+
+  function ask(message: (id: number) => ClientMessage): Promise<Outcome> {
+    return new Promise((resolve, reject) => {
+      const id = nextId++;
+      post(message(id));
+      asked.set(id, { resolve, reject });
+    });
+  }
+
+  /** Of whoever drives. */
+  async function askDriving(message: (id: number, nonce: string) => ClientMessage): Promise<Outcome> {
+    const nonce = await beginTurn();
+    return ask((id) => message(id, nonce));
   }
 
   function portChanged(next: PortState): void {
@@ -227,8 +242,8 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     turn.fail(error);
     slots.gone(error);
     tellPlayer((one) => one.gone(error));
-    for (const waiter of asking.values()) waiter.reject(error);
-    asking.clear();
+    for (const waiter of asked.values()) waiter.reject(error);
+    asked.clear();
     rejectAll(error);
     told?.lost(error);
   }
@@ -281,15 +296,6 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     });
   }
 
-  /** What has an outcome of its own. */
-  function ask(worded: (id: number) => ClientMessage): Promise<void> {
-    return new Promise((resolve, reject) => {
-      const id = nextId++;
-      post(worded(id));
-      asking.set(id, { resolve, reject });
-    });
-  }
-
   const nextState = (): Promise<void> =>
     new Promise((resolve, reject) => stateWaiters.add({ resolve: () => resolve(), reject }));
 
@@ -298,6 +304,14 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     slots,
     moves,
     player: { play, stop: stopPlaying },
+    commands: {
+      run: (slot, times) => askDriving((id, nonce) => ({ type: 'run', id, slot, times, nonce })),
+      stopGroup: () => ask((id) => ({ type: 'stopGroup', id })),
+      erase: () => askDriving((id, nonce) => ({ type: 'erase', id, nonce })),
+      setSpeed: (slot, percent) =>
+        askDriving((id, nonce) => ({ type: 'setSpeed', id, slot, percent, nonce })),
+      release: (servos) => askDriving((id, nonce) => ({ type: 'release', id, servos: [...servos], nonce })),
+    },
     get isSimulated() {
       return port?.simulated ?? false;
     },
@@ -305,7 +319,9 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
       await ask((id) => ({ type: 'read', id, what: 'battery' }));
       return battery.kind === 'read' ? battery.batteryMv : 0;
     },
-    setBoard: (next) => ask((id) => ({ type: 'board', id, board: next })),
+    async setBoard(next) {
+      await ask((id) => ({ type: 'board', id, board: next }));
+    },
     calibrate(servo) {
       if (mayDrive) postIfOpen({ type: 'calibrate', servo });
     },
@@ -328,8 +344,8 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
       next.playing?.(progress);
     },
     async send(packet) {
-      if (!isQuestion(packet)) await turn.begin();
-      return ask((id) => ({ type: 'send', id, packet: compactHex(packet), nonce: turn.nonce }));
+      if (!isHarmlessPacket(packet)) await turn.begin();
+      await ask((id) => ({ type: 'packet', id, bytes: compactHex(packet), nonce: turn.nonce }));
     },
     lease: (action) =>
       postIfOpen(

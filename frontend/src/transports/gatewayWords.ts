@@ -35,7 +35,7 @@ export function boardTold({ board, link, identity }: Omit<StateMessage, 'type'>)
 }
 
 /** Needs nobody's leave. */
-export function isQuestion(packet: Uint8Array): boolean {
+export function isHarmlessPacket(packet: Uint8Array): boolean {
   const command = commandIn(packet);
   return command !== null && isHarmless(command);
 }

@@ -3,9 +3,14 @@
 export type Message = ClientMessage | GatewayMessage;
 export type ClientMessage =
   | MoveMessage
-  | SendMessage
   | PlayMessage
   | StopPlayingMessage
+  | RunMessage
+  | StopGroupMessage
+  | EraseMessage
+  | SetSpeedMessage
+  | ReleaseMessage
+  | PacketMessage
   | StopMessage
   | ResumeMessage
   | BoardMessage
@@ -19,7 +24,6 @@ export type GatewayMessage =
   | WelcomeMessage
   | BatteryMessage
   | DoneMessage
-  | SentMessage
   | RefusedMessage
   | ReceivedMessage
   | NoiseMessage
@@ -62,21 +66,6 @@ export interface Target {
   position: number;
 }
 /**
- * Put one packet on the wire. `nonce` shows that the driver says it, and now; a question needs none.
- */
-export interface SendMessage {
-  type: 'send';
-  /**
-   * Chosen by the client; comes back in the answer.
-   */
-  id: number;
-  /**
-   * Bytes of one packet, two hex digits each, no spaces.
-   */
-  packet: string;
-  nonce: string | null;
-}
-/**
  * Have the gateway play a group; `played` follows when it has ended, or `refused`. One that does not fit
  * into a message: `POST /api/play`.
  */
@@ -116,6 +105,84 @@ export interface FrameBody {
  */
 export interface StopPlayingMessage {
   type: 'stopPlaying';
+}
+/**
+ * Run the group in `slot`; `times` 0: until it is stopped. What moves ends first.
+ */
+export interface RunMessage {
+  type: 'run';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+  slot: number;
+  times: number;
+  nonce: string | null;
+}
+/**
+ * End the running group behind its frame in progress. Everything else is free to move.
+ */
+export interface StopGroupMessage {
+  type: 'stopGroup';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+}
+/**
+ * Erase every slot of the board.
+ */
+export interface EraseMessage {
+  type: 'erase';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+  nonce: string | null;
+}
+/**
+ * How fast the board plays the group in `slot`, `null` every group, until it is switched off.
+ */
+export interface SetSpeedMessage {
+  type: 'setSpeed';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+  slot: number | null;
+  percent: number;
+  nonce: string | null;
+}
+/**
+ * Take the torque off these servos: what they carry drops.
+ */
+export interface ReleaseMessage {
+  type: 'release';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+  /**
+   * @minItems 1
+   * @maxItems 253
+   */
+  servos: number[];
+  nonce: string | null;
+}
+/**
+ * Put one packet on the wire as it is. A question needs no `nonce`.
+ */
+export interface PacketMessage {
+  type: 'packet';
+  /**
+   * Chosen by the client; comes back in the answer.
+   */
+  id: number;
+  /**
+   * Bytes of one packet, two hex digits each, no spaces.
+   */
+  bytes: string;
+  nonce: string | null;
 }
 /**
  * STOP: drop all that waits, send stop three times, hold the robot where it is, and latch. Whatever else
@@ -590,7 +657,7 @@ export interface BatteryMessage {
   battery: BatteryUnread | BatteryRead | BatterySilent;
 }
 /**
- * What the message of that id asked is done.
+ * What was asked with that `id` is done. `outcome`: of a command for the board.
  */
 export interface DoneMessage {
   type: 'done';
@@ -598,16 +665,7 @@ export interface DoneMessage {
    * Chosen by the client; comes back in the answer.
    */
   id: number;
-}
-/**
- * The packet's last bit has left the wire.
- */
-export interface SentMessage {
-  type: 'sent';
-  /**
-   * Chosen by the client; comes back in the answer.
-   */
-  id: number;
+  outcome: ('acknowledged' | 'silent' | 'sent') | null;
 }
 /**
  * `id` is null where the message itself could not be read, and for a stop.
@@ -732,8 +790,7 @@ export interface TickMessage {
   nonce: string;
 }
 /**
- * What others have put on the wire since the last of these, or the gateway itself, moves and questions
- * among it.
+ * What has left the wire since the last of these, whoever asked for it.
  */
 export interface LeftMessage {
   type: 'left';

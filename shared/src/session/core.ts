@@ -10,6 +10,7 @@ import { LinkError } from './linkError.ts';
 import type { RobotEstimate } from './robot.ts';
 import type { Activity, LinkState } from './state.ts';
 import type { SessionStore } from './store.ts';
+import type { SharedCommands } from './transport.ts';
 
 export interface Core {
   readonly family: Family;
@@ -18,6 +19,8 @@ export interface Core {
   readonly robot: RobotEstimate;
   readonly lanes: Lanes;
   readonly exchange: Exchange;
+  /** A shared link does these itself. */
+  readonly commands: SharedCommands | undefined;
   /** A move or a stop of ours is still to leave. */
   unsettled(): boolean;
 }

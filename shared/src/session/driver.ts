@@ -17,17 +17,14 @@ import type { Replies } from './replies.ts';
 import { createRobotEstimate } from './robot.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import { setSpeed } from './speed.ts';
-import type { SharedMoves, SharedPlayer, SharedSlots, Transport } from './transport.ts';
+import type { Transport } from './transport.ts';
 import { createTurns } from './turns.ts';
 
 export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
   readonly replies: Replies;
   readonly slotMemory: SlotMemory | undefined;
-  readonly shared: SharedSlots | undefined;
-  /** Then nothing of the page's moves waits here. */
-  readonly sharedMoves: SharedMoves | undefined;
-  readonly sharedPlayer: SharedPlayer | undefined;
-  readonly sharedBattery: Transport['readBattery'];
+  /** What a shared link does itself. */
+  readonly shared: Pick<Transport, 'slots' | 'moves' | 'player' | 'commands' | 'readBattery'>;
 }
 
 export interface Driver {
@@ -48,19 +45,19 @@ export interface Driver {
 }
 
 export function createDriver(family: Family, options: DriverOptions): Driver {
-  const { clock, store, lanes, replies, slotMemory, shared, sharedMoves } = options;
+  const { clock, store, lanes, replies, slotMemory, shared } = options;
   const robot = createRobotEstimate(family, clock);
   const core: Core = {
-    ...{ family, clock, store, robot, lanes },
+    ...{ family, clock, store, robot, lanes, commands: shared.commands },
     exchange: createExchange(family, clock, lanes, replies),
     unsettled: () => moves.servos().length > 0 || groups.isStopping() || isMotion(lanes.unfinished()),
   };
   const buffer = createMoveBuffer(family);
-  const moves = sharedMoves ?? buffer;
+  const moves = shared.moves ?? buffer;
   const turns = createTurns({ clock, isUnknown: robot.isUnknown, due: lanes.wake, waiting });
-  const live = createLive(core, moves, turns, options.sharedPlayer);
-  const groups = createGroups(core, slotMemory, shared);
-  const readBattery = createBatteryReader(core, options.sharedBattery);
+  const live = createLive(core, moves, turns, shared.player);
+  const groups = createGroups(core, slotMemory, shared.slots);
+  const readBattery = createBatteryReader(core, shared.readBattery);
   const readings = createReadings(core);
   const releaseServos = (servos: readonly number[]): Promise<void> => release(core, servos);
 

@@ -6,11 +6,11 @@ import type { Report } from '../protocol/reports.ts';
 import { requireReady, requireReleased, requireRest, setActivity, type Core } from './core.ts';
 import { refuseUnfit } from './exchange.ts';
 import { repeatStop } from './halt.ts';
-import { LinkError } from './linkError.ts';
+import { LinkError, type LinkErrorCode } from './linkError.ts';
 import type { SlotMemory } from './slotMemory.ts';
 import type { Activity } from './state.ts';
 import { createStoring } from './storing.ts';
-import type { SharedSlots, SlotGroup } from './transport.ts';
+import type { SharedCommands, SharedSlots, SlotGroup } from './transport.ts';
 import { ERASE_TIMEOUT_MS, RUN_END_GRACE_MS, RUN_TIMEOUT_MS } from './timings.ts';
 
 export interface Groups {
@@ -33,6 +33,10 @@ export interface Groups {
 type Truth = Extract<Activity, { kind: 'running' }>['truth'];
 
 const IDLE: Activity = { kind: 'idle' };
+/** Whether the board has heard it nobody can say then. */
+const UNKNOWN: readonly LinkErrorCode[] = ['noAnswer', 'lost', 'gatewayUnreachable'];
+
+const isUnknown = ({ code }: LinkError): boolean => UNKNOWN.includes(code);
 
 /** `shared`: a link that stores groups by itself, and remembers which slots are broken. */
 export function createGroups(
@@ -40,7 +44,7 @@ export function createGroups(
   ownMemory: SlotMemory | undefined,
   shared: SharedSlots | undefined,
 ): Groups {
-  const { family, clock, store, robot, lanes, exchange } = core;
+  const { family, clock, store, robot, lanes, exchange, commands } = core;
   const storing = createStoring(core, ownMemory, shared);
   let stopping: Promise<void> | null = null;
   let cancelEndTimer = (): void => undefined;
@@ -67,6 +71,12 @@ export function createGroups(
   /** Pressed again, it says so at once and again. */
   async function stop(): Promise<void> {
     requireReady(core.store);
+    if (commands === undefined) return stopHere();
+    await commands.stopGroup();
+    ended();
+  }
+
+  async function stopHere(): Promise<void> {
     const repeats = repeatStop(clock, lanes);
     stopping = repeats;
     try {
@@ -85,6 +95,7 @@ export function createGroups(
       throw new LinkError('slotBroken', `slot ${slot} holds half a group: download it again`);
     if (store.state.activity.kind === 'playing')
       throw new LinkError('busy', 'the page is playing: stop it first');
+    if (commands !== undefined) return runThere(commands, slot, times);
     if (stopping !== null || store.state.activity.kind === 'running') {
       // One that left between the repeats of a stop would be ended by the last one.
       await (stopping ?? stop());
@@ -97,6 +108,20 @@ export function createGroups(
     } catch (error) {
       if (error instanceof LinkError && error.code === 'overslept') ended();
       else confirm('unknown');
+      throw error;
+    }
+  }
+
+  /** There what moves ends first. */
+  async function runThere(there: SharedCommands, slot: number, times: number): Promise<void> {
+    began(slot, times, 'requested');
+    try {
+      const outcome = await there.run(slot, times);
+      if (outcome === 'acknowledged') confirm(outcome);
+      if (outcome === 'silent') throw new LinkError('noAnswer', 'the board did not say that it runs it');
+    } catch (error) {
+      if (error instanceof LinkError && isUnknown(error)) confirm('unknown');
+      else ended();
       throw error;
     }
   }
@@ -119,7 +144,7 @@ export function createGroups(
     setActivity(core, { kind: 'erasing' });
     robot.unstored();
     try {
-      await exchange.ask(command, 'erased', ERASE_TIMEOUT_MS);
+      await (commands?.erase() ?? exchange.ask(command, 'erased', ERASE_TIMEOUT_MS));
       storing.emptied();
     } finally {
       storing.publish();

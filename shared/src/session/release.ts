@@ -12,5 +12,6 @@ export async function release(core: Core, servos: readonly number[]): Promise<vo
     (some) => ({ kind: 'release', servos: some }) as const,
   );
   for (const command of commands) encodeOrRefuse(command, core.family);
-  for (const command of commands) await core.exchange.tell(command);
+  if (core.commands !== undefined) await core.commands.release(servos);
+  else for (const command of commands) await core.exchange.tell(command);
 }

@@ -140,13 +140,15 @@ export function createSession(options: SessionOptions): Session {
     resumed: (by) => store.emit('resumed', by),
   });
 
+  /** This end's packets, too. */
+  const tellsWhatLeft = transport.commands !== undefined;
   const lanes = createLanes({
     clock,
     serviceGapMs: UNKNOWN_BOARD.serviceGapMs,
     send: link.send,
     takeMove: () => driver.takeMove(),
-    leaving: note,
-    sent: take,
+    leaving: (packet) => tellsWhatLeft || note(packet),
+    sent: (packet) => tellsWhatLeft || take(packet),
     moveFailed,
   });
 
@@ -184,9 +186,7 @@ export function createSession(options: SessionOptions): Session {
   });
 
   function driverFor(next: Family): Driver {
-    const { slots: shared, moves: sharedMoves, player: sharedPlayer, readBattery: sharedBattery } = transport;
-    const links = { shared, sharedMoves, sharedPlayer, sharedBattery };
-    return createDriver(next, { clock, store, lanes, replies, slotMemory, ...links });
+    return createDriver(next, { clock, store, lanes, replies, slotMemory, shared: transport });
   }
 
   function moveFailed(error: LinkError): void {

@@ -2,9 +2,12 @@
 // itself: it changes a group that runs (safety.md section 4, class C).
 
 import { requireReleased, type Core } from './core.ts';
+import { refuseUnfit } from './exchange.ts';
 
 /** `slot` null for every group. */
 export async function setSpeed(core: Core, slot: number | null, percent: number): Promise<void> {
   requireReleased(core);
-  await core.exchange.tell({ kind: 'setSpeed', slot, percent });
+  const command = { kind: 'setSpeed', slot, percent } as const;
+  refuseUnfit(command, core.family);
+  await (core.commands?.setSpeed(slot, percent) ?? core.exchange.tell(command));
 }

@@ -34,7 +34,7 @@ export interface TransportEvents {
   battery?(battery: Battery): void;
   /** Only a shared link: which robot stands on the board. Told once it is open, and whenever any robot has changed there. */
   described?(robot: RobotOnBoard): void;
-  /** Only a shared link: this packet has left the wire: somebody else's, one of `moves`, or of a stop, whoever pressed it. */
+  /** Only a shared link: this packet has left the wire, whoever asked for it; no question. */
   followed?(packet: Uint8Array): void;
   /** Only a shared link: what moves before this end came have made of the robot. Told once it is open. */
   placed?(motion: MotionBefore): void;
@@ -106,6 +106,22 @@ export interface SharedSlots {
   cancel(): Promise<void>;
 }
 
+/**
+ * What came of a command: the board has taken it, which proves reception only (S18); it should have said so and has not; such a board
+ * never says.
+ */
+export type Outcome = 'acknowledged' | 'silent' | 'sent';
+
+/** What a shared link has the board do by itself: in order, each once. All reject with a LinkError. */
+export interface SharedCommands {
+  /** What moves ends first. */
+  run(slot: number, times: number): Promise<Outcome>;
+  stopGroup(): Promise<Outcome>;
+  erase(): Promise<Outcome>;
+  setSpeed(slot: number | null, percent: number): Promise<Outcome>;
+  release(servos: readonly number[]): Promise<Outcome>;
+}
+
 /** How a shared link moves servos: it merges, keeps the board's pace and lets servos of unknown place start gently. */
 export interface SharedMoves {
   /** Newest wins per servo; `followed` tells what left. `durationMs` 0: as fast as the link allows. */
@@ -148,6 +164,7 @@ export interface Transport {
   readonly slots?: SharedSlots;
   readonly moves?: SharedMoves;
   readonly player?: SharedPlayer;
+  readonly commands?: SharedCommands;
   /** Only a shared link: about who drives; `leased` follows. */
   lease?(action: LeaseAction): void;
   /** Only a shared link: the run under way may go on without this end, for so long at most; null: it may not. */
