@@ -278,7 +278,7 @@ async def test_a_servo_in_its_first_move_ends_it_slowly() -> None:
         await asyncio.sleep(0.25)
         await control.stop()
         # In whole ticks, and not before that move has ended, with what the board may say meanwhile.
-        assert port.packets()[4] == hold_at(2000, 780)
+        assert port.packets()[4] == hold_at(2000, 760)
 
 
 @in_virtual_time
