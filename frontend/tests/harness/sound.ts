@@ -37,7 +37,13 @@ export async function objections(
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' | ')}`);
 }
 
+/** What is behind a dialog is locked a moment before its content has come. */
+const isWaitingForDialog = (): boolean =>
+  document.documentElement.style.overflow === 'hidden' &&
+  document.querySelector('[role="dialog"], [role="alertdialog"]') === null;
+
 export async function expectSound(state: string, { isDark = false } = {}): Promise<void> {
+  await expect.poll(isWaitingForDialog, { message: `${state}: a dialog comes` }).toBe(false);
   expect.soft(await objections(document, isDark ? ['color-contrast'] : null), state).toEqual([]);
   await expectNoSidewaysScroll(state);
 }
