@@ -1,8 +1,9 @@
-// The layer rule: protocol < motion < session < stores < panels < App, with actions and the simulator beside the session.
+// The layer rule: codec < motion < session < stores < panels < App, with documents and the simulator beside the session.
 // Types count as imports. Say a change of this file in docs/adr/.
 
-// A rig or a board under test exists for tests and measurements.
-const testSupport = '(/rig|/recordingRig|UnderTest)[.]ts$';
+// A rig or a board under test exists for tests, measurements and replays of saved logs.
+const testSupport = '^shared/src/testing/|(/rig|UnderTest)[.]ts$';
+const documents = '^shared/src/(document|group|profile|files)/';
 const test = `[.]test[.]tsx?$|${testSupport}`;
 const page = '^frontend/src/';
 
@@ -39,35 +40,35 @@ module.exports = {
       { path: '^shared/src/simulator/process[.]ts$' },
     ),
     forbid(
-      'protocol-knows-bytes',
-      'The protocol knows no time, no motion, no session, no board.',
-      { path: '^shared/src/protocol/' },
-      { path: '^shared/src/', pathNot: '^shared/src/protocol/' },
+      'codec-knows-bytes',
+      'The codec knows no time, no motion, no session, no board.',
+      { path: '^shared/src/codec/' },
+      { path: '^shared/src/', pathNot: '^shared/src/codec/' },
     ),
     forbid(
-      'motion-knows-protocol',
+      'motion-knows-the-codec',
       'Motion is a model of what was sent.',
-      { path: '^shared/src/motion/' },
-      { path: '^shared/src/(session|actions|simulator)/' },
+      { path: '^shared/src/motion/', pathNot: test },
+      { path: '^shared/src/', pathNot: '^shared/src/(motion|codec)/' },
     ),
     forbid(
       'session-knows-no-documents',
-      'A session sends; what a group or pose is belongs to actions, and no real board is a simulator.',
+      'A session sends; what a group or pose is belongs to documents, and no real board is a simulator.',
       { path: '^shared/src/session/', pathNot: test },
-      { path: '^shared/src/(actions|simulator)/' },
+      { path: [documents, '^shared/src/simulator/'] },
     ),
     forbid(
-      'actions-know-no-session',
-      'A document never moves the robot by itself.',
-      { path: '^shared/src/actions/' },
+      'documents-know-no-session',
+      'A document never moves the robot by itself. A saved log has the types of what it saves.',
+      { path: documents, pathNot: [test, '^shared/src/files/recorder[.]ts$'] },
       { path: '^shared/src/(session|simulator)/' },
     ),
     forbid(
-      'simulator-knows-protocol',
-      'The simulator is the other side of the wire: it may share the protocol, never the code it puts to the test.',
+      'simulator-knows-the-codec',
+      'The simulator is the other side of the wire: it may share the codec, never the code it puts to the test.',
       { path: '^shared/src/simulator/', pathNot: test },
       {
-        path: '^shared/src/(session|motion|actions)/',
+        path: ['^shared/src/(session|motion)/', documents],
         pathNot: '^shared/src/session/(transport|linkError)[.]ts$',
       },
     ),
@@ -76,21 +77,6 @@ module.exports = {
       'One file of the simulator fulfils what a session asks of a link; the board itself has never heard of it.',
       { path: '^shared/src/simulator/', pathNot: [test, '^shared/src/simulator/transport[.]ts$'] },
       { path: '^shared/src/session/' },
-    ),
-    forbid(
-      'recordings-stand-on-top',
-      'A recording is replayed with session and simulator; none of them has heard of it.',
-      { path: '^shared/src/(protocol|motion|session|actions|simulator)/' },
-      { path: '^shared/src/recording/' },
-    ),
-    forbid(
-      'the-page-only-writes-recordings',
-      'Replays are for the command line and tests; the page keeps and writes a log.',
-      { path: page },
-      {
-        path: '^shared/src/recording/',
-        pathNot: '^shared/src/recording/(recorder|recording|tape|text|line)[.]ts$',
-      },
     ),
 
     forbid(
@@ -178,7 +164,7 @@ module.exports = {
     forbid(
       'rigs-are-for-tests',
       'No product code stands on a test rig.',
-      { pathNot: [test, '^(e2e|bench)/'] },
+      { pathNot: [test, '^(e2e|bench|frontend/tests)/'] },
       { path: testSupport },
     ),
   ],

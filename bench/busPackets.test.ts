@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { fromHex } from '#shared/protocol/hex.ts';
+import { fromHex } from '#shared/codec/hex.ts';
 import type { BusLogEntry } from '#shared/simulator/busLog.ts';
 import { packetsInto } from './busPackets.ts';
 

@@ -1,10 +1,10 @@
 // The bus log read as packets, each with the time it took on the wire: what really happened, whatever a client believes.
 // Knows the log and the codec; not who sent what.
 
-import type { Command } from '#shared/protocol/commands.ts';
-import { createDecoder } from '#shared/protocol/decoder.ts';
-import { parseCommand } from '#shared/protocol/parse.ts';
-import { COMMAND_SHAPES } from '#shared/protocol/shapes.ts';
+import type { Command } from '#shared/codec/commands.ts';
+import { createDecoder } from '#shared/codec/decoder.ts';
+import { parseCommand } from '#shared/codec/parse.ts';
+import { COMMAND_SHAPES } from '#shared/codec/shapes.ts';
 import type { BusLogEntry } from '#shared/simulator/busLog.ts';
 
 export interface BusPacket {

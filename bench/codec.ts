@@ -1,9 +1,9 @@
 // The codec's throughput, beside the naive codec on the same bytes. A line carries 960 bytes a second, so either is fast
 // enough for one board; what counts is what is left for everything else on a small machine, and that noise costs no more.
 
-import { createDecoder } from '#shared/protocol/decoder.ts';
-import { encodeCommand } from '#shared/protocol/encode.ts';
-import { family } from '#shared/protocol/families.ts';
+import { createDecoder } from '#shared/codec/decoder.ts';
+import { encodeCommand } from '#shared/codec/encode.ts';
+import { family } from '#shared/codec/families.ts';
 import { boardWords, chunksOf, hostCommands, lookalikeNoise, randomNoise, toNaive } from './codecInputs.ts';
 import type { Figure } from './figure.ts';
 import { createNaiveDecoder, naiveEncode } from './naive.ts';

@@ -1,10 +1,10 @@
 // What the codec is timed with: the commands of a working host, the words of a working board, and noise. The same on
 // every run. Knows no clock and no figure.
 
-import type { Command, ServoTarget } from '#shared/protocol/commands.ts';
-import { encodeCommand, encodeReport } from '#shared/protocol/encode.ts';
-import { family } from '#shared/protocol/families.ts';
-import type { Report } from '#shared/protocol/reports.ts';
+import type { Command, ServoTarget } from '#shared/codec/commands.ts';
+import { encodeCommand, encodeReport } from '#shared/codec/encode.ts';
+import { family } from '#shared/codec/families.ts';
+import type { Report } from '#shared/codec/reports.ts';
 import { createRandom } from '#shared/simulator/random.ts';
 
 /** What a serial adapter hands over at once, at most: one full-speed USB packet. */

@@ -3,7 +3,7 @@
 // same machine and take of the same cores.
 
 import { existsSync } from 'node:fs';
-import { family } from '#shared/protocol/families.ts';
+import { family } from '#shared/codec/families.ts';
 import { python } from '../scripts/python.mjs';
 import { mustRun } from '../scripts/steps.mjs';
 import { amount } from './amounts.ts';

@@ -1,10 +1,10 @@
 // How long a whole action group takes to the board, over what nothing can go below: the wire, the flash chip and the
 // acknowledgements. The limit is computed here from documented figures, not asked of the simulator.
 
-import type { Frame } from '#shared/protocol/commands.ts';
-import { encodeCommand, encodeReport } from '#shared/protocol/encode.ts';
-import { family as familyOf } from '#shared/protocol/families.ts';
-import { wireMs } from '#shared/protocol/packet.ts';
+import type { Frame } from '#shared/codec/commands.ts';
+import { encodeCommand, encodeReport } from '#shared/codec/encode.ts';
+import { family as familyOf } from '#shared/codec/families.ts';
+import { wireMs } from '#shared/codec/packet.ts';
 import { createRig } from '#shared/session/rig.ts';
 import type { Figure } from './figure.ts';
 

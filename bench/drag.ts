@@ -9,15 +9,15 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { sleep } from '#shared/clock.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { encodeCommand } from '#shared/protocol/encode.ts';
-import { family as familyOf } from '#shared/protocol/families.ts';
-import { wireMs } from '#shared/protocol/packet.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import { encodeCommand } from '#shared/codec/encode.ts';
+import { family as familyOf } from '#shared/codec/families.ts';
+import { wireMs } from '#shared/codec/packet.ts';
 import { firstMovesMs } from '#shared/session/rig.ts';
 import { createSession } from '#shared/session/session.ts';
 import type { BusLogEntry } from '#shared/simulator/busLog.ts';
 import { createSimulatedTransport } from '#shared/simulator/transport.ts';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { amount } from './amounts.ts';
 import { packetsInto } from './busPackets.ts';
 import type { Figure, Rival } from './figure.ts';

@@ -4,8 +4,8 @@
 // right before.
 
 import type { Page } from '@playwright/test';
-import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
-import { robotToText } from '#shared/actions/robot/robotText.ts';
+import { readyRobot } from '#shared/profile/readyRobots.ts';
+import { robotToText } from '#shared/profile/robotText.ts';
 import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { mainThreadOf, type MainThread } from './mainThread.ts';

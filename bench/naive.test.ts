@@ -1,8 +1,8 @@
 import { expect, test } from 'vitest';
-import { createDecoder } from '#shared/protocol/decoder.ts';
-import { encodeCommand } from '#shared/protocol/encode.ts';
-import { family } from '#shared/protocol/families.ts';
-import { toHex } from '#shared/protocol/hex.ts';
+import { createDecoder } from '#shared/codec/decoder.ts';
+import { encodeCommand } from '#shared/codec/encode.ts';
+import { family } from '#shared/codec/families.ts';
+import { toHex } from '#shared/codec/hex.ts';
 import { boardWords, chunksOf, hostCommands, toNaive } from './codecInputs.ts';
 import { createNaiveDecoder, naiveEncode } from './naive.ts';
 

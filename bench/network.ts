@@ -7,10 +7,10 @@
 // soon as the wire is free.
 
 import { sleep } from '#shared/clock.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { encodeCommand } from '#shared/protocol/encode.ts';
-import { family as familyOf } from '#shared/protocol/families.ts';
-import { wireMs } from '#shared/protocol/packet.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import { encodeCommand } from '#shared/codec/encode.ts';
+import { family as familyOf } from '#shared/codec/families.ts';
+import { wireMs } from '#shared/codec/packet.ts';
 import { firstMovesMs } from '#shared/session/rig.ts';
 import { createSession, type Session } from '#shared/session/session.ts';
 import { createGatewayTransport } from '../frontend/src/transports/gateway.ts';

@@ -2,8 +2,8 @@
 // another time, and played locally, by the session of a direct link. The times are those of the bus, in real time.
 
 import { sleep } from '#shared/clock.ts';
-import type { Frame } from '#shared/protocol/commands.ts';
-import { family as familyOf } from '#shared/protocol/families.ts';
+import type { Frame } from '#shared/codec/commands.ts';
+import { family as familyOf } from '#shared/codec/families.ts';
 import { createSession, type Session } from '#shared/session/session.ts';
 import { createSimulatedTransport } from '#shared/simulator/transport.ts';
 import type { BusLogEntry } from '#shared/simulator/busLog.ts';

@@ -3,9 +3,9 @@
 
 import { once } from 'node:events';
 import { sleep } from '#shared/clock.ts';
-import { encodeCommand } from '#shared/protocol/encode.ts';
-import type { Command } from '#shared/protocol/commands.ts';
-import { family } from '#shared/protocol/families.ts';
+import { encodeCommand } from '#shared/codec/encode.ts';
+import type { Command } from '#shared/codec/commands.ts';
+import { family } from '#shared/codec/families.ts';
 import type { ClientMessage, GatewayMessage } from '../frontend/src/transports/messages.generated.ts';
 import { realClock } from './realClock.ts';
 

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { wireMs } from '#shared/protocol/packet.ts';
+import { wireMs } from '#shared/codec/packet.ts';
 import type { BusPacket } from './busPackets.ts';
 import { stopTimes } from './presses.ts';
 

@@ -1,7 +1,7 @@
 // Presses on STOP held against the bus log: when the first stop byte of each was at the board's pins, and how much of that the
 // wire itself took. Pure; knows not who pressed, nor where.
 
-import { wireMs } from '#shared/protocol/packet.ts';
+import { wireMs } from '#shared/codec/packet.ts';
 import type { BusPacket } from './busPackets.ts';
 import type { Figure } from './figure.ts';
 import { percentile } from './statistics.ts';

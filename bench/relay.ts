@@ -6,8 +6,8 @@
 // answer is immediate and has no parameters, so no decoder holds it back to see what follows it.
 
 import type { Page } from '@playwright/test';
-import { encodeCommand, encodeReport } from '#shared/protocol/encode.ts';
-import { family } from '#shared/protocol/families.ts';
+import { encodeCommand, encodeReport } from '#shared/codec/encode.ts';
+import { family } from '#shared/codec/families.ts';
 import { PROTOCOL } from '../frontend/src/transports/messages.generated.ts';
 import { python } from '../scripts/python.mjs';
 import { mustRun } from '../scripts/steps.mjs';

@@ -6,7 +6,7 @@
 // it stands what the wire alone costs: a packet that has begun to leave cannot be recalled, and the board needs its gap.
 
 import type { Page } from '@playwright/test';
-import { family } from '#shared/protocol/families.ts';
+import { family } from '#shared/codec/families.ts';
 import { amount } from './amounts.ts';
 import { packetsInto } from './busPackets.ts';
 import type { Figure } from './figure.ts';

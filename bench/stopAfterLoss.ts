@@ -3,7 +3,7 @@
 
 import { once } from 'node:events';
 import { createServer, type AddressInfo, type Socket } from 'node:net';
-import { family } from '#shared/protocol/families.ts';
+import { family } from '#shared/codec/families.ts';
 import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { stopFigures, type StopTimes } from './presses.ts';

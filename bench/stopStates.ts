@@ -5,7 +5,7 @@
 import { python } from '../scripts/python.mjs';
 import { endChild, startChild } from '../scripts/children.mjs';
 import { SetupProblem } from '../scripts/steps.mjs';
-import { family } from '#shared/protocol/families.ts';
+import { family } from '#shared/codec/families.ts';
 import { amount } from './amounts.ts';
 import { packetsInto } from './busPackets.ts';
 import type { Figure } from './figure.ts';

@@ -1,15 +1,15 @@
 // What a person waits for in the timeline, on the largest group a board of 32 servos can hold: an edit with what is drawn of
 // it, and the frames for the board. Beside the time that is left in a frame of the screen once everything is drawn.
 
-import { duplicateKeys } from '#shared/actions/group/clip.ts';
-import { compile } from '#shared/actions/group/compile.ts';
-import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import { deleteKeys, moveKeys, scaleAmplitude, setKey } from '#shared/actions/group/keyEdits.ts';
-import { setEasing } from '#shared/actions/group/frameEdits.ts';
-import { deleteTime, insertTime, reverse, stretch } from '#shared/actions/group/timeEdits.ts';
-import { tracksOf, type KeyRef } from '#shared/actions/group/tracks.ts';
-import { family } from '#shared/protocol/families.ts';
+import { duplicateKeys } from '#shared/group/clip.ts';
+import { compile } from '#shared/group/compile.ts';
+import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import { deleteKeys, moveKeys, scaleAmplitude, setKey } from '#shared/group/keyEdits.ts';
+import { setEasing } from '#shared/group/frameEdits.ts';
+import { deleteTime, insertTime, reverse, stretch } from '#shared/group/timeEdits.ts';
+import { tracksOf, type KeyRef } from '#shared/group/tracks.ts';
+import { family } from '#shared/codec/families.ts';
 import { createRandom } from '#shared/simulator/random.ts';
 import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';

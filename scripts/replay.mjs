@@ -1,5 +1,5 @@
 // `npm run replay -- FILE [--board NAME]`: a saved log against the session and a simulated board, both of this version. Ends
-// with 1 where an expectation of the log did not come true. What a replay is, is shared/src/recording/.
+// with 1 where an expectation of the log did not come true. shared/src/testing/ replays.
 
 import { readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
@@ -7,7 +7,7 @@ import { parseArgs } from 'node:util';
 import { setUp } from './setup.mjs';
 import { at, main, say, SetupProblem } from './steps.mjs';
 
-/** @typedef {typeof import('../shared/src/recording/program.ts')} Program */
+/** @typedef {typeof import('../shared/src/testing/program.ts')} Program */
 
 /** @returns {Promise<Program>} */
 async function load() {
@@ -17,7 +17,7 @@ async function load() {
     root: at(''),
     logLevel: 'warn',
     build: {
-      ssr: 'shared/src/recording/program.ts',
+      ssr: 'shared/src/testing/program.ts',
       outDir: 'build',
       // Stamps and the simulator live there too.
       emptyOutDir: false,

@@ -1,7 +1,7 @@
 // What single boards can do more: where their servos stand, letting go of them, the speed of their groups. A real gateway, real
 // serial devices; the oracle is what the board heard.
 
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 import { ofKind } from '../fixtures/bus.ts';
 import { dashboardOf, READY } from '../fixtures/dashboard.ts';
 import { expect, poll, test } from '../fixtures/test.ts';

@@ -2,8 +2,8 @@
 // scrolls more often than it moves a servo.
 
 import type { Page } from './harness/page.ts';
-import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
-import { robotToText } from '#shared/actions/robot/robotText.ts';
+import { readyRobot } from '#shared/profile/readyRobots.ts';
+import { robotToText } from '#shared/profile/robotText.ts';
 import { lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
 import { expect, poll, test } from './harness/test.ts';
 

@@ -1,8 +1,8 @@
 // The library: groups are kept by themselves, found again, brought back and moved. Here it is the browser's own; what is the
 // gateway's part is tried end to end.
 
-import { emptyGroup } from '#shared/actions/group/group.ts';
-import { libraryToText } from '#shared/actions/library/libraryText.ts';
+import { emptyGroup } from '#shared/group/group.ts';
+import { libraryToText } from '#shared/files/libraryText.ts';
 import * as group from '../../e2e/fixtures/group.ts';
 import * as libraries from '../../e2e/fixtures/library.ts';
 import type { Page } from './harness/page.ts';

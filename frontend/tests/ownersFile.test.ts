@@ -1,14 +1,14 @@
 // What all of it is for: an owner of a vendor's file opens it, improves it, sees that it fits, downloads it, and the board plays exactly
 // what the preview showed.
 
-import { compile } from '#shared/actions/group/compile.ts';
-import { totalDurationMs, type ActionGroup } from '#shared/actions/group/group.ts';
-import { groupFromText } from '#shared/actions/group/groupText.ts';
-import { positionAt, tracksOf, type Track } from '#shared/actions/group/tracks.ts';
-import { encodeCommand } from '#shared/protocol/encode.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { compile } from '#shared/group/compile.ts';
+import { totalDurationMs, type ActionGroup } from '#shared/group/group.ts';
+import { groupFromText } from '#shared/group/groupText.ts';
+import { positionAt, tracksOf, type Track } from '#shared/group/tracks.ts';
+import { encodeCommand } from '#shared/codec/encode.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { createBoard } from '#shared/simulator/board.ts';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { ofKind, type Heard } from '../../e2e/fixtures/bus.ts';
 import * as timelines from '../../e2e/fixtures/timeline.ts';
 import { filesDialogOf, textOf, vector } from './filesDialog.ts';

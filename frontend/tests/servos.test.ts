@@ -1,7 +1,7 @@
 // The servo panel beyond one slider: servos that move together, degrees, the wheel, locking and hiding.
 
-import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
-import { robotToText } from '#shared/actions/robot/robotText.ts';
+import { readyRobot } from '#shared/profile/readyRobots.ts';
+import { robotToText } from '#shared/profile/robotText.ts';
 import { lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
 import { expect, poll, test } from './harness/test.ts';
 

@@ -11,12 +11,14 @@ const root = resolve(import.meta.dirname, '../..');
 /** A part knows itself and what is listed. Folders not named here are panels. */
 const mayKnow: Record<string, readonly string[]> = {
   'shared/clock': [],
-  'shared/protocol': [],
-  'shared/motion': ['shared/protocol', 'shared/clock'],
-  'shared/session': ['shared/motion', 'shared/protocol', 'shared/clock'],
-  'shared/actions': ['shared/motion', 'shared/protocol', 'shared/clock'],
-  'shared/simulator': ['shared/protocol', 'shared/clock'],
-  'shared/recording': ['shared/session', 'shared/simulator', 'shared/protocol', 'shared/clock'],
+  'shared/codec': [],
+  'shared/document': [],
+  'shared/motion': ['shared/codec', 'shared/clock'],
+  'shared/session': ['shared/motion', 'shared/codec', 'shared/clock'],
+  'shared/profile': ['shared/group', 'shared/document', 'shared/codec'],
+  'shared/group': ['shared/profile', 'shared/document', 'shared/codec'],
+  'shared/files': ['shared/group', 'shared/profile', 'shared/document', 'shared/codec'],
+  'shared/simulator': ['shared/codec', 'shared/clock'],
   'frontend/i18n': ['shared'],
   'frontend/ui': ['frontend/i18n'],
   'frontend/gateway': [],
@@ -27,11 +29,11 @@ const mayKnow: Record<string, readonly string[]> = {
 const importStatement =
   /^(?:import|export)\s[^;'=]*?from\s+'([^']+)'|^import\s+'([^']+)'|\bimport\('([^']+)'\)/gm;
 const processEntry = 'shared/src/simulator/process.ts';
-/** The simulated board as a transport: the one file of the simulator that knows what a session asks of a link. */
-const simulatedTransport = 'shared/src/simulator/transport.ts';
-const forTestsOnly = /\.(test|generated|d)\.tsx?$|\/(rig|recordingRig)\.ts$|UnderTest\.ts$/;
+/** The simulated board as a transport fulfils what a session asks of a link; a saved log has the types of what it saves. */
+const sessionUsers = ['shared/src/simulator/transport.ts', 'shared/src/files/recorder.ts'];
+const forTestsOnly = /\.(test|generated|d)\.tsx?$|\/rig\.ts$|UnderTest\.ts$|\/testing\//;
 
-/** `shared/src/protocol/packet.ts` belongs to `shared/protocol`, `shared/src/clock.ts` to `shared/clock`. */
+/** `shared/src/codec/packet.ts` belongs to `shared/codec`, `shared/src/clock.ts` to `shared/clock`. */
 function partOf(file: string): string {
   const [top = '', , folder = ''] = file.split('/');
   return `${top}/${folder.replace(/\.tsx?$/, '')}`;
@@ -69,7 +71,7 @@ function strangersIn(part: string): string[] {
   return files.flatMap((file) =>
     importsOf(file)
       .filter((imported) => inside(imported) && !knows(part, imported))
-      .filter((imported) => !(file === simulatedTransport && partOf(imported) === 'shared/session'))
+      .filter((imported) => !(sessionUsers.includes(file) && partOf(imported) === 'shared/session'))
       .map((imported) => `${file} imports ${imported}`),
   );
 }

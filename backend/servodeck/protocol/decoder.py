@@ -1,7 +1,7 @@
 """Bytes in, packets and noise out, whatever pieces the bytes come in and however damaged they are.
 
 Bounded memory, never raises. Knows no meaning, no family and no time: the caller says with `pause` and `idle`
-that the line has been silent. The rules of shared/src/protocol/decoder.ts;
+that the line has been silent. The rules of shared/src/codec/decoder.ts;
 shared/protocol/vectors/streams.json holds both.
 """
 

@@ -1,7 +1,7 @@
 """Board families: what a board of each kind takes, answers and means.
 
 The table is shared/protocol/families.json, with the source of each figure; the page reads the same
-(shared/src/protocol/families.ts, which says what each field means). What differs between boards is a field
+(shared/src/codec/families.ts, which says what each field means). What differs between boards is a field
 there, never an `if` on a family elsewhere.
 """
 

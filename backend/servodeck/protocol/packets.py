@@ -1,7 +1,7 @@
 """Packets to values and back, and what a board of a family can take: the gateway's door to the protocol.
 
 Knows no port, no time and no client, and no words for people (describe.py). What the packets are for is the
-page's affair (shared/src/protocol); the gateway only has to judge what goes on the wire.
+page's affair (shared/src/codec); the gateway only has to judge what goes on the wire.
 shared/protocol/vectors holds both codecs to each other.
 """
 

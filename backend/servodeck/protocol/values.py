@@ -1,6 +1,6 @@
 """What a host can ask and what a board can say, as values. Knows no bytes and no limits.
 
-The same values as shared/src/protocol/commands.ts and reports.ts.
+The same values as shared/src/codec/commands.ts and reports.ts.
 """
 
 from dataclasses import dataclass

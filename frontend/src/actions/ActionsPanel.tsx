@@ -3,8 +3,8 @@
 // pose.
 
 import { Fragment, useCallback } from 'react';
-import { rename } from '#shared/actions/group/groupEdits.ts';
-import { convertGroup } from '#shared/actions/robot/counterpart.ts';
+import { rename } from '#shared/group/groupEdits.ts';
+import { convertGroup } from '#shared/profile/counterpart.ts';
 import { BodyPicture } from '../body/Body.tsx';
 import { FilesButton } from '../files/FilesButton.tsx';
 import { LibraryButton } from '../library/LibraryButton.tsx';

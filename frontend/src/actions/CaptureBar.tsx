@@ -1,6 +1,6 @@
 // How frames come into the group: the pose captured, a recording, an example. And how long the group is.
 
-import { totalDurationMs } from '#shared/actions/group/group.ts';
+import { totalDurationMs } from '#shared/group/group.ts';
 import { ExamplesControl } from '../examples/ExamplesControl.tsx';
 import { RecordControl } from '../record/RecordControl.tsx';
 import { useDocument, useStores } from '../stores/stores.ts';

@@ -1,8 +1,8 @@
 // One frame as a card: its number, its pose, the servos it moves, its time. The face selects; the grip drags.
 
 import { memo } from 'react';
-import type { GroupFrame } from '#shared/actions/group/group.ts';
-import { setDuration } from '#shared/actions/group/timeEdits.ts';
+import type { GroupFrame } from '#shared/group/group.ts';
+import { setDuration } from '#shared/group/timeEdits.ts';
 import { GroupThumb } from '../body/PoseThumb.tsx';
 import { useDevice, useGroupBoard, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';

@@ -2,7 +2,7 @@
 // in the timeline.
 
 import { useMemo, useState, type CSSProperties, type KeyboardEvent } from 'react';
-import { indexOfFrame } from '#shared/actions/group/groupEdits.ts';
+import { indexOfFrame } from '#shared/group/groupEdits.ts';
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { useStores } from '../stores/stores.ts';
 import { showFrame } from '../timeline/inStep.ts';

@@ -1,6 +1,6 @@
 // What can be done with the selected frames, in words. Always in its place, so that nothing jumps when a frame is selected.
 
-import { indexOfFrame, setTargets } from '#shared/actions/group/groupEdits.ts';
+import { indexOfFrame, setTargets } from '#shared/group/groupEdits.ts';
 import { freeOf, stayingOf } from '../stores/locks.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';

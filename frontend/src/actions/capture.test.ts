@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
 import { createDesk } from '../stores/deskUnderTest.ts';
 import { captureFrame } from './capture.ts';
 

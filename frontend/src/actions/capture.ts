@@ -1,9 +1,9 @@
 // Puts a pose into the group as a frame beside another one or at the end: the one that the robot was asked for, or a kept one.
 // Moves nothing.
 
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { Stores } from '../stores/stores.ts';
 import { words } from '../i18n/words.ts';
 

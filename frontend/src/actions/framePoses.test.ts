@@ -1,8 +1,8 @@
 import { isDeepStrictEqual } from 'node:util';
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { changedServos, poseAt } from '#shared/actions/group/group.ts';
-import type { Frame } from '#shared/protocol/commands.ts';
+import { changedServos, poseAt } from '#shared/group/group.ts';
+import type { Frame } from '#shared/codec/commands.ts';
 import { framePoses } from './framePoses.ts';
 
 const target = fc.record({ servo: fc.integer({ min: 1, max: 4 }), position: fc.integer({ min: 1, max: 3 }) });

@@ -1,7 +1,7 @@
 // The pose after each of some frames that follow each other, and which servos moved to get there, in one pass. Pure.
 
-import type { Frame } from '#shared/protocol/commands.ts';
-import { poseAt } from '#shared/actions/group/group.ts';
+import type { Frame } from '#shared/codec/commands.ts';
+import { poseAt } from '#shared/group/group.ts';
 import { sameLook, samePose } from '../body/pose.ts';
 
 export interface FramePose {

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
 import { keepInStep, pressFrame } from '../timeline/inStep.ts';
 import { bringSelectionBack } from '../timeline/selectionBack.ts';
 import { createTimelineDesk } from '../timeline/timelineUnderTest.ts';

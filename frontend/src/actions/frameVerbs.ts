@@ -1,9 +1,9 @@
 // The verbs of the frame strip, for one frame or several: moved, duplicated, deleted, cut, copied, pasted. Each is one step of
 // the history, and the selection goes along. Knows no panel; moves no robot.
 
-import { copyFrames, pasteFrames, type Clip } from '#shared/actions/group/clip.ts';
-import { deleteFrames, duplicateFrames, moveFrames } from '#shared/actions/group/groupEdits.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { copyFrames, pasteFrames, type Clip } from '#shared/group/clip.ts';
+import { deleteFrames, duplicateFrames, moveFrames } from '#shared/group/groupEdits.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
 import { ALL_ROW } from '../stores/timeline/timeline.ts';
 import { deskOf, rangeOf, rowOf, type DeskStores } from '../timeline/desk.ts';
 import { showFrame, showFrames } from '../timeline/inStep.ts';

@@ -1,7 +1,7 @@
 // Reordering frames by drag: one gesture of the document, the frames in between make room at once. Of several that are selected
 // all go along.
 
-import { indexOfFrame, moveFrames } from '#shared/actions/group/groupEdits.ts';
+import { indexOfFrame, moveFrames } from '#shared/group/groupEdits.ts';
 import { useStores } from '../stores/stores.ts';
 import { useDragOrder, type DragOrder } from '../ui/useDragOrder.ts';
 import { words } from '../i18n/words.ts';

@@ -1,7 +1,7 @@
 // What feeds the robot at hand, when that is low, and what is to happen then. Each change is one step of the robot's undo.
 
-import { fedBy, type Supply } from '#shared/actions/battery/batterySupply.ts';
-import { BATTERY_KINDS, BATTERY_MV, BATTERY_POLICIES, type Robot } from '#shared/actions/robot/robot.ts';
+import { fedBy, type Supply } from '#shared/profile/batterySupply.ts';
+import { BATTERY_KINDS, BATTERY_MV, BATTERY_POLICIES, type Robot } from '#shared/profile/robot.ts';
 import { useBattery, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NumberField } from '../ui/NumberField.tsx';

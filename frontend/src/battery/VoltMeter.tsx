@@ -1,7 +1,7 @@
 // The voltage along the range of what feeds the robot, with the two thresholds as marks.
 
-import { readingKind } from '#shared/actions/battery/batteryGauge.ts';
-import { gaugeFraction, type Supply } from '#shared/actions/battery/batterySupply.ts';
+import { readingKind } from '#shared/profile/batteryGauge.ts';
+import { gaugeFraction, type Supply } from '#shared/profile/batterySupply.ts';
 import { words } from '../i18n/whole.ts';
 import { voltsText } from './readings.ts';
 import styles from './VoltMeter.module.css';

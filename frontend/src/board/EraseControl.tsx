@@ -1,6 +1,6 @@
 // Erases every slot, after a dialog that names what is lost, and what of it can come back.
 
-import { notRestored } from '#shared/actions/slots/slotBook.ts';
+import { notRestored } from '#shared/group/slotBook.ts';
 import { startHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSlots, useSnapshot, useStores } from '../stores/stores.ts';
 import { Confirm } from '../ui/Confirm.tsx';

@@ -1,6 +1,6 @@
 // Where the group at hand belongs and how often it is run, as it says itself; what is chosen above can be kept in it.
 
-import { setMeta } from '#shared/actions/group/groupEdits.ts';
+import { setMeta } from '#shared/group/groupEdits.ts';
 import { chosenTimes } from '../stores/slots/groupPlace.ts';
 import { useDocument, useSlot, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

@@ -1,7 +1,7 @@
 // A servo on the body while its place is being chosen: dragged, or pushed by arrow keys. Letting go is one step of the history.
 
 import { useRef, useState, type KeyboardEvent, type PointerEvent, type RefObject } from 'react';
-import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { numberAndName } from '../i18n/sentences/servos.ts';

@@ -1,7 +1,7 @@
 // The servos where they sit on the body: pressing one selects it. While arranging, they are dragged to other places instead.
 
 import { useRef, useState, type CSSProperties, type KeyboardEvent } from 'react';
-import type { BodyKind, RobotServo } from '#shared/actions/robot/robot.ts';
+import type { BodyKind, RobotServo } from '#shared/profile/robot.ts';
 import { undoActionOf } from '../actions/useUndoKeys.ts';
 import { useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { Toggle } from '../ui/Toggle.tsx';

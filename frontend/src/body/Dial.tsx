@@ -2,7 +2,7 @@
 // question mark. The hands are drawn on the face.
 
 import { useState } from 'react';
-import type { Family } from '#shared/protocol/families.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { READABLE_MS, useFollow } from '../ui/useFollow.ts';
 import { words } from '../i18n/words.ts';

@@ -2,7 +2,7 @@
 // them turn in each frame.
 
 import { useRef } from 'react';
-import type { Family } from '#shared/protocol/families.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { select } from '../stores/servoView.ts';
 import { editServoView, useDevice, useRobot, useServoView, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';

@@ -2,7 +2,7 @@
 // dotted one where the group at hand would have it.
 
 import { useRef } from 'react';
-import type { Robot } from '#shared/actions/robot/robot.ts';
+import type { Robot } from '#shared/profile/robot.ts';
 import type { Motions } from '#shared/session/state.ts';
 import { usePlayback, useRobot, useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';

@@ -1,7 +1,7 @@
 // A servo on the body: its dial and number, pressed to select it.
 
 import type { CSSProperties } from 'react';
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
 import { isHeld, selectByClick } from '../stores/servoView.ts';
 import { editServoView, useDevice, useServoView, useStores } from '../stores/stores.ts';
 import { Icon } from '../ui/Icon.tsx';

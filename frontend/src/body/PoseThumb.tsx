@@ -1,8 +1,8 @@
 // A pose as a small picture: the body where it is described, and a bar per servo. Servos that move are marked below it.
 
 import { memo } from 'react';
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { useRobot } from '../stores/stores.ts';
 import { ArmFigure } from './ArmFigure.tsx';
 import { BoneFigure } from './BoneFigure.tsx';

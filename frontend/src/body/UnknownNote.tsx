@@ -1,8 +1,8 @@
 // Says which servos nobody knows the position of, before their first move is made and while they wait for it, and offers to
 // take them to where this board was last seen. Keeps its line when all are known.
 
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { DeviceState } from '../stores/device/device.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
-import { exampleGroup, type ExampleId } from '#shared/actions/examples/examples.ts';
-import { poseAt } from '#shared/actions/group/group.ts';
-import { readyRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
+import { exampleGroup, type ExampleId } from '#shared/group/examples/examples.ts';
+import { poseAt } from '#shared/group/group.ts';
+import { readyRobot, type ReadyRobotId } from '#shared/profile/readyRobots.ts';
 import { robotNames } from '../i18n/sentences/robots.ts';
 import { bonesOf, type Bone, type BonePicture } from './bones.ts';
 

@@ -1,7 +1,7 @@
 // Hand, humanoid and hexapod as bones between the places of their servos: where each bone is in a pose. A diagram, not a
 // model: it turns, lifts and folds limbs so that one sees which moves how. Pure geometry in percent of the picture.
 
-import { degreesOf, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
+import { degreesOf, type Robot, type RobotServo } from '#shared/profile/robot.ts';
 import { limbsOf } from './limbs.ts';
 import { fraction, type Pose } from './pose.ts';
 

@@ -1,6 +1,6 @@
 // The servos of a robot by limb, in the order in which the robot names them. Pure.
 
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
 
 export interface Limb {
   /** Empty for servos that belong to none. */

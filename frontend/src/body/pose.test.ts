@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { armPicture, dialDegrees, fraction, JOINT, shaftDegrees } from './pose.ts';
 
 const doc = FAMILIES.doc;

@@ -1,7 +1,7 @@
 // From positions to the picture: angles of an arm's joints and of a dial's needle. Pure geometry; what a position is in
 // the real world (trim, direction) no board can tell, so the middle of the range is drawn as straight.
 
-import type { Family, Range } from '#shared/protocol/families.ts';
+import type { Family, Range } from '#shared/codec/families.ts';
 
 /** Position of a servo, null where it is not known. */
 export type Pose = (servo: number) => number | null;

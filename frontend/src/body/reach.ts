@@ -1,7 +1,7 @@
 // How far a body by bones reaches in any pose within its limits, so that its picture has room for all of them and never has to
 // change its scale. Pure geometry in percent of the picture.
 
-import { degreesOf, servoOf, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
+import { degreesOf, servoOf, type Robot, type RobotServo } from '#shared/profile/robot.ts';
 import {
   bonesOf,
   handBase,

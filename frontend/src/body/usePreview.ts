@@ -2,8 +2,8 @@
 // preview. Drawn past React, because the playhead may be scrubbed. Moves nothing.
 
 import { useRef } from 'react';
-import { rescaled } from '#shared/actions/robot/counterpart.ts';
-import { poseAtMs } from '#shared/actions/group/tracks.ts';
+import { rescaled } from '#shared/profile/counterpart.ts';
+import { poseAtMs } from '#shared/group/tracks.ts';
 import { knownFamily } from '../stores/group/groupBoard.ts';
 import { isSilent } from '../stores/servoView.ts';
 import { servoViewOf, useStores, type Stores } from '../stores/stores.ts';

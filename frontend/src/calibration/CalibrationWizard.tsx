@@ -2,8 +2,8 @@
 // worked out. It can be left anywhere: what was set is in the robot, and the place is kept.
 
 import { useEffect, useId, useRef } from 'react';
-import type { CalibrationStep } from '#shared/actions/robot/calibration.ts';
-import { isDone, isServoDone, stepsOf } from '#shared/actions/robot/robotCalibration.ts';
+import type { CalibrationStep } from '#shared/profile/calibration.ts';
+import { isDone, isServoDone, stepsOf } from '#shared/profile/robotCalibration.ts';
 import { RobotHead } from '../robots/RobotHead.tsx';
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

@@ -2,8 +2,8 @@
 
 import { useEffect, useRef, useState } from 'react';
 import { Button } from 'react-aria-components/Button';
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
-import type { Range } from '#shared/protocol/families.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
+import type { Range } from '#shared/codec/families.ts';
 import { Estimate } from '../servos/Estimate.tsx';
 import { scaleOf } from '../servos/scale.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
@@ -11,7 +11,7 @@ import { useStores } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { Icon } from '../ui/Icon.tsx';
 import { words } from '../i18n/whole.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { startCreeping } from './creeping.ts';
 import styles from './CreepControl.module.css';
 

@@ -2,9 +2,9 @@
 // else after it was turned a little and back. Whichever side of home has more room is tried, and the arrow says that side.
 
 import { useEffect, useRef, useState } from 'react';
-import { changeServo } from '#shared/actions/robot/robotEdits.ts';
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { changeServo } from '#shared/profile/robotEdits.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { useTarget } from '../servos/useTarget.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';

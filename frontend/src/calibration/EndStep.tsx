@@ -1,10 +1,10 @@
 // Lowest, highest and home: the servo is crept there and the commanded position becomes the figure.
 
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
-import type { Calibration } from '#shared/actions/robot/calibration.ts';
-import { endFound, noteFound } from '#shared/actions/robot/robotCalibration.ts';
-import { changeServo, reachOf } from '#shared/actions/robot/robotEdits.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
+import type { Calibration } from '#shared/profile/calibration.ts';
+import { endFound, noteFound } from '#shared/profile/robotCalibration.ts';
+import { changeServo, reachOf } from '#shared/profile/robotEdits.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { ReachBar } from '../robots/ReachBar.tsx';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useTarget } from '../servos/useTarget.ts';

@@ -2,10 +2,10 @@
 // to its middle, or all such servos home, slowly and only when told to.
 
 import type { ReactNode } from 'react';
-import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
-import { reachOf } from '#shared/actions/robot/robotEdits.ts';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
+import { reachOf } from '#shared/profile/robotEdits.ts';
 import { isWatching, mayResume, type Lease } from '#shared/session/lease.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';

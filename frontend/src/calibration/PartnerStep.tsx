@@ -1,7 +1,7 @@
 // Offers the servo on the other side the mirror image of what was set.
 
-import { flawOf, servoOf } from '#shared/actions/robot/robot.ts';
-import { changeServo, fromPartner } from '#shared/actions/robot/robotEdits.ts';
+import { flawOf, servoOf } from '#shared/profile/robot.ts';
+import { changeServo, fromPartner } from '#shared/profile/robotEdits.ts';
 import { servoLabel } from '../i18n/sentences/servos.ts';
 import { words } from '../i18n/whole.ts';
 import { Answer } from './Answer.tsx';

@@ -1,8 +1,8 @@
 // Gives home the figure that it has on every robot of this build, and the trim what it is off by.
 
-import { changeServo, homeAtCentre } from '#shared/actions/robot/robotEdits.ts';
-import { TRIM, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { changeServo, homeAtCentre } from '#shared/profile/robotEdits.ts';
+import { TRIM, type Robot, type RobotServo } from '#shared/profile/robot.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { words } from '../i18n/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';

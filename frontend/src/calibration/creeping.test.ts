@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import type { ServoMotion } from '#shared/session/state.ts';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { startCreeping } from './creeping.ts';
 
 const REACH = { min: 500, max: 2500 };

@@ -3,7 +3,7 @@
 // let go. Knows no session.
 
 import type { Clock } from '#shared/clock.ts';
-import type { Range } from '#shared/protocol/families.ts';
+import type { Range } from '#shared/codec/families.ts';
 import type { ServoMotion } from '#shared/session/state.ts';
 
 export interface Creeping {

@@ -1,6 +1,6 @@
 // What a servo turns, as far as the picture of its robot tells, and from where one sees it turn. Pure.
 
-import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import { JOINT } from '../body/pose.ts';
 
 /** Where one looks from, as the picture of the arm does; other bodies have no picture of a turn. */

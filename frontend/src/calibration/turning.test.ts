@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { freshRobot } from '../stores/robots/robots.ts';
 import { awayFrom, homeward, startTurning, type TurnPhase } from './turning.ts';
 

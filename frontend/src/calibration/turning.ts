@@ -1,7 +1,7 @@
 // What shows a servo's direction: the way home that it is on, or a little turn away from home and, once it stands there, back, which
 // ends early where nothing may move any longer. Knows no session.
 
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { ServoMotion } from '#shared/session/state.ts';
 

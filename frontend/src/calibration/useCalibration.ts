@@ -1,8 +1,8 @@
 // The calibration at hand: which servo, which step, and what a finished step does to the robot. Each is one step to undo.
 
 import { useEffect, useState } from 'react';
-import type { Calibration, CalibrationStep } from '#shared/actions/robot/calibration.ts';
-import { flawOf, servoOf, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
+import type { Calibration, CalibrationStep } from '#shared/profile/calibration.ts';
+import { flawOf, servoOf, type Robot, type RobotServo } from '#shared/profile/robot.ts';
 import {
   beginCalibration,
   isServoDone,
@@ -10,7 +10,7 @@ import {
   servoDone,
   settled,
   stepDone,
-} from '#shared/actions/robot/robotCalibration.ts';
+} from '#shared/profile/robotCalibration.ts';
 import { useRobot, useServoView, useStores, useView } from '../stores/stores.ts';
 import { robotFlawSentence } from '../i18n/sentences/robotFlaws.ts';
 import { servoLabel } from '../i18n/sentences/servos.ts';

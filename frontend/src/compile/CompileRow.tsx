@@ -1,9 +1,9 @@
 // What the group becomes on the board: whether it fits, what it costs, how far off it is and where, and what does not fit. A click
 // on a place goes there.
 
-import { MOST_ERROR_UNITS } from '#shared/actions/group/group.ts';
-import { setMeta } from '#shared/actions/group/groupEdits.ts';
-import { maxErrorOf } from '#shared/actions/group/maxError.ts';
+import { MOST_ERROR_UNITS } from '#shared/group/group.ts';
+import { setMeta } from '#shared/group/groupEdits.ts';
+import { maxErrorOf } from '#shared/group/maxError.ts';
 import { obstacles } from '../stores/group/compiled.ts';
 import { useCompiled, useDocument, useKnownFamily, useStores } from '../stores/stores.ts';
 import { servoName } from '../stores/servoName.ts';

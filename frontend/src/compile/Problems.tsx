@@ -1,7 +1,7 @@
 // The list of what the board cannot do with the group, what is about all of it first; each line leads to its place.
 
 import { useState } from 'react';
-import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
+import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { obstacles } from '../stores/group/compiled.ts';
 import { problemText } from '../stores/group/problemText.ts';
 import { useCompiled, useStores } from '../stores/stores.ts';

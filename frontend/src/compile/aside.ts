@@ -1,7 +1,7 @@
 // Has groups worked out beside the page, in a worker: a large one takes as long as ten frames of the screen. Knows no group.
 
-import { groupToText } from '#shared/actions/group/groupText.ts';
-import { framesOf } from '#shared/actions/slots/frameNumbers.ts';
+import { groupToText } from '#shared/group/groupText.ts';
+import { framesOf } from '#shared/group/frameNumbers.ts';
 import type { Source, WorkedOut } from '../stores/group/workedOut.ts';
 import type { Answer, Order } from './asideWorker.ts';
 

@@ -1,9 +1,9 @@
 // Where a line about the compiled group leads: the timeline comes to the front, the servo is selected, and its key where the line
 // is about one, so that what is typed next mends it.
 
-import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { tracksOf, type KeyRef } from '#shared/actions/group/tracks.ts';
+import type { CompileProblem } from '#shared/group/compileReport.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { tracksOf, type KeyRef } from '#shared/group/tracks.ts';
 import { select } from '../stores/servoView.ts';
 import { editServoView, type Stores } from '../stores/stores.ts';
 import { showKey } from '../timeline/inStep.ts';

@@ -2,7 +2,7 @@
 // possible here. Plain values in, choices out; so every case can be shown without a link.
 
 import { useState, type ReactNode } from 'react';
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { Way } from '../stores/device/device.ts';
 import { Button } from '../ui/Button.tsx';
 import { ThisBoard } from '../identity/ThisBoard.tsx';

@@ -2,8 +2,8 @@
 // The only place that knows transports; hands a session to the device store and forgets it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import { FAMILIES, UNKNOWN_BOARD, type FamilyId } from '#shared/protocol/families.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import { FAMILIES, UNKNOWN_BOARD, type FamilyId } from '#shared/codec/families.ts';
 import { STOP_PACKET } from '#shared/session/halt.ts';
 import { createSession, type Session } from '#shared/session/session.ts';
 import { isProfileName } from '#shared/simulator/profileNames.ts';

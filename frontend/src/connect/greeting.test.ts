@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
-import { refusedTarget } from '#shared/actions/robot/robot.ts';
-import { changeServo } from '#shared/actions/robot/robotEdits.ts';
+import { refusedTarget } from '#shared/profile/robot.ts';
+import { changeServo } from '#shared/profile/robotEdits.ts';
 import { freshRobot } from '../stores/robots/robots.ts';
 import { greetingOf } from './greeting.ts';
 

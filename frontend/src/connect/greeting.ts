@@ -1,7 +1,7 @@
 // The pose that the simulated arm rises to for whoever opens the page: as far as this robot's limits let each joint. Pure.
 
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 
 /** Readable: every joint away from the line of its neighbour. */
 const GREETING = [1200, 1500, 1950, 2050, 1150, 1500];

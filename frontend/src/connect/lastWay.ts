@@ -1,6 +1,6 @@
 // Remembers which way to the robot was chosen last, which board was simulated, and whether links come back by themselves. Storage that is forbidden means: nothing remembered.
 
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { Transport } from '#shared/session/transport.ts';
 import type { TextStorage } from '../stores/textStorage.ts';
 

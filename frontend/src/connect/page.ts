@@ -1,7 +1,7 @@
 // Builds the page's stores with the browser's own clock and storage, and starts the first link.
 
 import type { Clock } from '#shared/clock.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { createAside } from '../compile/aside.ts';
 import { createBattery } from '../stores/battery/battery.ts';
 import { applyBatteryPolicy } from '../stores/battery/batteryPolicy.ts';
@@ -12,7 +12,7 @@ import { createCompiled } from '../stores/group/compiled.ts';
 import { createDevice } from '../stores/device/device.ts';
 import { createDocument } from '../stores/group/document.ts';
 import type { TextStorage } from '../stores/textStorage.ts';
-import type { Keeper } from '#shared/actions/library/keeper.ts';
+import type { Keeper } from '#shared/files/keeper.ts';
 import { watchInputs } from '../pad/watchInputs.ts';
 import { followLanguage } from '../stores/language.ts';
 import { createLibrary } from '../stores/library/library.ts';

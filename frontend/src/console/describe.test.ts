@@ -1,9 +1,9 @@
 import { describe, expect, test } from 'vitest';
-import { encodeCommand } from '#shared/protocol/encode.ts';
-import type { Command } from '#shared/protocol/commands.ts';
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
-import { fromHex } from '#shared/protocol/hex.ts';
-import type { ByteMark } from '#shared/recording/recording.ts';
+import { encodeCommand } from '#shared/codec/encode.ts';
+import type { Command } from '#shared/codec/commands.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
+import { fromHex } from '#shared/codec/hex.ts';
+import type { ByteMark } from '#shared/files/recording.ts';
 import { arrowOf, bytesText, kindOf, lineText, meaning } from './describe.ts';
 import { searchTest } from './search.ts';
 

@@ -1,12 +1,12 @@
 // What a line of the log says and which kind it is counted under. Pure.
 
-import type { CommandKind } from '#shared/protocol/commands.ts';
-import { family } from '#shared/protocol/families.ts';
-import { toHex } from '#shared/protocol/hex.ts';
-import type { ReportKind } from '#shared/protocol/reports.ts';
-import { writeLine } from '#shared/recording/line.ts';
-import { trafficOf } from '#shared/recording/recorder.ts';
-import type { Entry } from '#shared/recording/recording.ts';
+import type { CommandKind } from '#shared/codec/commands.ts';
+import { family } from '#shared/codec/families.ts';
+import { toHex } from '#shared/codec/hex.ts';
+import type { ReportKind } from '#shared/codec/reports.ts';
+import { writeLine } from '#shared/files/line.ts';
+import { trafficOf } from '#shared/files/recorder.ts';
+import type { Entry } from '#shared/files/recording.ts';
 import type { Traffic } from '#shared/session/state.ts';
 import type { LogEntry } from '../stores/device/traffic.ts';
 import type { LogKind } from '../stores/view.ts';

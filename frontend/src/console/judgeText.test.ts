@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import { words } from '../i18n/whole.ts';
 import { judgeText, obstacleFor } from './judgeText.ts';

@@ -1,9 +1,9 @@
 // What a text that is being typed as a packet means: the packet, if it may go, and the words for it. Pure.
 
-import type { Family } from '#shared/protocol/families.ts';
-import { fromHex } from '#shared/protocol/hex.ts';
-import { judgeRaw } from '#shared/protocol/rawPacket.ts';
-import { isHarmless } from '#shared/protocol/commands.ts';
+import type { Family } from '#shared/codec/families.ts';
+import { fromHex } from '#shared/codec/hex.ts';
+import { judgeRaw } from '#shared/codec/rawPacket.ts';
+import { isHarmless } from '#shared/codec/commands.ts';
 import type { SessionState } from '#shared/session/state.ts';
 import { rawText } from './packetText.ts';
 import { boardName } from '../i18n/sentences/boards.ts';

@@ -1,8 +1,8 @@
 // Packets in plain words, for the log and for packets written by hand. Knows the meaning of commands and reports.
 
-import type { Command, ServoTarget } from '#shared/protocol/commands.ts';
-import type { RawRefusal, RawVerdict } from '#shared/protocol/rawPacket.ts';
-import type { Report } from '#shared/protocol/reports.ts';
+import type { Command, ServoTarget } from '#shared/codec/commands.ts';
+import type { RawRefusal, RawVerdict } from '#shared/codec/rawPacket.ts';
+import type { Report } from '#shared/codec/reports.ts';
 import { rangeText } from '../i18n/sentences/errors.ts';
 import { words } from '../i18n/whole.ts';
 

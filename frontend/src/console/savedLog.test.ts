@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { readRecording } from '#shared/recording/text.ts';
+import { readRecording } from '#shared/files/recordingText.ts';
 import { createTrafficLog } from '../stores/device/traffic.ts';
 import { logFile } from './savedLog.ts';
 

@@ -1,8 +1,8 @@
 // The log as a file: its text and its name. Knows no panel.
 
-import { family, type BoardId } from '#shared/protocol/families.ts';
-import { writeRecording } from '#shared/recording/text.ts';
-import type { Entry } from '#shared/recording/recording.ts';
+import { family, type BoardId } from '#shared/codec/families.ts';
+import { writeRecording } from '#shared/files/recordingText.ts';
+import type { Entry } from '#shared/files/recording.ts';
 import type { TrafficLog } from '../stores/device/traffic.ts';
 import type { TextFile } from '../ui/saveFile.ts';
 import { version } from '../../../package.json';

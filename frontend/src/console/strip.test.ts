@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import type { Command } from '#shared/protocol/commands.ts';
+import type { Command } from '#shared/codec/commands.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { SessionState } from '#shared/session/state.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';

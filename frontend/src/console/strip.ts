@@ -1,7 +1,7 @@
 // Which line of the log the folded strip shows: the newest one, and a stop for as long as nothing may move: what follows a stop
 // are its repeats, its holds and the battery. Reads each entry once; knows no page.
 
-import type { Entry } from '#shared/recording/recording.ts';
+import type { Entry } from '#shared/files/recording.ts';
 import type { LogEntry, TrafficLog } from '../stores/device/traffic.ts';
 
 export interface Strip {

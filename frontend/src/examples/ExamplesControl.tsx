@@ -1,8 +1,8 @@
 // Groups to begin with, as pictures; the one that is chosen takes the place of the group at hand, as one step.
 
 import { useState } from 'react';
-import { exampleGroup, examplesFor, type ExampleId } from '#shared/actions/examples/examples.ts';
-import { poseAt, totalDurationMs } from '#shared/actions/group/group.ts';
+import { exampleGroup, examplesFor, type ExampleId } from '#shared/group/examples/examples.ts';
+import { poseAt, totalDurationMs } from '#shared/group/group.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { useDevice, useDocument, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

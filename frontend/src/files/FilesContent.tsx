@@ -2,7 +2,7 @@
 
 import { useCallback } from 'react';
 import { useStore } from 'zustand';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
 import { useKnownFamily } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { FileButton } from '../ui/FileButton.tsx';

@@ -2,7 +2,7 @@
 
 import { useCallback, useEffect, useRef, useState } from 'react';
 import { useStore } from 'zustand';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
 import { useStores } from '../stores/stores.ts';
 import { Dialog } from '../ui/Dialog.tsx';
 import { words } from '../i18n/whole.ts';

@@ -2,8 +2,8 @@
 // over as it is, or converted where the person says so.
 
 import { useMemo } from 'react';
-import { misfitsOf } from '#shared/actions/files/fit.ts';
-import { poseAt, totalDurationMs, type ActionGroup } from '#shared/actions/group/group.ts';
+import { misfitsOf } from '#shared/files/fit.ts';
+import { poseAt, totalDurationMs, type ActionGroup } from '#shared/group/group.ts';
 import { GroupThumb } from '../body/PoseThumb.tsx';
 import { boardOfGroup } from '../stores/group/groupBoard.ts';
 import { useKnownFamily, useRobot } from '../stores/stores.ts';

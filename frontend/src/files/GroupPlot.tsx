@@ -1,8 +1,8 @@
 // A group as lines over time, one for each servo: a wave looks like a wave. A picture to recognise it by, without a scale.
 
-import { filled } from '#shared/actions/files/filled.ts';
-import { UNIT_RANGE } from '#shared/actions/files/units.ts';
-import { totalDurationMs, type ActionGroup } from '#shared/actions/group/group.ts';
+import { filled } from '#shared/files/filled.ts';
+import { UNIT_RANGE } from '#shared/files/units.ts';
+import { totalDurationMs, type ActionGroup } from '#shared/group/group.ts';
 import styles from './GroupPlot.module.css';
 
 const WIDTH = 100;

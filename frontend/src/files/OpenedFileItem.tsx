@@ -2,8 +2,8 @@
 // cannot be read says where and why.
 
 import { memo } from 'react';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import type { Remark } from '#shared/actions/files/reading.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { Remark } from '#shared/files/reading.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { problemText, remarkText } from './fileText.ts';
 import { words } from '../i18n/whole.ts';

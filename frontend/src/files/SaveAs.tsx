@@ -1,15 +1,10 @@
 // Saves the group at hand in a format of the person's choice, and says before what that format does not keep.
 
 import { useMemo, useState } from 'react';
-import { fileNameOf } from '#shared/actions/files/fileName.ts';
-import type { Misfit } from '#shared/actions/files/fit.ts';
-import { lossesIn } from '#shared/actions/files/losses.ts';
-import {
-  EXTENSIONS,
-  SAVE_FORMATS,
-  writeGroupFile,
-  type SaveFormat,
-} from '#shared/actions/files/writeGroupFile.ts';
+import { fileNameOf } from '#shared/files/fileName.ts';
+import type { Misfit } from '#shared/files/fit.ts';
+import { lossesIn } from '#shared/files/losses.ts';
+import { EXTENSIONS, SAVE_FORMATS, writeGroupFile, type SaveFormat } from '#shared/files/writeGroupFile.ts';
 import { useGroup, useKnownFamily, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { saveBlob } from '../ui/saveFile.ts';

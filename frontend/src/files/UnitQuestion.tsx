@@ -1,8 +1,8 @@
 // Which unit a file's positions are in, where it does not say: two buttons, each with what it would mean here.
 
-import type { Unit } from '#shared/actions/files/reading.ts';
-import { meaningIn } from '#shared/actions/files/units.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { Unit } from '#shared/files/reading.ts';
+import { meaningIn } from '#shared/files/units.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
 import { meaningText } from './fileText.ts';
 import { words } from '../i18n/whole.ts';
 import styles from './UnitQuestion.module.css';

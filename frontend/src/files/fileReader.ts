@@ -1,6 +1,6 @@
 // Has files read in a worker, so that the page goes on meanwhile; in the page where no worker can be had. Knows no format.
 
-import type { Reading } from '#shared/actions/files/reading.ts';
+import type { Reading } from '#shared/files/reading.ts';
 
 export interface FileReader {
   read(file: File): Promise<Reading>;

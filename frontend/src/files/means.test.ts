@@ -5,11 +5,11 @@ import { join } from 'node:path';
 import fc from 'fast-check';
 import startSqlite from 'sql.js';
 import { beforeAll, describe, expect, test } from 'vitest';
-import { meaningOf, MEANINGS } from '#shared/actions/files/fileUnderTest.ts';
-import { readGroupFile } from '#shared/actions/files/readGroupFile.ts';
-import { sheetOf } from '#shared/actions/files/sheet.ts';
-import { emptyGroup } from '#shared/actions/group/group.ts';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { meaningOf, MEANINGS } from '#shared/testing/fileUnderTest.ts';
+import { readGroupFile } from '#shared/files/readGroupFile.ts';
+import { sheetOf } from '#shared/files/sheet.ts';
+import { emptyGroup } from '#shared/group/group.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
 import { fileMeans, type FileMeans, type Sqlite } from './means.ts';
 
 const folder = join(import.meta.dirname, '../../../shared/protocol/vectors/files');

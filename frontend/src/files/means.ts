@@ -1,12 +1,12 @@
 // What the pure readers of files have to be given: the browser's text decoder, and SQLite for .d6a files, which is fetched when
 // the first such file is opened or saved. Knows tables, no action group.
 
-import type { Means } from '#shared/actions/files/readGroupFile.ts';
-import { Unreadable } from '#shared/actions/files/reading.ts';
-import { INDEX_COLUMN, type Sheet } from '#shared/actions/files/sheet.ts';
-import type { MakeDatabase } from '#shared/actions/files/writeGroupFile.ts';
-import { MAX_FRAMES } from '#shared/actions/group/group.ts';
-import type { Decode } from '#shared/actions/files/text.ts';
+import type { Means } from '#shared/files/readGroupFile.ts';
+import { Unreadable } from '#shared/files/reading.ts';
+import { INDEX_COLUMN, type Sheet } from '#shared/files/sheet.ts';
+import type { MakeDatabase } from '#shared/files/writeGroupFile.ts';
+import { MAX_FRAMES } from '#shared/group/group.ts';
+import type { Decode } from '#shared/files/text.ts';
 
 /** What of SQLite is used, however it is loaded. */
 export interface Sqlite {

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
-import type { Reading } from '#shared/actions/files/reading.ts';
-import { emptyGroup } from '#shared/actions/group/group.ts';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
+import type { Reading } from '#shared/files/reading.ts';
+import { emptyGroup } from '#shared/group/group.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
 import { readyGroups } from './answers.ts';
 import { createOpenedFiles } from './openedFiles.ts';
 

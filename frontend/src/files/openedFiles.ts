@@ -2,7 +2,7 @@
 // one after the other, each with its progress, until a person cancels. Knows no document and no dialog.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
 import { firstAnswers, type Answer, type AnsweredFile, type ReadyGroup } from './answers.ts';
 import type { FileReader } from './fileReader.ts';
 

@@ -1,7 +1,7 @@
 // A file as the browser gives it, read whatever its format: in the worker, or in the page where there is none. Never rejects.
 
-import { MAX_FILE_BYTES, readGroupFile } from '#shared/actions/files/readGroupFile.ts';
-import type { Problem, Reading } from '#shared/actions/files/reading.ts';
+import { MAX_FILE_BYTES, readGroupFile } from '#shared/files/readGroupFile.ts';
+import type { Problem, Reading } from '#shared/files/reading.ts';
 import { fileMeans } from './means.ts';
 import { loadSqlite } from './sqlite.ts';
 

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
-import { emptyGroup } from '#shared/actions/group/group.ts';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { emptyGroup } from '#shared/group/group.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { createMemoryKeeper } from '../keepers/memoryKeeper.ts';
 import { createVisit } from '../stores/library/libraryUnderTest.ts';
 import { takeGroup, takeGroups } from './takeGroups.ts';

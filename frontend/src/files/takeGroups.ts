@@ -1,7 +1,7 @@
 // What becomes of groups that a person takes from files: each is a document of the library, and the first is shown, as one step
 // that can be undone. A group that was being written stays as it is.
 
-import type { ActionGroup } from '#shared/actions/group/group.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
 import type { Stores } from '../stores/stores.ts';
 import { words } from '../i18n/whole.ts';
 import type { Course } from './openedFiles.ts';

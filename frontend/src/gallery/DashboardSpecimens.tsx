@@ -1,10 +1,10 @@
 // The whole dashboard, or the parts of it that a state is about, with a frozen session behind it.
 
-import { gaugeOf, type Reading } from '#shared/actions/battery/batteryGauge.ts';
-import { fedBy } from '#shared/actions/battery/batterySupply.ts';
-import { totalDurationMs } from '#shared/actions/group/group.ts';
-import { insertFrame, setMeta } from '#shared/actions/group/groupEdits.ts';
-import { FAMILIES, UNKNOWN_BOARD, type Family } from '#shared/protocol/families.ts';
+import { gaugeOf, type Reading } from '#shared/profile/batteryGauge.ts';
+import { fedBy } from '#shared/profile/batterySupply.ts';
+import { totalDurationMs } from '#shared/group/group.ts';
+import { insertFrame, setMeta } from '#shared/group/groupEdits.ts';
+import { FAMILIES, UNKNOWN_BOARD, type Family } from '#shared/codec/families.ts';
 import { actionsParts } from '../actions/ActionsPanel.tsx';
 import { AuthoringPanel } from '../authoring/Authoring.tsx';
 import { BatteryPanel } from '../battery/BatteryPanel.tsx';

@@ -1,9 +1,9 @@
 // What the dialog about files shows: groups of which one asks for its unit, one that does not fit, and broken files.
 
-import type { Reading } from '#shared/actions/files/reading.ts';
-import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import type { Reading } from '#shared/files/reading.ts';
+import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { FilesContent } from '../files/FilesContent.tsx';
 import { firstAnswers } from '../files/answers.ts';
 import { createOpenedFiles, type OpenedFile, type OpenedFiles } from '../files/openedFiles.ts';

@@ -3,7 +3,7 @@
 
 import { useState, useSyncExternalStore, type MouseEvent } from 'react';
 import { I18nProvider } from 'react-aria-components/I18nProvider';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { FilesDesk } from '../files/FilesArea.tsx';
 import { StoresContext } from '../stores/stores.ts';
 import { useSpokenLocale } from '../ui/useSpokenLocale.ts';

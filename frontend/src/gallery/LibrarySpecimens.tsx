@@ -1,8 +1,8 @@
 // The library in each of its states, fed by a library that lives as long as the page.
 
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { insertFrame, rename } from '#shared/actions/group/groupEdits.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { insertFrame, rename } from '#shared/group/groupEdits.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { LibraryView } from '../library/LibraryView.tsx';
 import type { Stores } from '../stores/stores.ts';
 import type { Exhibit } from './exhibit.ts';

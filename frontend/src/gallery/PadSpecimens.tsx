@@ -1,6 +1,6 @@
 // Keys and pad in each of their states: without a pad, held, driving with servos that nobody knows, in conflict.
 
-import type { Binding } from '#shared/actions/mapping/mapping.ts';
+import type { Binding } from '#shared/profile/mapping.ts';
 import { padParts } from '../pad/PadPanel.tsx';
 import { AuthoringPanel } from '../authoring/Authoring.tsx';
 import type { Gamepadlike } from '../stores/driving/pad.ts';

@@ -1,8 +1,8 @@
 // What a group becomes on the board, how it is played, and the board's slots, in their states, fed by plain values.
 
 import type { ReactNode } from 'react';
-import { insertFrame, setMeta, type NewFrame } from '#shared/actions/group/groupEdits.ts';
-import { EMPTY_SLOT_BOOK, withStored } from '#shared/actions/slots/slotBook.ts';
+import { insertFrame, setMeta, type NewFrame } from '#shared/group/groupEdits.ts';
+import { EMPTY_SLOT_BOOK, withStored } from '#shared/group/slotBook.ts';
 import { BoardPanel } from '../board/BoardPanel.tsx';
 import { PlayBar } from '../play/PlayBar.tsx';
 import { ReplaceContent } from '../slots/ReplaceQuestion.tsx';

@@ -1,9 +1,9 @@
 // Poses and buttons in each of their states, fed by plain values.
 
 import type { ReactNode } from 'react';
-import { addMacro, changeMacro } from '#shared/actions/macros/macroEdits.ts';
-import { addPose, markApplied, markRest } from '#shared/actions/poses/poseEdits.ts';
-import type { PoseBook } from '#shared/actions/poses/pose.ts';
+import { addMacro, changeMacro } from '#shared/profile/macroEdits.ts';
+import { addPose, markApplied, markRest } from '#shared/profile/poseEdits.ts';
+import type { PoseBook } from '#shared/profile/pose.ts';
 import { CaptureStrip } from '../actions/CaptureStrip.tsx';
 import { ButtonsPage } from '../macros/ButtonsPage.tsx';
 import { Kiosk } from '../macros/Kiosk.tsx';

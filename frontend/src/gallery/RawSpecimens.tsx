@@ -1,6 +1,6 @@
 // The sender of packets by hand in each of its cases.
 
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { RawForm } from '../console/RawSender.tsx';
 import { judgeText } from '../console/judgeText.ts';
 import { words } from '../i18n/whole.ts';

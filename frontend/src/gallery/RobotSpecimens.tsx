@@ -1,9 +1,9 @@
 // What the dialog about robots shows: the list, the description, and the calibration at each kind of step.
 
-import type { Keeper } from '#shared/actions/library/keeper.ts';
-import type { Calibration } from '#shared/actions/robot/calibration.ts';
-import { changeServo } from '#shared/actions/robot/robotEdits.ts';
-import type { Range } from '#shared/protocol/families.ts';
+import type { Keeper } from '#shared/files/keeper.ts';
+import type { Calibration } from '#shared/profile/calibration.ts';
+import { changeServo } from '#shared/profile/robotEdits.ts';
+import type { Range } from '#shared/codec/families.ts';
 import type { SessionState } from '#shared/session/state.ts';
 import { CalibrationWizard } from '../calibration/CalibrationWizard.tsx';
 import { RobotEditor } from '../robots/RobotEditor.tsx';

@@ -1,10 +1,10 @@
 // The action group's timeline in each of its states, fed by plain values.
 
-import { addMarker } from '#shared/actions/group/markerEdits.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { insertFrame, type NewFrame } from '#shared/actions/group/groupEdits.ts';
-import { moveKeys } from '#shared/actions/group/keyEdits.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { addMarker } from '#shared/group/markerEdits.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { insertFrame, type NewFrame } from '#shared/group/groupEdits.ts';
+import { moveKeys } from '#shared/group/keyEdits.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { actionsParts } from '../actions/ActionsPanel.tsx';
 import { AuthoringPanel } from '../authoring/Authoring.tsx';
 import { select } from '../timeline/desk.ts';

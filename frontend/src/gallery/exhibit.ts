@@ -1,8 +1,8 @@
 // One state that the gallery shows: its name, what is seen of it, and the stores behind that.
 
 import type { ReactNode } from 'react';
-import type { Keeper } from '#shared/actions/library/keeper.ts';
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import type { Keeper } from '#shared/files/keeper.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { SessionState } from '#shared/session/state.ts';
 import type { Way } from '../stores/device/device.ts';
 import type { Gamepadlike } from '../stores/driving/pad.ts';

@@ -1,7 +1,7 @@
 // A session that stays in one state and does nothing: it holds a panel still so that it can be looked at.
 
 import { LinkError } from '#shared/session/linkError.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { Family } from '#shared/codec/families.ts';
 import type { Session } from '#shared/session/session.ts';
 import type { ServoMotion, SessionState } from '#shared/session/state.ts';
 

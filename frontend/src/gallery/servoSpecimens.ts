@@ -1,7 +1,7 @@
 // The servo panel with robots of each body, and with servos selected, locked and described otherwise.
 
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import type { FamilyId } from '#shared/protocol/families.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import type { FamilyId } from '#shared/codec/families.ts';
 import { freshRobot } from '../stores/robots/robots.ts';
 import type { ServoView } from '../stores/servoView.ts';
 import type { ViewState } from '../stores/view.ts';

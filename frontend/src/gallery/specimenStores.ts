@@ -1,7 +1,7 @@
 // The page's stores with nothing in them and nothing behind them, for one specimen.
 
-import type { Keeper } from '#shared/actions/library/keeper.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { Keeper } from '#shared/files/keeper.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { pageClock } from '../connect/page.ts';
 import { createMemoryKeeper } from '../keepers/memoryKeeper.ts';
 import { createBattery } from '../stores/battery/battery.ts';

@@ -1,7 +1,7 @@
 // The states of the page as one table: what the session says, where the servos are, what is written and selected. What is left
 // out is usual: a cable, a board that is ready, servos at rest, no frame.
 
-import type { FamilyId } from '#shared/protocol/families.ts';
+import type { FamilyId } from '#shared/codec/families.ts';
 import { identityFrom } from '#shared/session/identity.ts';
 import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
 import type { Unheld } from '#shared/motion/haltPlan.ts';

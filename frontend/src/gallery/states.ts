@@ -1,7 +1,7 @@
 // What a session says in the states that the gallery shows, and where its servos are then, as plain values.
 
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
-import type { BatteryKind } from '#shared/actions/robot/robot.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
+import type { BatteryKind } from '#shared/profile/robot.ts';
 import type { Evidence } from '#shared/session/identity.ts';
 import type { Lease, Unattended } from '#shared/session/lease.ts';
 import { LinkError } from '#shared/session/linkError.ts';

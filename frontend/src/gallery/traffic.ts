@@ -1,10 +1,10 @@
 // One packet of each kind, for the log of the gallery.
 
-import { encodeCommand } from '#shared/protocol/encode.ts';
-import type { Command } from '#shared/protocol/commands.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
-import { fromHex } from '#shared/protocol/hex.ts';
-import type { Report } from '#shared/protocol/reports.ts';
+import { encodeCommand } from '#shared/codec/encode.ts';
+import type { Command } from '#shared/codec/commands.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import { fromHex } from '#shared/codec/hex.ts';
+import type { Report } from '#shared/codec/reports.ts';
 import type { Traffic } from '#shared/session/state.ts';
 
 const POSE = [1200, 1500, 1950, 2050, 1150, 1500].map((position, index) => ({ servo: index + 1, position }));

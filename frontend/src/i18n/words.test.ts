@@ -3,7 +3,7 @@ import { words as chinese } from 'virtual:words/zh';
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterEach, describe, expect, test } from 'vitest';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
 import { datesIn } from './dates.ts';
 import { boardName } from './sentences/boards.ts';

@@ -1,7 +1,7 @@
 // Which board is this? What it answered, which boards answer like that, and the person's choice among them. Stands where the
 // servos will be until somebody has said so.
 
-import { FAMILIES, type Family } from '#shared/protocol/families.ts';
+import { FAMILIES, type Family } from '#shared/codec/families.ts';
 import { fitOf, type Fit } from '#shared/session/identity.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

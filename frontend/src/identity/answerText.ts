@@ -1,7 +1,7 @@
 // What a board answered when it was asked who it is, and what that means.
 
-import type { Family } from '#shared/protocol/families.ts';
-import type { ServoOffset } from '#shared/protocol/reports.ts';
+import type { Family } from '#shared/codec/families.ts';
+import type { ServoOffset } from '#shared/codec/reports.ts';
 import type { Evidence } from '#shared/session/identity.ts';
 import { words } from '../i18n/whole.ts';
 

@@ -10,7 +10,7 @@ import {
   type Keeper,
   type Stored,
   type Version,
-} from '#shared/actions/library/keeper.ts';
+} from '#shared/files/keeper.ts';
 
 /** Rows of before robots were kept say no kind. */
 const OLDEST = { kind: 'group' } as const;

@@ -1,13 +1,7 @@
 // What every keeper does, as cases that run wherever it lives: under Node, or in a browser against IndexedDB and a gateway. Uses
 // documents of its own names, so that a keeper may hold others.
 
-import {
-  LibraryError,
-  type Facts,
-  type Keeper,
-  type Listed,
-  type Writing,
-} from '#shared/actions/library/keeper.ts';
+import { LibraryError, type Facts, type Keeper, type Listed, type Writing } from '#shared/files/keeper.ts';
 
 const FACTS: Facts = {
   kind: 'group',

@@ -1,8 +1,8 @@
 // The library in the gateway's data folder, over HTTP. Trusts no answer's shape; every failure is a LibraryError.
 
 import * as v from 'valibot';
-import { factsSchema } from '#shared/actions/library/factsShape.ts';
-import { LibraryError, type Keeper, type LibraryErrorCode } from '#shared/actions/library/keeper.ts';
+import { factsSchema } from '#shared/files/factsShape.ts';
+import { LibraryError, type Keeper, type LibraryErrorCode } from '#shared/files/keeper.ts';
 import { GatewayProblem, request, type Method } from '../gateway/request.ts';
 import type {
   DocumentIds,

@@ -8,7 +8,7 @@ import {
   type Listed,
   type Version,
   type Writing,
-} from '#shared/actions/library/keeper.ts';
+} from '#shared/files/keeper.ts';
 
 interface Kept extends Writing {
   readonly revision: number;

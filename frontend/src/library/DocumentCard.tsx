@@ -1,7 +1,7 @@
 // One group of the library: its picture opens it, and more about it unfolds in place.
 
 import { memo, type Ref } from 'react';
-import type { Listed } from '#shared/actions/library/keeper.ts';
+import type { Listed } from '#shared/files/keeper.ts';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';

@@ -1,8 +1,8 @@
 // What can be done with one group of the library: name, tags, a copy, its versions, the trash.
 
-import type { Listed } from '#shared/actions/library/keeper.ts';
-import { rename } from '#shared/actions/group/groupEdits.ts';
-import { tagsFromText, tagsToText } from '#shared/actions/library/tags.ts';
+import type { Listed } from '#shared/files/keeper.ts';
+import { rename } from '#shared/group/groupEdits.ts';
+import { tagsFromText, tagsToText } from '#shared/files/tags.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { NameField } from '../ui/NameField.tsx';

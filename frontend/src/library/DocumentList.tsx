@@ -12,7 +12,7 @@ import {
   type KeyboardEvent,
   type RefObject,
 } from 'react';
-import type { Listed } from '#shared/actions/library/keeper.ts';
+import type { Listed } from '#shared/files/keeper.ts';
 import { neighbour } from '../actions/neighbour.ts';
 import { words } from '../i18n/whole.ts';
 import { cardRows } from './cardRows.ts';

@@ -1,9 +1,9 @@
 // The picture of a group: its robot in the pose of the middle frame, or bars where that robot is not known here.
 
 import { useStore } from 'zustand';
-import type { GroupFacts } from '#shared/actions/library/factsShape.ts';
-import { familyOfUnit } from '#shared/actions/robot/counterpart.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import type { GroupFacts } from '#shared/files/factsShape.ts';
+import { familyOfUnit } from '#shared/profile/counterpart.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { BarThumb, RobotThumb } from '../body/PoseThumb.tsx';
 import { useStores } from '../stores/stores.ts';
 

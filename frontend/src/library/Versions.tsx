@@ -1,7 +1,7 @@
 // Named versions of a group: keeping one as it is now, renaming one, going back to one, deleting one.
 
 import { useEffect, useState, type SubmitEvent } from 'react';
-import type { Version } from '#shared/actions/library/keeper.ts';
+import type { Version } from '#shared/files/keeper.ts';
 import { useLibrary, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { NameField } from '../ui/NameField.tsx';

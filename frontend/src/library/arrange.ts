@@ -1,6 +1,6 @@
 // Which documents of the library are shown and in which order. Knows no page.
 
-import type { Listed } from '#shared/actions/library/keeper.ts';
+import type { Listed } from '#shared/files/keeper.ts';
 
 export const SORTS = ['updated', 'name', 'duration'] as const;
 export type Sort = (typeof SORTS)[number];

@@ -1,7 +1,7 @@
 // The buttons while they are changed: a press selects, a drag or Alt with an arrow moves. Nothing starts.
 
-import type { Macro } from '#shared/actions/macros/macro.ts';
-import { moveMacro, removeMacro } from '#shared/actions/macros/macroEdits.ts';
+import type { Macro } from '#shared/profile/macro.ts';
+import { moveMacro, removeMacro } from '#shared/profile/macroEdits.ts';
 import { useCards } from '../actions/useCards.ts';
 import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

@@ -1,8 +1,8 @@
 // What the selected button is called, looks like and does.
 
-import { COLOURS } from '#shared/actions/colours.ts';
-import { macroOf, type Macro } from '#shared/actions/macros/macro.ts';
-import { changeMacro, moveMacro, removeMacro } from '#shared/actions/macros/macroEdits.ts';
+import { COLOURS } from '#shared/document/colours.ts';
+import { macroOf, type Macro } from '#shared/profile/macro.ts';
+import { changeMacro, moveMacro, removeMacro } from '#shared/profile/macroEdits.ts';
 import { useId, useState, type KeyboardEvent } from 'react';
 import { useMacros, useStores, useView } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';

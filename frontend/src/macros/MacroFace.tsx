@@ -1,6 +1,6 @@
 // What a button shows: its name, its key, the pose it leads to first, and how far it is.
 
-import type { Macro } from '#shared/actions/macros/macro.ts';
+import type { Macro } from '#shared/profile/macro.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import type { MacroProgress } from '../stores/driving/macroRun.ts';
 import { poseName } from '../stores/driving/poses.ts';

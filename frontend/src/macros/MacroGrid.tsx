@@ -1,7 +1,7 @@
 // The buttons in use: large, for fingers, keys and children. One is at work at a time.
 
 import { useStore } from 'zustand';
-import type { Macro } from '#shared/actions/macros/macro.ts';
+import type { Macro } from '#shared/profile/macro.ts';
 import { startHindrance } from '../stores/device/readiness.ts';
 import { useMacros, useSnapshot, useStores } from '../stores/stores.ts';
 import { nameAndKey } from './macroText.ts';

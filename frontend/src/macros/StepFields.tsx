@@ -1,8 +1,8 @@
 // The values of one step: a pose and its time, a slot and its times, or a wait.
 
-import { SLOT, SLOT_TIMES, WAIT_MS, type MacroStep } from '#shared/actions/macros/macro.ts';
-import { POSE_MS } from '#shared/actions/poses/pose.ts';
-import type { Range } from '#shared/protocol/families.ts';
+import { SLOT, SLOT_TIMES, WAIT_MS, type MacroStep } from '#shared/profile/macro.ts';
+import { POSE_MS } from '#shared/profile/pose.ts';
+import type { Range } from '#shared/codec/families.ts';
 import { PoseSelect } from '../poses/PoseSelect.tsx';
 import { useStores } from '../stores/stores.ts';
 import { NumberField } from '../ui/NumberField.tsx';

@@ -1,8 +1,8 @@
 // The steps of a button, one row each, and three ways to add one.
 
-import type { Macro, MacroStep } from '#shared/actions/macros/macro.ts';
-import { addStep, moveStep, removeStep, setStep } from '#shared/actions/macros/macroEdits.ts';
-import type { MacroPage } from '#shared/actions/macros/macro.ts';
+import type { Macro, MacroStep } from '#shared/profile/macro.ts';
+import { addStep, moveStep, removeStep, setStep } from '#shared/profile/macroEdits.ts';
+import type { MacroPage } from '#shared/profile/macro.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';

@@ -1,6 +1,6 @@
 // Which of the keys pressed may start a button. Pure.
 
-import { keyOf } from '#shared/actions/macros/macro.ts';
+import { keyOf } from '#shared/profile/macro.ts';
 
 type Pressed = Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'altKey' | 'repeat'>;
 

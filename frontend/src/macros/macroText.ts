@@ -1,6 +1,6 @@
 // What a button is called, and what its step does, in a few words.
 
-import type { Macro, MacroStep } from '#shared/actions/macros/macro.ts';
+import type { Macro, MacroStep } from '#shared/profile/macro.ts';
 import { words } from '../i18n/whole.ts';
 
 export function nameAndKey({ name, key }: Pick<Macro, 'name' | 'key'>): string {

@@ -1,6 +1,6 @@
 // A new button at the end of the page, open to be filled.
 
-import { addMacro } from '#shared/actions/macros/macroEdits.ts';
+import { addMacro } from '#shared/profile/macroEdits.ts';
 import { useStores } from '../stores/stores.ts';
 import { words } from '../i18n/whole.ts';
 

@@ -1,6 +1,6 @@
 // What pressing a button does: it starts, or ends where it is at work already.
 
-import type { Macro } from '#shared/actions/macros/macro.ts';
+import type { Macro } from '#shared/profile/macro.ts';
 import { useStores } from '../stores/stores.ts';
 
 export function useMacroPress(): (macro: Macro) => void {

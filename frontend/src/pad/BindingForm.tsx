@@ -1,8 +1,8 @@
 // What one input is to do: a kind, and what that kind needs.
 
 import { useState } from 'react';
-import { FASTEST_UNITS_PER_S, type Action, type Binding } from '#shared/actions/mapping/mapping.ts';
-import { POSE_MS } from '#shared/actions/poses/pose.ts';
+import { FASTEST_UNITS_PER_S, type Action, type Binding } from '#shared/profile/mapping.ts';
+import { POSE_MS } from '#shared/profile/pose.ts';
 import { PoseSelect } from '../poses/PoseSelect.tsx';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

@@ -1,11 +1,11 @@
 // Which input does what: a row per servo with its keys and sticks, lit while they are held, and the way to a new binding: press
 // the input, then say what it is to do.
 
-import type { Label } from '#shared/actions/history.ts';
+import type { Label } from '#shared/document/history.ts';
 import { useEffect, useRef, useState } from 'react';
-import type { Binding, Input } from '#shared/actions/mapping/mapping.ts';
-import { shaped, valueOf } from '#shared/actions/mapping/mappingInputs.ts';
-import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
+import type { Binding, Input } from '#shared/profile/mapping.ts';
+import { shaped, valueOf } from '#shared/profile/mappingInputs.ts';
+import { readyMapping } from '#shared/profile/mappingReady.ts';
 import { useMapping, usePoses, useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { useEachFrame } from '../ui/useEachFrame.ts';

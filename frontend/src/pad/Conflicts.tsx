@@ -1,8 +1,8 @@
 // What two bindings have against each other, in words. Nothing is shown where all is well.
 
-import { conflicts, type Conflict, type Mapping } from '#shared/actions/mapping/mapping.ts';
-import type { PoseBook } from '#shared/actions/poses/pose.ts';
-import type { Robot } from '#shared/actions/robot/robot.ts';
+import { conflicts, type Conflict, type Mapping } from '#shared/profile/mapping.ts';
+import type { PoseBook } from '#shared/profile/pose.ts';
+import type { Robot } from '#shared/profile/robot.ts';
 import { useMapping, usePoses, useRobot } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { inputName } from './inputText.ts';

@@ -2,8 +2,8 @@
 // of the history.
 
 import { useRef, useState } from 'react';
-import type { Feel } from '#shared/actions/mapping/mapping.ts';
-import { shaped } from '#shared/actions/mapping/mappingInputs.ts';
+import type { Feel } from '#shared/profile/mapping.ts';
+import { shaped } from '#shared/profile/mappingInputs.ts';
 import { useMapping, usePad, useStores } from '../stores/stores.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import { words } from '../i18n/whole.ts';

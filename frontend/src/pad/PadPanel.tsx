@@ -1,6 +1,6 @@
 // Driving by keys and pad: the switch, the picture of what is held, how it feels, and which input does what.
 
-import { servoBoundBy } from '#shared/actions/mapping/mapping.ts';
+import { servoBoundBy } from '#shared/profile/mapping.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { isHeld } from '../stores/servoView.ts';

@@ -1,14 +1,9 @@
 // A binding while it is being written: every field has a value, whatever the binding will do. Knows no drawing.
 
-import {
-  FASTEST_UNITS_PER_S,
-  type Action,
-  type Binding,
-  type Input,
-} from '#shared/actions/mapping/mapping.ts';
-import { usualUnitsPerS } from '#shared/actions/mapping/mappingReady.ts';
-import type { PoseRef } from '#shared/actions/poses/pose.ts';
-import type { Robot } from '#shared/actions/robot/robot.ts';
+import { FASTEST_UNITS_PER_S, type Action, type Binding, type Input } from '#shared/profile/mapping.ts';
+import { usualUnitsPerS } from '#shared/profile/mappingReady.ts';
+import type { PoseRef } from '#shared/profile/pose.ts';
+import type { Robot } from '#shared/profile/robot.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 
 export interface Draft {

@@ -1,6 +1,6 @@
 // What inputs are called: keys, buttons and sticks, as most pads print them; the order is the browser's standard one.
 
-import type { Binding, Input } from '#shared/actions/mapping/mapping.ts';
+import type { Binding, Input } from '#shared/profile/mapping.ts';
 import { words } from '../i18n/whole.ts';
 
 const BUTTONS = [

@@ -1,9 +1,9 @@
 // The table of bindings: who has a row of his own.
 
 import { expect, test } from 'vitest';
-import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
-import { EMPTY_BOOK } from '#shared/actions/poses/pose.ts';
-import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
+import { readyMapping } from '#shared/profile/mappingReady.ts';
+import { EMPTY_BOOK } from '#shared/profile/pose.ts';
+import { readyRobot } from '#shared/profile/readyRobots.ts';
 import { robotNames } from '../i18n/sentences/robots.ts';
 import { servoLabel } from '../i18n/sentences/servos.ts';
 import { rowsOf } from './rows.ts';

@@ -1,8 +1,8 @@
 // The bindings as a table: a row per servo of the robot, then what else is bound. Knows no drawing.
 
-import { servoBoundBy, type Binding, type Mapping } from '#shared/actions/mapping/mapping.ts';
-import type { PoseBook } from '#shared/actions/poses/pose.ts';
-import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
+import { servoBoundBy, type Binding, type Mapping } from '#shared/profile/mapping.ts';
+import type { PoseBook } from '#shared/profile/pose.ts';
+import { servoOf, type Robot } from '#shared/profile/robot.ts';
 import { poseName } from '../stores/driving/poses.ts';
 import { servoLabel } from '../i18n/sentences/servos.ts';
 import { words } from '../i18n/whole.ts';

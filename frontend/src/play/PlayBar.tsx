@@ -2,7 +2,7 @@
 // this. What goes on is said in a line that is always there.
 
 import { useShallow } from 'zustand/react/shallow';
-import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
+import type { SlotFate } from '#shared/group/slotBook.ts';
 import { chosenTimes } from '../stores/slots/groupPlace.ts';
 import type { PlaybackPhase } from '../stores/playing/playback.ts';
 import { SPEED_PERCENT } from '../stores/playing/player.ts';

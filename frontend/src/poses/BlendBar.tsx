@@ -2,9 +2,9 @@
 // when asked to, or follows the slider as long as that is switched on.
 
 import { useEffect, useState } from 'react';
-import type { Pose } from '#shared/actions/poses/pose.ts';
-import { addPose } from '#shared/actions/poses/poseEdits.ts';
-import { blended } from '#shared/actions/poses/poseShapes.ts';
+import type { Pose } from '#shared/profile/pose.ts';
+import { addPose } from '#shared/profile/poseEdits.ts';
+import { blended } from '#shared/profile/poseShapes.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useBlend, useDevice, usePoses, useSnapshot, useStores, useView } from '../stores/stores.ts';

@@ -1,8 +1,8 @@
 // One pose as a card: its picture, its name, the way to it. The face selects; the grip drags.
 
-import type { Pose } from '#shared/actions/poses/pose.ts';
-import { strangersTo } from '#shared/actions/poses/poseShapes.ts';
-import { movePose, renamePose } from '#shared/actions/poses/poseEdits.ts';
+import type { Pose } from '#shared/profile/pose.ts';
+import { strangersTo } from '#shared/profile/poseShapes.ts';
+import { movePose, renamePose } from '#shared/profile/poseEdits.ts';
 import { PoseThumb } from '../body/PoseThumb.tsx';
 import { motionHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useRobot, useSnapshot, useStores, useView } from '../stores/stores.ts';

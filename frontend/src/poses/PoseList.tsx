@@ -1,7 +1,7 @@
 // The poses in order, one card each; they wrap like a contact sheet.
 
-import type { Pose } from '#shared/actions/poses/pose.ts';
-import { movePose, removePose } from '#shared/actions/poses/poseEdits.ts';
+import type { Pose } from '#shared/profile/pose.ts';
+import { movePose, removePose } from '#shared/profile/poseEdits.ts';
 import { useCards } from '../actions/useCards.ts';
 import { poseName } from '../stores/driving/poses.ts';
 import { usePoses, useStores, useView } from '../stores/stores.ts';

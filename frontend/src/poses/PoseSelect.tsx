@@ -1,6 +1,6 @@
 // One of the robot's poses, or a verb, from a list. One that is gone stays in it for as long as it is chosen.
 
-import { POSE_VERBS, type PoseRef } from '#shared/actions/poses/pose.ts';
+import { POSE_VERBS, type PoseRef } from '#shared/profile/pose.ts';
 import { poseName } from '../stores/driving/poses.ts';
 import { usePoses } from '../stores/stores.ts';
 import { Select } from '../ui/Select.tsx';

@@ -1,10 +1,10 @@
 // What can be done with the selected pose, in words. Always in its place, so that nothing jumps when a pose is selected.
 
-import { addMacro } from '#shared/actions/macros/macroEdits.ts';
-import type { PoseBook } from '#shared/actions/poses/pose.ts';
-import { duplicatePose, markRest, movePose, removePose, setPose } from '#shared/actions/poses/poseEdits.ts';
-import { flippedTargets, mirroredTargets } from '#shared/actions/poses/poseShapes.ts';
-import { servoOf } from '#shared/actions/robot/robot.ts';
+import { addMacro } from '#shared/profile/macroEdits.ts';
+import type { PoseBook } from '#shared/profile/pose.ts';
+import { duplicatePose, markRest, movePose, removePose, setPose } from '#shared/profile/poseEdits.ts';
+import { flippedTargets, mirroredTargets } from '#shared/profile/poseShapes.ts';
+import { servoOf } from '#shared/profile/robot.ts';
 import { putFrame } from '../actions/capture.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { longerName } from '../stores/longerName.ts';

@@ -1,7 +1,7 @@
 // The foot of the poses: keep the pose at hand, and the ways home and to rest, in the time that holds for every pose.
 
 import type { MouseEvent } from 'react';
-import { POSE_VERBS } from '#shared/actions/poses/pose.ts';
+import { POSE_VERBS } from '#shared/profile/pose.ts';
 import { CaptureButton } from '../actions/CaptureButton.tsx';
 import { poseName } from '../stores/driving/poses.ts';
 import { motionHindrance } from '../stores/device/readiness.ts';

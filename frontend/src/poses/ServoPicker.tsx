@@ -1,10 +1,10 @@
 // Which servos a pose is about. One that is put in takes the place it is commanded to now; one that is left out stays where
 // it is when the pose is gone to.
 
-import type { Pose } from '#shared/actions/poses/pose.ts';
-import { setPose } from '#shared/actions/poses/poseEdits.ts';
-import { strangersTo } from '#shared/actions/poses/poseShapes.ts';
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
+import type { Pose } from '#shared/profile/pose.ts';
+import { setPose } from '#shared/profile/poseEdits.ts';
+import { strangersTo } from '#shared/profile/poseShapes.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
 import { words } from '../i18n/whole.ts';

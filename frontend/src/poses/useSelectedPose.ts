@@ -1,6 +1,6 @@
 // The pose that is selected, if there is one.
 
-import { poseOf, type Pose } from '#shared/actions/poses/pose.ts';
+import { poseOf, type Pose } from '#shared/profile/pose.ts';
 import { usePoses, useView } from '../stores/stores.ts';
 
 export function useSelectedPose(): Pose | undefined {

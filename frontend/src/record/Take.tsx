@@ -2,9 +2,9 @@
 // of the one at hand.
 
 import { useMemo, useState } from 'react';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import { simplify, type Sample } from '#shared/actions/group/simplify.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import { simplify, type Sample } from '#shared/group/simplify.ts';
 import { GENTLE_MOVE_MS } from '../stores/device/moveTime.ts';
 import { useDevice, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

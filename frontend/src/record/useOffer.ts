@@ -1,6 +1,6 @@
 // What was recorded is offered to become keys; where nothing moved, that is said.
 
-import type { Sample } from '#shared/actions/group/simplify.ts';
+import type { Sample } from '#shared/group/simplify.ts';
 import { useStores } from '../stores/stores.ts';
 import { words } from '../i18n/words.ts';
 

@@ -1,8 +1,8 @@
 // Robot files come in by choosing or dropping them. One that cannot be read changes nothing and says why.
 
 import { useState } from 'react';
-import { robotFromText } from '#shared/actions/robot/robotText.ts';
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { robotFromText } from '#shared/profile/robotText.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { FileButton } from '../ui/FileButton.tsx';
 import { robotFlawText } from '../i18n/sentences/robotFlaws.ts';

@@ -1,8 +1,8 @@
 // The ready robots that can be built on a board, each with its picture. Adding one takes it up.
 
 import { useId } from 'react';
-import { READY_ROBOTS, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { READY_ROBOTS, type ReadyRobotId } from '#shared/profile/readyRobots.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { freshRobot } from '../stores/robots/robots.ts';
 import { useStores } from '../stores/stores.ts';
 import { pressOnce } from '../ui/pressOnce.ts';

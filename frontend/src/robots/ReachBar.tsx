@@ -1,8 +1,8 @@
 // A servo's limits within what its board can do, and its home between them.
 
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
-import type { Range } from '#shared/protocol/families.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
+import type { Range } from '#shared/codec/families.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { words } from '../i18n/whole.ts';
 import styles from './ReachBar.module.css';
 

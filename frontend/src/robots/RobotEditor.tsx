@@ -1,9 +1,9 @@
 // The description of the robot at hand: its name, what it looks like, what feeds it, its servos.
 
-import { fedBy } from '#shared/actions/battery/batterySupply.ts';
-import { BATTERY_KINDS, BODIES, NAME_LENGTH } from '#shared/actions/robot/robot.ts';
-import { addServo } from '#shared/actions/robot/robotEdits.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { fedBy } from '#shared/profile/batterySupply.ts';
+import { BATTERY_KINDS, BODIES, NAME_LENGTH } from '#shared/profile/robot.ts';
+import { addServo } from '#shared/profile/robotEdits.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';

@@ -3,7 +3,7 @@
 
 import { useId, useRef } from 'react';
 import { useStore } from 'zustand';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { currentOf, type OwnRobot } from '../stores/robots/robots.ts';
 import { useDevice, useSnapshot, useStores } from '../stores/stores.ts';
 import { Button, IconButton } from '../ui/Button.tsx';

@@ -1,7 +1,7 @@
 // A robot's build as a small drawing: a dot per servo at its place, a line along each limb; an arm as one knows it from the side.
 // Knows no positions.
 
-import type { BodyKind, Robot, RobotServo } from '#shared/actions/robot/robot.ts';
+import type { BodyKind, Robot, RobotServo } from '#shared/profile/robot.ts';
 import styles from './RobotPicture.module.css';
 
 export function RobotPicture({ robot }: { readonly robot: Robot }) {

@@ -1,6 +1,6 @@
 // What can be done with the robot at hand.
 
-import { robotToText } from '#shared/actions/robot/robotText.ts';
+import { robotToText } from '#shared/profile/robotText.ts';
 import type { OwnRobot } from '../stores/robots/robots.ts';
 import { useStores } from '../stores/stores.ts';
 import { Button } from '../ui/Button.tsx';

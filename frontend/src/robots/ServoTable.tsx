@@ -1,10 +1,10 @@
 // The servos of the robot at hand, a row each. A change that cannot be is told below its row and taken nowhere.
 
-import type { Label } from '#shared/actions/history.ts';
+import type { Label } from '#shared/document/history.ts';
 import { useId, useState } from 'react';
-import { flawOf, type Robot, type RobotServo } from '#shared/actions/robot/robot.ts';
-import { changeServo, pair, reachOf, removeServo } from '#shared/actions/robot/robotEdits.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { flawOf, type Robot, type RobotServo } from '#shared/profile/robot.ts';
+import { changeServo, pair, reachOf, removeServo } from '#shared/profile/robotEdits.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { useRobot, useStores } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { robotFlawSentence } from '../i18n/sentences/robotFlaws.ts';

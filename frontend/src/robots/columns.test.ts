@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { flawOf, type Robot } from '#shared/actions/robot/robot.ts';
+import { flawOf, type Robot } from '#shared/profile/robot.ts';
 import { freshRobot } from '../stores/robots/robots.ts';
 import { COLUMNS, type ColumnId } from './columns.ts';
 

@@ -1,8 +1,8 @@
 // The figures of a servo as columns of text: how each is shown, and what a typed text makes of the robot. Pure; what the
 // whole robot makes of it is for `flawOf` to say.
 
-import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
-import { changeServo, renumber } from '#shared/actions/robot/robotEdits.ts';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
+import { changeServo, renumber } from '#shared/profile/robotEdits.ts';
 import { words } from '../i18n/whole.ts';
 
 export type ColumnId = 'servo' | 'name' | 'group' | 'min' | 'home' | 'max' | 'trim' | 'degreesPerUnit';

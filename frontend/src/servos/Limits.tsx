@@ -1,8 +1,8 @@
 // A servo's limits in figures, at the ends of the way between them, or as near as they have room beside each other and the
 // estimate.
 
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
-import type { Range } from '#shared/protocol/families.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
+import type { Range } from '#shared/codec/families.ts';
 import { cx } from '../ui/cx.ts';
 import { between, figuresAt } from './limitPlaces.ts';
 import type { Scale } from './scale.ts';

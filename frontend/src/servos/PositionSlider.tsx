@@ -4,8 +4,8 @@
 import { useRef, type KeyboardEvent } from 'react';
 import { motionInFrame } from '../body/motionInFrame.ts';
 import { fraction } from '../body/pose.ts';
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
-import type { Family, Range } from '#shared/protocol/families.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
+import type { Family, Range } from '#shared/codec/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { cx } from '../ui/cx.ts';
 import { words } from '../i18n/words.ts';

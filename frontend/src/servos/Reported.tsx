@@ -1,6 +1,6 @@
 // Where the board says that a servo stands, and how long ago it said so: the one figure here that nobody computed.
 
-import { fromBoard } from '#shared/actions/robot/robot.ts';
+import { fromBoard } from '#shared/profile/robot.ts';
 import { useRobot, useSnapshot, useStores } from '../stores/stores.ts';
 import { Chip } from '../ui/Chip.tsx';
 import { useNow } from '../ui/useNow.ts';

@@ -1,6 +1,6 @@
 // Beside the body: the controls of the servo that was selected last. Others that are selected move with it.
 
-import { servoOf } from '#shared/actions/robot/robot.ts';
+import { servoOf } from '#shared/profile/robot.ts';
 import { SharedSheet } from '../body/SharedSheet.tsx';
 import { useRobot, useServoView } from '../stores/stores.ts';
 import { words } from '../i18n/words.ts';

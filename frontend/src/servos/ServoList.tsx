@@ -1,7 +1,7 @@
 // The servos one below the other, by limb where the robot has limbs. A limb can be folded away and selected as a whole.
 
 import { useMemo } from 'react';
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
 import { SharedSheet } from '../body/SharedSheet.tsx';
 import { select, toggled } from '../stores/servoView.ts';

@@ -1,7 +1,7 @@
 // A servo's dial and name as one button that selects it: alone, with Ctrl or by touch beside the others, with Shift up to it.
 
 import type { Ref } from 'react';
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
 import { Dial } from '../body/Dial.tsx';
 import { isHeld, selectByClick } from '../stores/servoView.ts';
 import { editServoView, useDevice, useServoView, useStores } from '../stores/stores.ts';

@@ -1,7 +1,7 @@
 // One servo: dial, name, slider, value. Its target and its estimate are drawn past React, so that dozens may move in each frame.
 
 import { memo, useRef } from 'react';
-import { servoOf, type RobotServo } from '#shared/actions/robot/robot.ts';
+import { servoOf, type RobotServo } from '#shared/profile/robot.ts';
 import { MovingText } from '../body/MovingText.tsx';
 import { mayBrush, motionHindrance, tellsPositions } from '../stores/device/readiness.ts';
 import { isHeld } from '../stores/servoView.ts';

@@ -6,7 +6,7 @@ import type { Size } from '../body/Canvas.tsx';
 import { Drawing } from '../body/Drawing.tsx';
 import { motionInFrame } from '../body/motionInFrame.ts';
 import { fraction } from '../body/pose.ts';
-import type { Range } from '#shared/protocol/families.ts';
+import type { Range } from '#shared/codec/families.ts';
 import { useStores } from '../stores/stores.ts';
 import { paintMarks, thumbOf, type Thumb } from './paintMarks.ts';
 import styles from './SliderMarks.module.css';

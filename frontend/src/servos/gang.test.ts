@@ -1,8 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { evenly } from '#shared/evenlyUnderTest.ts';
-import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
-import { degreesOf, type RobotServo } from '#shared/actions/robot/robot.ts';
+import { evenly } from '#shared/testing/evenlyUnderTest.ts';
+import { readyRobot } from '#shared/profile/readyRobots.ts';
+import { degreesOf, type RobotServo } from '#shared/profile/robot.ts';
 import { robotNames } from '../i18n/sentences/robots.ts';
 import { moveGang, weightOf, type Member } from './gang.ts';
 

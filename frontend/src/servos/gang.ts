@@ -1,8 +1,8 @@
 // Servos that move together: where each goes when one of them is moved. Turns are compared in degrees, in each servo's own
 // direction. When one reaches a limit all of them stop there, so that they keep their stand to each other. Pure.
 
-import { degreesOf, positionOf, type RobotServo } from '#shared/actions/robot/robot.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { degreesOf, positionOf, type RobotServo } from '#shared/profile/robot.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { Stand, Together } from '../stores/servoView.ts';
 
 /** Where the selected servos stood when they began to move together, and what they were told last. */

@@ -3,7 +3,7 @@
 
 import type { CSSProperties } from 'react';
 import { fraction } from '../body/pose.ts';
-import type { Range } from '#shared/protocol/families.ts';
+import type { Range } from '#shared/codec/families.ts';
 
 /** Between the two ends, outside of both, or both beyond one of them where the track ends at the other. */
 export type FiguresAt = 'within' | 'around' | 'after' | 'before';

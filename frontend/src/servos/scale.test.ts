@@ -1,8 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { readyRobot } from '#shared/actions/robot/readyRobots.ts';
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { readyRobot } from '#shared/profile/readyRobots.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { robotNames } from '../i18n/sentences/robots.ts';
 import { scaleOf, stepped } from './scale.ts';
 

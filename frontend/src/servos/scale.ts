@@ -1,7 +1,7 @@
 // A servo's positions as the person reads them, in the board's units or in degrees from its home, and back. Pure.
 
-import { degreesOf, positionOf, type RobotServo } from '#shared/actions/robot/robot.ts';
-import type { Family, Range } from '#shared/protocol/families.ts';
+import { degreesOf, positionOf, type RobotServo } from '#shared/profile/robot.ts';
+import type { Family, Range } from '#shared/codec/families.ts';
 import type { PositionsIn } from '../stores/view.ts';
 import { words } from '../i18n/words.ts';
 

@@ -1,6 +1,6 @@
 // Where on its way a slider's thumb stands, where a pointer takes hold of it, and which value it gives it then. Pure.
 
-import type { Range } from '#shared/protocol/families.ts';
+import type { Range } from '#shared/codec/families.ts';
 
 /** What the middle of the thumb goes along, and the values at its ends. */
 export interface Way extends Range {

@@ -1,7 +1,7 @@
 // What the controls of the servo panel do to servos: one alone, or with the ones it moves together with. Locked ones stay.
 
-import { servoOf } from '#shared/actions/robot/robot.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { servoOf } from '#shared/profile/robot.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { Pace } from '../stores/device/moveTime.ts';
 import { guessNow, servoViewOf, useStores, type Stores } from '../stores/stores.ts';
 import { freeOf } from '../stores/locks.ts';

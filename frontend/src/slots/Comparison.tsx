@@ -1,7 +1,7 @@
 // How the copy on the board differs from the group at hand, as the board would get it now.
 
-import { compareFrames } from '#shared/actions/slots/compareFrames.ts';
-import type { SlotRecord } from '#shared/actions/slots/slotBook.ts';
+import { compareFrames } from '#shared/group/compareFrames.ts';
+import type { SlotRecord } from '#shared/group/slotBook.ts';
 import { servoName } from '../stores/servoName.ts';
 import { useCompiled } from '../stores/stores.ts';
 import { words } from '../i18n/whole.ts';

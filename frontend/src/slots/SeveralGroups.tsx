@@ -1,7 +1,7 @@
 // Several groups of the library for the board: which ones, to which slots, whether each fits; then one download with one progress.
 
 import { useEffect } from 'react';
-import type { Listed } from '#shared/actions/library/keeper.ts';
+import type { Listed } from '#shared/files/keeper.ts';
 import { DownloadProgress } from '../board/DownloadProgress.tsx';
 import { startHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useLibrary, useSnapshot, useStores } from '../stores/stores.ts';

@@ -1,9 +1,9 @@
 // The chosen slot: what it holds and since when, what plays it, how it differs from the group at hand, and what can be done with it.
 
 import { useState } from 'react';
-import { totalDurationMs } from '#shared/actions/group/group.ts';
-import { recordOf } from '#shared/actions/slots/slotBook.ts';
-import { slotTrigger } from '#shared/protocol/slotMeanings.ts';
+import { totalDurationMs } from '#shared/group/group.ts';
+import { recordOf } from '#shared/group/slotBook.ts';
+import { slotTrigger } from '#shared/codec/slotMeanings.ts';
 import { DownloadControl } from '../board/DownloadControl.tsx';
 import { motionHindrance, startHindrance } from '../stores/device/readiness.ts';
 import { useDevice, useSlots, useSnapshot, useStores, useSlot } from '../stores/stores.ts';

@@ -1,9 +1,9 @@
 // All slots of the board as a grid with one tab stop: what each holds as a mark, what plays it as a word. The chosen one is the
 // slot that Download and Run mean.
 
-import type { SlotFate } from '#shared/actions/slots/slotBook.ts';
+import type { SlotFate } from '#shared/group/slotBook.ts';
 import { useEffect, useRef, type KeyboardEvent } from 'react';
-import { slotTrigger, type SlotTrigger } from '#shared/protocol/slotMeanings.ts';
+import { slotTrigger, type SlotTrigger } from '#shared/codec/slotMeanings.ts';
 import { useDevice, useStores, useSlot } from '../stores/stores.ts';
 import { Mark } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';

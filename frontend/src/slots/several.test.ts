@@ -1,8 +1,8 @@
 import { expect, test } from 'vitest';
-import { emptyGroup } from '#shared/actions/group/group.ts';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import { slotFor } from '#shared/actions/slots/placing.ts';
-import { EMPTY_SLOT_BOOK } from '#shared/actions/slots/slotBook.ts';
+import { emptyGroup } from '#shared/group/group.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import { slotFor } from '#shared/group/placing.ts';
+import { EMPTY_SLOT_BOOK } from '#shared/group/slotBook.ts';
 import { createDesk } from '../stores/deskUnderTest.ts';
 import { downloadOf, hindranceOf, thoseThatCan, type Wanted } from './several.ts';
 

@@ -1,7 +1,7 @@
 // What each slot of the board at hand holds, against the group at hand, and whether one is being filled.
 
-import { holds } from '#shared/actions/history.ts';
-import { fateOf, type SlotFate } from '#shared/actions/slots/slotBook.ts';
+import { holds } from '#shared/document/history.ts';
+import { fateOf, type SlotFate } from '#shared/group/slotBook.ts';
 import type { Truth } from '../ui/Chip.tsx';
 import { useCompiled, useDocument, useLibrary, useSlots, useSnapshot } from '../stores/stores.ts';
 

@@ -1,6 +1,6 @@
 // What the group in a slot is called: as it was noted here, else as the gateway has it, which sees all downloads.
 
-import { recordOf } from '#shared/actions/slots/slotBook.ts';
+import { recordOf } from '#shared/group/slotBook.ts';
 import { useSlots, useSnapshot } from '../stores/stores.ts';
 
 /** undefined: nobody knows of any, or half of another one is there. */

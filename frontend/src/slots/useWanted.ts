@@ -2,8 +2,8 @@
 // the board, the robot or what is wanted is another one.
 
 import { useMemo, useState } from 'react';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { ownSlot, slotFor } from '#shared/actions/slots/placing.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { ownSlot, slotFor } from '#shared/group/placing.ts';
 import { useDevice, useRobot, useStores } from '../stores/stores.ts';
 import { hindranceOf, thoseThatCan, type Wanted } from './several.ts';
 

@@ -1,7 +1,7 @@
 // The page's stores around a simulated board in virtual time, as connect/page.ts puts them together, for tests.
 
 import { createStore } from 'zustand/vanilla';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig } from '#shared/session/rig.ts';
 import { createBlend } from './driving/blend.ts';
 import { createCompiled } from './group/compiled.ts';

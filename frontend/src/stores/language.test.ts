@@ -1,6 +1,6 @@
 import { afterEach, expect, test, vi } from 'vitest';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import { undoLabel } from '#shared/actions/history.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
+import { undoLabel } from '#shared/document/history.ts';
 import { speak, words } from '../i18n/words.ts';
 import { createDesk } from './deskUnderTest.ts';
 import { followLanguage } from './language.ts';

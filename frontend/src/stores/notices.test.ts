@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
-import { RangeRefusal } from '#shared/protocol/limits.ts';
+import { RangeRefusal } from '#shared/codec/limits.ts';
 import { LinkError } from '#shared/session/linkError.ts';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { errorSentence } from '../i18n/sentences/errors.ts';
 import { speak } from '../i18n/words.ts';
 import { createNotices } from './notices.ts';

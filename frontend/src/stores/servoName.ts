@@ -1,6 +1,6 @@
 // What a servo is called in sentences: with its limb, for both knees of a body are called Knee.
 
-import { servoOf, type Robot } from '#shared/actions/robot/robot.ts';
+import { servoOf, type Robot } from '#shared/profile/robot.ts';
 import { servoLabel } from '../i18n/sentences/servos.ts';
 import { words } from '../i18n/words.ts';
 

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { createSoon } from './soon.ts';
 
 /** Work that keeps the page for so long, asked for in each millisecond of a second: when it was done. */

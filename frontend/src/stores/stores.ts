@@ -3,20 +3,20 @@
 
 import { createContext, use } from 'react';
 import { useStore } from 'zustand';
-import { familyOfUnit, robotInUnit } from '#shared/actions/robot/counterpart.ts';
-import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
-import type { Family } from '#shared/protocol/families.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import type { History } from '#shared/actions/history.ts';
-import type { MacroPage } from '#shared/actions/macros/macro.ts';
-import type { PoseBook } from '#shared/actions/poses/pose.ts';
+import { familyOfUnit, robotInUnit } from '#shared/profile/counterpart.ts';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
+import type { Family } from '#shared/codec/families.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { History } from '#shared/document/history.ts';
+import type { MacroPage } from '#shared/profile/macro.ts';
+import type { PoseBook } from '#shared/profile/pose.ts';
 import type { BatteryState, BatteryStore } from './battery/battery.ts';
 import type { Blend, BlendState } from './driving/blend.ts';
 import type { Boards } from './device/boards.ts';
 import { boardOfGroup, knownFamily, type GroupBoard } from './group/groupBoard.ts';
 import type { CompiledState, CompiledStore } from './group/compiled.ts';
 import type { MotionTape } from './playing/motionTape.ts';
-import type { Mapping } from '#shared/actions/mapping/mapping.ts';
+import type { Mapping } from '#shared/profile/mapping.ts';
 import type { Device, DeviceState } from './device/device.ts';
 import type { Document, DocumentState } from './group/document.ts';
 import { currentOf, type RobotStore } from './robots/robots.ts';

@@ -13,7 +13,7 @@ import {
   undo,
   type History,
   type Label,
-} from '#shared/actions/history.ts';
+} from '#shared/document/history.ts';
 
 export interface Undoable<T> {
   readonly store: StoreApi<History<T>>;

@@ -7,7 +7,7 @@ import {
   calibrationFromText,
   calibrationToText,
   type KeptCalibration,
-} from '#shared/actions/robot/calibrationText.ts';
+} from '#shared/profile/calibrationText.ts';
 import { LANGUAGE_CODES, type Language } from '../i18n/words.ts';
 import type { TextStorage } from './textStorage.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from './device/moveTime.ts';

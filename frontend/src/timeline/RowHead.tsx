@@ -1,7 +1,7 @@
 // What stands at the left of a row: its name, its position at the playhead, and what is done to it.
 
 import { memo } from 'react';
-import { positionAt } from '#shared/actions/group/tracks.ts';
+import { positionAt } from '#shared/group/tracks.ts';
 import { MovingLabel } from '../body/MovingLabel.tsx';
 import { isHeld, isSilent, toggled } from '../stores/servoView.ts';
 import {

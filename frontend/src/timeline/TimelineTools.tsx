@@ -2,7 +2,7 @@
 
 import { memo } from 'react';
 import { Toolbar } from 'react-aria-components/Toolbar';
-import { EASINGS, type Easing } from '#shared/actions/group/group.ts';
+import { EASINGS, type Easing } from '#shared/group/group.ts';
 import { useDocument, useStores, useTimeline } from '../stores/stores.ts';
 import { IconButton } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { servoOf } from '#shared/actions/robot/robot.ts';
+import { servoOf } from '#shared/profile/robot.ts';
 import { words } from '../i18n/whole.ts';
 import { answer } from './asks.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';

@@ -1,11 +1,11 @@
 // What a person is asked for in place, one field at a time: what stands in it at first, and what is done with the answer.
 
-import { renameMarker, addMarker } from '#shared/actions/group/markerEdits.ts';
-import { GROUP_NAME_LENGTH, NOTE_LENGTH } from '#shared/actions/group/group.ts';
-import { scaleAmplitude, setPositions } from '#shared/actions/group/keyEdits.ts';
-import { setNote } from '#shared/actions/group/frameEdits.ts';
-import type { KeyStretch } from '#shared/actions/group/stretchKeys.ts';
-import { insertTime } from '#shared/actions/group/timeEdits.ts';
+import { renameMarker, addMarker } from '#shared/group/markerEdits.ts';
+import { GROUP_NAME_LENGTH, NOTE_LENGTH } from '#shared/group/group.ts';
+import { scaleAmplitude, setPositions } from '#shared/group/keyEdits.ts';
+import { setNote } from '#shared/group/frameEdits.ts';
+import type { KeyStretch } from '#shared/group/stretchKeys.ts';
+import { insertTime } from '#shared/group/timeEdits.ts';
 import type { Ask } from '../stores/timeline/timeline.ts';
 import { numberIn } from '../ui/NumberField.tsx';
 import type { Scale } from '../servos/scale.ts';

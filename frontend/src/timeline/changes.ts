@@ -1,17 +1,17 @@
 // The verbs that change the group: keys set, deleted, copied, turned round, eased. Each is one step of the history.
 
-import type { Colour } from '#shared/actions/colours.ts';
-import { duplicateKeys, copyKeys, pasteKeys, type Clip, type Pasted } from '#shared/actions/group/clip.ts';
-import { mirror, setColour, setEasing } from '#shared/actions/group/frameEdits.ts';
-import type { Easing } from '#shared/actions/group/group.ts';
-import { deleteKeys, setKey } from '#shared/actions/group/keyEdits.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { deleteMarker } from '#shared/actions/group/markerEdits.ts';
-import { reverseKeys } from '#shared/actions/group/reverseKeys.ts';
-import { deleteTime } from '#shared/actions/group/timeEdits.ts';
-import type { Label } from '#shared/actions/history.ts';
-import { servoOf } from '#shared/actions/robot/robot.ts';
-import { keysAt, positionAt, type Key, type KeyRef } from '#shared/actions/group/tracks.ts';
+import type { Colour } from '#shared/document/colours.ts';
+import { duplicateKeys, copyKeys, pasteKeys, type Clip, type Pasted } from '#shared/group/clip.ts';
+import { mirror, setColour, setEasing } from '#shared/group/frameEdits.ts';
+import type { Easing } from '#shared/group/group.ts';
+import { deleteKeys, setKey } from '#shared/group/keyEdits.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import { deleteMarker } from '#shared/group/markerEdits.ts';
+import { reverseKeys } from '#shared/group/reverseKeys.ts';
+import { deleteTime } from '#shared/group/timeEdits.ts';
+import type { Label } from '#shared/document/history.ts';
+import { servoOf } from '#shared/profile/robot.ts';
+import { keysAt, positionAt, type Key, type KeyRef } from '#shared/group/tracks.ts';
 import { keySet, NO_KEYS } from '../stores/timeline/keySet.ts';
 import { isHeld } from '../stores/servoView.ts';
 import { namesIn, servoName } from '../stores/servoName.ts';

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
-import { copyFrames, copyKeys } from '#shared/actions/group/clip.ts';
-import { setColour, setEasing, setNote } from '#shared/actions/group/frameEdits.ts';
+import { copyFrames, copyKeys } from '#shared/group/clip.ts';
+import { setColour, setEasing, setNote } from '#shared/group/frameEdits.ts';
 import { clipFromText, clipToText } from './clipText.ts';
 import { smallGroup } from './timelineUnderTest.ts';
 

@@ -1,8 +1,8 @@
 // Copied keys and frames as text for the clipboard of the system, so that they reach another window, and back. The text is that
 // of a small action group: what was copied can be kept as a file, and a file can be pasted.
 
-import { clipGroup, copyFrames, type Clip } from '#shared/actions/group/clip.ts';
-import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
+import { clipGroup, copyFrames, type Clip } from '#shared/group/clip.ts';
+import { groupFromText, groupToText } from '#shared/group/groupText.ts';
 
 /** What was copied here is mostly pasted here: to read it again takes longer than to paste it. */
 let latest: { readonly text: string; readonly clip: Clip } | null = null;

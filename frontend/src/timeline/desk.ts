@@ -1,12 +1,12 @@
 // What a verb of the timeline works with, gathered anew each time, and how it leaves the selection. Edits go to the document
 // alone, as one step each.
 
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import type { Label } from '#shared/actions/history.ts';
-import type { Key, KeyRef } from '#shared/actions/group/tracks.ts';
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import { servoOf } from '#shared/actions/robot/robot.ts';
-import { positionRange, type Family, type Range } from '#shared/protocol/families.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { Label } from '#shared/document/history.ts';
+import type { Key, KeyRef } from '#shared/group/tracks.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import { servoOf } from '#shared/profile/robot.ts';
+import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
 import { framesByServo, keySet, type KeySet } from '../stores/timeline/keySet.ts';
 import { isHeld, type ServoView } from '../stores/servoView.ts';
 import { setChanged } from '../stores/setChanged.ts';

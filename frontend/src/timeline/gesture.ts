@@ -1,8 +1,8 @@
 // What a press on the lanes becomes when it is dragged, and what all such gestures share: an edit that begins with the first
 // movement, and where a thing that is dragged in time comes to rest.
 
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import type { Label } from '#shared/actions/history.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { Label } from '#shared/document/history.ts';
 import type { SelectMode } from '../stores/timeline/keySet.ts';
 import type { Words } from '../i18n/whole.ts';
 import type { Desk, DeskStores } from './desk.ts';

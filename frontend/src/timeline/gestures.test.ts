@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { addMarker } from '#shared/actions/group/markerEdits.ts';
+import { addMarker } from '#shared/group/markerEdits.ts';
 import { editServoView } from '../stores/stores.ts';
 import type { Timeline } from '../stores/timeline/timeline.ts';
 import { words } from '../i18n/whole.ts';

@@ -1,10 +1,10 @@
 // A table from what a press hit to what then follows the pointer. An edit of the document is one gesture of it, shown while it
 // lasts, kept at its end or called off.
 
-import { moveMarker } from '#shared/actions/group/markerEdits.ts';
-import { setDuration } from '#shared/actions/group/timeEdits.ts';
+import { moveMarker } from '#shared/group/markerEdits.ts';
+import { setDuration } from '#shared/group/timeEdits.ts';
 import { keySet, withKeys } from '../stores/timeline/keySet.ts';
-import type { KeyRef } from '#shared/actions/group/tracks.ts';
+import type { KeyRef } from '#shared/group/tracks.ts';
 import { instantText } from './instantText.ts';
 import { words } from '../i18n/whole.ts';
 import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import fc from 'fast-check';
-import { deleteFrames } from '#shared/actions/group/groupEdits.ts';
-import { reverse } from '#shared/actions/group/timeEdits.ts';
+import { deleteFrames } from '#shared/group/groupEdits.ts';
+import { reverse } from '#shared/group/timeEdits.ts';
 import { keySet } from '../stores/timeline/keySet.ts';
 import { allKeys, selectedKeys, timesOf } from './groupTimes.ts';
 import { smallGroup } from './timelineUnderTest.ts';

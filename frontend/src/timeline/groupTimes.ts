@@ -1,7 +1,7 @@
 // What the timeline reads from a group's frames, worked out once for each state of them: tracks, ends, places by id.
 
-import type { GroupFrame } from '#shared/actions/group/group.ts';
-import { sameList } from '#shared/actions/group/groupEdits.ts';
+import type { GroupFrame } from '#shared/group/group.ts';
+import { sameList } from '#shared/group/groupEdits.ts';
 import {
   arePlacedAlike,
   frameEnds,
@@ -11,7 +11,7 @@ import {
   type Key,
   type KeyRef,
   type Tracks,
-} from '#shared/actions/group/tracks.ts';
+} from '#shared/group/tracks.ts';
 import { framesByServo, isMadeOf, type KeySet } from '../stores/timeline/keySet.ts';
 
 export interface GroupTimes extends Places {

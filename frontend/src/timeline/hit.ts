@@ -2,7 +2,7 @@
 
 import type { KeySet } from '../stores/timeline/keySet.ts';
 import type { TimelineState } from '../stores/timeline/timeline.ts';
-import type { KeyRef } from '#shared/actions/group/tracks.ts';
+import type { KeyRef } from '#shared/group/tracks.ts';
 import { keysOfFrame, selectedKeys, spanOf, type GroupTimes } from './groupTimes.ts';
 import type { PlacedRow, Row } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { deleteFrames, duplicateFrames, insertFrame } from '#shared/actions/group/groupEdits.ts';
+import { deleteFrames, duplicateFrames, insertFrame } from '#shared/group/groupEdits.ts';
 import { keepInStep } from './inStep.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';
 

@@ -2,7 +2,7 @@
 // selected elsewhere is selected here, all of the group stays in sight until the person looks closer, and so does the
 // playhead.
 
-import type { KeyRef } from '#shared/actions/group/tracks.ts';
+import type { KeyRef } from '#shared/group/tracks.ts';
 import { deskOf, select, type Desk, type DeskStores } from './desk.ts';
 import { endOfFrame, selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { cursorLeft, fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';

@@ -1,6 +1,6 @@
 // A press on a key: it selects, asks for a number, or drags all selected keys in time and value, with Ctrl copies of them.
 
-import type { KeyRef } from '#shared/actions/group/tracks.ts';
+import type { KeyRef } from '#shared/group/tracks.ts';
 import { keySet, withKeys } from '../stores/timeline/keySet.ts';
 import { words } from '../i18n/whole.ts';
 import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';

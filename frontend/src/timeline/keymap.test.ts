@@ -1,8 +1,8 @@
 import { describe, expect, test } from 'vitest';
-import { emptyGroup } from '#shared/actions/group/group.ts';
-import { setDuration } from '#shared/actions/group/timeEdits.ts';
-import { startHistory } from '#shared/actions/history.ts';
-import { servoOf } from '#shared/actions/robot/robot.ts';
+import { emptyGroup } from '#shared/group/group.ts';
+import { setDuration } from '#shared/group/timeEdits.ts';
+import { startHistory } from '#shared/document/history.ts';
+import { servoOf } from '#shared/profile/robot.ts';
 import { editServoView } from '../stores/stores.ts';
 import { ALL_ROW } from '../stores/timeline/timeline.ts';
 import { words } from '../i18n/whole.ts';

@@ -1,6 +1,6 @@
 // The verbs that change what is looked at: playhead, cursor, zoom, loop range. None of them changes the group.
 
-import type { Key } from '#shared/actions/group/tracks.ts';
+import type { Key } from '#shared/group/tracks.ts';
 import { ALL_ROW, type Cursor, type TimeView } from '../stores/timeline/timeline.ts';
 import { withKeys, type SelectMode } from '../stores/timeline/keySet.ts';
 import { setChanged } from '../stores/setChanged.ts';

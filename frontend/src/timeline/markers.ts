@@ -1,7 +1,7 @@
 // Markers without a pointer: from one to the next, and moved by the board's ticks. One that is selected is what the verbs mean.
 
-import { moveMarker } from '#shared/actions/group/markerEdits.ts';
-import type { Marker } from '#shared/actions/group/group.ts';
+import { moveMarker } from '#shared/group/markerEdits.ts';
+import type { Marker } from '#shared/group/group.ts';
 import { instantText } from './instantText.ts';
 import { words } from '../i18n/whole.ts';
 import type { Desk } from './desk.ts';

@@ -1,17 +1,12 @@
 // Keys moved in time and place: by arrow keys and by dragging alike. The keys go as far as all of them can go together.
 
-import { duplicateKeys } from '#shared/actions/group/clip.ts';
-import { moveKeys, boundedMove, type KeyMove } from '#shared/actions/group/keyEdits.ts';
-import {
-  boundedFactor,
-  stretchedMs,
-  stretchKeys,
-  type KeyStretch,
-} from '#shared/actions/group/stretchKeys.ts';
-import type { TimeRange } from '#shared/actions/group/timeEdits.ts';
-import { keysAt, type Key, type KeyRef } from '#shared/actions/group/tracks.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import type { Range } from '#shared/protocol/families.ts';
+import { duplicateKeys } from '#shared/group/clip.ts';
+import { moveKeys, boundedMove, type KeyMove } from '#shared/group/keyEdits.ts';
+import { boundedFactor, stretchedMs, stretchKeys, type KeyStretch } from '#shared/group/stretchKeys.ts';
+import type { TimeRange } from '#shared/group/timeEdits.ts';
+import { keysAt, type Key, type KeyRef } from '#shared/group/tracks.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { Range } from '#shared/codec/families.ts';
 import { words } from '../i18n/whole.ts';
 import type { Cursor } from '../stores/timeline/timeline.ts';
 import { cellName } from './cellName.ts';

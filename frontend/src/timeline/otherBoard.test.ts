@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { startHistory } from '#shared/actions/history.ts';
+import { startHistory } from '#shared/document/history.ts';
 import { rangeOf } from './desk.ts';
 import { scaleAt } from './positions.ts';
 import { keyY, sceneOf } from './scene.ts';

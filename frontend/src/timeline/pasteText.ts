@@ -1,6 +1,6 @@
 // Why frames or keys were not pasted, in a sentence.
 
-import type { PasteProblem } from '#shared/actions/group/clip.ts';
+import type { PasteProblem } from '#shared/group/clip.ts';
 import { words } from '../i18n/whole.ts';
 
 export function notPasted(problem: PasteProblem, nameOf: (servo: number) => string): string {

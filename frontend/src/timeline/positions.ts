@@ -1,6 +1,6 @@
 // Positions as the person reads them: in the units of the group, or in degrees where the robot at hand counts in the same. Pure.
 
-import { servoOf } from '#shared/actions/robot/robot.ts';
+import { servoOf } from '#shared/profile/robot.ts';
 import { inUnits, scaleOf, type Scale } from '../servos/scale.ts';
 import { words } from '../i18n/words.ts';
 import { rangeOf, type Desk } from './desk.ts';

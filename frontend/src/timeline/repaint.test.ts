@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { setColour } from '#shared/actions/group/frameEdits.ts';
+import { setColour } from '#shared/group/frameEdits.ts';
 import { changedStretch } from './repaint.ts';
 import { sceneOf } from './scene.ts';
 import { sizesOf } from './sizes.ts';

@@ -1,7 +1,7 @@
 // What of the lanes has to be painted anew: after an edit that gave keys other positions the place of these, else all of it. Pure.
 
-import { isPlacedAlike, type Key } from '#shared/actions/group/tracks.ts';
-import type { GroupFrame } from '#shared/actions/group/group.ts';
+import { isPlacedAlike, type Key } from '#shared/group/tracks.ts';
+import type { GroupFrame } from '#shared/group/group.ts';
 import type { PlacedRow } from './rows.ts';
 import { keysInRow } from './rowKeys.ts';
 import type { Scene } from './scene.ts';

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
-import { deleteKeys, moveKeys, setKey } from '#shared/actions/group/keyEdits.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
+import { deleteKeys, moveKeys, setKey } from '#shared/group/keyEdits.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
 import { timesOf } from './groupTimes.ts';
 import { keysInRow } from './rowKeys.ts';
 import { smallGroup } from './timelineUnderTest.ts';

@@ -1,6 +1,6 @@
 // The rows of the timeline: one for all, one for each limb, one for each servo, in the robot's order. Knows no screen.
 
-import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import { limbsOf } from '../body/limbs.ts';
 import type { ServoView } from '../stores/servoView.ts';
 import { ALL_ROW } from '../stores/timeline/timeline.ts';

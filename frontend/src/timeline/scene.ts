@@ -1,7 +1,7 @@
 // Everything that is on the lanes now, with its geometry: what painting and hitting have in common. Pure.
 
-import type { Marker } from '#shared/actions/group/group.ts';
-import { positionRange, type Family, type Range } from '#shared/protocol/families.ts';
+import type { Marker } from '#shared/group/group.ts';
+import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
 import { isHeld, isSilent } from '../stores/servoView.ts';
 import { ALL_ROW, type TimelineState } from '../stores/timeline/timeline.ts';
 import { selectedKeys, type GroupTimes } from './groupTimes.ts';

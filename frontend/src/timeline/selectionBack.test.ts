@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
-import { emptyGroup } from '#shared/actions/group/group.ts';
-import { startHistory } from '#shared/actions/history.ts';
+import { emptyGroup } from '#shared/group/group.ts';
+import { startHistory } from '#shared/document/history.ts';
 import { keepInStep } from './inStep.ts';
 import { servoRowId } from './rows.ts';
 import { bringSelectionBack } from './selectionBack.ts';

@@ -1,8 +1,8 @@
 // Undo, redo and a gesture that is called off bring back what was selected when the group was left that way, and where the cursor
 // was. Knows what is selected, not what an edit does.
 
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import type { History } from '#shared/actions/history.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { History } from '#shared/document/history.ts';
 import { setChanged } from '../stores/setChanged.ts';
 import type { DeskStores } from './desk.ts';
 

@@ -1,8 +1,8 @@
 // The stores of a timeline with a small group, for tests: three frames of 500 ms, servos 1 and 2 keyed in each, servo 3 in the
 // first and the last. The lanes show 0.1 s in 10 px, from 0 on.
 
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
 import { createDesk } from '../stores/deskUnderTest.ts';
 import { createDocument } from '../stores/group/document.ts';
 import { keySet } from '../stores/timeline/keySet.ts';

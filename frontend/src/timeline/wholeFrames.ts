@@ -1,9 +1,9 @@
 // Which frames are selected as a whole, with every key of theirs in a row that is shown, and the rests between them: what the strip
 // marks, and what is done to several frames is done to. The list is pure, and kept as long as it says the same.
 
-import type { GroupFrame } from '#shared/actions/group/group.ts';
-import { sameList } from '#shared/actions/group/groupEdits.ts';
-import type { Key } from '#shared/actions/group/tracks.ts';
+import type { GroupFrame } from '#shared/group/group.ts';
+import { sameList } from '#shared/group/groupEdits.ts';
+import type { Key } from '#shared/group/tracks.ts';
 import { framesByServo, type KeySet } from '../stores/timeline/keySet.ts';
 import { useStores } from '../stores/stores.ts';
 import { useInFrame } from '../ui/useInFrame.ts';

@@ -4,8 +4,8 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { sleep, type Clock } from '#shared/clock.ts';
-import { family as familyOf } from '#shared/protocol/families.ts';
-import { wireMs } from '#shared/protocol/packet.ts';
+import { family as familyOf } from '#shared/codec/families.ts';
+import { wireMs } from '#shared/codec/packet.ts';
 import { TIMES } from '#shared/session/faults/amount.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import { firstMovesMs } from '#shared/session/rig.ts';
@@ -13,7 +13,7 @@ import { createSession } from '#shared/session/session.ts';
 import type { Traffic } from '#shared/session/state.ts';
 import type { Transport, TransportEvents } from '#shared/session/transport.ts';
 import { createSimulatedTransport, type SimulatedTransport } from '#shared/simulator/transport.ts';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { createGatewayMoves, HAND_OVER_MS } from './gatewayMoves.ts';
 import type { ClientMessage } from './messages.generated.ts';
 

@@ -2,7 +2,7 @@
 // faster than a message is worth is said together. Knows targets and messages; no socket.
 
 import { sleep, type Clock } from '#shared/clock.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { SharedMoves } from '#shared/session/transport.ts';
 import type { ClientMessage } from './messages.generated.ts';

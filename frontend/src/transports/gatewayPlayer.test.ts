@@ -1,5 +1,5 @@
 import { afterEach, expect, test, vi } from 'vitest';
-import type { Frame } from '#shared/protocol/commands.ts';
+import type { Frame } from '#shared/codec/commands.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import { createGatewayPlayer } from './gatewayPlayer.ts';
 import type { ClientMessage, PlayState } from './messages.generated.ts';

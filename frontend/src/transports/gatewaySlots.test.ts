@@ -1,5 +1,5 @@
 import { afterEach, expect, test, vi } from 'vitest';
-import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
+import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
 import type { JobState } from './messages.generated.ts';

@@ -1,7 +1,7 @@
 // The gateway's downloads as this page sees them: begins one, hears how far the latest is, calls it off. The gateway stores by
 // itself and goes on when the page has gone. Knows jobs and their route; no socket.
 
-import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
+import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import { DOWNLOAD_PORTION_BYTES } from '#shared/session/timings.ts';
 import type { SharedSlots, SlotGroup, SlotVersions } from '#shared/session/transport.ts';

@@ -1,10 +1,10 @@
 // What the gateway says in its own words, as the session has it, and the other way round. Pure: knows no socket.
 
 import type { MotionBefore } from '#shared/motion/before.ts';
-import { isHarmless, type Frame } from '#shared/protocol/commands.ts';
-import { FAMILIES, type BoardId } from '#shared/protocol/families.ts';
-import { toHex } from '#shared/protocol/hex.ts';
-import { commandIn } from '#shared/protocol/parse.ts';
+import { isHarmless, type Frame } from '#shared/codec/commands.ts';
+import { FAMILIES, type BoardId } from '#shared/codec/families.ts';
+import { toHex } from '#shared/codec/hex.ts';
+import { commandIn } from '#shared/codec/parse.ts';
 import type { Battery } from '#shared/session/battery.ts';
 import type { Identity, SharedBoard } from '#shared/session/identity.ts';
 import { LinkError } from '#shared/session/linkError.ts';

@@ -2,7 +2,7 @@
 // browser means for the link. Knows no packet beyond its length, and not which port is the right one.
 
 import { sleep } from '#shared/clock.ts';
-import { BAUD, wireMs } from '#shared/protocol/packet.ts';
+import { BAUD, wireMs } from '#shared/codec/packet.ts';
 import { LinkError, type LinkErrorCode } from '#shared/session/linkError.ts';
 import { LINE_IDLE_MS } from '#shared/session/timings.ts';
 import { browserClock } from './browserClock.ts';

@@ -1,7 +1,7 @@
 // Tabs of a browser for tests, each with a session over Web Serial: what a person sees of the link. Time is virtual.
 
 import { afterEach, beforeEach, expect, vi } from 'vitest';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import type { LinkErrorCode } from '#shared/session/linkError.ts';
 import { createSession, type Session } from '#shared/session/session.ts';
 import type { LinkState } from '#shared/session/state.ts';

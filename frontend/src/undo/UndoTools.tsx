@@ -1,7 +1,7 @@
 // Undo and redo of one history, each named by what it takes back or brings again. Knows no particular history.
 
 import type { StoreApi } from 'zustand';
-import { redoLabel, undoLabel, type History } from '#shared/actions/history.ts';
+import { redoLabel, undoLabel, type History } from '#shared/document/history.ts';
 import { words } from '../i18n/words.ts';
 import { useInFrame } from '../ui/useInFrame.ts';
 import { IconButton } from '../ui/Button.tsx';

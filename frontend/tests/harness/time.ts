@@ -2,7 +2,7 @@
 // before the page's code, so that no library keeps the browser's own.
 
 import type { Clock } from '#shared/clock.ts';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 
 /** A display of 20 frames a second: each of them costs as much as on a real one. */
 export const FRAME_MS = 48;

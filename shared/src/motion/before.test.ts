@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { family } from '../protocol/families.ts';
+import { family } from '../codec/families.ts';
 import { takenOver, type MotionBefore, type WayBefore } from './before.ts';
 import { UNKNOWN_MOTION } from './model.ts';
 import {
@@ -12,7 +12,7 @@ import {
   type Motion,
 } from './motion.ts';
 import { afterReport } from './reports.ts';
-import type { Report } from '../protocol/reports.ts';
+import type { Report } from '../codec/reports.ts';
 
 const DOC: KnownBoard = { family: family('doc'), playedFrames: () => null };
 const NOW_MS = 10_000;

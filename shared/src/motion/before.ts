@@ -1,7 +1,7 @@
 // An estimate taken over from somebody who was there before: whose packets moved the robot, and who says where they have
 // taken it. Knows no link; a servo that is not named is of unknown place.
 
-import type { Family } from '../protocol/families.ts';
+import type { Family } from '../codec/families.ts';
 import { runningUnknown, type Motion } from './model.ts';
 import { afterOrder } from './told.ts';
 import { boardDurationMs, type Track } from './tracks.ts';

@@ -2,8 +2,8 @@
 // closed boards nobody knows, and the simulated ones do the same. Knows runs; no servo's way.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import { wireMs } from '../protocol/packet.ts';
-import type { Family } from '../protocol/families.ts';
+import { wireMs } from '../codec/packet.ts';
+import type { Family } from '../codec/families.ts';
 import {
   runningUnknown,
   type DeadlineRun,

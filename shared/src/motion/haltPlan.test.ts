@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
-import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
-import { family, type FamilyId } from '../protocol/families.ts';
+import type { Command, Frame, ServoTarget } from '../codec/commands.ts';
+import { family, type FamilyId } from '../codec/families.ts';
 import { haltPlan, holdBehindStop } from './haltPlan.ts';
 import { afterCommand, UNKNOWN_MOTION, type KnownBoard, type Motion } from './motion.ts';
 

@@ -2,9 +2,9 @@
 // one value, so that they cannot contradict each other. Knows the estimate; no clock, no link, no session.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import type { Command, ServoTarget } from '../protocol/commands.ts';
-import type { Family } from '../protocol/families.ts';
-import { wireMs } from '../protocol/packet.ts';
+import type { Command, ServoTarget } from '../codec/commands.ts';
+import type { Family } from '../codec/families.ts';
+import { wireMs } from '../codec/packet.ts';
 import type { KnownBoard, Motion } from './model.ts';
 import { advance, afterCommand, hears } from './motion.ts';
 import { endMs, guessOf, leewayOf, LONGEST_MOVE_MS, stands, type Track } from './tracks.ts';

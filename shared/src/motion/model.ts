@@ -1,9 +1,9 @@
 // The estimate as a value, and what a way of playing groups has to answer. Knows what can be known of a board's motion; no
 // rule of any board: those are tracks.ts, deadlines.ts and polled.ts.
 
-import type { Frame } from '../protocol/commands.ts';
-import type { Family } from '../protocol/families.ts';
-import type { ReportKind } from '../protocol/reports.ts';
+import type { Frame } from '../codec/commands.ts';
+import type { Family } from '../codec/families.ts';
+import type { ReportKind } from '../codec/reports.ts';
 import { onlyLetGo, type Told } from './told.ts';
 import { doubted, type Order, type Tracks } from './tracks.ts';
 

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
-import type { Command, Frame } from '../protocol/commands.ts';
-import { family, type FamilyId } from '../protocol/families.ts';
-import type { Report } from '../protocol/reports.ts';
+import type { Command, Frame } from '../codec/commands.ts';
+import { family, type FamilyId } from '../codec/families.ts';
+import type { Report } from '../codec/reports.ts';
 import { haltPlan } from './haltPlan.ts';
 import {
   advance,

@@ -8,10 +8,10 @@
 // xArm are closed: their model is the simulated board's, a careful guess.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
-import type { ReportKind } from '../protocol/reports.ts';
-import type { Family } from '../protocol/families.ts';
-import { HEADER } from '../protocol/packet.ts';
+import type { Command, Frame, ServoTarget } from '../codec/commands.ts';
+import type { ReportKind } from '../codec/reports.ts';
+import type { Family } from '../codec/families.ts';
+import { HEADER } from '../codec/packet.ts';
 import { deadlines } from './deadlines.ts';
 import { runningUnknown, UNKNOWN_MOTION, type KnownBoard, type Motion, type Playback } from './model.ts';
 import { polled } from './polled.ts';

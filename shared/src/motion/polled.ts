@@ -3,7 +3,7 @@
 // servo's way.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import type { Frame } from '../protocol/commands.ts';
+import type { Frame } from '../codec/commands.ts';
 import {
   runningUnknown,
   type KnownBoard,

@@ -1,8 +1,8 @@
 // What the board's reports say about the motion: answers, positions, the start and the end of groups. Knows reports; what a command
 // does is motion.ts.
 
-import type { ServoTarget } from '../protocol/commands.ts';
-import type { Report, ReportKind } from '../protocol/reports.ts';
+import type { ServoTarget } from '../codec/commands.ts';
+import type { Report, ReportKind } from '../codec/reports.ts';
 import { runningUnknown, type KnownBoard, type Motion } from './model.ts';
 import { advance, LAST_TICKS_MS, LONGEST_DEAFNESS_MS, playbackOf, restless } from './motion.ts';
 import { afterPositions } from './told.ts';

@@ -1,7 +1,7 @@
 // Where servos at rest stand by the board's own word, as long as nothing can have moved them since. It is no track: nobody asked
 // for that position, and a hold goes by the tracks.
 
-import type { Command, ServoTarget } from '../protocol/commands.ts';
+import type { Command, ServoTarget } from '../codec/commands.ts';
 
 export interface Reading {
   /** null: the board has not said it since. */

@@ -2,8 +2,8 @@
 // command. The board's ticks fall where nobody can see them, so a servo under way may be one tick off, either way.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import type { ServoTarget } from '../protocol/commands.ts';
-import type { Family } from '../protocol/families.ts';
+import type { ServoTarget } from '../codec/commands.ts';
+import type { Family } from '../codec/families.ts';
 
 /**
  * One servo's way. `from` is null when nobody knows where it started. A leeway of Infinity says that the position is right only

@@ -3,8 +3,8 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import type { Frame } from '../protocol/commands.ts';
-import { family as familyOf, positionRange, type Family, type Range } from '../protocol/families.ts';
+import type { Frame } from '../codec/commands.ts';
+import { family as familyOf, positionRange, type Family, type Range } from '../codec/families.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
 import {
   createEstimateUnderTest,

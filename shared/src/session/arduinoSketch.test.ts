@@ -6,16 +6,16 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { afterAll, describe, expect, test } from 'vitest';
-import { FIRST_MOVE_MS } from '../actions/files/program.ts';
-import { writeGroupFile } from '../actions/files/writeGroupFile.ts';
-import { emptyGroup, type ActionGroup, type Easing } from '../actions/group/group.ts';
-import { insertFrame, type NewFrame } from '../actions/group/groupEdits.ts';
-import { poseAtMs, tracksOf } from '../actions/group/tracks.ts';
-import { readyRobot } from '../actions/robot/readyRobots.ts';
-import { encodeCommand } from '../protocol/encode.ts';
-import { FAMILIES } from '../protocol/families.ts';
-import { toHex } from '../protocol/hex.ts';
-import { createBoardUnderTest } from '../simulator/boardUnderTest.ts';
+import { FIRST_MOVE_MS } from '../files/program.ts';
+import { writeGroupFile } from '../files/writeGroupFile.ts';
+import { emptyGroup, type ActionGroup, type Easing } from '../group/group.ts';
+import { insertFrame, type NewFrame } from '../group/groupEdits.ts';
+import { poseAtMs, tracksOf } from '../group/tracks.ts';
+import { readyRobot } from '../profile/readyRobots.ts';
+import { encodeCommand } from '../codec/encode.ts';
+import { FAMILIES } from '../codec/families.ts';
+import { toHex } from '../codec/hex.ts';
+import { createBoardUnderTest } from '../testing/boardUnderTest.ts';
 
 const STEP_MS = 10;
 /** A packet's time on the wire and the board's raster. */

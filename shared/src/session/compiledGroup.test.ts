@@ -3,10 +3,10 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { compile } from '../actions/group/compile.ts';
-import { totalDurationMs, type ActionGroup } from '../actions/group/group.ts';
-import { someGroup } from '../actions/group/groupsUnderTest.ts';
-import { positionAt, tracksOf, type Track } from '../actions/group/tracks.ts';
+import { compile } from '../group/compile.ts';
+import { totalDurationMs, type ActionGroup } from '../group/group.ts';
+import { someGroup } from '../testing/groupsUnderTest.ts';
+import { positionAt, tracksOf, type Track } from '../group/tracks.ts';
 import { createEstimateUnderTest, FETCH, ROUNDING, SIMULATED, longestStep } from './estimateUnderTest.ts';
 
 const STRAIGHT = SIMULATED.filter(

@@ -2,7 +2,7 @@
 // operation by itself.
 
 import type { Clock } from '../clock.ts';
-import type { Family } from '../protocol/families.ts';
+import type { Family } from '../codec/families.ts';
 import type { Exchange } from './exchange.ts';
 import type { Lanes } from './lanes.ts';
 import { isWatching, notDriving } from './lease.ts';

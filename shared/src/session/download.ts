@@ -2,7 +2,7 @@
 // overwrites the first one's data (S11). Knows the order and restarts; one frame's answer is frameStore.ts.
 
 import type { Clock } from '../clock.ts';
-import type { Command, Frame } from '../protocol/commands.ts';
+import type { Command, Frame } from '../codec/commands.ts';
 import { isNoAnswer, type Exchange } from './exchange.ts';
 import { createFrameStore } from './frameStore.ts';
 import { LinkError } from './linkError.ts';

@@ -1,8 +1,8 @@
 // What a session does with one kind of board: everything that depends on the family, put together. Another board makes
 // another driver; the line, its queues and the snapshot stay. Knows no transport by name.
 
-import { COMMAND_NUMBER, type Command } from '../protocol/commands.ts';
-import type { Family } from '../protocol/families.ts';
+import { COMMAND_NUMBER, type Command } from '../codec/commands.ts';
+import type { Family } from '../codec/families.ts';
 import { createBatteryReader } from './batteryReader.ts';
 import type { Core } from './core.ts';
 import { createExchange, encodeOrRefuse } from './exchange.ts';

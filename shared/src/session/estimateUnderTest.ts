@@ -13,15 +13,15 @@ import {
   type KnownBoard,
 } from '../motion/motion.ts';
 import { afterCut, afterEnd, afterReport } from '../motion/reports.ts';
-import type { Command, Frame } from '../protocol/commands.ts';
-import { encodeCommand } from '../protocol/encode.ts';
-import { FAMILIES, type Family } from '../protocol/families.ts';
-import { wireMs } from '../protocol/packet.ts';
-import type { Report } from '../protocol/reports.ts';
+import type { Command, Frame } from '../codec/commands.ts';
+import { encodeCommand } from '../codec/encode.ts';
+import { FAMILIES, type Family } from '../codec/families.ts';
+import { wireMs } from '../codec/packet.ts';
+import type { Report } from '../codec/reports.ts';
 import { createBoard, type Board } from '../simulator/board.ts';
 import type { Fault } from '../simulator/faults.ts';
 import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
-import { createVirtualClock, type VirtualClock } from '../simulator/virtualClock.ts';
+import { createVirtualClock, type VirtualClock } from '../testing/virtualClock.ts';
 import { createGroupMemory, type GroupMemory } from './groupMemory.ts';
 import { createReceiver } from './receiver.ts';
 

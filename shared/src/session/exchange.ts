@@ -2,12 +2,12 @@
 // this. Knows commands and reports; not what they mean for the robot.
 
 import type { Clock } from '../clock.ts';
-import type { Command } from '../protocol/commands.ts';
-import { encodeCommand, RangeRefusal } from '../protocol/encode.ts';
-import type { Family } from '../protocol/families.ts';
-import { checkCommand } from '../protocol/limits.ts';
-import { wireMs } from '../protocol/packet.ts';
-import type { Report, ReportKind } from '../protocol/reports.ts';
+import type { Command } from '../codec/commands.ts';
+import { encodeCommand, RangeRefusal } from '../codec/encode.ts';
+import type { Family } from '../codec/families.ts';
+import { checkCommand } from '../codec/limits.ts';
+import { wireMs } from '../codec/packet.ts';
+import type { Report, ReportKind } from '../codec/reports.ts';
 import type { Lanes } from './lanes.ts';
 import { LinkError } from './linkError.ts';
 import type { Replies } from './replies.ts';

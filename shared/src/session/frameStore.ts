@@ -2,7 +2,7 @@
 // or doubled must never speak for the next frame (safety.md section 4, class B). Knows one frame at a time.
 
 import type { Clock } from '../clock.ts';
-import type { Command } from '../protocol/commands.ts';
+import type { Command } from '../codec/commands.ts';
 import { isNoAnswer, type Exchange } from './exchange.ts';
 import { EDGE_FRAME_TIMEOUT_MS, MIDDLE_FRAME_TIMEOUT_MS } from './timings.ts';
 

@@ -1,7 +1,7 @@
 // The groups this session stored on the board and how fast the board plays them. Knows slots; not what runs.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import type { Frame } from '../protocol/commands.ts';
+import type { Frame } from '../codec/commands.ts';
 
 export interface GroupMemory {
   store(slot: number, frames: readonly Frame[]): void;

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { wireMs } from '../protocol/packet.ts';
+import { wireMs } from '../codec/packet.ts';
 import { createFlashChip } from '../simulator/flashChip.ts';
 import { createRig, type Rig } from './rig.ts';
 

@@ -1,8 +1,8 @@
 // Action groups in the board's own memory: run, stop, erase, download, and what the board reports of them. Class C
 // commands are never repeated by themselves (safety.md section 4). Knows slots; the moves of the page are live.ts.
 
-import type { Command } from '../protocol/commands.ts';
-import type { Report } from '../protocol/reports.ts';
+import type { Command } from '../codec/commands.ts';
+import type { Report } from '../codec/reports.ts';
 import { requireReady, requireReleased, requireRest, setActivity, type Core } from './core.ts';
 import { refuseUnfit } from './exchange.ts';
 import { repeatStop } from './halt.ts';

@@ -1,11 +1,11 @@
 import { describe, expect, test } from 'vitest';
-import type { Frame } from '../protocol/commands.ts';
-import { family } from '../protocol/families.ts';
-import { encodeCommand } from '../protocol/encode.ts';
-import { wireMs } from '../protocol/packet.ts';
+import type { Frame } from '../codec/commands.ts';
+import { family } from '../codec/families.ts';
+import { encodeCommand } from '../codec/encode.ts';
+import { wireMs } from '../codec/packet.ts';
 import { createFlashChip } from '../simulator/flashChip.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
-import { createVirtualClock } from '../simulator/virtualClock.ts';
+import { createVirtualClock } from '../testing/virtualClock.ts';
 import { createRig, type Rig } from './rig.ts';
 import { createSession } from './session.ts';
 

@@ -3,9 +3,9 @@
 
 import { sleep, type Clock } from '../clock.ts';
 import type { HaltPlan, Unheld } from '../motion/haltPlan.ts';
-import { encodeCommand } from '../protocol/encode.ts';
-import { UNKNOWN_BOARD } from '../protocol/families.ts';
-import { wireMs } from '../protocol/packet.ts';
+import { encodeCommand } from '../codec/encode.ts';
+import { UNKNOWN_BOARD } from '../codec/families.ts';
+import { wireMs } from '../codec/packet.ts';
 import { requireReady } from './core.ts';
 import type { Lanes } from './lanes.ts';
 import { LinkError } from './linkError.ts';

@@ -2,7 +2,7 @@
 // it may ask and how much silence means that the board is gone; not what follows from that.
 
 import type { Clock } from '../clock.ts';
-import type { Question } from '../protocol/families.ts';
+import type { Question } from '../codec/families.ts';
 import { HEARTBEAT_MISSES, HEARTBEAT_MS, STALE_HEARTBEAT_MS } from './timings.ts';
 
 export interface HeartbeatOptions {

@@ -2,8 +2,8 @@
 // of slot. Knows verbs and families; no session and no board.
 
 import fc from 'fast-check';
-import type { Frame, ServoTarget } from '../protocol/commands.ts';
-import { family as familyOf, positionRange, type Family } from '../protocol/families.ts';
+import type { Frame, ServoTarget } from '../codec/commands.ts';
+import { family as familyOf, positionRange, type Family } from '../codec/families.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
 
 type Bare = 'endGroup' | 'erase' | 'cancel' | 'halt' | 'resume' | 'read';

@@ -2,11 +2,11 @@
 // the board falls silent. Real simulated boards, virtual time.
 
 import { describe, expect, test } from 'vitest';
-import { COMMAND_NUMBER } from '../protocol/commands.ts';
-import { family, FAMILIES, UNKNOWN_BOARD, type FamilyId } from '../protocol/families.ts';
+import { COMMAND_NUMBER } from '../codec/commands.ts';
+import { family, FAMILIES, UNKNOWN_BOARD, type FamilyId } from '../codec/families.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
-import { createVirtualClock } from '../simulator/virtualClock.ts';
+import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
 import { createRig, type Rig } from './rig.ts';
 import { createSession } from './session.ts';

@@ -3,8 +3,8 @@
 // identity.ts.
 
 import type { Clock } from '../clock.ts';
-import { family as familyOf, UNKNOWN_BOARD, type Family, type Question } from '../protocol/families.ts';
-import type { Report } from '../protocol/reports.ts';
+import { family as familyOf, UNKNOWN_BOARD, type Family, type Question } from '../codec/families.ts';
+import type { Report } from '../codec/reports.ts';
 import { createExchange, isNoAnswer } from './exchange.ts';
 import { createHeartbeat } from './heartbeat.ts';
 import { isEcho, QUESTIONS, identify } from './identify.ts';

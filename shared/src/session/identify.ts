@@ -2,11 +2,11 @@
 // how to ask and how long to wait; what the answers mean is identity.ts. On a LeArm any question ends a running group (L8).
 
 import { sleep, type Clock } from '../clock.ts';
-import type { Command } from '../protocol/commands.ts';
-import { encodeCommand } from '../protocol/encode.ts';
-import { UNKNOWN_BOARD, type Question } from '../protocol/families.ts';
-import { toHex } from '../protocol/hex.ts';
-import type { ReportKind } from '../protocol/reports.ts';
+import type { Command } from '../codec/commands.ts';
+import { encodeCommand } from '../codec/encode.ts';
+import { UNKNOWN_BOARD, type Question } from '../codec/families.ts';
+import { toHex } from '../codec/hex.ts';
+import type { ReportKind } from '../codec/reports.ts';
 import { isNoAnswer, type Exchange } from './exchange.ts';
 import type { Evidence } from './identity.ts';
 import { LinkError } from './linkError.ts';

@@ -1,8 +1,8 @@
 // Which board answers like that: what was heard, weighed against the family table (boards.md 2.5). Pure; knows no link and
 // no time. Answers never name one family for certain, so a person chooses among those that fit, once a board.
 
-import { FAMILIES, type BoardId, type Family, type FamilyId, type Question } from '../protocol/families.ts';
-import type { Report } from '../protocol/reports.ts';
+import { FAMILIES, type BoardId, type Family, type FamilyId, type Question } from '../codec/families.ts';
+import type { Report } from '../codec/reports.ts';
 import type { LinkError } from './linkError.ts';
 
 export type Evidence =

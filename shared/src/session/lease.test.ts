@@ -1,12 +1,12 @@
 // What a session makes of a turn that others may have: a shared link over the simulated board.
 
 import { expect, test } from 'vitest';
-import type { Command } from '../protocol/commands.ts';
+import type { Command } from '../codec/commands.ts';
 import type { Unheld } from '../motion/haltPlan.ts';
-import { encodeCommand } from '../protocol/encode.ts';
-import { family as familyOf } from '../protocol/families.ts';
+import { encodeCommand } from '../codec/encode.ts';
+import { family as familyOf } from '../codec/families.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
-import { createVirtualClock } from '../simulator/virtualClock.ts';
+import { createVirtualClock } from '../testing/virtualClock.ts';
 import { mayResume, type Lease } from './lease.ts';
 import { createSession } from './session.ts';
 import type { SharedLatchReason, Transport, TransportEvents } from './transport.ts';

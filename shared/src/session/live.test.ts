@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { wireMs } from '../protocol/packet.ts';
+import { wireMs } from '../codec/packet.ts';
 import { LinkError } from './linkError.ts';
 import { createRig, firstMovesMs } from './rig.ts';
 import { RANGE_MS } from './timings.ts';

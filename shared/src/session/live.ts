@@ -1,7 +1,7 @@
 // Motion that the page commands itself: sliders and frames played on deadlines, where no shared link plays them by its own
 // clock. Knows the newest-wins buffer and the player; the board's own groups are groups.ts.
 
-import type { Frame, ServoTarget } from '../protocol/commands.ts';
+import type { Frame, ServoTarget } from '../codec/commands.ts';
 import { requireReleased, setActivity, type Core } from './core.ts';
 import { refuseUnfit } from './exchange.ts';
 import { LinkError } from './linkError.ts';

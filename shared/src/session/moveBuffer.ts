@@ -1,9 +1,9 @@
 // The newest wish per servo, merged until the wire is free. Knows no time and no link; what it hands out is one move the
 // family can take in one packet.
 
-import type { Command, ServoTarget } from '../protocol/commands.ts';
-import type { Family } from '../protocol/families.ts';
-import { wireMs } from '../protocol/packet.ts';
+import type { Command, ServoTarget } from '../codec/commands.ts';
+import type { Family } from '../codec/families.ts';
+import { wireMs } from '../codec/packet.ts';
 
 export type MoveCommand = Extract<Command, { kind: 'move' }>;
 

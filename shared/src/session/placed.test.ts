@@ -3,10 +3,10 @@
 
 import { expect, test } from 'vitest';
 import type { MotionBefore } from '../motion/before.ts';
-import { family as familyOf, type BoardId } from '../protocol/families.ts';
-import { commandIn } from '../protocol/parse.ts';
+import { family as familyOf, type BoardId } from '../codec/families.ts';
+import { commandIn } from '../codec/parse.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
-import { createVirtualClock } from '../simulator/virtualClock.ts';
+import { createVirtualClock } from '../testing/virtualClock.ts';
 import type { SharedBoard } from './identity.ts';
 import { LinkError } from './linkError.ts';
 import { createSession } from './session.ts';

@@ -2,7 +2,7 @@
 // first frame is gentle. A page that comes late plays later rather than dropping a frame. Knows time and moves; no link, no document.
 
 import type { Clock } from '../clock.ts';
-import type { Frame } from '../protocol/commands.ts';
+import type { Frame } from '../codec/commands.ts';
 import { CATCH_UP, FIRST_MOVE_MS, GIVE_UP_MS, LATE_MS, LOOK_MS } from './timings.ts';
 
 export interface PlayerOptions {

@@ -1,8 +1,8 @@
 // Packets written by hand: sent as they are, by the road each would take anyway, or refused. Knows which of them need what; what
 // a packet says and whether the family may get it is rawPacket.ts.
 
-import { isHarmless, type Command } from '../protocol/commands.ts';
-import { judgeRaw } from '../protocol/rawPacket.ts';
+import { isHarmless, type Command } from '../codec/commands.ts';
+import { judgeRaw } from '../codec/rawPacket.ts';
 import { requireQuestion, requireReleased, type Core } from './core.ts';
 import { LinkError } from './linkError.ts';
 import { FIRST_MOVE_MS } from './timings.ts';

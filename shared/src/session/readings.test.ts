@@ -1,7 +1,7 @@
 // What boards tell of themselves, release and group speed: every family, real simulated boards, virtual time.
 
 import { describe, expect, test } from 'vitest';
-import { FAMILIES, type FamilyId } from '../protocol/families.ts';
+import { FAMILIES, type FamilyId } from '../codec/families.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
 import { createRig, type Rig } from './rig.ts';
 

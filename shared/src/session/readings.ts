@@ -1,9 +1,9 @@
 // What a board says of itself when it is asked: where its servos stand, its firmware, its trims. Knows when it may be asked;
 // what it says is kept whoever asked, with the time.
 
-import type { Command } from '../protocol/commands.ts';
-import { wireMs } from '../protocol/packet.ts';
-import type { Report } from '../protocol/reports.ts';
+import type { Command } from '../codec/commands.ts';
+import { wireMs } from '../codec/packet.ts';
+import type { Report } from '../codec/reports.ts';
 import { requireQuestion, type Core } from './core.ts';
 import { portions } from './portions.ts';
 import type { Reading } from './state.ts';

@@ -2,10 +2,10 @@
 // packet; not who waits for it.
 
 import type { Clock } from '../clock.ts';
-import { createDecoder } from '../protocol/decoder.ts';
-import type { Family } from '../protocol/families.ts';
-import { parseReport } from '../protocol/parse.ts';
-import type { Report } from '../protocol/reports.ts';
+import { createDecoder } from '../codec/decoder.ts';
+import type { Family } from '../codec/families.ts';
+import { parseReport } from '../codec/parse.ts';
+import type { Report } from '../codec/reports.ts';
 import { LINE_IDLE_MS, LINE_PAUSE_MS } from './timings.ts';
 
 export interface ReceiverOptions {

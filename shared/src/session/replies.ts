@@ -2,7 +2,7 @@
 // a kind; everything unmatched stays unsolicited. Knows no packets and no retries.
 
 import type { Clock } from '../clock.ts';
-import type { Report, ReportKind } from '../protocol/reports.ts';
+import type { Report, ReportKind } from '../codec/reports.ts';
 import { LinkError } from './linkError.ts';
 
 export interface Expectation {

@@ -2,7 +2,7 @@
 // comes after the return (S2). Knows which filler ends such a packet with the least effect; no link and no state of it.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import { COMMAND_NUMBER } from '../protocol/commands.ts';
+import { COMMAND_NUMBER } from '../codec/commands.ts';
 import type { Lanes } from './lanes.ts';
 
 export interface Resync {

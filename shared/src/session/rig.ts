@@ -2,15 +2,15 @@
 // saw on its line.
 
 import type { Clock } from '../clock.ts';
-import type { Command } from '../protocol/commands.ts';
-import { createDecoder } from '../protocol/decoder.ts';
-import { family as familyOf } from '../protocol/families.ts';
-import { wireMs } from '../protocol/packet.ts';
-import { parseCommand } from '../protocol/parse.ts';
-import { COMMAND_SHAPES } from '../protocol/shapes.ts';
+import type { Command } from '../codec/commands.ts';
+import { createDecoder } from '../codec/decoder.ts';
+import { family as familyOf } from '../codec/families.ts';
+import { wireMs } from '../codec/packet.ts';
+import { parseCommand } from '../codec/parse.ts';
+import { COMMAND_SHAPES } from '../codec/shapes.ts';
 import type { BoardOptions } from '../simulator/board.ts';
 import { createSimulatedTransport, type SimulatedTransport } from '../simulator/transport.ts';
-import { createVirtualClock, type VirtualClock } from '../simulator/virtualClock.ts';
+import { createVirtualClock, type VirtualClock } from '../testing/virtualClock.ts';
 import type { SharedSlots, Transport, TransportEvents } from './transport.ts';
 import { createSession, type Session, type SessionOptions } from './session.ts';
 import { FIRST_MOVE_MS, FIRST_MOVE_STAGGER_MS } from './timings.ts';

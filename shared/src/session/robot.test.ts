@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
-import { family } from '../protocol/families.ts';
-import { createVirtualClock } from '../simulator/virtualClock.ts';
+import { family } from '../codec/families.ts';
+import { createVirtualClock } from '../testing/virtualClock.ts';
 import { createRobotEstimate } from './robot.ts';
 
 test('a released servo is unknown again: it drops (X7)', async () => {

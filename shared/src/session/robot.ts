@@ -25,10 +25,10 @@ import {
   type Motion,
 } from '../motion/motion.ts';
 import { afterCut, afterEnd, afterReport } from '../motion/reports.ts';
-import type { Command, Frame } from '../protocol/commands.ts';
-import type { Family } from '../protocol/families.ts';
-import { wireMs } from '../protocol/packet.ts';
-import type { Report } from '../protocol/reports.ts';
+import type { Command, Frame } from '../codec/commands.ts';
+import type { Family } from '../codec/families.ts';
+import { wireMs } from '../codec/packet.ts';
+import type { Report } from '../codec/reports.ts';
 import { createGroupMemory } from './groupMemory.ts';
 import { moveBytes, type MoveCommand } from './moveBuffer.ts';
 import type { Motions, ServoMotion } from './state.ts';

@@ -2,11 +2,11 @@
 // times, what the session sends, tells and ends with is noted. README.md there says what an event is. Knows no file.
 
 import { sleep } from '../clock.ts';
-import type { Frame, ServoTarget } from '../protocol/commands.ts';
-import { family as familyOf, type BoardId, type FamilyId } from '../protocol/families.ts';
-import { fromHex, toHex } from '../protocol/hex.ts';
-import { wireMs } from '../protocol/packet.ts';
-import { createVirtualClock } from '../simulator/virtualClock.ts';
+import type { Frame, ServoTarget } from '../codec/commands.ts';
+import { family as familyOf, type BoardId, type FamilyId } from '../codec/families.ts';
+import { fromHex, toHex } from '../codec/hex.ts';
+import { wireMs } from '../codec/packet.ts';
+import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
 import { createSession, type Session } from './session.ts';
 import type { SessionState } from './state.ts';

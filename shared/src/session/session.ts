@@ -3,10 +3,10 @@
 
 import type { Clock } from '../clock.ts';
 import type { MotionBefore } from '../motion/before.ts';
-import type { Frame, ServoTarget } from '../protocol/commands.ts';
-import { UNKNOWN_BOARD, type Family } from '../protocol/families.ts';
-import { commandIn } from '../protocol/parse.ts';
-import type { Report } from '../protocol/reports.ts';
+import type { Frame, ServoTarget } from '../codec/commands.ts';
+import { UNKNOWN_BOARD, type Family } from '../codec/families.ts';
+import { commandIn } from '../codec/parse.ts';
+import type { Report } from '../codec/reports.ts';
 import { createDriver, type Driver } from './driver.ts';
 import { encodeOrRefuse } from './exchange.ts';
 import { createHalt } from './halt.ts';

@@ -1,10 +1,10 @@
 // What a session on a shared link has the board do: the link does it, and the session shows what came of it.
 
 import { expect, test } from 'vitest';
-import { encodeCommand } from '../protocol/encode.ts';
-import { family as familyOf } from '../protocol/families.ts';
+import { encodeCommand } from '../codec/encode.ts';
+import { family as familyOf } from '../codec/families.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
-import { createVirtualClock } from '../simulator/virtualClock.ts';
+import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
 import { createSession } from './session.ts';
 import type { Outcome, SharedCommands, TransportEvents } from './transport.ts';

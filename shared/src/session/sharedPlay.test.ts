@@ -1,10 +1,10 @@
 // A link that plays by its own clock: the session hands the frames over and shows what it is told.
 
 import { expect, test } from 'vitest';
-import type { Frame } from '../protocol/commands.ts';
-import { family as familyOf } from '../protocol/families.ts';
+import type { Frame } from '../codec/commands.ts';
+import { family as familyOf } from '../codec/families.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
-import { createVirtualClock } from '../simulator/virtualClock.ts';
+import { createVirtualClock } from '../testing/virtualClock.ts';
 import type { Played } from './player.ts';
 import { createSession } from './session.ts';
 import type { PlayProgress, Transport, TransportEvents } from './transport.ts';

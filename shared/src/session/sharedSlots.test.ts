@@ -1,11 +1,11 @@
 // What a session makes of a link that stores groups by itself: it asks for it, shows what it is told, and sends no frame.
 
 import { expect, test } from 'vitest';
-import type { Command } from '../protocol/commands.ts';
-import { encodeCommand } from '../protocol/encode.ts';
-import { family as familyOf } from '../protocol/families.ts';
+import type { Command } from '../codec/commands.ts';
+import { encodeCommand } from '../codec/encode.ts';
+import { family as familyOf } from '../codec/families.ts';
 import { createSimulatedTransport } from '../simulator/transport.ts';
-import { createVirtualClock } from '../simulator/virtualClock.ts';
+import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
 import { createSession } from './session.ts';
 import type { SharedSlots, SlotVersions, Transport, TransportEvents } from './transport.ts';

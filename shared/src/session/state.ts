@@ -1,11 +1,11 @@
 // What a session tells the outside: one immutable snapshot of the link and the robot, and a stream of traffic for the
 // log. Knows no transport and no user interface. Every figure says how true it is: requested, estimated or confirmed.
 
-import type { Command } from '../protocol/commands.ts';
+import type { Command } from '../codec/commands.ts';
 import type { Battery } from './battery.ts';
 import type { Unheld } from '../motion/haltPlan.ts';
-import type { Report, ServoOffset } from '../protocol/reports.ts';
-import type { Family } from '../protocol/families.ts';
+import type { Report, ServoOffset } from '../codec/reports.ts';
+import type { Family } from '../codec/families.ts';
 import type { Lease } from './lease.ts';
 import type { Identity } from './identity.ts';
 import type { LinkError } from './linkError.ts';

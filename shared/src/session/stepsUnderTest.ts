@@ -2,8 +2,8 @@
 // board and no estimate.
 
 import fc from 'fast-check';
-import type { Command, Frame, ServoTarget } from '../protocol/commands.ts';
-import { positionRange, type Family, type Range } from '../protocol/families.ts';
+import type { Command, Frame, ServoTarget } from '../codec/commands.ts';
+import { positionRange, type Family, type Range } from '../codec/families.ts';
 
 export type Step =
   | Command

@@ -2,8 +2,8 @@
 // the holds caused. Knows the page's verbs and the board's pulses; no estimate. The histories are historiesUnderTest.ts.
 
 import type { Unheld } from '../motion/haltPlan.ts';
-import type { Frame } from '../protocol/commands.ts';
-import { family as familyOf } from '../protocol/families.ts';
+import type { Frame } from '../codec/commands.ts';
+import { family as familyOf } from '../codec/families.ts';
 import type { Fault } from '../simulator/faults.ts';
 import { createFlashChip, type FlashChip } from '../simulator/flashChip.ts';
 import { createGroupStore, openLayout } from '../simulator/groupStore.ts';

@@ -1,6 +1,6 @@
 // The session's snapshot and its listeners. Each change makes a new object, so that a page can compare references.
 
-import { UNKNOWN_BOARD, type Family } from '../protocol/families.ts';
+import { UNKNOWN_BOARD, type Family } from '../codec/families.ts';
 import { NOTHING_HEARD } from './identity.ts';
 import type { SessionEvents, SessionState } from './state.ts';
 

@@ -1,7 +1,7 @@
 // Groups on their way to the board, one after the other, and which slots hold half a group. A link that stores by itself is
 // asked for it; then this shows what it is told. Knows slots and their order; one group's frames are download.ts.
 
-import type { Command } from '../protocol/commands.ts';
+import type { Command } from '../codec/commands.ts';
 import { requireRest, setActivity, type Core } from './core.ts';
 import { download, frameCommands } from './download.ts';
 import { encodeOrRefuse } from './exchange.ts';

@@ -2,7 +2,7 @@
 // gateway counts alike (backend/servodeck/board/tally.py).
 
 import type { Clock } from '../clock.ts';
-import { wireMs } from '../protocol/packet.ts';
+import { wireMs } from '../codec/packet.ts';
 import type { DownloadProgress } from './transport.ts';
 
 export type Tally = (groupsStored: number, framesOfNext: number) => Omit<DownloadProgress, 'slots'>;

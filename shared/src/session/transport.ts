@@ -3,8 +3,8 @@
 
 import type { Unheld } from '../motion/haltPlan.ts';
 import type { MotionBefore } from '../motion/before.ts';
-import type { Frame, ServoTarget } from '../protocol/commands.ts';
-import type { BoardId } from '../protocol/families.ts';
+import type { Frame, ServoTarget } from '../codec/commands.ts';
+import type { BoardId } from '../codec/families.ts';
 import type { Battery } from './battery.ts';
 import type { SharedBoard } from './identity.ts';
 import type { Lease, LeaseAction } from './lease.ts';

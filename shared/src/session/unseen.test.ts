@@ -3,7 +3,7 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import type { Family, Range } from '../protocol/families.ts';
+import type { Family, Range } from '../codec/families.ts';
 import { createEstimateUnderTest, isWrong, SIMULATED, type EstimateUnderTest } from './estimateUnderTest.ts';
 import { TIMES } from './faults/amount.ts';
 import { someMove, usualServos } from './stepsUnderTest.ts';

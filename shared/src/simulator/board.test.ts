@@ -12,7 +12,7 @@ import {
   READ_BATTERY,
   run,
   STOP,
-} from './boardUnderTest.ts';
+} from '../testing/boardUnderTest.ts';
 import type { BusLogEntry } from './busLog.ts';
 
 const ANSWER = '55 55 04 0F 4C 1D';

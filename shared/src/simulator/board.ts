@@ -2,8 +2,8 @@
 // bytes in, bytes out, pulse widths, a log of the bus. Knows time and pacing, no command and no firmware.
 
 import type { Clock } from '../clock.ts';
-import { BAUD, wireMs } from '../protocol/packet.ts';
-import type { Frame } from '../protocol/commands.ts';
+import { BAUD, wireMs } from '../codec/packet.ts';
+import type { Frame } from '../codec/commands.ts';
 import { createAgenda, type Source } from './agenda.ts';
 import type { BusLogEntry } from './busLog.ts';
 import type { Engine } from './engine.ts';

@@ -9,7 +9,7 @@ import {
   READ_BATTERY,
   run,
   STOP,
-} from './boardUnderTest.ts';
+} from '../testing/boardUnderTest.ts';
 import { parseFault } from './faults.ts';
 import type { ProfileName } from './profileNames.ts';
 

@@ -1,7 +1,7 @@
 // LSC, Bus Servo Controller and xArm by their documents (boards.md chapter 5): their firmware is closed, so what nobody
 // wrote down is the open firmware's way (parser, mailbox, runner) and proves nothing about a real board.
 
-import { COMMAND_NUMBER, type Frame } from '../protocol/commands.ts';
+import { COMMAND_NUMBER, type Frame } from '../codec/commands.ts';
 import { createBatterySampler } from './battery.ts';
 import { closedHandlers, torqueHandlers } from './closedHandlers.ts';
 import { batteryHandler, createDispatch, motionHandlers } from './dispatch.ts';

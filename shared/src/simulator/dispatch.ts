@@ -1,7 +1,7 @@
 // What the open firmware does with a packet (S13-S21): the handlers read the mailbox's slot in place and never compare LEN
 // with what they need. Which of them a build has is data of the build.
 
-import { COMMAND_NUMBER } from '../protocol/commands.ts';
+import { COMMAND_NUMBER } from '../codec/commands.ts';
 import type { GroupStore } from './groupStore.ts';
 import type { Runner } from './runner.ts';
 import type { Servos } from './servos.ts';

@@ -1,6 +1,6 @@
 // What every simulated firmware is, seen from its cable, and what it gets to be built from. Knows no firmware.
 
-import type { Frame } from '../protocol/commands.ts';
+import type { Frame } from '../codec/commands.ts';
 import type { Source } from './agenda.ts';
 import type { FlashChip } from './flashChip.ts';
 import type { Press } from './panel.ts';

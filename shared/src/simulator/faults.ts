@@ -1,7 +1,7 @@
 // What can go wrong on purpose: named faults with a value, and the plan a board follows, the same for the same seed.
 // Knows bytes and replies as counts and chances; does not know what they mean.
 
-import { HEADER } from '../protocol/packet.ts';
+import { HEADER } from '../codec/packet.ts';
 import type { Press } from './panel.ts';
 import { createRandom } from './random.ts';
 

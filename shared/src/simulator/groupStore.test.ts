@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import type { BoardUnderTest } from './boardUnderTest.ts';
+import type { BoardUnderTest } from '../testing/boardUnderTest.ts';
 import {
   createBoardUnderTest,
   download,
@@ -11,7 +11,7 @@ import {
   run,
   RUN_ACK,
   STOP,
-} from './boardUnderTest.ts';
+} from '../testing/boardUnderTest.ts';
 import { createFlashChip } from './flashChip.ts';
 
 const ENOUGH_MS = 1000;

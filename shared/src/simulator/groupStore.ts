@@ -1,7 +1,7 @@
 // Where action groups lie in flash, and how long writing them blocks the board (S32-S41). Knows the layout and the chip's
 // times, not what a frame means to the servos.
 
-import type { Frame } from '../protocol/commands.ts';
+import type { Frame } from '../codec/commands.ts';
 import { SECTOR_BYTES, type FlashChip } from './flashChip.ts';
 import { encodeFrame } from './storedFrame.ts';
 import type { Work } from './work.ts';

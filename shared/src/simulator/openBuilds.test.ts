@@ -10,7 +10,7 @@ import {
   run,
   RUN_ACK,
   STOP,
-} from './boardUnderTest.ts';
+} from '../testing/boardUnderTest.ts';
 import type { ProfileName } from './profileNames.ts';
 
 /** A board of that build whose group 100 and its successor take 200 ms each. */

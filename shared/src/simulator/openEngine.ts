@@ -1,7 +1,7 @@
 // The open firmware without its cable: parser, mailbox, main loop, servos, flash and runner put together (boards.md
 // section 3). What differs between its builds is a value. Knows no pacing and no clock.
 
-import { COMMAND_NUMBER, type Frame } from '../protocol/commands.ts';
+import { COMMAND_NUMBER, type Frame } from '../codec/commands.ts';
 import { createBatterySampler } from './battery.ts';
 import { batteryHandler, createDispatch, motionHandlers, storeHandlers } from './dispatch.ts';
 import type { Engine, EngineParts } from './engine.ts';

@@ -1,7 +1,7 @@
 // The board's byte parser, with its real weaknesses: it waits for ever, never resynchronises inside a packet and jams on
 // LEN 254 and 255 (S1-S5). Knows bytes only; what a packet means is dispatch.ts.
 
-import { HEADER, MIN_LENGTH } from '../protocol/packet.ts';
+import { HEADER, MIN_LENGTH } from '../codec/packet.ts';
 
 const BUFFER_BYTES = 256;
 const LENGTH_AT = 2;

@@ -1,6 +1,6 @@
 // Which boards there are to simulate, by name: all that a page knows of them before it simulates one.
 
-import { FAMILIES, type FamilyId } from '../protocol/families.ts';
+import { FAMILIES, type FamilyId } from '../codec/families.ts';
 
 /** There is one of each family. */
 export type ProfileName = FamilyId;

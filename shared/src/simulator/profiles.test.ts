@@ -11,7 +11,7 @@ import {
   READ_BATTERY,
   run,
   STOP,
-} from './boardUnderTest.ts';
+} from '../testing/boardUnderTest.ts';
 import { isProfileName, type ProfileName } from './profileNames.ts';
 import { PROFILES } from './profiles.ts';
 

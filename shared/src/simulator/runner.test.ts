@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import type { BoardUnderTest } from './boardUnderTest.ts';
+import type { BoardUnderTest } from '../testing/boardUnderTest.ts';
 import {
   createBoardUnderTest,
   download,
@@ -9,7 +9,7 @@ import {
   run,
   RUN_ACK,
   STOP,
-} from './boardUnderTest.ts';
+} from '../testing/boardUnderTest.ts';
 
 type Step = readonly [durationMs: number, position: number];
 

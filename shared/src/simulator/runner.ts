@@ -1,6 +1,6 @@
 // Plays stored groups on deadlines (S42-S50). Knows frames and the loop's time; does not know packets or servo motion.
 
-import type { Frame } from '../protocol/commands.ts';
+import type { Frame } from '../codec/commands.ts';
 import type { Work } from './work.ts';
 
 export interface Runner {

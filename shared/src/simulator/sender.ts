@@ -1,8 +1,8 @@
 // What the board says, byte by byte onto its line, and what becomes of an acknowledgement on purpose. Knows packets and the
 // line; not why something is said.
 
-import { COMMAND_NUMBER } from '../protocol/commands.ts';
-import { packetBytes } from '../protocol/packet.ts';
+import { COMMAND_NUMBER } from '../codec/commands.ts';
+import { packetBytes } from '../codec/packet.ts';
 import { UNHARMED, type AckFate, type FaultPlan } from './faults.ts';
 import type { Line } from './line.ts';
 import type { Work } from './work.ts';

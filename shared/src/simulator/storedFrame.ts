@@ -1,6 +1,6 @@
 // One frame as the board keeps it: count, time, then servo and position of each entry. Knows bytes, no flash and no time.
 
-import type { Frame } from '../protocol/commands.ts';
+import type { Frame } from '../codec/commands.ts';
 
 /** Little-endian, as everything on this board; what lies behind the end reads as 0. */
 export function readUint16(bytes: Uint8Array, at: number): number {

@@ -1,7 +1,7 @@
 // A board in the page, behind the same interface as a real one. Knows the simulator and how long a packet is on the wire.
 
 import { sleep, type Clock } from '../clock.ts';
-import { wireMs } from '../protocol/packet.ts';
+import { wireMs } from '../codec/packet.ts';
 import { LinkError } from '../session/linkError.ts';
 import type { Transport, TransportEvents } from '../session/transport.ts';
 import { createBoard, type Board, type BoardOptions } from './board.ts';

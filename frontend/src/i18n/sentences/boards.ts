@@ -1,6 +1,6 @@
 // What boards are called: as their maker names them, unless a language has words of its own.
 
-import type { Family } from '#shared/protocol/families.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { words } from '../words.ts';
 
 export function boardName({ id, name }: Pick<Family, 'id' | 'name'>): string {

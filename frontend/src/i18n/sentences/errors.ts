@@ -1,8 +1,8 @@
 // What went wrong, in a sentence: links, values out of range, the library, documents. No panel writes its own.
 
-import type { LibraryErrorCode } from '#shared/actions/library/keeper.ts';
-import type { TextFlaw } from '#shared/actions/versionedText.ts';
-import type { RangeRefusal } from '#shared/protocol/limits.ts';
+import type { LibraryErrorCode } from '#shared/files/keeper.ts';
+import type { TextFlaw } from '#shared/document/versionedText.ts';
+import type { RangeRefusal } from '#shared/codec/limits.ts';
 import type { LinkErrorCode } from '#shared/session/linkError.ts';
 import { words } from '../words.ts';
 import { say } from './say.ts';

@@ -1,6 +1,6 @@
 // What ready robots, their servos and their limbs are called.
 
-import type { ReadyRobotId, RobotNames } from '#shared/actions/robot/readyRobots.ts';
+import type { ReadyRobotId, RobotNames } from '#shared/profile/readyRobots.ts';
 import { words } from '../words.ts';
 
 /** What a ready robot and its parts are called when it is added. */

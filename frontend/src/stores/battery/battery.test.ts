@@ -1,10 +1,10 @@
 // The battery of a visit: what is kept of its readings, and what happens when it is low, on a simulated board.
 
 import { describe, expect, test } from 'vitest';
-import { fedBy } from '#shared/actions/battery/batterySupply.ts';
-import { addPose, markRest } from '#shared/actions/poses/poseEdits.ts';
-import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { fedBy } from '#shared/profile/batterySupply.ts';
+import { addPose, markRest } from '#shared/profile/poseEdits.ts';
+import type { BatteryPolicy } from '#shared/profile/robot.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig } from '#shared/session/rig.ts';
 import { createSession } from '#shared/session/session.ts';
 import type { Transport, TransportEvents } from '#shared/session/transport.ts';

@@ -2,14 +2,8 @@
 // them, and when something ran. Listens to the device and the robot; asks and moves nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import {
-  EMPTY_GAUGE,
-  gaugeAfter,
-  gaugeOf,
-  type Gauge,
-  type Reading,
-} from '#shared/actions/battery/batteryGauge.ts';
-import { supplyOf, type Supply } from '#shared/actions/battery/batterySupply.ts';
+import { EMPTY_GAUGE, gaugeAfter, gaugeOf, type Gauge, type Reading } from '#shared/profile/batteryGauge.ts';
+import { supplyOf, type Supply } from '#shared/profile/batterySupply.ts';
 import { nameOf } from '../device/boards.ts';
 import type { Device, DeviceState } from '../device/device.ts';
 import type { RobotStore } from '../robots/robots.ts';

@@ -2,10 +2,10 @@
 // rest and is stopped. The one place where the battery acts, only on readings that agree and are fresh, and on
 // a shared robot only where it is driven from.
 
-import { isActionable, type Level } from '#shared/actions/battery/batteryGauge.ts';
-import { homeTargets } from '#shared/actions/poses/poseShapes.ts';
-import type { BatteryPolicy } from '#shared/actions/robot/robot.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { isActionable, type Level } from '#shared/profile/batteryGauge.ts';
+import { homeTargets } from '#shared/profile/poseShapes.ts';
+import type { BatteryPolicy } from '#shared/profile/robot.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 import { wasCommanded } from '#shared/session/state.ts';
 import { words } from '../../i18n/words.ts';
 import type { BatteryStore } from './battery.ts';

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig } from '#shared/session/rig.ts';
 import { createSession } from '#shared/session/session.ts';
 import type { Transport } from '#shared/session/transport.ts';

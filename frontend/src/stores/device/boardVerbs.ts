@@ -1,8 +1,8 @@
 // What is asked of the board and its session besides motion by hand: STOP, groups, readings, memory. Whatever fails becomes a
 // notice. Keeps nothing; knows no panel.
 
-import type { Frame } from '#shared/protocol/commands.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { Frame } from '#shared/codec/commands.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { Session } from '#shared/session/session.ts';
 import type { HaltReason, SlotGroup } from '#shared/session/transport.ts';

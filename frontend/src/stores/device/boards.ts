@@ -2,7 +2,7 @@
 // storage; no link. Storage that is forbidden means: remembered until the page is closed.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { Way } from './device.ts';
 import type { TextStorage } from '../textStorage.ts';
 

@@ -1,6 +1,6 @@
 import { describe, expect, test, vi } from 'vitest';
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { LinkError, type LinkErrorCode } from '#shared/session/linkError.ts';
 import { createRig } from '#shared/session/rig.ts';
 import type { SessionEvents } from '#shared/session/state.ts';

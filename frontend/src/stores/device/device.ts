@@ -3,11 +3,11 @@
 // for and not in the store: whoever listens to that would be woken for it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { sameList } from '#shared/actions/group/groupEdits.ts';
-import { fromBoard, onBoard, type Robot } from '#shared/actions/robot/robot.ts';
+import { sameList } from '#shared/group/groupEdits.ts';
+import { fromBoard, onBoard, type Robot } from '#shared/profile/robot.ts';
 import type { Clock } from '#shared/clock.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import type { Family } from '#shared/codec/families.ts';
 import type { LeaseAction } from '#shared/session/lease.ts';
 import type { Session } from '#shared/session/session.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig, firstMovesMs } from '#shared/session/rig.ts';
 import { createDevice, type Way } from './device.ts';
 import { createLastPoses, guessesOf } from './lastPoses.ts';

@@ -2,9 +2,9 @@
 // known. Hears the device and knows storage; moves nothing. A simulated board begins anew each time: nothing of it is kept.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Robot, RobotServo } from '#shared/actions/robot/robot.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { nameOf } from './boards.ts';
 import type { Device, DeviceState } from './device.ts';
 import type { TextStorage } from '../textStorage.ts';

@@ -1,9 +1,9 @@
 // Between what is asked for and what a board is told: the limits and trims of the robot at hand. Whatever leaves is in the
 // board's own figures and within the limits; whatever is not does not leave, and the person is told. Sends nothing.
 
-import { fromBoard, onBoard, refusedTarget, type Robot } from '#shared/actions/robot/robot.ts';
-import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
-import { commandIn } from '#shared/protocol/parse.ts';
+import { fromBoard, onBoard, refusedTarget, type Robot } from '#shared/profile/robot.ts';
+import type { Frame, ServoTarget } from '#shared/codec/commands.ts';
+import { commandIn } from '#shared/codec/parse.ts';
 import type { SlotGroup } from '#shared/session/transport.ts';
 import { refusalText } from './limits.ts';
 

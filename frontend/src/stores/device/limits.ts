@@ -1,7 +1,7 @@
 // The sentence for targets that the robot must not reach: which servo, and what it may do.
 
-import { refusedTarget, type LimitRefusal, type Robot } from '#shared/actions/robot/robot.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import { refusedTarget, type LimitRefusal, type Robot } from '#shared/profile/robot.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 import { servoLabel } from '../../i18n/sentences/servos.ts';
 import { words } from '../../i18n/words.ts';
 

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { moveDurationMs } from './moveTime.ts';
 
 const at = (estimated: number | null) => () => ({ target: estimated, estimated });

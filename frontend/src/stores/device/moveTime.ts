@@ -2,8 +2,8 @@
 // can turn: a click at the far end of a slider stays a motion one can follow. A leap has no hand that leads it, so it is
 // slower. Knows no session.
 
-import type { ServoTarget } from '#shared/protocol/commands.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import type { Family } from '#shared/codec/families.ts';
 import type { Motions } from '#shared/session/state.ts';
 import { FIRST_MOVE_MS } from '#shared/session/timings.ts';
 

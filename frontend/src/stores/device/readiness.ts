@@ -2,7 +2,7 @@
 // Pure; the session refuses by itself, this only lets the panels say so beforehand.
 
 import { isWatching } from '#shared/session/lease.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { wasCommanded, type ServoMotion, type SessionState } from '#shared/session/state.ts';
 
 export type Hindrance =

@@ -2,7 +2,7 @@
 // for the wire. Knows no session.
 
 import type { Clock } from '#shared/clock.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 
 /** A servo's target, where the session says that it was `sent` there. One that `isQueued` for its turn waits longer. */
 export type Targets = (servo: number, sent: number | null, isQueued: boolean) => number | null;

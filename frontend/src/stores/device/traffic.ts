@@ -2,9 +2,9 @@
 // session tells; what it means to a person is said elsewhere.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { BoardId } from '#shared/protocol/families.ts';
-import { createHappeningsReader, entryOf } from '#shared/recording/recorder.ts';
-import { createTape, type Tape, type TapeEntry } from '#shared/recording/tape.ts';
+import type { BoardId } from '#shared/codec/families.ts';
+import { createHappeningsReader, entryOf } from '#shared/files/recorder.ts';
+import { createTape, type Tape, type TapeEntry } from '#shared/files/tape.ts';
 import type { SessionState, Traffic } from '#shared/session/state.ts';
 
 export type LogEntry = TapeEntry;

@@ -2,7 +2,7 @@
 // robot goes along with the slider. STOP and a lost link switch it off. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { Device } from '../device/device.ts';
 import { endsMotion } from '../device/readiness.ts';
 import { freeOf, type Locking } from '../locks.ts';

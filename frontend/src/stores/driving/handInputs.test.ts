@@ -3,9 +3,9 @@
 
 import * as fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { evenly } from '#shared/evenlyUnderTest.ts';
-import { homeTargets } from '#shared/actions/poses/poseShapes.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { evenly } from '#shared/testing/evenlyUnderTest.ts';
+import { homeTargets } from '#shared/profile/poseShapes.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { TIMES } from '#shared/session/faults/amount.ts';
 import { RANGE_MS } from '#shared/session/timings.ts';
 import { createDesk } from '../deskUnderTest.ts';

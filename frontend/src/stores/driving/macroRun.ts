@@ -2,9 +2,9 @@
 // board's own run. One button at a time; what stops the robot or loses it ends the button for good. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Macro, MacroStep } from '#shared/actions/macros/macro.ts';
+import type { Macro, MacroStep } from '#shared/profile/macro.ts';
 import type { Clock } from '#shared/clock.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 import { startsKnown } from '#shared/session/state.ts';
 import { FIRST_MOVE_STAGGER_MS } from '#shared/session/timings.ts';
 import { words } from '../../i18n/words.ts';

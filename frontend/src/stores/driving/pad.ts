@@ -3,10 +3,10 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
-import type { Input, Mapping } from '#shared/actions/mapping/mapping.ts';
-import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/actions/mapping/mappingInputs.ts';
-import { AT_REST, step, type Begun, type DriveState } from '#shared/actions/mapping/mappingStep.ts';
-import type { RobotServo } from '#shared/actions/robot/robot.ts';
+import type { Input, Mapping } from '#shared/profile/mapping.ts';
+import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/profile/mappingInputs.ts';
+import { AT_REST, step, type Begun, type DriveState } from '#shared/profile/mappingStep.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
 import { servoLabel, stayingSentence } from '../../i18n/sentences/servos.ts';
 import { words } from '../../i18n/words.ts';
 import { isLocked } from '../locks.ts';

@@ -1,12 +1,12 @@
 // The poses of the robot at hand, and the way to them: by the device, in its limits, slowly unless asked otherwise. To go to
 // a pose is noted as a step of the book; undoing it changes the note and moves nothing.
 
-import type { Label } from '#shared/actions/history.ts';
-import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/actions/poses/pose.ts';
-import { markApplied, withPosesOf } from '#shared/actions/poses/poseEdits.ts';
-import { homeTargets, strangersTo } from '#shared/actions/poses/poseShapes.ts';
-import { poseBookFromText, poseBookToText } from '#shared/actions/poses/poseText.ts';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
+import type { Label } from '#shared/document/history.ts';
+import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/profile/pose.ts';
+import { markApplied, withPosesOf } from '#shared/profile/poseEdits.ts';
+import { homeTargets, strangersTo } from '#shared/profile/poseShapes.ts';
+import { poseBookFromText, poseBookToText } from '#shared/profile/poseText.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
 import { flawSentence } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/words.ts';
 import type { Device } from '../device/device.ts';

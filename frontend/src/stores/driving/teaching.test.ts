@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { FAMILIES, type FamilyId } from '#shared/protocol/families.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { isProfileName } from '#shared/simulator/profileNames.ts';
 import { servoLabel } from '../../i18n/sentences/servos.ts';
 import { words } from '../../i18n/words.ts';

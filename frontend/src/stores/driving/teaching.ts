@@ -2,8 +2,8 @@
 // they were last read. STOP, a lost link, another driver and whatever else moves the robot end it without one. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { ServoTarget } from '#shared/protocol/commands.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { servoLabel } from '../../i18n/sentences/servos.ts';
 import { words } from '../../i18n/words.ts';
 import type { Device, DeviceState } from '../device/device.ts';

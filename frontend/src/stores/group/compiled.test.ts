@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
-import { insertFrame, setMeta } from '#shared/actions/group/groupEdits.ts';
-import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
+import { insertFrame, setMeta } from '#shared/group/groupEdits.ts';
+import { groupFromText, groupToText } from '#shared/group/groupText.ts';
 import { createCompiled, obstacles } from './compiled.ts';
 import { createDesk } from '../deskUnderTest.ts';
 import { workedOut, type Source } from './workedOut.ts';

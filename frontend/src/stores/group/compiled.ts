@@ -2,9 +2,9 @@
 // once for whoever is about to send it. Moves nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { maxErrorOf } from '#shared/actions/group/maxError.ts';
+import type { CompileProblem } from '#shared/group/compileReport.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { maxErrorOf } from '#shared/group/maxError.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Device } from '../device/device.ts';
 import type { Document } from './document.ts';

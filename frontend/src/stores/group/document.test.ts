@@ -1,8 +1,8 @@
 import { describe, expect, test } from 'vitest';
-import { insertFrame, moveFrames } from '#shared/actions/group/groupEdits.ts';
-import { setDuration } from '#shared/actions/group/timeEdits.ts';
-import { groupFromText } from '#shared/actions/group/groupText.ts';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { insertFrame, moveFrames } from '#shared/group/groupEdits.ts';
+import { setDuration } from '#shared/group/timeEdits.ts';
+import { groupFromText } from '#shared/group/groupText.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { words } from '../../i18n/words.ts';
 import { createDocument } from './document.ts';
 import type { TextStorage } from '../textStorage.ts';

@@ -1,9 +1,9 @@
 // The action group being written: undoable, saved in the browser's storage soon after each edit. Text that cannot be read is
 // never thrown away: it is set aside under another key and the person is told. Never moves the robot.
 
-import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
-import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
-import type { History } from '#shared/actions/history.ts';
+import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
+import { groupFromText, groupToText } from '#shared/group/groupText.ts';
+import type { History } from '#shared/document/history.ts';
 import type { Clock } from '#shared/clock.ts';
 import { words } from '../../i18n/words.ts';
 import type { Notices } from '../notices.ts';

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import { FAMILIES, UNKNOWN_BOARD } from '#shared/protocol/families.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import { FAMILIES, UNKNOWN_BOARD } from '#shared/codec/families.ts';
 import { freshRobot } from '../robots/robots.ts';
 import { createDesk } from '../deskUnderTest.ts';
 

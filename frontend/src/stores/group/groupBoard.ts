@@ -1,10 +1,10 @@
 // Which board a group is judged and drawn by: the one that is connected; while none is known, the one that the robot at hand is described
 // for; and where the group counts in another unit, a board and a robot that count like it. Sends nothing.
 
-import { familyOfUnit, robotInUnit } from '#shared/actions/robot/counterpart.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import { FAMILIES, type Family } from '#shared/protocol/families.ts';
+import { familyOfUnit, robotInUnit } from '#shared/profile/counterpart.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import { FAMILIES, type Family } from '#shared/codec/families.ts';
 
 export interface GroupBoard {
   readonly family: Family;

@@ -1,6 +1,6 @@
 // What keeps a group from the board, in words: its servos by the names they have on the robot it was judged for.
 
-import type { CompileProblem } from '#shared/actions/group/compileReport.ts';
+import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { words } from '../../i18n/words.ts';
 import { namesIn } from '../servoName.ts';
 import type { Source } from './workedOut.ts';

@@ -1,11 +1,11 @@
 // What a group becomes on its board, worked out from all that it depends on: in the page, or beside it. Keeps nothing.
 
-import { compile, type Compiled } from '#shared/actions/group/compile.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { onBoard, type Robot } from '#shared/actions/robot/robot.ts';
-import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
-import type { Frame } from '#shared/protocol/commands.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import { compile, type Compiled } from '#shared/group/compile.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { onBoard, type Robot } from '#shared/profile/robot.ts';
+import { fingerprintOf } from '#shared/group/fingerprint.ts';
+import type { Frame } from '#shared/codec/commands.ts';
+import type { Family } from '#shared/codec/families.ts';
 
 export interface Source {
   readonly group: ActionGroup;

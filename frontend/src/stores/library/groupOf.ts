@@ -1,8 +1,8 @@
 // A group out of the text the library keeps of it.
 
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { groupFromText } from '#shared/actions/group/groupText.ts';
-import { LibraryError } from '#shared/actions/library/keeper.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { groupFromText } from '#shared/group/groupText.ts';
+import { LibraryError } from '#shared/files/keeper.ts';
 
 /** Throws a LibraryError where this version cannot read it. */
 export function groupOf(text: string): ActionGroup {

@@ -1,10 +1,10 @@
 import { describe, expect, test } from 'vitest';
-import { rename } from '#shared/actions/group/groupEdits.ts';
-import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
-import { emptyGroup, GROUP_NAME_LENGTH } from '#shared/actions/group/group.ts';
-import { LibraryError, type Keeper } from '#shared/actions/library/keeper.ts';
-import { libraryFromText, type BundledDocument } from '#shared/actions/library/libraryText.ts';
-import { createVirtualClock, type VirtualClock } from '#shared/simulator/virtualClock.ts';
+import { rename } from '#shared/group/groupEdits.ts';
+import { groupFromText, groupToText } from '#shared/group/groupText.ts';
+import { emptyGroup, GROUP_NAME_LENGTH } from '#shared/group/group.ts';
+import { LibraryError, type Keeper } from '#shared/files/keeper.ts';
+import { libraryFromText, type BundledDocument } from '#shared/files/libraryText.ts';
+import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
 import { createMemoryKeeper } from '../../keepers/memoryKeeper.ts';
 import { libraryProblem } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/whole.ts';

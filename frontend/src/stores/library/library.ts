@@ -4,12 +4,12 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { sleep, type Clock } from '#shared/clock.ts';
-import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
-import { rename } from '#shared/actions/group/groupEdits.ts';
-import { groupFromText, groupToText } from '#shared/actions/group/groupText.ts';
-import type { Label } from '#shared/actions/history.ts';
-import { factsOf } from '#shared/actions/library/facts.ts';
-import type { GroupFacts } from '#shared/actions/library/factsShape.ts';
+import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
+import { rename } from '#shared/group/groupEdits.ts';
+import { groupFromText, groupToText } from '#shared/group/groupText.ts';
+import type { Label } from '#shared/document/history.ts';
+import { factsOf } from '#shared/files/facts.ts';
+import type { GroupFacts } from '#shared/files/factsShape.ts';
 import {
   asLibraryError,
   listedOf,
@@ -18,7 +18,7 @@ import {
   type Listing,
   type Stored,
   type LibraryErrorCode,
-} from '#shared/actions/library/keeper.ts';
+} from '#shared/files/keeper.ts';
 import { libraryProblem } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/words.ts';
 import type { Document } from '../group/document.ts';

@@ -1,9 +1,9 @@
 // The whole library as one file, and a file into the library: all of it or nothing, beside what is there. Knows no place.
 
 import type { Clock } from '#shared/clock.ts';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { groupToText, sameGroup } from '#shared/actions/group/groupText.ts';
-import type { GroupFacts } from '#shared/actions/library/factsShape.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { groupToText, sameGroup } from '#shared/group/groupText.ts';
+import type { GroupFacts } from '#shared/files/factsShape.ts';
 import {
   asLibraryError,
   LibraryError,
@@ -11,13 +11,13 @@ import {
   type Keeper,
   type LibraryErrorCode,
   type Listed,
-} from '#shared/actions/library/keeper.ts';
+} from '#shared/files/keeper.ts';
 import {
   libraryFromText,
   libraryToText,
   type BundledDocument,
   type BundledVersion,
-} from '#shared/actions/library/libraryText.ts';
+} from '#shared/files/libraryText.ts';
 import { flawSentence, libraryProblem } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/whole.ts';
 import type { Notices } from '../notices.ts';

@@ -1,8 +1,8 @@
 // Pages at one keeper, in virtual time, for tests: each has its own stores; `texts` is what its browser kept.
 
-import type { Keeper } from '#shared/actions/library/keeper.ts';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import type { VirtualClock } from '#shared/simulator/virtualClock.ts';
+import type { Keeper } from '#shared/files/keeper.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import type { VirtualClock } from '#shared/testing/virtualClock.ts';
 import { createDocument } from '../group/document.ts';
 import { createNotices } from '../notices.ts';
 import { createRobots } from '../robots/robots.ts';

@@ -1,8 +1,8 @@
 // Versions of a group that were kept under a name, and the way back to them. What cannot be done is told; nothing rejects.
 
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { groupToText } from '#shared/actions/group/groupText.ts';
-import type { Keeper, Version } from '#shared/actions/library/keeper.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { groupToText } from '#shared/group/groupText.ts';
+import type { Keeper, Version } from '#shared/files/keeper.ts';
 import { words } from '../../i18n/words.ts';
 import type { Document } from '../group/document.ts';
 import type { Notices } from '../notices.ts';

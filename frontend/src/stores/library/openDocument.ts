@@ -2,9 +2,9 @@
 // Knows no keeper.
 
 import * as v from 'valibot';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { sameGroup } from '#shared/actions/group/groupText.ts';
-import { record, startHistory, type History, type Label } from '#shared/actions/history.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { sameGroup } from '#shared/group/groupText.ts';
+import { record, startHistory, type History, type Label } from '#shared/document/history.ts';
 import type { Document } from '../group/document.ts';
 import type { TextStorage } from '../textStorage.ts';
 

@@ -2,7 +2,7 @@
 // crash or an absent gateway loses nothing. Several tabs may share the storage. Knows no keeper.
 
 import * as v from 'valibot';
-import type { Stored } from '#shared/actions/library/keeper.ts';
+import type { Stored } from '#shared/files/keeper.ts';
 import type { TextStorage } from '../textStorage.ts';
 
 export interface Outbox {

@@ -2,7 +2,7 @@
 // texts and revisions; what becomes of a conflict is decided by whoever asked.
 
 import type { Clock } from '#shared/clock.ts';
-import { LibraryError, type Facts, type Keeper, type Stored } from '#shared/actions/library/keeper.ts';
+import { LibraryError, type Facts, type Keeper, type Stored } from '#shared/files/keeper.ts';
 import type { Outbox } from './outbox.ts';
 
 export interface ShelvingOptions {

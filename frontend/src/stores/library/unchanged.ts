@@ -1,7 +1,7 @@
 // A list of the library asked for anew, with the very objects of before where they say the same: whoever shows it has nothing to
 // do for those. Pure.
 
-import type { Listed } from '#shared/actions/library/keeper.ts';
+import type { Listed } from '#shared/files/keeper.ts';
 
 export function unchanged(before: readonly Listed[], now: readonly Listed[]): readonly Listed[] {
   const known = new Map(before.map((one) => [one.id, one]));

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { createStore } from 'zustand/vanilla';
 import type { Lease } from '#shared/session/lease.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import type { DeviceState } from '../device/device.ts';
 import { tellHandedOver } from './handedOver.ts';
 

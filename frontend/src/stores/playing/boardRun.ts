@@ -1,8 +1,8 @@
 // Has the board play a group by itself: downloads it first where the slot has not just this, as any download that may
 // take the place of another group. Judges by the frames that would be written, and says where they are while they run; knows no timeline.
 
-import { frameEnds } from '#shared/actions/group/tracks.ts';
-import { fateOf, recordOf } from '#shared/actions/slots/slotBook.ts';
+import { frameEnds } from '#shared/group/tracks.ts';
+import { fateOf, recordOf } from '#shared/group/slotBook.ts';
 import { passMs } from '#shared/motion/motion.ts';
 import type { CompiledGroup, CompiledStore } from '../group/compiled.ts';
 import type { Device } from '../device/device.ts';

@@ -1,10 +1,10 @@
 // What playing means now: which part of the group, from where, how often, and which servos hear of it. Plays nothing.
 
-import { totalDurationMs } from '#shared/actions/group/group.ts';
-import { passageOf, type Passage, type PassageOptions } from '#shared/actions/group/passage.ts';
-import { poseAtMs, tracksOf } from '#shared/actions/group/tracks.ts';
-import type { Frame, ServoTarget } from '#shared/protocol/commands.ts';
-import type { Family } from '#shared/protocol/families.ts';
+import { totalDurationMs } from '#shared/group/group.ts';
+import { passageOf, type Passage, type PassageOptions } from '#shared/group/passage.ts';
+import { poseAtMs, tracksOf } from '#shared/group/tracks.ts';
+import type { Frame, ServoTarget } from '#shared/codec/commands.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { startsKnown } from '#shared/session/state.ts';
 import { RANGE_MS } from '#shared/session/timings.ts';
 import type { CompiledGroup } from '../group/compiled.ts';

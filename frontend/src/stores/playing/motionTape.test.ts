@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
-import { totalDurationMs } from '#shared/actions/group/group.ts';
-import { simplify } from '#shared/actions/group/simplify.ts';
-import { positionAt, tracksOf } from '#shared/actions/group/tracks.ts';
+import { totalDurationMs } from '#shared/group/group.ts';
+import { simplify } from '#shared/group/simplify.ts';
+import { positionAt, tracksOf } from '#shared/group/tracks.ts';
 import { createDesk } from '../deskUnderTest.ts';
 
 const at = (servo: number, position: number) => [{ servo, position }];

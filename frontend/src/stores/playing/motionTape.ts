@@ -2,7 +2,7 @@
 // Bounded: what is older goes. Knows no group.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Sample } from '#shared/actions/group/simplify.ts';
+import type { Sample } from '#shared/group/simplify.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Device } from '../device/device.ts';
 import type { RobotStore } from '../robots/robots.ts';

@@ -1,8 +1,8 @@
 import { describe, expect, test } from 'vitest';
-import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
-import { insertFrame, setMeta, type NewFrame } from '#shared/actions/group/groupEdits.ts';
-import { startHistory } from '#shared/actions/history.ts';
-import { positionAt, tracksOf } from '#shared/actions/group/tracks.ts';
+import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
+import { insertFrame, setMeta, type NewFrame } from '#shared/group/groupEdits.ts';
+import { startHistory } from '#shared/document/history.ts';
+import { positionAt, tracksOf } from '#shared/group/tracks.ts';
 import type { Lease } from '#shared/session/lease.ts';
 import { downloadCancelled } from '../../i18n/sentences/slots.ts';
 import { createDesk } from '../deskUnderTest.ts';

@@ -1,7 +1,7 @@
 // Where in a group one is while it plays, in ms of the group: from the page, on the board, or on the drawing alone. By the clock;
 // pure, knows neither robot nor page.
 
-import type { Passage } from '#shared/actions/group/passage.ts';
+import type { Passage } from '#shared/group/passage.ts';
 
 /** What plays from the page: which frame of its passage began when. */
 export interface PagePlay {

@@ -2,8 +2,8 @@
 // either way. One thing at a time; STOP, a lost link and a hidden page end it. Knows no panel.
 
 import type { StoreApi } from 'zustand/vanilla';
-import { totalDurationMs } from '#shared/actions/group/group.ts';
-import { frameEnds } from '#shared/actions/group/tracks.ts';
+import { totalDurationMs } from '#shared/group/group.ts';
+import { frameEnds } from '#shared/group/tracks.ts';
 import type { Activity } from '#shared/session/state.ts';
 import { words } from '../../i18n/words.ts';
 import { createBoardRun } from './boardRun.ts';

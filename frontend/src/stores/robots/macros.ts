@@ -1,7 +1,7 @@
 // The page of buttons of the robot at hand. Never moves anything; macroRun.ts does what a button says.
 
-import { EMPTY_PAGE, type MacroPage } from '#shared/actions/macros/macro.ts';
-import { macroPageFromText, macroPageToText } from '#shared/actions/macros/macroText.ts';
+import { EMPTY_PAGE, type MacroPage } from '#shared/profile/macro.ts';
+import { macroPageFromText, macroPageToText } from '#shared/profile/macroText.ts';
 import { flawSentence } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/words.ts';
 import type { TextStorage } from '../textStorage.ts';

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
-import type { Mapping } from '#shared/actions/mapping/mapping.ts';
-import { readyMapping } from '#shared/actions/mapping/mappingReady.ts';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import type { Mapping } from '#shared/profile/mapping.ts';
+import { readyMapping } from '#shared/profile/mappingReady.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { createMappings } from './mappings.ts';
 import { createNotices } from '../notices.ts';
 import { createRobots, freshRobot } from './robots.ts';

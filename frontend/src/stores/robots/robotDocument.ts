@@ -1,9 +1,9 @@
 // A document that each robot has one of: the store shows the one of the robot at hand, saves it under the robot's number,
 // and changes it with the robot. Text that cannot be read is set aside, never thrown away. Never moves anything.
 
-import { startHistory, type History } from '#shared/actions/history.ts';
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import type { Read, TextFlaw } from '#shared/actions/versionedText.ts';
+import { startHistory, type History } from '#shared/document/history.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import type { Read, TextFlaw } from '#shared/document/versionedText.ts';
 import type { TextStorage } from '../textStorage.ts';
 import type { Notices } from '../notices.ts';
 import type { OwnRobot, RobotStore } from './robots.ts';

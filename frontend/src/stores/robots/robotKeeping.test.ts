@@ -1,9 +1,9 @@
 import { describe, expect, test } from 'vitest';
-import { LibraryError, type Keeper } from '#shared/actions/library/keeper.ts';
-import { addPose, markApplied } from '#shared/actions/poses/poseEdits.ts';
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import { changeServo } from '#shared/actions/robot/robotEdits.ts';
-import { createVirtualClock, type VirtualClock } from '#shared/simulator/virtualClock.ts';
+import { LibraryError, type Keeper } from '#shared/files/keeper.ts';
+import { addPose, markApplied } from '#shared/profile/poseEdits.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import { changeServo } from '#shared/profile/robotEdits.ts';
+import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
 import { createMemoryKeeper } from '../../keepers/memoryKeeper.ts';
 import { createVisit, named, nextId } from './robotVisitUnderTest.ts';
 

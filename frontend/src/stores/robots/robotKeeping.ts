@@ -4,20 +4,14 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
-import type { RobotFacts } from '#shared/actions/library/factsShape.ts';
-import {
-  asLibraryError,
-  LibraryError,
-  listedOf,
-  type Keeper,
-  type Listed,
-} from '#shared/actions/library/keeper.ts';
-import { robotFactsOf } from '#shared/actions/library/robotFacts.ts';
-import type { MacroPage } from '#shared/actions/macros/macro.ts';
-import type { Mapping } from '#shared/actions/mapping/mapping.ts';
-import type { PoseBook } from '#shared/actions/poses/pose.ts';
-import { kitFromText, kitToText, mergedKits, sameKit, type Kit } from '#shared/actions/robot/kit.ts';
-import { robotFromText, robotToText } from '#shared/actions/robot/robotText.ts';
+import type { RobotFacts } from '#shared/files/factsShape.ts';
+import { asLibraryError, LibraryError, listedOf, type Keeper, type Listed } from '#shared/files/keeper.ts';
+import { robotFactsOf } from '#shared/files/robotFacts.ts';
+import type { MacroPage } from '#shared/profile/macro.ts';
+import type { Mapping } from '#shared/profile/mapping.ts';
+import type { PoseBook } from '#shared/profile/pose.ts';
+import { kitFromText, kitToText, mergedKits, sameKit, type Kit } from '#shared/profile/kit.ts';
+import { robotFromText, robotToText } from '#shared/profile/robotText.ts';
 import { libraryProblem } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/words.ts';
 import type { TextStorage } from '../textStorage.ts';

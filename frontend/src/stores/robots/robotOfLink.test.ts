@@ -1,13 +1,13 @@
 import { describe, expect, test } from 'vitest';
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import { changeServo } from '#shared/actions/robot/robotEdits.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import { changeServo } from '#shared/profile/robotEdits.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { Lease } from '#shared/session/lease.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { SessionState } from '#shared/session/state.ts';
-import { createVirtualClock, type VirtualClock } from '#shared/simulator/virtualClock.ts';
-import type { Keeper } from '#shared/actions/library/keeper.ts';
+import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
+import type { Keeper } from '#shared/files/keeper.ts';
 import { createMemoryKeeper } from '../../keepers/memoryKeeper.ts';
 import { followRobot } from './robotOfLink.ts';
 import { freshRobot } from './robots.ts';

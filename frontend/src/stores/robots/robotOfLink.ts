@@ -1,8 +1,8 @@
 // On a shared link the robot at hand is the one that the link says to stand on the board, and what a person takes up here is put
 // there for everybody. Knows who may change what it is judged by. Moves nothing.
 
-import { limitsOnBoard, type Robot } from '#shared/actions/robot/robot.ts';
-import type { FamilyId } from '#shared/protocol/families.ts';
+import { limitsOnBoard, type Robot } from '#shared/profile/robot.ts';
+import type { FamilyId } from '#shared/codec/families.ts';
 import type { Lease } from '#shared/session/lease.ts';
 import { INITIAL_STATE } from '#shared/session/store.ts';
 import type { SessionState } from '#shared/session/state.ts';

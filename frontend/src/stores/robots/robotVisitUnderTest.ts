@@ -1,10 +1,10 @@
 // A page's robots at one keeper, in virtual time, for tests; `texts` is what its browser kept.
 
-import type { Keeper } from '#shared/actions/library/keeper.ts';
-import { addPose } from '#shared/actions/poses/poseEdits.ts';
-import type { Robot } from '#shared/actions/robot/robot.ts';
-import { FAMILIES } from '#shared/protocol/families.ts';
-import type { VirtualClock } from '#shared/simulator/virtualClock.ts';
+import type { Keeper } from '#shared/files/keeper.ts';
+import { addPose } from '#shared/profile/poseEdits.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import type { VirtualClock } from '#shared/testing/virtualClock.ts';
 import { createDevice } from '../device/device.ts';
 import { createMacros } from './macros.ts';
 import { createMappings } from './mappings.ts';

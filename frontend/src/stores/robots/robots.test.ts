@@ -1,7 +1,7 @@
 import { describe, expect, test, vi } from 'vitest';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
-import { READY_ROBOTS, readyRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
-import type { Robot } from '#shared/actions/robot/robot.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
+import { READY_ROBOTS, readyRobot, type ReadyRobotId } from '#shared/profile/readyRobots.ts';
+import type { Robot } from '#shared/profile/robot.ts';
 import { createNotices } from '../notices.ts';
 import { createRobots, freshRobot } from './robots.ts';
 

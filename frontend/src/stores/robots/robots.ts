@@ -11,11 +11,11 @@ import {
   undo,
   type History,
   type Label,
-} from '#shared/actions/history.ts';
-import { readyRobot, usualRobot, type ReadyRobotId } from '#shared/actions/robot/readyRobots.ts';
-import { flawOf, NAME_LENGTH, type Robot, type RobotFlaw } from '#shared/actions/robot/robot.ts';
-import { robotFromText, robotToText } from '#shared/actions/robot/robotText.ts';
-import type { FamilyId } from '#shared/protocol/families.ts';
+} from '#shared/document/history.ts';
+import { readyRobot, usualRobot, type ReadyRobotId } from '#shared/profile/readyRobots.ts';
+import { flawOf, NAME_LENGTH, type Robot, type RobotFlaw } from '#shared/profile/robot.ts';
+import { robotFromText, robotToText } from '#shared/profile/robotText.ts';
+import type { FamilyId } from '#shared/codec/families.ts';
 import { robotNames } from '../../i18n/sentences/robots.ts';
 import { words } from '../../i18n/words.ts';
 import { longerName } from '../longerName.ts';

@@ -1,8 +1,8 @@
 import { expect, test } from 'vitest';
-import { FAMILIES } from '#shared/protocol/families.ts';
-import { emptyGroup } from '#shared/actions/group/group.ts';
-import { setMeta } from '#shared/actions/group/groupEdits.ts';
-import { startHistory } from '#shared/actions/history.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import { emptyGroup } from '#shared/group/group.ts';
+import { setMeta } from '#shared/group/groupEdits.ts';
+import { startHistory } from '#shared/document/history.ts';
 import { createDesk } from '../deskUnderTest.ts';
 import { chosenTimes } from './groupPlace.ts';
 import { createSharedSlots, storedGroup } from './sharedSlotsUnderTest.ts';

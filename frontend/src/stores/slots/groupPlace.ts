@@ -2,8 +2,8 @@
 // this one names its own; else it is the group's own slot, or a free one of the board. Moves and stores nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { ActionGroup } from '#shared/actions/group/group.ts';
-import { ownSlot, slotFor, type KnownSlots } from '#shared/actions/slots/placing.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { ownSlot, slotFor, type KnownSlots } from '#shared/group/placing.ts';
 import type { Device } from '../device/device.ts';
 import type { Document } from '../group/document.ts';
 import type { View, ViewState } from '../view.ts';

@@ -1,10 +1,10 @@
 import { expect, test } from 'vitest';
 import { createStore } from 'zustand/vanilla';
-import { emptyGroup, type ActionGroup } from '#shared/actions/group/group.ts';
-import { insertFrame } from '#shared/actions/group/groupEdits.ts';
-import { groupToText } from '#shared/actions/group/groupText.ts';
-import { factsOf } from '#shared/actions/library/facts.ts';
-import type { Listed } from '#shared/actions/library/keeper.ts';
+import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import { groupToText } from '#shared/group/groupText.ts';
+import { factsOf } from '#shared/files/facts.ts';
+import type { Listed } from '#shared/files/keeper.ts';
 import { createMemoryKeeper } from '../../keepers/memoryKeeper.ts';
 import { createDesk } from '../deskUnderTest.ts';
 import type { Way } from '../device/device.ts';

@@ -1,9 +1,9 @@
 // What others stored in the slots of the board at hand, looked up in the library: a version that it holds is known as one's own is.
 // Writes nothing to the library and tells nobody; what is not found stays what the link says of it.
 
-import { groupFromText } from '#shared/actions/group/groupText.ts';
-import type { Keeper } from '#shared/actions/library/keeper.ts';
-import { recordOf } from '#shared/actions/slots/slotBook.ts';
+import { groupFromText } from '#shared/group/groupText.ts';
+import type { Keeper } from '#shared/files/keeper.ts';
+import { recordOf } from '#shared/group/slotBook.ts';
 import type { StoredGroup } from '#shared/session/transport.ts';
 import type { Device } from '../device/device.ts';
 import type { CompiledStore } from '../group/compiled.ts';

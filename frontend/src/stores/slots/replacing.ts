@@ -2,8 +2,8 @@
 // a free slot is taken instead. Judges anew at each answer, by the frames that would be written. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { fateOf, recordOf, type SlotRecord } from '#shared/actions/slots/slotBook.ts';
-import { freeSlot } from '#shared/actions/slots/placing.ts';
+import { fateOf, recordOf, type SlotRecord } from '#shared/group/slotBook.ts';
+import { freeSlot } from '#shared/group/placing.ts';
 import type { Device } from '../device/device.ts';
 import { boardFingerprint } from '../group/workedOut.ts';
 import type { RobotStore } from '../robots/robots.ts';

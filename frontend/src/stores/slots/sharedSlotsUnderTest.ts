@@ -1,6 +1,6 @@
 // A board's slots as a gateway shares them, for tests: stores at once what is seen as it is, and others may store there too.
 
-import { fingerprintOf } from '#shared/actions/slots/fingerprint.ts';
+import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type {
   SharedDownload,

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { recordOf } from '#shared/actions/slots/slotBook.ts';
+import { recordOf } from '#shared/group/slotBook.ts';
 import { createDesk } from '../deskUnderTest.ts';
 import { createSharedSlots, storedGroup } from './sharedSlotsUnderTest.ts';
 import { downloadedSentence, downloadCancelled } from '../../i18n/sentences/slots.ts';

@@ -2,7 +2,7 @@
 // page is new at each link, any other is remembered in the browser's storage. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { isAbout, withBegun, withNews, type DownloadNews } from '#shared/actions/slots/arrivals.ts';
+import { isAbout, withBegun, withNews, type DownloadNews } from '#shared/group/arrivals.ts';
 import {
   EMPTY_SLOT_BOOK,
   slotBookFromText,
@@ -14,7 +14,7 @@ import {
   withVersions,
   type SlotBook,
   type SlotRecord,
-} from '#shared/actions/slots/slotBook.ts';
+} from '#shared/group/slotBook.ts';
 import type { SlotGroup } from '#shared/session/transport.ts';
 import { downloadedSentence, downloadCancelled } from '../../i18n/sentences/slots.ts';
 import { words } from '../../i18n/words.ts';

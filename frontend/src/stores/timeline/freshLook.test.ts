@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { createVirtualClock } from '#shared/simulator/virtualClock.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { createMemoryKeeper } from '../../keepers/memoryKeeper.ts';
 import { lookAfresh } from './freshLook.ts';
 import { createVisit } from '../library/libraryUnderTest.ts';

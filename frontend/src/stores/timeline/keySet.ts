@@ -1,6 +1,6 @@
 // A set of keys of the action group, by their names in the document. Pure; knows no group.
 
-import type { KeyRef } from '#shared/actions/group/tracks.ts';
+import type { KeyRef } from '#shared/group/tracks.ts';
 
 /** `frameId/servo`, so that a key is found in it at once, however many there are. */
 export type KeyName = `${number}/${number}`;

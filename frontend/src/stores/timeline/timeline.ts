@@ -2,7 +2,7 @@
 // playhead is an instant one looks at; whoever plays may move it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Clip } from '#shared/actions/group/clip.ts';
+import type { Clip } from '#shared/group/clip.ts';
 import { NO_KEYS, type KeySet } from './keySet.ts';
 
 /** The instant at the left end of the lanes, and how much time a pixel is. */

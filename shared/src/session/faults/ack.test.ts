@@ -3,11 +3,11 @@
 
 import { expect, test } from 'vitest';
 import type { Clock } from '../../clock.ts';
-import type { Frame } from '../../protocol/commands.ts';
-import { family } from '../../protocol/families.ts';
+import type { Frame } from '../../codec/commands.ts';
+import { family } from '../../codec/families.ts';
 import { createRandom } from '../../simulator/random.ts';
 import { createSimulatedTransport } from '../../simulator/transport.ts';
-import { createVirtualClock } from '../../simulator/virtualClock.ts';
+import { createVirtualClock } from '../../testing/virtualClock.ts';
 import { createSession } from '../session.ts';
 import type { Transport } from '../transport.ts';
 import { caseOf, named, seeds } from './amount.ts';

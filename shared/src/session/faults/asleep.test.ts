@@ -2,7 +2,7 @@
 // it afterwards; what the board does by itself goes on, and the session knows of it.
 
 import { describe, expect, test } from 'vitest';
-import { family as familyOf } from '../../protocol/families.ts';
+import { family as familyOf } from '../../codec/families.ts';
 import { createRig, firstMovesMs, type Rig } from '../rig.ts';
 
 const POSE = [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 1_500 }));

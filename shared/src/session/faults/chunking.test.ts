@@ -2,8 +2,8 @@
 // packets and the same noise.
 
 import { expect, test } from 'vitest';
-import { createDecoder } from '../../protocol/decoder.ts';
-import type { ShapeRule } from '../../protocol/shapes.ts';
+import { createDecoder } from '../../codec/decoder.ts';
+import type { ShapeRule } from '../../codec/shapes.ts';
 import { createRandom } from '../../simulator/random.ts';
 import { named, seeds } from './amount.ts';
 import {

@@ -4,8 +4,8 @@
 import { setFlagsFromString } from 'node:v8';
 import { runInNewContext } from 'node:vm';
 import { expect, test } from 'vitest';
-import { createDecoder } from '../../protocol/decoder.ts';
-import { COMMAND_SHAPES, REPORT_SHAPES, type ShapeRule } from '../../protocol/shapes.ts';
+import { createDecoder } from '../../codec/decoder.ts';
+import { COMMAND_SHAPES, REPORT_SHAPES, type ShapeRule } from '../../codec/shapes.ts';
 import { createRandom } from '../../simulator/random.ts';
 import { IS_EXHAUSTIVE, named, seeds } from './amount.ts';
 import { belowFrom, type Random } from './streams.ts';

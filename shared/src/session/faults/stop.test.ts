@@ -1,9 +1,9 @@
 // F21 of safety.md section 5: STOP at a random instant of each state. The oracle is the board's bus.
 
 import { expect, test } from 'vitest';
-import type { Frame } from '../../protocol/commands.ts';
-import { encodeCommand } from '../../protocol/encode.ts';
-import { wireMs } from '../../protocol/packet.ts';
+import type { Frame } from '../../codec/commands.ts';
+import { encodeCommand } from '../../codec/encode.ts';
+import { wireMs } from '../../codec/packet.ts';
 import { createRandom } from '../../simulator/random.ts';
 import { createRig, firstMovesMs, type HeardCommand, type Rig } from '../rig.ts';
 import { named, seeds } from './amount.ts';

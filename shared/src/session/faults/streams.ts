@@ -1,11 +1,11 @@
 // Streams as the families send them and as a host does, and what can happen to one byte of them. Bytes are the letters of a
 // text here: quick to cut, to join and to compare. Knows packets and chance; no decoder.
 
-import { COMMAND_NUMBER, type Command, type CommandKind, type ServoTarget } from '../../protocol/commands.ts';
-import { encodeCommand, encodeReport } from '../../protocol/encode.ts';
-import { FAMILIES, type Family } from '../../protocol/families.ts';
-import type { Report, ServoOffset } from '../../protocol/reports.ts';
-import { COMMAND_SHAPES, REPORT_SHAPES, type ShapeRule } from '../../protocol/shapes.ts';
+import { COMMAND_NUMBER, type Command, type CommandKind, type ServoTarget } from '../../codec/commands.ts';
+import { encodeCommand, encodeReport } from '../../codec/encode.ts';
+import { FAMILIES, type Family } from '../../codec/families.ts';
+import type { Report, ServoOffset } from '../../codec/reports.ts';
+import { COMMAND_SHAPES, REPORT_SHAPES, type ShapeRule } from '../../codec/shapes.ts';
 
 /** A whole number from 0, below the limit. */
 export type Random = (below: number) => number;

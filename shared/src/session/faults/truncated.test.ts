@@ -1,7 +1,7 @@
 // F7 of safety.md section 5: a packet is cut on the wire, then the board is told to stop.
 
 import { expect, test } from 'vitest';
-import { wireMs } from '../../protocol/packet.ts';
+import { wireMs } from '../../codec/packet.ts';
 import { createRandom } from '../../simulator/random.ts';
 import { createRig, firstMovesMs, type Rig } from '../rig.ts';
 import { caseOf, named, seeds } from './amount.ts';

@@ -2,12 +2,12 @@
 // its packet, before and after its acknowledgement.
 
 import { expect, test } from 'vitest';
-import type { Frame } from '../../protocol/commands.ts';
-import { family } from '../../protocol/families.ts';
-import { wireMs } from '../../protocol/packet.ts';
+import type { Frame } from '../../codec/commands.ts';
+import { family } from '../../codec/families.ts';
+import { wireMs } from '../../codec/packet.ts';
 import { createRandom } from '../../simulator/random.ts';
 import { createSimulatedTransport } from '../../simulator/transport.ts';
-import { createVirtualClock } from '../../simulator/virtualClock.ts';
+import { createVirtualClock } from '../../testing/virtualClock.ts';
 import { LinkError } from '../linkError.ts';
 import { createSession } from '../session.ts';
 import { caseOf, named, seeds } from './amount.ts';

@@ -1,7 +1,7 @@
 // What LeArm does with a command: the numbers of the other boards and its own ones (boards.md 2.3), with its delays before
 // each answer (L13). Knows no bytes on the line and no loop.
 
-import { COMMAND_NUMBER } from '../../protocol/commands.ts';
+import { COMMAND_NUMBER } from '../../codec/commands.ts';
 import type { Reply } from '../dispatch.ts';
 import type { GroupStore } from '../groupStore.ts';
 import type { OwnTimeServos } from '../ownTimeServos.ts';

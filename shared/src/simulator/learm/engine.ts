@@ -1,7 +1,7 @@
 // LeArm AI with its ESP32 (boards.md chapter 4), PWM or bus servos, without its cable: parser, mode, loop, servos and store put
 // together. Knows no pacing and no clock.
 
-import type { Frame } from '../../protocol/commands.ts';
+import type { Frame } from '../../codec/commands.ts';
 import type { Engine, EngineParts } from '../engine.ts';
 import { createGroupStore } from '../groupStore.ts';
 import { createOwnTimeServos } from '../ownTimeServos.ts';

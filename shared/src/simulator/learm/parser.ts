@@ -1,7 +1,7 @@
 // LeArm's byte parser (L3): no time-out, numbers from 26 on refused, a buffer of 60 bytes that is filled without looking.
 // Knows bytes only. What the real one does to its memory then is not imitated: it says `overrun` and the board jams.
 
-import { HEADER } from '../../protocol/packet.ts';
+import { HEADER } from '../../codec/packet.ts';
 
 export interface ParserEvents {
   readonly complete: (command: number, params: Uint8Array) => void;

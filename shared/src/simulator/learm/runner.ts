@@ -1,7 +1,7 @@
 // Plays LeArm's groups: no deadlines, it looks every 110 ms whether all servos have arrived (L6-L11). Knows frames and
 // time; no packet.
 
-import type { Frame } from '../../protocol/commands.ts';
+import type { Frame } from '../../codec/commands.ts';
 
 export interface LearmRunner {
   readonly request: (slot: number, times: number) => void;

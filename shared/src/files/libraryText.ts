@@ -1,0 +1,60 @@
+// A whole library as one text with a version, and back, all or nothing. Reading trusts nothing and names the document it
+// stumbles over. Knows no keeper's place.
+
+import * as v from 'valibot';
+import { flawOfGroup, groupSchema, type ActionGroup } from '../group/group.ts';
+import { readVersioned, versionedText, type Read, type TextFlaw } from '../document/versionedText.ts';
+import { count } from '../document/schemas.ts';
+
+const FORMAT = 'servodeck-library';
+
+const versionSchema = v.strictObject({
+  name: v.pipe(v.string(), v.maxLength(64)),
+  atMs: count,
+  group: groupSchema,
+});
+const documentSchema = v.strictObject({
+  id: v.pipe(v.string(), v.regex(/^[A-Za-z0-9-]{1,64}$/)),
+  updatedAtMs: count,
+  group: groupSchema,
+  versions: v.pipe(v.array(versionSchema), v.maxLength(200)),
+});
+
+export const libraryFileSchema = v.strictObject({
+  format: v.literal(FORMAT),
+  version: v.literal(1),
+  content: v.strictObject({ documents: v.pipe(v.array(documentSchema), v.maxLength(5000)) }),
+});
+
+export interface BundledVersion {
+  readonly name: string;
+  readonly atMs: number;
+  readonly group: ActionGroup;
+}
+
+export interface BundledDocument {
+  readonly id: string;
+  readonly updatedAtMs: number;
+  readonly group: ActionGroup;
+  readonly versions: readonly BundledVersion[];
+}
+
+export interface Bundle {
+  readonly documents: readonly BundledDocument[];
+}
+
+export const libraryToText = (bundle: Bundle): string => versionedText(FORMAT, bundle);
+
+export const libraryFromText = (text: string): Read<Bundle> =>
+  readVersioned<Bundle>(text, libraryFileSchema, flawOfBundle);
+
+function flawOfBundle({ documents }: Bundle): TextFlaw | null {
+  if (new Set(documents.map(({ id }) => id)).size < documents.length) return { code: 'sameNumber', at: '' };
+  for (const { group, versions } of documents) {
+    for (const one of [group, ...versions.map((version) => version.group)]) {
+      const flaw = flawOfGroup(one);
+      if (flaw !== null) return { ...flaw, at: [group.name, flaw.at].join(' ').trim() };
+    }
+  }
+  return null;
+}

@@ -1,0 +1,106 @@
+// Each servo's way as a board can go it: its keys on the board's ticks, no jump faster than a move can be. Continuous from the
+// beginning of the group to its end. Knows a board's time; no frame, no error bound.
+
+import type { Family } from '../codec/families.ts';
+import { CURVES } from './easings.ts';
+import type { Easing } from './group.ts';
+import type { Key, Track, Tracks } from './tracks.ts';
+
+export interface Leg {
+  readonly fromMs: number;
+  readonly toMs: number;
+  readonly from: number;
+  readonly to: number;
+  readonly easing: Easing;
+  /** As fast as the servo can: how long it really takes, nobody asked. */
+  readonly isJump: boolean;
+}
+
+export interface Course {
+  readonly servo: number;
+  /** One follows the other from 0 on; behind the last one the servo rests. */
+  readonly legs: readonly Leg[];
+  readonly restPosition: number;
+  /** When it comes from wherever it was to its first key; 0 where its start is known. */
+  readonly knownFromMs: number;
+  /** Keys that would have to be reached in no time: another one falls on the same tick, or the beginning does. */
+  readonly missed: readonly Key[];
+  /** How far a key is off its time at most. */
+  readonly shiftedMs: number;
+}
+
+/** Between two ends of frames at least, and every end is a multiple of it. */
+export function gridMs({ motion, shortestMoveMs }: Family): number {
+  return Math.ceil(shortestMoveMs / motion.tickMs) * motion.tickMs;
+}
+
+export const onGrid = (atMs: number, stepMs: number): number => Math.round(atMs / stepMs) * stepMs;
+
+/** `start` is where servos stand when the group begins; the others wait at their first key, from wherever they came. */
+export function coursesOf(
+  tracks: Tracks,
+  stepMs: number,
+  start: ReadonlyMap<number, number>,
+): readonly Course[] {
+  return [...tracks.values()].map((track) => courseOf(track, stepMs, start.get(track.servo)));
+}
+
+function courseOf({ servo, keys }: Track, stepMs: number, start: number | undefined): Course {
+  const tickOf = ({ atMs }: Key): number => onGrid(atMs, stepMs);
+  // The last one on each tick.
+  const byTick = new Map(keys.map((key) => [tickOf(key), key]));
+  const atOnce = byTick.get(0);
+  const reached = [...byTick.values()].filter((key) => key !== atOnce);
+  const isUnknown = start === undefined && atOnce === undefined;
+  const there = (key: Key): number | undefined =>
+    tickOf(key) === 0 ? start : byTick.get(tickOf(key))?.position;
+  let at: Place = { atMs: 0, position: start ?? (atOnce ?? reached[0])?.position ?? 0 };
+  const legs = reached.flatMap((key, index) => {
+    const to = { atMs: tickOf(key), position: key.position };
+    const way = legsTo(at, to, isUnknown && index === 0 ? 'linear' : key.easing, stepMs);
+    at = to;
+    return way;
+  });
+  return {
+    ...{ servo, legs, restPosition: at.position },
+    knownFromMs: isUnknown ? (legs[0]?.toMs ?? 0) : 0,
+    missed: keys.filter((key) => there(key) !== key.position),
+    shiftedMs: reached.reduce((most, key) => Math.max(most, Math.abs(tickOf(key) - key.atMs)), 0),
+  };
+}
+
+interface Place {
+  readonly atMs: number;
+  readonly position: number;
+}
+
+/** A servo that holds stays until one step before the end. */
+function legsTo(from: Place, { atMs, position }: Place, easing: Easing, stepMs: number): Leg[] {
+  const way = { fromMs: from.atMs, toMs: atMs, from: from.position, to: position, easing, isJump: false };
+  if (easing !== 'hold') return [way];
+  const jumpMs = atMs - stepMs;
+  const jump: Leg = { ...way, fromMs: jumpMs, easing: 'linear', isJump: true };
+  const rest: Leg = { ...way, toMs: jumpMs, to: from.position, easing: 'linear' };
+  return jumpMs > from.atMs ? [rest, jump] : [jump];
+}
+
+export function courseAt({ legs, restPosition }: Course, atMs: number): number {
+  const leg = legs[legAfter(legs, atMs)];
+  return leg === undefined ? restPosition : legAt(leg, atMs);
+}
+
+export function legAt({ fromMs, toMs, from, to, easing }: Leg, atMs: number): number {
+  return from + (to - from) * CURVES[easing].at((atMs - fromMs) / (toMs - fromMs));
+}
+
+/** The first leg that ends later. */
+export function legAfter(legs: readonly Leg[], atMs: number): number {
+  let low = 0;
+  let high = legs.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((legs[middle]?.toMs ?? Infinity) <= atMs) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}

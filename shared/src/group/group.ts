@@ -1,0 +1,120 @@
+// An action group as a document: an immutable list of frames, and what a person says of it. One schema checks its shape. Knows
+// no history, no storage, no session; what a board can take is judged where it is compiled and sent. Positions are in the unit
+// the group was made for, never converted.
+//
+// A frame is a moment, `durationMs` after the one before it, and a servo named in it has a key there. A servo that is not named
+// goes on towards its next key: its way spans the frames between. `easing` is how the servos keyed in a frame come into it.
+
+import * as v from 'valibot';
+import { COLOURS } from '../document/colours.ts';
+import type { Frame, ServoTarget } from '../codec/commands.ts';
+import type { TextFlaw } from '../document/versionedText.ts';
+import { runningId, targetSchema, whole } from '../document/schemas.ts';
+
+/** `hold`: stays at the key before and jumps at the end, as fast as the servo can. */
+export const EASINGS = ['linear', 'in', 'out', 'inOut', 'hold'] as const;
+export type Easing = (typeof EASINGS)[number];
+
+export const GROUP_NAME_LENGTH = 64;
+export const NOTE_LENGTH = 200;
+/** More than that is another motion. */
+export const MOST_ERROR_UNITS = 200;
+/** Far above any board; keeps a damaged file from filling the memory. */
+export const MAX_FRAMES = 10_000;
+const MAX_MARKERS = 1000;
+const MAX_TAGS = 20;
+
+const frameSchema = v.strictObject({
+  /** Tells frames apart while they move about in the list; never used twice, means nothing outside the document. */
+  id: runningId,
+  durationMs: whole(0, 0xffff),
+  /** In ascending servo order, each servo once. */
+  targets: v.array(targetSchema),
+  easing: v.picklist(EASINGS),
+  note: v.pipe(v.string(), v.maxLength(NOTE_LENGTH)),
+  colour: v.nullable(v.picklist(COLOURS)),
+});
+
+const markerSchema = v.strictObject({
+  id: runningId,
+  /** Since the group began. */
+  atMs: whole(0, 0xffff * MAX_FRAMES),
+  text: v.pipe(v.string(), v.maxLength(NOTE_LENGTH)),
+});
+
+export const groupSchema = v.strictObject({
+  name: v.pipe(v.string(), v.maxLength(GROUP_NAME_LENGTH)),
+  unit: v.picklist(['us', 'steps']),
+  /** The name of the robot it was made for; empty where nobody said. */
+  robot: v.pipe(v.string(), v.maxLength(GROUP_NAME_LENGTH)),
+  tags: v.pipe(
+    v.array(v.pipe(v.string(), v.minLength(1), v.maxLength(GROUP_NAME_LENGTH))),
+    v.maxLength(MAX_TAGS),
+  ),
+  /** Where on the board it belongs; null: nowhere yet. */
+  slot: v.nullable(whole(0, 255)),
+  /** How often it is played; 0: until stopped. */
+  times: whole(0, 0xffff),
+  /** How far off its board may be on the way; left out: as little as nobody can see. */
+  maxErrorUnits: v.optional(whole(1, MOST_ERROR_UNITS)),
+  frames: v.pipe(v.array(frameSchema), v.maxLength(MAX_FRAMES)),
+  markers: v.pipe(v.array(markerSchema), v.maxLength(MAX_MARKERS)),
+  /** The next unused id of a frame or marker: an undone frame comes back as itself. */
+  nextId: runningId,
+});
+
+export type Marker = Readonly<v.InferOutput<typeof markerSchema>>;
+
+export type GroupFrame = Readonly<Omit<v.InferOutput<typeof frameSchema>, 'targets'>> & Frame;
+
+export type ActionGroup = Readonly<Omit<v.InferOutput<typeof groupSchema>, 'frames' | 'markers' | 'tags'>> & {
+  readonly frames: readonly GroupFrame[];
+  readonly markers: readonly Marker[];
+  readonly tags: readonly string[];
+};
+
+export function emptyGroup(name: string, unit: ActionGroup['unit']): ActionGroup {
+  return { name, unit, robot: '', tags: [], slot: null, times: 1, frames: [], markers: [], nextId: 1 };
+}
+
+/** What no shape can say is wrong, as a sentence; null where nothing is. */
+export function flawOfGroup({ frames, markers, nextId }: ActionGroup): TextFlaw | null {
+  const ids = [...frames, ...markers].map((one) => one.id);
+  if (new Set(ids).size < ids.length || ids.some((one) => one >= nextId))
+    return { code: 'sameNumber', at: '' };
+  const index = frames.findIndex(({ targets }) => !isAscending(targets));
+  return index === -1 ? null : { code: 'servoOrder', at: String(index + 1) };
+}
+
+const isAscending = (targets: readonly ServoTarget[]): boolean =>
+  targets.slice(1).every(({ servo }, index) => servo > (targets[index]?.servo ?? servo));
+
+/** Nominal time of one pass, as the frames ask for it. */
+export function totalDurationMs(frames: readonly Frame[]): number {
+  return frames.reduce((sum, frame) => sum + frame.durationMs, 0);
+}
+
+/** The position of each servo once frame `index` is done: a servo keeps its place until a later frame names it. */
+export function poseAt(frames: readonly Frame[], index: number): ReadonlyMap<number, number> {
+  const pose = new Map<number, number>();
+  for (const frame of frames.slice(0, index + 1)) {
+    for (const target of frame.targets) pose.set(target.servo, target.position);
+  }
+  return pose;
+}
+
+/** Servos that frame `index` moves away from where the frames before it left them, in ascending order. */
+export function changedServos(frames: readonly Frame[], index: number): readonly number[] {
+  const before = poseAt(frames, index - 1);
+  const targets = frames[index]?.targets ?? [];
+  return targets
+    .filter((target) => before.get(target.servo) !== target.position)
+    .map((target) => target.servo)
+    .sort((one, other) => one - other);
+}
+
+/** Targets in ascending servo order, each servo once; the last one given wins. */
+export function sortedTargets(targets: readonly ServoTarget[]): readonly ServoTarget[] {
+  const byServo = new Map(targets.map((target) => [target.servo, target]));
+  return [...byServo.values()].sort((one, other) => one.servo - other.servo);
+}

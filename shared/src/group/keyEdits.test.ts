@@ -1,0 +1,165 @@
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import { emptyGroup, totalDurationMs, type ActionGroup, type Easing } from './group.ts';
+import { insertFrame } from './groupEdits.ts';
+import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groupsUnderTest.ts';
+import { boundedMove, deleteKeys, moveKeys, scaleAmplitude, setKey } from './keyEdits.ts';
+import { setDuration } from './timeEdits.ts';
+import { frameEnds, keysAt, positionAt, tracksOf, type KeyRef } from './tracks.ts';
+
+const SERVOS = [1, 2, 3, 4, 5, 6];
+const STAY = { ripple: false };
+const RIPPLE = { ripple: true };
+
+/** In the order of servos and times. */
+function easingsOf(group: ActionGroup, refs: readonly KeyRef[]): readonly Easing[] {
+  const names = new Set(refs.map(({ frameId, servo }) => `${frameId} ${servo}`));
+  const keys = [...tracksOf(group).values()].flatMap((track) => track.keys);
+  return keys.filter(({ frameId, servo }) => names.has(`${frameId} ${servo}`)).map(({ easing }) => easing);
+}
+
+describe('a key', () => {
+  test('set at any time is there, and the frame it is cut from gives its easing', () => {
+    fc.assert(
+      fc.property(someGroup(), fc.constantFrom(...SERVOS), fc.nat(200_000), (group, servo, atMs) => {
+        const after = setKey(group, servo, atMs, 1234);
+        expect(positionAt(tracksOf(after).get(servo)!, atMs)).toBe(1234);
+      }),
+    );
+    const eased = insertFrame(emptyGroup('Wave', 'us'), 0, {
+      durationMs: 1000,
+      targets: [{ servo: 1, position: 1500 }],
+      easing: 'out',
+    });
+    expect(setKey(eased, 2, 400, 900).frames.map(({ easing }) => easing)).toEqual(['out', 'out']);
+  });
+
+  test('moved there and back is where it was', () => {
+    const spaced = someGroup({ durationMs: fc.integer({ min: 1, max: 900 }), least: 1 });
+    const moves = fc.record({
+      deltaMs: fc.integer({ min: -800, max: 2000 }),
+      deltaPosition: fc.integer({ min: -400, max: 400 }),
+    });
+    fc.assert(
+      fc.property(withGroup(spaced, someRefs), moves, ([group, refs], wanted) => {
+        const keys = [...tracksOf(group).values()].flatMap((track) => track.keys);
+        const times = new Set(frameEnds(group.frames));
+        const meant = keys.filter((key) =>
+          refs.some((ref) => ref.frameId === key.frameId && ref.servo === key.servo),
+        );
+        const move = boundedMove(meant, wanted);
+        const there = meant.map(({ servo, atMs }) => ({ servo, atMs: atMs + move.deltaMs }));
+        fc.pre(move.deltaMs === 0 || there.every(({ atMs }) => !times.has(atMs)));
+        const away = moveKeys(group, refs, move, STAY);
+        const found = keysAt(tracksOf(away), there);
+        expect(found).toHaveLength(refs.length);
+        expect(easingsOf(away, found)).toEqual(easingsOf(group, refs));
+        const back = { deltaMs: -move.deltaMs, deltaPosition: -move.deltaPosition };
+        expect(shapeOf(moveKeys(away, found, back, STAY))).toEqual(shapeOf(group));
+      }),
+    );
+  });
+
+  test('moved onto another of its servo takes its place', () => {
+    const group = [1000, 2000, 1500].reduce(
+      (sum, position, index) =>
+        insertFrame(sum, index, { durationMs: 100, targets: [{ servo: 1, position }] }),
+      emptyGroup('Wave', 'us'),
+    );
+    const moved = moveKeys(group, [{ frameId: 1, servo: 1 }], { deltaMs: 100, deltaPosition: 7 }, STAY);
+    expect(shapeOf(moved)[0]!.keys.map(({ atMs, position }) => [atMs, position])).toEqual([
+      [200, 1007],
+      [300, 1500],
+    ]);
+  });
+
+  test('goes with its frame, which keeps its name when all its keys move', () => {
+    const pose = { durationMs: 500, targets: [1, 2].map((servo) => ({ servo, position: 1500 })) };
+    const group = insertFrame(insertFrame(emptyGroup('Wave', 'us'), 0, pose), 1, pose);
+    const moved = moveKeys(
+      group,
+      refsOf(group).filter(({ frameId }) => frameId === 2),
+      { deltaMs: -300, deltaPosition: 0 },
+      STAY,
+    );
+    expect(moved.frames.map(({ id, durationMs }) => [id, durationMs])).toEqual([
+      [1, 500],
+      [2, 200],
+    ]);
+  });
+
+  test.each([
+    ['', null, 1],
+    ['Wait for it', null, 2],
+    ['', 'plum', 2],
+  ] as const)('gone, its frame with note "%s" and colour %s is one of %i left', (note, colour, left) => {
+    const frame = { durationMs: 500, targets: [{ servo: 1, position: 1500 }] };
+    const pair = insertFrame(insertFrame(emptyGroup('Wave', 'us'), 0, { ...frame, note, colour }), 1, frame);
+    const group = deleteKeys(pair, [{ frameId: 1, servo: 1 }], STAY);
+    expect(group.frames).toHaveLength(left);
+    expect(totalDurationMs(group.frames)).toBe(1000);
+  });
+
+  test('is as far from the middle as the factor says, and so back', () => {
+    const even = someGroup({ positions: fc.integer({ min: 0, max: 500 }).map((half) => 2 * half), least: 1 });
+    const about = new Map(SERVOS.map((servo) => [servo, 1000]));
+    fc.assert(
+      fc.property(even, (group) => {
+        const refs = refsOf(group);
+        const half = scaleAmplitude(group, refs, 0.5, about);
+        const position = (one: ActionGroup) =>
+          one.frames.flatMap(({ targets }) => targets.map((target) => target.position));
+        expect(position(half)).toEqual(position(group).map((at) => (at + 1000) / 2));
+        expect(scaleAmplitude(half, refs, 2, about)).toEqual(group);
+      }),
+    );
+  });
+});
+
+describe('with ripple', () => {
+  test('frames that lose all their keys go with their time, and what is behind comes so much sooner', () => {
+    fc.assert(
+      fc.property(withGroup(someGroup(), someRefs), ([group, refs]) => {
+        const stayed = deleteKeys(group, refs, STAY);
+        const ids = new Set(stayed.frames.map(({ id }) => id));
+        const left = group.frames.filter(({ id }) => ids.has(id));
+        const closed = deleteKeys(group, refs, RIPPLE);
+        expect(closed.frames.map(({ id, durationMs }) => [id, durationMs])).toEqual(
+          left.map(({ id, durationMs }) => [id, durationMs]),
+        );
+        expect(closed.frames.map(({ targets }) => targets)).toEqual(
+          stayed.frames.map(({ targets }) => targets),
+        );
+      }),
+    );
+  });
+
+  test('markers go along as they would if each frame went alone', () => {
+    fc.assert(
+      fc.property(withGroup(someGroup(), someRefs), ([group, refs]) => {
+        const left = new Set(deleteKeys(group, refs, STAY).frames.map(({ id }) => id));
+        const alone = group.frames
+          .filter(({ id }) => !left.has(id))
+          .reduce((sum, { id }) => setDuration(sum, id, 0, RIPPLE), group);
+        expect(deleteKeys(group, refs, RIPPLE).markers).toEqual(alone.markers);
+      }),
+    );
+  });
+
+  test('everything behind the earliest key goes along', () => {
+    fc.assert(
+      fc.property(
+        withGroup(someGroup(), someRefs),
+        fc.integer({ min: 0, max: 900 }),
+        ([group, refs], deltaMs) => {
+          const ends = new Map(group.frames.map(({ id }, index) => [id, index]));
+          const first = Math.min(...refs.map(({ frameId }) => ends.get(frameId)!));
+          const moved = moveKeys(group, refs, { deltaMs, deltaPosition: 0 }, RIPPLE);
+          expect(moved.frames.map(({ durationMs }) => durationMs)).toEqual(
+            group.frames.map(({ durationMs }, index) => durationMs + (index === first ? deltaMs : 0)),
+          );
+        },
+      ),
+    );
+  });
+});

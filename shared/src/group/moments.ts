@@ -1,0 +1,89 @@
+// A group's frames as moments on the clock, and back: edits that move things in time do so here, where no frame depends on the
+// one before it. Knows no servo's motion.
+
+import type { ServoTarget } from '../codec/commands.ts';
+import { sortedTargets, type ActionGroup, type GroupFrame } from './group.ts';
+import { changed, sameList, samePose } from './groupEdits.ts';
+
+export interface Moment {
+  readonly atMs: number;
+  /** Its `durationMs` is the one it had; it gets its own when the moments become frames again. */
+  readonly frame: GroupFrame;
+}
+
+/** As much as one frame can take. */
+const LONGEST_MS = 0xffff;
+/** Numbered when the moments become frames. */
+const UNNUMBERED = 0;
+
+export function momentsOf({ frames }: ActionGroup): readonly Moment[] {
+  let atMs = 0;
+  return frames.map((frame) => ({ atMs: (atMs += frame.durationMs), frame }));
+}
+
+/** What is not said of its frame is plain: without note and colour. */
+export function newMoment(
+  atMs: number,
+  targets: readonly ServoTarget[],
+  look: Pick<GroupFrame, 'easing'> & Partial<Pick<GroupFrame, 'note' | 'colour'>>,
+): Moment {
+  return { atMs, frame: { id: UNNUMBERED, durationMs: 0, targets, note: '', colour: null, ...look } };
+}
+
+/** No time is before the beginning, and each is a whole millisecond. */
+export const wholeMs = (atMs: number): number => Math.max(0, Math.round(atMs));
+
+/**
+ * The group with these moments, in whatever order, and otherwise as it was or as `change` says. What is the same stays the very
+ * same object, the group too. Where they are farther apart than a frame can be long, frames without keys fill the time.
+ */
+export function withMoments(
+  group: ActionGroup,
+  moments: readonly Moment[],
+  change: Partial<Pick<ActionGroup, 'markers' | 'unit'>> = {},
+): ActionGroup {
+  const before = new Map(group.frames.map((frame) => [frame.id, frame]));
+  const frames: GroupFrame[] = [];
+  let nextId = moments.reduce((next, { frame }) => Math.max(next, frame.id + 1), group.nextId);
+  let lastMs = 0;
+  const add = (frame: GroupFrame, durationMs: number): void => {
+    if (frame.durationMs === durationMs && frame === before.get(frame.id)) return void frames.push(frame);
+    const id = frame.id === UNNUMBERED ? nextId++ : frame.id;
+    frames.push(sameFrame(before.get(id), { ...frame, id, durationMs }));
+  };
+  for (const { atMs, frame } of moments.toSorted((one, other) => one.atMs - other.atMs)) {
+    for (; atMs - lastMs > LONGEST_MS; lastMs += LONGEST_MS)
+      add(newMoment(0, [], { easing: frame.easing }).frame, LONGEST_MS);
+    add(frame, atMs - lastMs);
+    lastMs = atMs;
+  }
+  const markers = sameList(group.markers, change.markers ?? group.markers);
+  return changed(group, { ...change, markers, nextId, frames: sameList(group.frames, frames) });
+}
+
+function sameFrame(before: GroupFrame | undefined, after: GroupFrame): GroupFrame {
+  if (before === undefined) return after;
+  if (before.targets !== after.targets && !samePose(before.targets, after.targets)) return after;
+  return changed(before, { ...after, targets: before.targets });
+}
+
+/**
+ * Puts keys at an instant: into the moment that is there, where they take the place of their servos' keys, or into a new one
+ * made of `made`.
+ */
+export function placed(
+  moments: readonly Moment[],
+  atMs: number,
+  targets: readonly ServoTarget[],
+  made: (targets: readonly ServoTarget[]) => Moment,
+): readonly Moment[] {
+  const index = moments.findLastIndex((moment) => moment.atMs === atMs);
+  const there = moments[index];
+  if (there === undefined) return [...moments, { ...made(targets), atMs }];
+  const merged = sortedTargets([...there.frame.targets, ...targets]);
+  return moments.with(index, withTargets(there, merged));
+}
+
+export function withTargets({ atMs, frame }: Moment, targets: readonly ServoTarget[]): Moment {
+  return { atMs, frame: { ...frame, targets } };
+}

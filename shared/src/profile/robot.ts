@@ -1,0 +1,185 @@
+// A robot as its owner describes it: which board, which servos with names, limits, home, direction and trim, where they sit on
+// the body, what feeds it. One immutable value, checked by one schema; knows no session and no storage.
+//
+// A servo's position is what the person means by it; the board gets it plus the servo's trim. Both in board units.
+
+import * as v from 'valibot';
+import type { ServoTarget } from '../codec/commands.ts';
+import { FAMILIES, positionRange, type FamilyId, type Range } from '../codec/families.ts';
+import { shapeFlaw, type ShapeFlaw } from './robotShape.ts';
+
+export const BODIES = ['arm', 'hand', 'humanoid', 'hexapod', 'plain'] as const;
+export type BodyKind = (typeof BODIES)[number];
+
+/** `adapter`: a mains adapter or USB, whose volts say nothing of a charge. */
+export const BATTERY_KINDS = ['adapter', '2s', '3s'] as const;
+export type BatteryKind = (typeof BATTERY_KINDS)[number];
+
+/** What a battery at its alarm brings about, each with what is before it: the person is told; nothing new is run or played; the
+ * robot goes slowly to rest and is stopped. */
+export const BATTERY_POLICIES = ['tell', 'refuse', 'rest'] as const;
+export type BatteryPolicy = (typeof BATTERY_POLICIES)[number];
+
+export const NAME_LENGTH = 64;
+/** As far as any board's own trim goes (L14); with the next tooth of a horn at 160 µs or 60 steps, more is never needed. */
+export const TRIM: Range = { min: -125, max: 125 };
+/** From a USB port to a pack of three full cells. */
+export const BATTERY_MV: Range = { min: 4000, max: 13_000 };
+
+const name = v.pipe(v.string(), v.trim(), v.minLength(1), v.maxLength(NAME_LENGTH));
+const whole = (range: Range) => v.pipe(v.number(), v.integer(), v.minValue(range.min), v.maxValue(range.max));
+const position = whole({ min: 0, max: 2500 });
+const familyIds = Object.keys(FAMILIES) as [FamilyId, ...FamilyId[]];
+
+const servoSchema = v.strictObject({
+  servo: whole({ min: 1, max: 253 }),
+  name,
+  /** Limbs and the like, e.g. `Left leg`; empty for none. */
+  group: v.pipe(v.string(), v.maxLength(NAME_LENGTH)),
+  min: position,
+  max: position,
+  /** Where it rests, and 0 degrees. */
+  home: position,
+  /** A growing position turns it the other way than the body's picture does. */
+  isReversed: v.boolean(),
+  trim: whole(TRIM),
+  degreesPerUnit: v.pipe(v.number(), v.gtValue(0), v.maxValue(2)),
+  /** The servo that does the same on the other side of the body. */
+  mirror: v.nullable(whole({ min: 1, max: 253 })),
+  /** Its place on the body's picture, in percent of width and height. */
+  place: v.strictObject({ x: whole({ min: 0, max: 100 }), y: whole({ min: 0, max: 100 }) }),
+});
+
+const batteryCareSchema = v.strictObject({
+  policy: v.picklist(BATTERY_POLICIES),
+  /** In millivolts; null: as usual for what feeds it. */
+  thresholds: v.nullable(v.strictObject({ warnMv: whole(BATTERY_MV), alarmMv: whole(BATTERY_MV) })),
+});
+
+export const robotSchema = v.strictObject({
+  name,
+  board: v.picklist(familyIds),
+  body: v.picklist(BODIES),
+  battery: v.picklist(BATTERY_KINDS),
+  batteryCare: batteryCareSchema,
+  servos: v.pipe(v.array(servoSchema), v.minLength(1), v.maxLength(253)),
+});
+
+const anyWhole = v.pipe(v.number(), v.safeInteger());
+
+/** With any numbers for what a servo's reach is made of: one that is out of range has a servo to be named, see `flawOf`. */
+export const roughRobotSchema = v.strictObject({
+  ...robotSchema.entries,
+  servos: v.array(
+    v.strictObject({ ...servoSchema.entries, min: anyWhole, max: anyWhole, home: anyWhole, trim: anyWhole }),
+  ),
+});
+
+export type RobotServo = Readonly<v.InferOutput<typeof servoSchema>>;
+export type Robot = Readonly<Omit<v.InferOutput<typeof robotSchema>, 'servos'>> & {
+  readonly servos: readonly RobotServo[];
+};
+
+/** What is wrong with a robot, for whoever has the words: ranges are what is allowed. */
+export type RobotFlaw =
+  | { readonly code: 'servoTwice'; readonly servo: number }
+  | { readonly code: 'alarmNotBelow'; readonly alarmMv: number; readonly warnMv: number }
+  | { readonly code: 'servo'; readonly servo: Pick<RobotServo, 'servo' | 'name'>; readonly flaw: ServoFlaw }
+  | ShapeFlaw;
+
+export type ServoFlaw =
+  | { readonly code: 'number' | 'beyondBoard'; readonly range: Range }
+  | { readonly code: 'minNotBelowMax'; readonly min: number; readonly max: number }
+  | { readonly code: 'home' | 'trim'; readonly value: number; readonly range: Range }
+  | { readonly code: 'noMirror'; readonly mirror: number };
+
+/** Null where nothing is wrong. */
+export function flawOf(robot: Robot): RobotFlaw | null {
+  const numbers = robot.servos.map(({ servo }) => servo);
+  const twice = numbers.find((servo, index) => numbers.indexOf(servo) < index);
+  if (twice !== undefined) return { code: 'servoTwice', servo: twice };
+  const { thresholds } = robot.batteryCare;
+  if (thresholds !== null && thresholds.alarmMv >= thresholds.warnMv)
+    return { code: 'alarmNotBelow', ...thresholds };
+  for (const servo of robot.servos) {
+    const flaw = flawOfServo(servo, robot);
+    if (flaw !== null) return { code: 'servo', servo: { servo: servo.servo, name: servo.name }, flaw };
+  }
+  const { issues } = v.safeParse(robotSchema, robot);
+  return issues === undefined ? null : shapeFlaw(issues[0], robot);
+}
+
+function flawOfServo({ servo, min, max, home, trim, mirror }: RobotServo, robot: Robot): ServoFlaw | null {
+  const family = FAMILIES[robot.board];
+  const board = positionRange(family, servo);
+  if (servo < family.servo.min || servo > family.servo.max) return { code: 'number', range: family.servo };
+  if (min >= max) return { code: 'minNotBelowMax', min, max };
+  if (home < min || home > max) return { code: 'home', value: home, range: { min, max } };
+  if (trim < TRIM.min || trim > TRIM.max) return { code: 'trim', value: trim, range: TRIM };
+  if (min + trim < board.min || max + trim > board.max) return { code: 'beyondBoard', range: board };
+  if (mirror !== null && !robot.servos.some((other) => other.servo === mirror))
+    return { code: 'noMirror', mirror };
+  return null;
+}
+
+export function servoOf(robot: Robot, servo: number): RobotServo | undefined {
+  return robot.servos.find((one) => one.servo === servo);
+}
+
+/** A target that the robot must not reach, with the servo it is for and what that may do. */
+export interface LimitRefusal {
+  readonly servo: RobotServo;
+  readonly position: number;
+}
+
+/** The first target outside its servo's limits. Servos that the robot does not have are the board's affair. */
+export function refusedTarget(robot: Robot, targets: readonly ServoTarget[]): LimitRefusal | null {
+  for (const { servo: number, position: wanted } of targets) {
+    const servo = servoOf(robot, number);
+    if (servo !== undefined && (wanted < servo.min || wanted > servo.max)) return { servo, position: wanted };
+  }
+  return null;
+}
+
+/** As the board must be told: with each servo's trim. */
+export function onBoard(robot: Robot, targets: readonly ServoTarget[]): readonly ServoTarget[] {
+  return targets.map(({ servo, position: wanted }) => ({
+    servo,
+    position: wanted + (servoOf(robot, servo)?.trim ?? 0),
+  }));
+}
+
+/** Each servo's limits as the board counts. */
+export function limitsOnBoard(robot: Robot): readonly NamedLimits[] {
+  return robot.servos.map(({ servo, name: called, min, max, trim }) => ({
+    ...{ servo, name: called },
+    min: min + trim,
+    max: max + trim,
+  }));
+}
+
+export interface NamedLimits extends Range {
+  readonly servo: number;
+  readonly name: string;
+}
+
+/** What the person means by a position of the board. */
+export function fromBoard(robot: Robot, servo: number, onBoardAt: number): number {
+  return onBoardAt - (servoOf(robot, servo)?.trim ?? 0);
+}
+
+/** Away from home, in the servo's own direction. */
+export function degreesOf({ home, degreesPerUnit, isReversed }: RobotServo, at: number): number {
+  return (at - home) * degreesPerUnit * (isReversed ? -1 : 1);
+}
+
+/** The nearest position in board units. */
+export function positionOf({ home, degreesPerUnit, isReversed }: RobotServo, degrees: number): number {
+  return Math.round(home + (degrees * (isReversed ? -1 : 1)) / degreesPerUnit);
+}
+
+/** The position that looks the same on the other side: as far from the partner's home, turned the same way by the body. */
+export function mirrored(from: RobotServo, to: RobotServo, at: number): number {
+  const wanted = positionOf(to, degreesOf(from, at));
+  return Math.min(to.max, Math.max(to.min, wanted));
+}

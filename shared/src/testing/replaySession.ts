@@ -1,0 +1,86 @@
+// What a session makes of a recording: the host's wishes and the board's bytes at their recorded times, in virtual time. A bug
+// that a log shows happens here again. Knows the session by its public face.
+
+import type { Clock } from '../clock.ts';
+import { family, type BoardId } from '../codec/families.ts';
+import { LinkError, type LinkErrorCode } from '../session/linkError.ts';
+import { createSession, type Session } from '../session/session.ts';
+import type { SessionState, Traffic } from '../session/state.ts';
+import { createVirtualClock } from './virtualClock.ts';
+import { createHost } from './host.ts';
+import { intentsOf } from './intents.ts';
+import type { Entry, Happening } from '../files/recording.ts';
+import { createReplayTransport, type ReplayTransport } from './replayTransport.ts';
+
+export interface Failure {
+  readonly atMs: number;
+  /** What was asked for; `link` where nobody asked. */
+  readonly what: string;
+  readonly code: LinkErrorCode;
+}
+
+export interface SessionReplay {
+  /** What the session sent and heard this time. */
+  readonly traffic: readonly Traffic[];
+  readonly failures: readonly Failure[];
+  readonly state: SessionState;
+}
+
+/** Longer than the session waits for anything. */
+const SETTLE_MS = 10_000;
+
+/** `entries` of one board, in the order of their times. */
+export async function replayToSession(entries: readonly Entry[], board: BoardId): Promise<SessionReplay> {
+  const clock = createVirtualClock(entries[0]?.atMs ?? 0);
+  const transport = createReplayTransport(clock);
+  const session = createSession({ transport, family: family(board), clock });
+  const log = listen(session, clock);
+  const host = createHost(session, log.failed);
+  const happen = createHappenings(transport, session);
+  // A log that lost its beginning starts in the middle of a connection.
+  if (!isOpening(entries[0])) happen('opened');
+
+  const intents = intentsOf(entries);
+  for (const [index, entry] of entries.entries()) {
+    await clock.advance(entry.atMs - clock.now());
+    if (entry.mark === 'link') happen(entry.happening);
+    else if (entry.mark !== 'board' && entry.mark !== 'sent')
+      transport.say(entry.bytes, entry.mark === 'received');
+    const intent = intents[index];
+    if (intent) host(intent);
+  }
+  await clock.advance(SETTLE_MS);
+  return { traffic: log.traffic, failures: log.failures, state: session.state };
+}
+
+function isOpening(entry: Entry | undefined): boolean {
+  return entry?.mark === 'link' && entry.happening === 'opened';
+}
+
+/** What the link does by itself; the host's part of it is an intent. */
+function createHappenings(transport: ReplayTransport, session: Session): (happening: Happening) => void {
+  return (happening) => {
+    if (happening === 'lost') transport.lose();
+    if (happening === 'latched' && session.state.latch === null) transport.latch();
+    if (happening !== 'opened') return;
+    transport.comeBack();
+    // A session that was open before finds the way back by itself; its failure would be in its state.
+    if (session.state.link.status === 'closed') session.open().catch(() => undefined);
+  };
+}
+
+function listen(session: Session, clock: Clock) {
+  const traffic: Traffic[] = [];
+  const failures: Failure[] = [];
+
+  function failed(what: string, error: unknown): void {
+    const code = error instanceof LinkError ? error.code : 'internal';
+    failures.push({ atMs: clock.now(), what, code });
+  }
+
+  session.subscribe({
+    traffic: (entry) => traffic.push(entry),
+    problem: (error) => failed('link', error),
+  });
+  return { traffic, failures, failed };
+}

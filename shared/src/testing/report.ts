@@ -1,0 +1,117 @@
+// A recording replayed both ways, as facts and as text for people. A fact is a short line; a log's `expect:` lines are facts that
+// must come true, so that a bug report becomes a test. Knows replays; no file.
+
+import type { BoardId } from '../codec/families.ts';
+import type { SessionState } from '../session/state.ts';
+import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
+import { compare, tally, type Row } from './compare.ts';
+import { entryOf, type PacketEntry } from '../files/recorder.ts';
+import type { Entry, Recording } from '../files/recording.ts';
+import { replayToBoard } from './replayBoard.ts';
+import { replayToSession, type SessionReplay } from './replaySession.ts';
+
+export interface ReplayReport {
+  /** Of the last part: before it stands how the board was found, or another board. */
+  readonly facts: readonly string[];
+  /** Expectations of the recording that did not come true. */
+  readonly failed: readonly string[];
+  readonly text: string;
+}
+
+interface Part {
+  readonly board: BoardId;
+  readonly entries: readonly Entry[];
+}
+
+/** `profile` is the simulated board; without it, the one the recording names, if there is such a one. */
+export async function replay(recording: Recording, profile?: ProfileName): Promise<ReplayReport> {
+  let facts: readonly string[] = [];
+  const sections: string[] = [];
+  for (const part of partsOf(recording)) {
+    const told = await replayPart(part, profile ?? profileOf(part.board));
+    facts = told.facts;
+    sections.push(...told.sections);
+  }
+  const { expectations } = recording.header;
+  const failed = expectations.filter((expectation) => !facts.includes(expectation));
+  const verdicts = expectations.map((line) => `${failed.includes(line) ? 'FAILED' : 'ok    '}  ${line}`);
+  return { facts, failed, text: [...sections, ...titled('Expectations', verdicts)].join('\n') };
+}
+
+/** A recording in which the board changed is several, one after the other. */
+export function partsOf({ header, entries }: Recording): readonly Part[] {
+  const parts: { board: BoardId; entries: Entry[] }[] = [{ board: header.board, entries: [] }];
+  for (const entry of entries) {
+    if (entry.mark === 'board') parts.push({ board: entry.board, entries: [] });
+    else parts.at(-1)?.entries.push(entry);
+  }
+  return parts.filter((part) => part.entries.length > 0);
+}
+
+function profileOf(board: BoardId): ProfileName | null {
+  return isProfileName(board) ? board : null;
+}
+
+async function replayPart({ board, entries }: Part, profile: ProfileName | null) {
+  const session = await replayToSession(entries, board);
+  const sent = compare(marked(entries, 'sent'), marked(session.traffic.map(entryOf), 'sent'));
+  const answers = profile && (await replayToBoard(entries, profile));
+  const answered = answers && compare(marked(entries, 'received'), marked(answers, 'received'));
+  const sessionLines = sessionFacts(session);
+  const facts = [...sessionLines, ...countFacts('sent', sent), ...countFacts('answers', answered ?? [])];
+  return {
+    facts,
+    sections: [
+      ...titled(`Session with ${board}`, sessionLines),
+      ...titled('Sent: recorded and replayed', rowLines(sent)),
+      ...titled(
+        `Answers: recorded and of the simulated ${profile ?? board}`,
+        answered === null ? [`no simulated board is called ${board}; name one`] : rowLines(answered),
+      ),
+    ],
+  };
+}
+
+function marked(entries: readonly Entry[], mark: 'sent' | 'received'): readonly PacketEntry[] {
+  return entries.filter((entry): entry is PacketEntry => entry.mark === mark);
+}
+
+function countFacts(what: 'sent' | 'answers', rows: readonly Row[]): readonly string[] {
+  return Object.entries(tally(rows)).map(([verdict, count]) => `${what} ${verdict} ${count}`);
+}
+
+function sessionFacts({ state, failures }: SessionReplay): readonly string[] {
+  const { link, latch, activity, brokenSlots, storedSlots } = state;
+  const refusals = new Set(failures.map(({ what, code }) => `session failed ${what} ${code}`));
+  return [
+    `session link ${link.status}`,
+    `session latch ${latch === null ? 'none' : `${latch.reason} ${latch.stop}`}`,
+    `session activity ${activity.kind}`,
+    `session battery ${batteryText(state.battery)}`,
+    `session broken slots ${listText(brokenSlots)}`,
+    `session stored slots ${listText(storedSlots)}`,
+    ...(refusals.size === 0 ? ['session failed nothing'] : refusals),
+  ];
+}
+
+function batteryText(battery: SessionState['battery']): string {
+  return battery.kind === 'read' ? `${battery.batteryMv} mV` : battery.kind;
+}
+
+const listText = (slots: readonly number[]): string => (slots.length === 0 ? 'none' : slots.join(', '));
+
+function titled(title: string, lines: readonly string[]): readonly string[] {
+  return lines.length === 0 ? [] : [title, ...lines.map((line) => `  ${line}`), ''];
+}
+
+/** Alike is counted, not listed: nobody looks for it. */
+function rowLines(rows: readonly Row[]): readonly string[] {
+  const { same } = tally(rows);
+  return [`${same} the same`, ...rows.filter(({ verdict }) => verdict !== 'same').map(rowLine)];
+}
+
+function rowLine({ atMs, verdict, recorded, replayed }: Row): string {
+  const time = (atMs / 1000).toFixed(3).padStart(10);
+  const bytes = [recorded, replayed].filter((hex) => hex !== null).join('  ->  ');
+  return `${time}  ${verdict.padEnd(9)}  ${bytes}`;
+}
