@@ -37,7 +37,7 @@ class HaltPlan:
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """`way`: how far it may have to go to get there."""
+    """`way`: how far it may have to go to get there; inf for one that is held on a guess."""
 
     servo: int
     position: int
@@ -144,7 +144,7 @@ def held_at(servo: int, track: Track, at_ms: float, family: Family) -> Held | No
         # One that is held on a guess is held again: the first hold may be lost.
         if at is None or end_ms(track) <= at_ms:
             return None
-        return Held(servo, rounded(at), is_under_way=True, way=0)
+        return Held(servo, rounded(at), is_under_way=True, way=inf)
     # A stop has halted it, nobody knows where to the tick.
     if at is None or (stands(track, at_ms) and track.to_leeway > 0):
         return None
@@ -163,16 +163,23 @@ def hold_ms(motion: Motion, held: list[Held], at_ms: float, family: Family) -> i
     """As short as can be where each place is sure; no servo goes faster than in its first move, and no
     unknown one snaps to its target.
     """
-    is_guess = any(one.is_under_way and one.way == 0 for one in held)
+    is_guess = any(one.way == inf for one in held)
     way_range = family.position.max - family.position.min
     way = min(way_range, max(one.way for one in held))
     needs_ms = max(
         family.shortest_move_ms,
         MOVE.first_ms * way / way_range,
-        STOP.unknown_frame_ms if is_guess else 0,
+        STOP.unknown_frame_ms if is_guess and may_move_unknown(motion, at_ms) else 0,
         unknown_ms(motion, at_ms, family.motion.tick_ms) if family.motion.timing == "shared" else 0,
     )
     return math.ceil(needs_ms / family.motion.tick_ms) * family.motion.tick_ms
+
+
+def may_move_unknown(motion: Motion, at_ms: float) -> bool:
+    """A group that nobody knows, or the frame behind which it was stopped. Orders that contest a servo are
+    known both.
+    """
+    return motion.run is not None or motion.restless_until_ms > at_ms
 
 
 def unknown_ms(motion: Motion, at_ms: float, tick_ms: float) -> float:

@@ -109,7 +109,7 @@ function othersThanHalted(motion: Motion, lastMs: number, family: Family): reado
 
 interface Held extends ServoTarget {
   readonly isUnderWay: boolean;
-  /** How far it may have to go to get there. */
+  /** How far it may have to go to get there; Infinity for one that is held on a guess. */
   readonly way: number;
 }
 
@@ -142,7 +142,7 @@ function heldAt(track: Track, atMs: number, family: Family): Omit<Held, 'servo'>
 }
 
 function guessHeld(at: number): Omit<Held, 'servo'> {
-  return { position: Math.round(at), isUnderWay: true, way: 0 };
+  return { position: Math.round(at), isUnderWay: true, way: Infinity };
 }
 
 /** The farthest place where it may be by now, at most its target: a hold never takes a servo back. */
@@ -156,16 +156,21 @@ function heldAhead(at: number, to: number, leeway: number): Omit<Held, 'servo'> 
 /** As short as can be where each place is sure; no servo goes faster than in its first move, and no unknown one snaps to its target. */
 function holdMs(motion: Motion, held: readonly Held[], atMs: number, family: Family): number {
   const { motion: traits, position, shortestMoveMs } = family;
-  const isGuess = held.some(({ isUnderWay, way }) => isUnderWay && way === 0);
+  const isGuess = held.some(({ way }) => way === Infinity);
   const range = position.max - position.min;
   const way = Math.min(range, Math.max(...held.map((one) => one.way)));
   const needsMs = Math.max(
     shortestMoveMs,
     (timings.move.firstMs * way) / range,
-    isGuess ? timings.stop.unknownFrameMs : 0,
+    isGuess && mayMoveUnknown(motion, atMs) ? timings.stop.unknownFrameMs : 0,
     traits.timing === 'shared' ? unknownMs(motion, atMs, traits.tickMs) : 0,
   );
   return Math.ceil(needsMs / traits.tickMs) * traits.tickMs;
+}
+
+/** A group that nobody knows, or the frame behind which it was stopped. Orders that contest a servo are known both. */
+function mayMoveUnknown({ run, restlessUntilMs }: Motion, atMs: number): boolean {
+  return run !== null || restlessUntilMs > atMs;
 }
 
 /** How long what nobody can hold still needs, a begun tick with it, or is given. */

@@ -103,6 +103,27 @@ test.each(SIMULATED)(
 
 const PLAIN = { hasPad: true, isSlow: false, wasErased: false };
 
+test.each(['doc', 'openarm-old', 'openarm-new'] as const)(
+  '%s: a servo that a move and a frame contest is held as fast as a first move goes',
+  async (profile) => {
+    const history: StopHistory = {
+      ...{ ...PLAIN, onForMs: 60_000 },
+      unknown: [{ durationMs: 0, targets: [{ servo: 6, position: 500 }] }],
+      known: [{ durationMs: 1, targets: [{ servo: 6, position: 500 }] }],
+      steps: [
+        { kind: 'move', durationMs: 0, targets: [{ servo: 6, position: 501 }] },
+        { kind: 'run', slot: 5, times: 1 },
+        { kind: 'wait', ms: 1500 },
+        { kind: 'move', durationMs: 0, targets: [{ servo: 1, position: 500 }] },
+        { kind: 'endGroup' },
+      ],
+    };
+    const outcome = await stopped(profile, history);
+    const wrong = [...tooMuch(history, outcome), ...broken(outcome), ...brokenHolds(outcome)];
+    expect(wrong, JSON.stringify(outcome)).toEqual([]);
+  },
+);
+
 const FOUND: readonly {
   readonly name: string;
   readonly profile: 'doc' | 'learm-esp32' | 'openarm-old' | 'lsc-32';
