@@ -209,6 +209,24 @@ describe('the heartbeat', () => {
     expect(rig.ofKind('move')).toHaveLength(1);
   });
 
+  test('a board that has fallen silent is asked before a person who names it has it ready', async () => {
+    const rig = await createRig({
+      ...{ profile: 'lsc-6', family: family('lsc-6') },
+      ...{ identifies: true, isWatched: () => true },
+    });
+    await rig.clock.advance(3_000);
+    expect(rig.session.state.link).toEqual({ status: 'ready' });
+    rig.transport.board.reboot(20_000);
+    await rig.clock.advance(15_000);
+    expect(rig.session.state.link).toMatchObject({ status: 'stale' });
+    void rig.session.choose(family('lsc-16'));
+    expect(rig.session.state.link).toEqual({ status: 'identifying' });
+    await rig.clock.advance(2_500);
+    expect(rig.session.state.link).toMatchObject({ status: 'stale' });
+    await rig.clock.advance(25_000);
+    expect(rig.session.state).toMatchObject({ family: { id: 'lsc-16' }, link: { status: 'ready' } });
+  });
+
   test('any word of the board spares it the question', async () => {
     const rig = await watched('lsc-6', 'lsc-6');
     for (let second = 0; second < 12; second += 3) {

@@ -165,7 +165,10 @@ export function createIdentification(options: IdentificationOptions): Identifica
     async choose(family) {
       if (transport.setBoard !== undefined) return transport.setBoard(family.id);
       claim = family;
-      if (lineIsOpen && status() !== 'identifying') judge();
+      if (!lineIsOpen || status() === 'identifying') return;
+      // What a board that is silent answered once says nothing of what is there now.
+      if (status() === 'stale') begunCheck();
+      else judge();
     },
     heardAs: () => (status() === 'identifying' ? UNKNOWN_BOARD : store.state.family),
     heard(report, bytes) {
