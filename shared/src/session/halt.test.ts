@@ -51,6 +51,54 @@ describe('STOP', () => {
     expect(Math.min(...gaps)).toBeGreaterThanOrEqual(70);
   });
 
+  test('pressed again it joins the one under way', async () => {
+    const rig = await createRig();
+    await knownAtRest(rig);
+    rig.session.move([{ servo: 1, position: 2_000 }], 2_000);
+    await rig.clock.advance(1_000);
+    const before = rig.heard.length;
+    const first = rig.session.halt();
+    await rig.clock.advance(30);
+    const again = rig.session.halt();
+    await rig.clock.advance(600);
+    await Promise.all([first, again]);
+    const kinds = (): readonly string[] => rig.heard.slice(before).map(({ command }) => command.kind);
+    expect(kinds()).toEqual(['stop', 'move', 'stop', 'stop', 'move']);
+  });
+
+  test('pressed again behind the last stop, one more follows with its hold', async () => {
+    const rig = await createRig();
+    await knownAtRest(rig);
+    rig.session.move([{ servo: 1, position: 2_000 }], 2_000);
+    await rig.clock.advance(1_000);
+    const before = rig.heard.length;
+    const first = rig.session.halt();
+    await rig.clock.advance(150);
+    const again = rig.session.halt();
+    await rig.clock.advance(600);
+    await Promise.all([first, again]);
+    const kinds = rig.heard.slice(before).map(({ command }) => command.kind);
+    expect(kinds).toEqual(['stop', 'move', 'stop', 'stop', 'move', 'stop', 'move']);
+  });
+
+  test('pressed while a link that came back is stopped, its own stops take their place', async () => {
+    const rig = await createRig();
+    await knownAtRest(rig);
+    rig.transport.unplug();
+    await rig.clock.advance(100);
+    const before = rig.heard.length;
+    rig.transport.plugIn();
+    rig.session.retryNow();
+    await rig.clock.advance(30);
+    const pressedMs = rig.clock.now();
+    const done = rig.session.halt();
+    await rig.clock.advance(600);
+    await done;
+    const stops = rig.heard.slice(before).filter(({ command }) => command.kind === 'stop');
+    expect(stops.map(({ atMs }) => Math.round(atMs - pressedMs))).toEqual([-26, 4, 74, 144]);
+    expect(rig.session.state.latch?.stop).toBe('sent');
+  });
+
   test('names the servos in their first move, which nobody can hold', async () => {
     const rig = await createRig();
     await knownAtRest(rig);

@@ -36,19 +36,32 @@ export interface Halt {
   confirmed(): void;
 }
 
+/** A STOP of the page's own link that is leaving. */
+interface Sequence {
+  readonly pressedMs: number;
+  stopsToGo: number;
+  /** When the next stop may begin to leave. */
+  dueMs: number;
+  left: Promise<Unheld | null>;
+}
+
+/** Resolves, when it has left, with the time at which it began to. */
+async function sendStop(clock: Clock, lanes: Pick<Lanes, 'stop'>): Promise<number> {
+  await lanes.stop(STOP_PACKET);
+  return clock.now() - wireMs(STOP_PACKET.length);
+}
+
 /**
  * Sends a stop now, and repeats of it: each begins to leave so long after the one before, or later where the wire is taken. Two that
- * are closer may both fall into the time in which a board hears none (S54). `behind` follows each of them at once.
+ * are closer may both fall into the time in which a board hears none (S54). No more of them leave once `isWanted` says no.
  */
 export async function repeatStop(
   clock: Clock,
   lanes: Pick<Lanes, 'stop'>,
-  behind: (repeat: number) => Promise<void> = () => Promise.resolve(),
+  isWanted = (): boolean => true,
 ): Promise<void> {
-  for (let repeat = 0; repeat <= STOP_REPEATS; repeat += 1) {
-    await lanes.stop(STOP_PACKET);
-    const begunMs = clock.now() - wireMs(STOP_PACKET.length);
-    await behind(repeat);
+  for (let repeat = 0; repeat <= STOP_REPEATS && isWanted(); repeat += 1) {
+    const begunMs = await sendStop(clock, lanes);
     if (repeat < STOP_REPEATS) await sleep(clock, Math.max(0, begunMs + STOP_EVERY_MS - clock.now()));
   }
 }
@@ -75,7 +88,7 @@ export function createHalt(options: HaltOptions): Halt {
   const { clock, store, lanes, transport, dropAll } = options;
 
   let underWay: Promise<void> = Promise.resolve();
-  let stopsFollow = false;
+  let sequence: Sequence | null = null;
   let latches = 0;
 
   function latch(value: Latch): void {
@@ -111,14 +124,36 @@ export function createHalt(options: HaltOptions): Halt {
    * A stop never ends the move in progress (S50), so the first hold follows the first stop at once; the last one catches a
    * frame that began because that stop fell into a full mailbox (S52).
    */
-  async function haltOwnLink(): Promise<Unheld | null> {
-    const pressedMs = clock.now();
-    stopsFollow = true;
-    await repeatStop(clock, lanes, async (repeat) => {
-      if (repeat === 0) await sendHold();
-    }).finally(() => (stopsFollow = false));
-    await sendHold();
-    return options.unheldSince(pressedMs);
+  async function sendSequence(mine: Sequence): Promise<Unheld | null> {
+    try {
+      for (let isFirst = true; mine.stopsToGo > 0; isFirst = false) {
+        if (mine.dueMs > clock.now()) await sleep(clock, mine.dueMs - clock.now());
+        mine.stopsToGo -= 1;
+        mine.dueMs = (await sendStop(clock, lanes)) + STOP_EVERY_MS;
+        if (isFirst || mine.stopsToGo === 0) await sendHold();
+      }
+    } finally {
+      sequence = null;
+    }
+    return options.unheldSince(mine.pressedMs);
+  }
+
+  const stopsFollow = (): boolean => sequence !== null && sequence.stopsToGo > 0;
+
+  /** Pressed again it joins the one under way: each press is followed by a stop, but presses never put off the hold. */
+  function haltOwnLink(): Promise<Unheld | null> {
+    if (sequence !== null) {
+      if (sequence.stopsToGo === 0) Object.assign(sequence, { stopsToGo: 1, dueMs: clock.now() });
+      return sequence.left;
+    }
+    const nowMs = clock.now();
+    const mine: Sequence = {
+      ...{ pressedMs: nowMs, stopsToGo: 1 + STOP_REPEATS, dueMs: nowMs },
+      left: Promise.resolve(null),
+    };
+    sequence = mine;
+    mine.left = sendSequence(mine);
+    return mine.left;
   }
 
   /** What it sends and what goes on it says itself. */
@@ -174,14 +209,15 @@ export function createHalt(options: HaltOptions): Halt {
       // Its failure is the latch's `failed`; there is no caller to tell.
       const returnedMs = clock.now();
       send(async () => {
-        await repeatStop(clock, lanes);
-        return options.unheldSince(returnedMs);
+        await repeatStop(clock, lanes, () => sequence === null);
+        // Somebody has pressed STOP meanwhile, and its stops leave in place of these.
+        return sequence?.left ?? options.unheldSince(returnedMs);
       }).catch(() => undefined);
     },
     again() {
       const { latch: current } = store.state;
       // A shared link has its own eye on it.
-      if (current === null || stopsFollow || transport.halt !== undefined) return;
+      if (current === null || stopsFollow() || transport.halt !== undefined) return;
       store.update({ latch: { ...current, stop: 'sending' } });
       void underWay.then(() => send(haltOwnLink)).catch(() => undefined);
     },
