@@ -6,6 +6,7 @@ import { App } from './App.tsx';
 import { arrive, deviceName } from './connect/arrival.ts';
 import { openPage } from './connect/page.ts';
 import { pair, sayName, stopRobot } from './connect/peopleApi.ts';
+import { isWithoutGateway } from './gateway/request.ts';
 import { preferredLanguage, speak } from './i18n/words.ts';
 import './ui/fonts.css';
 import './ui/tokens.css';
@@ -41,7 +42,12 @@ async function start(): Promise<void> {
       />,
     );
   } else if (entered === null) {
-    show(<App page={await openPage(arrival)} />);
+    const page = await openPage(arrival);
+    show(<App page={page} />);
+    if (isWithoutGateway()) {
+      const { workOffline } = await import('./app/offline.ts');
+      await workOffline({ notices: page.stores.notices, device: page.stores.device });
+    }
   } else {
     const { Guest } = await import('./people/Outside.tsx');
     show(

@@ -3,7 +3,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { LinkError } from '#shared/session/linkError.ts';
-import { isRecord } from '../gateway/request.ts';
+import { isRecord, isWithoutGateway } from '../gateway/request.ts';
 import { askGateway } from '../transports/gatewayHttp.ts';
 
 export interface GatewayStatus {
@@ -44,6 +44,7 @@ export async function readGateway(withinMs = ANSWER_WITHIN_MS): Promise<GatewayS
  * at two places because of a bad moment.
  */
 export async function hasGateway(clock: Clock): Promise<boolean> {
+  if (isWithoutGateway()) return false;
   for (;;) {
     const answer = await fetch('api/status', { signal: AbortSignal.timeout(PATIENT_MS) }).catch(() => null);
     if (answer !== null && answer.status < FROM_HERE_PASSING) {

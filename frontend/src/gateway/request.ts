@@ -25,8 +25,13 @@ export class GatewayProblem extends Error {
   }
 }
 
+/** The static site says in its head that there is none, and asks nobody. */
+export const isWithoutGateway = (): boolean =>
+  document.querySelector('meta[name="servodeck-gateway"][content="none"]') !== null;
+
 /** The answer, null where it is none. Rejects with a GatewayProblem. */
 export async function request(path: string, { method = 'GET', body, withinMs }: Asking): Promise<unknown> {
+  if (isWithoutGateway()) throw new GatewayProblem(null, 'this page is served without a gateway');
   const response = await fetch(path, {
     method,
     signal: AbortSignal.timeout(withinMs),

@@ -2134,4 +2134,10 @@ export interface Messages {
     readonly mirror: string;
     readonly place: string;
   };
+  readonly site: {
+    readonly newVersion: string;
+    readonly update: string;
+    readonly updateMoving: string;
+    readonly updateOthers: string;
+  };
 }
