@@ -69,13 +69,13 @@ module.exports = {
       { path: '^shared/src/simulator/', pathNot: test },
       {
         path: ['^shared/src/(session|motion)/', documents],
-        pathNot: '^shared/src/session/(transport|linkError)[.]ts$',
+        pathNot: '^shared/src/session/(byteChannel|linkError)[.]ts$',
       },
     ),
     forbid(
-      'simulated-transport-knows-the-interface',
-      'One file of the simulator fulfils what a session asks of a link; the board itself has never heard of it.',
-      { path: '^shared/src/simulator/', pathNot: [test, '^shared/src/simulator/transport[.]ts$'] },
+      'simulated-channel-knows-the-interface',
+      'One file of the simulator is the byte channel of a simulated board; the board itself has never heard of it.',
+      { path: '^shared/src/simulator/', pathNot: [test, '^shared/src/simulator/channel[.]ts$'] },
       { path: '^shared/src/session/' },
     ),
 

@@ -14,9 +14,9 @@ import { encodeCommand } from '#shared/codec/encode.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
 import { wireMs } from '#shared/codec/packet.ts';
 import { firstMovesMs } from '#shared/session/rig.ts';
-import { createSession } from '#shared/session/session.ts';
+import { createLocalRobot } from '#shared/session/session.ts';
 import type { BusLogEntry } from '#shared/simulator/busLog.ts';
-import { createSimulatedTransport } from '#shared/simulator/transport.ts';
+import { createSimulatedChannel } from '#shared/simulator/channel.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { amount } from './amounts.ts';
 import { packetsInto } from './busPackets.ts';
@@ -142,8 +142,8 @@ async function dragInRealTime(servoCount: number): Promise<Ages> {
 
 async function openSession(clock: Clock, servoCount: number): Promise<Client> {
   const log: BusLogEntry[] = [];
-  const transport = createSimulatedTransport(clock, { servoCount, onByte: (entry) => log.push(entry) });
-  const session = createSession({ transport, family, clock });
+  const channel = createSimulatedChannel(clock, { servoCount, onByte: (entry) => log.push(entry) });
+  const session = createLocalRobot({ channel, kind: 'simulated', family, clock });
   await session.open();
   session.move(targetsOf(servoCount, family.centre), 0);
   await sleep(clock, firstMovesMs(servoCount));
@@ -157,7 +157,7 @@ async function openSession(clock: Clock, servoCount: number): Promise<Client> {
  */
 function openPerEventClient(clock: Clock, servoCount: number): Promise<Client> {
   const log: BusLogEntry[] = [];
-  const { board } = createSimulatedTransport(clock, { servoCount, onByte: (entry) => log.push(entry) });
+  const { board } = createSimulatedChannel(clock, { servoCount, onByte: (entry) => log.push(entry) });
   const send: Send = (targets) =>
     board.receive(encodeCommand({ kind: 'move', durationMs: 20, targets }, family));
   return Promise.resolve({ log, send });

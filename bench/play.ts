@@ -4,8 +4,8 @@
 import { sleep } from '#shared/clock.ts';
 import type { Frame } from '#shared/codec/commands.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
-import { createSession, type Session } from '#shared/session/session.ts';
-import { createSimulatedTransport } from '#shared/simulator/transport.ts';
+import { createLocalRobot, createSession, type Session } from '#shared/session/session.ts';
+import { createSimulatedChannel } from '#shared/simulator/channel.ts';
 import type { BusLogEntry } from '#shared/simulator/busLog.ts';
 import { createGatewayTransport } from '../frontend/src/transports/gateway.ts';
 import { amount } from './amounts.ts';
@@ -57,11 +57,11 @@ function figuresOf(
 
 async function playedLocally(): Promise<readonly number[]> {
   const log: BusLogEntry[] = [];
-  const transport = createSimulatedTransport(realClock, {
+  const channel = createSimulatedChannel(realClock, {
     servoCount: SERVO_COUNT,
     onByte: (entry) => log.push(entry),
   });
-  const session = createSession({ transport, family, clock: realClock });
+  const session = createLocalRobot({ channel, kind: 'simulated', family, clock: realClock });
   await session.open();
   return played(session, () => log);
 }

@@ -4,8 +4,12 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Robot } from '#shared/profile/robot.ts';
 import { FAMILIES, UNKNOWN_BOARD, type FamilyId } from '#shared/codec/families.ts';
-import { STOP_PACKET } from '#shared/session/halt.ts';
-import { createSession, type Session } from '#shared/session/session.ts';
+import {
+  createLocalRobot,
+  createSession,
+  type LocalRobotOptions,
+  type Session,
+} from '#shared/session/session.ts';
 import { isProfileName } from '#shared/simulator/profileNames.ts';
 import type { Transport } from '#shared/session/transport.ts';
 import type { Boards } from '../stores/device/boards.ts';
@@ -15,7 +19,7 @@ import type { Notices } from '../stores/notices.ts';
 import type { You } from '../stores/people/people.generated.ts';
 import { createGatewayTransport } from '../transports/gateway.ts';
 import { choosePort, grantedPorts, portLabel, webSerialObstacle } from '../transports/serialPorts.ts';
-import { createWebSerialTransport } from '../transports/webSerial.ts';
+import { createWebSerialChannel } from '../transports/webSerial.ts';
 import { later } from '../ui/later.tsx';
 import { words } from '../i18n/words.ts';
 import {
@@ -48,7 +52,7 @@ export interface ConnectState {
 
 export interface GrantedPort {
   readonly port: SerialPort;
-  /** The transport's own name of it. */
+  /** The channel's own name of it. */
   readonly label: string;
 }
 
@@ -74,6 +78,10 @@ export interface Connector {
 }
 
 const GREETING_MS = 2000;
+
+type Link =
+  | Pick<LocalRobotOptions, 'kind' | 'channel' | 'withheld'>
+  | { readonly kind: 'gateway'; readonly transport: Transport };
 
 export interface ConnectorOptions {
   readonly device: Device;
@@ -105,55 +113,59 @@ export function createConnector(options: ConnectorOptions): Connector {
     gatewayPorts: [],
   }));
 
-  let current: { readonly transport: Transport; readonly session: Session } | null = null;
+  let current: { readonly session: Session; way(): Way } | null = null;
 
-  function openSerial(port: SerialPort): Transport {
+  function openSerial(port: SerialPort): Link {
     store.setState({ openPort: port });
-    return createWebSerialTransport(port, () => current?.session.halt() ?? Promise.resolve());
+    return { kind: 'webSerial', channel: createWebSerialChannel(port) };
   }
 
   /** What is open already is left alone, and that is said: the browser's chooser does not know it. */
   function openOnce(port: SerialPort): void {
     const { openPort } = store.getState();
-    const isOpen = current?.transport.kind === 'webSerial' && current.session.state.link.status === 'ready';
-    if (isOpen && port === openPort)
-      notices.tell('info', words.connect.isOpen({ label: current?.transport.label ?? '' }));
+    const way = current?.way();
+    const isOpen = way?.kind === 'webSerial' && current?.session.state.link.status === 'ready';
+    if (isOpen && port === openPort) notices.tell('info', words.connect.isOpen({ label: way.label }));
     else chosen(openSerial(port));
   }
 
   /** A board in the page is what it was made as; any other is asked, and taken for what it was the last time. A gateway asks itself. */
-  async function connect(transport: Transport): Promise<void> {
+  async function connect(link: Link): Promise<void> {
     const { board } = store.getState();
-    const isOwn = transport.kind === 'simulated';
-    const known = boards.recall(transport)?.family;
-    const session = createSession({
-      transport,
+    const isOwn = link.kind === 'simulated';
+    const way = (): Way => wayOf(link);
+    const known = boards.recall(way())?.family;
+    const options = {
       clock: device.clock,
       family: isOwn ? FAMILIES[board] : known === undefined ? UNKNOWN_BOARD : FAMILIES[known],
       identifies: !isOwn,
       isWatched,
       // The simulated robot in the page is a new one at each visit: nothing of it is worth remembering. A gateway remembers by itself.
-      slotMemory: isOwn ? undefined : rememberSlots(storage, transport),
-    });
-    current = { transport, session };
+      slotMemory: isOwn ? undefined : rememberSlots(storage, way),
+    };
+    const session =
+      'transport' in link
+        ? createSession({ ...options, ...link })
+        : createLocalRobot({ ...options, ...link });
+    current = { session, way };
     // Before the page itself hears that it is ready: where somebody has changed the gateway's port, it leads to another board.
     let wasReady = false;
     session.subscribe({
       state({ link: { status } }) {
-        if (status === 'ready' && !wasReady) device.describe(session, wayOf(transport));
+        if (status === 'ready' && !wasReady) device.describe(session, way());
         wasReady = status === 'ready';
       },
     });
-    device.attach(session, wayOf(transport));
+    device.attach(session, way());
     // A first attempt that fails is in the link's state, with its sentence and its next try.
     await session.open().catch(() => undefined);
-    // Some transports learn what they lead to only by opening it.
-    device.describe(session, wayOf(transport));
+    // The gateway tells what it leads to only once it is open.
+    device.describe(session, way());
   }
 
-  function chosen(transport: Transport): void {
-    rememberWay(storage, { kind: transport.kind, board: store.getState().board });
-    void connect(transport);
+  function chosen(link: Link): void {
+    rememberWay(storage, { kind: link.kind, board: store.getState().board });
+    void connect(link);
   }
 
   async function look(withinMs?: number): Promise<void> {
@@ -177,27 +189,29 @@ export function createConnector(options: ConnectorOptions): Connector {
       if (last === null) greet();
     } else if (!reconnects) return;
     else if (last?.kind === 'webSerial' && port !== undefined) await connect(openSerial(port.port));
-    else if (typeof gateway === 'object') await connect(gatewayTransport());
+    else if (typeof gateway === 'object') await connect(gatewayLink());
     else await connect(await simulated());
     if (gateway === 'absent') void offerLateGateway();
   }
 
   /** One that was too slow to be found: nobody is to take the robot in the page for the real one. */
   async function offerLateGateway(): Promise<void> {
-    if (!(await hasGateway(device.clock)) || current?.transport.kind !== 'simulated') return;
+    if (!(await hasGateway(device.clock)) || current?.way().kind !== 'simulated') return;
     await look();
     notices.tell('warning', words.link.gatewayAnswers, {
       label: words.link.useGateway,
-      act: () => chosen(gatewayTransport()),
+      act: () => chosen(gatewayLink()),
     });
   }
 
-  const gatewayTransport = (): Transport =>
-    createGatewayTransport(gatewayUrl(), device.clock, { mayDrive: role !== 'viewer' });
+  const gatewayLink = (): Link => ({
+    kind: 'gateway',
+    transport: createGatewayTransport(gatewayUrl(), device.clock, { mayDrive: role !== 'viewer' }),
+  });
 
-  async function simulated(): Promise<Transport> {
-    const { createSimulatedTransport } = await loadSimulated();
-    return createSimulatedTransport(simulatedAs(store.getState().board));
+  async function simulated(): Promise<Link> {
+    const { createSimulatedChannel } = await loadSimulated();
+    return { kind: 'simulated', channel: createSimulatedChannel(simulatedAs(store.getState().board)) };
   }
 
   /** Until a way is chosen the simulated arm rises, so that the page is alive; no real robot ever moves by itself. */
@@ -221,11 +235,11 @@ export function createConnector(options: ConnectorOptions): Connector {
       store.setState({ board });
       chosen(await simulated());
     },
-    useGateway: () => chosen(gatewayTransport()),
+    useGateway: () => chosen(gatewayLink()),
     async useGatewayPort(path) {
       await openGatewayPort(path);
       await look();
-      chosen(gatewayTransport());
+      chosen(gatewayLink());
     },
     useSerialPort: openOnce,
     async chooseSerialPort() {
@@ -233,14 +247,17 @@ export function createConnector(options: ConnectorOptions): Connector {
     },
     disconnect: () => void device.detach().catch(notices.tellError),
     async moveHere() {
-      await current?.transport.takeOver?.();
-      current?.session.retryNow();
+      await current?.session.takeOver();
     },
-    leave: () => current?.transport.leave?.(STOP_PACKET),
+    leave: () => current?.session.leave(),
   };
 }
 
 /** A board that nobody has modelled is simulated by the usual one. */
 const simulatedAs = (board: FamilyId) => (isProfileName(board) ? { profile: board } : {});
 
-const wayOf = ({ kind, label, isSimulated }: Transport): Way => ({ kind, label, isSimulated });
+function wayOf(link: Link): Way {
+  const { label } = 'transport' in link ? link.transport : link.channel;
+  const isSimulated = 'transport' in link ? link.transport.isSimulated : link.kind === 'simulated';
+  return { kind: link.kind, label, isSimulated };
+}

@@ -2,7 +2,7 @@
 // people; no slot's content. Storage that is forbidden means: remembered until the page is closed.
 
 import type { SlotMemory } from '#shared/session/slotMemory.ts';
-import type { Transport } from '#shared/session/transport.ts';
+import { nameOf, type BoardWay } from '../stores/device/boards.ts';
 import type { TextStorage } from '../stores/textStorage.ts';
 
 const KEY = 'servodeck.brokenSlots';
@@ -11,11 +11,11 @@ const KEY = 'servodeck.brokenSlots';
 const thisVisit = new Map<string, string>();
 
 /**
- * The board's name is asked at each reading, when the link is there: some transports learn it only by opening, forget it
- * with the link, and may find another board later.
+ * The board's name is asked at each reading, when the link is there: some links learn it only by opening, forget it
+ * when they close, and may find another board later.
  */
-export function rememberSlots(storage: TextStorage, board: Pick<Transport, 'kind' | 'label'>): SlotMemory {
-  const keyNow = (): string => `${KEY} ${board.kind} ${board.label}`;
+export function rememberSlots(storage: TextStorage, way: () => BoardWay): SlotMemory {
+  const keyNow = (): string => `${KEY} ${nameOf(way())}`;
   let key = keyNow();
   return {
     read() {

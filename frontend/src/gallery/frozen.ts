@@ -17,6 +17,8 @@ export function frozenSession(
     open: nothing,
     close: nothing,
     retryNow: () => undefined,
+    takeOver: nothing,
+    leave: () => undefined,
     setAutoReconnect: () => undefined,
     identify: nothing,
     choose: nothing,

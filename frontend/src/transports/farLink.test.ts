@@ -12,7 +12,7 @@ import { firstMovesMs } from '#shared/session/rig.ts';
 import { createSession } from '#shared/session/session.ts';
 import type { Traffic } from '#shared/session/state.ts';
 import type { Transport, TransportEvents } from '#shared/session/transport.ts';
-import { createSimulatedTransport, type SimulatedTransport } from '#shared/simulator/transport.ts';
+import { createSimulatedTransport, type SimulatedTransport } from '#shared/testing/simulatedTransport.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { createGatewayMoves, HAND_OVER_MS } from './gatewayMoves.ts';
 import type { ClientMessage } from './messages.generated.ts';
@@ -70,7 +70,7 @@ function farGateway(clock: Clock, delayMs: number, line: SimulatedTransport) {
     failed: (error) => events?.moveFailed?.(error),
   });
   const transport: Transport = {
-    ...{ kind: 'gateway', label: 'far away', isSimulated: true, moves },
+    ...{ kind: 'gateway', label: 'far away', isSimulated: true, longestPacket: Infinity, moves },
     async open(heard) {
       await there.open();
       events = heard;

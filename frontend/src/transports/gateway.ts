@@ -301,6 +301,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
 
   return {
     kind: 'gateway',
+    longestPacket: Infinity,
     slots,
     moves,
     player: { play, stop: stopPlaying },

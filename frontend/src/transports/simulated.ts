@@ -1,8 +1,12 @@
 // The simulated board in the page's own time.
 
-import { createSimulatedTransport as create, type SimulatedTransport } from '#shared/simulator/transport.ts';
+import {
+  createSimulatedChannel as create,
+  type SimulatedChannel,
+  type SimulatedChannelOptions,
+} from '#shared/simulator/channel.ts';
 import { browserClock } from './browserClock.ts';
 
-export function createSimulatedTransport(options?: Parameters<typeof create>[1]): SimulatedTransport {
+export function createSimulatedChannel(options?: SimulatedChannelOptions): SimulatedChannel {
   return create(browserClock, options);
 }

@@ -3,13 +3,13 @@
 import { afterEach, beforeEach, expect, vi } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
 import type { LinkErrorCode } from '#shared/session/linkError.ts';
-import { createSession, type Session } from '#shared/session/session.ts';
+import { createLocalRobot, type Session } from '#shared/session/session.ts';
 import type { LinkState } from '#shared/session/state.ts';
-import type { Transport } from '#shared/session/transport.ts';
+import type { ByteChannel } from '#shared/session/byteChannel.ts';
 import { browserClock } from './browserClock.ts';
 import { createBrowser, type FakeBrowser, type FakePort } from './serialUnderTest.ts';
 import type { Alarm } from './timersAsideWorker.ts';
-import { createWebSerialTransport } from './webSerial.ts';
+import { createWebSerialChannel } from './webSerial.ts';
 
 export const TOLD_WITHIN_MS = 500;
 export const BATTERY_REPORT = [0x55, 0x55, 0x04, 0x0f, 0x4c, 0x1d];
@@ -19,7 +19,7 @@ export type Outcome = LinkErrorCode | LinkState['status'];
 
 export interface Tab {
   readonly session: Session;
-  readonly transport: Transport;
+  readonly channel: ByteChannel;
   /** What became of the link, oldest first. */
   readonly outcomes: Outcome[];
   /** What the session could not read, in bytes. */
@@ -64,9 +64,9 @@ export function pass(ms = TOLD_WITHIN_MS): Promise<unknown> {
 
 /** Opens the dashboard and chooses that port. */
 export function openTab({ port }: FakePort): Tab {
-  const transport = createWebSerialTransport(port, () => session.halt());
-  const session = createSession({ transport, family: FAMILIES.doc, clock: browserClock });
-  const tab: Tab = { session, transport, outcomes: [], noise: [] };
+  const channel = createWebSerialChannel(port);
+  const session = createLocalRobot({ channel, kind: 'webSerial', family: FAMILIES.doc, clock: browserClock });
+  const tab: Tab = { session, channel, outcomes: [], noise: [] };
   session.subscribe({
     state: () => tab.outcomes.at(-1) !== outcome(tab) && tab.outcomes.push(outcome(tab)),
     traffic: (entry) => 'noise' in entry && tab.noise.push(...entry.bytes),

@@ -52,10 +52,9 @@ test('the tab that is asked stops the robot, tells that it was moved, and stays 
   const second = openTab(port);
   await pass(TOLD_IN_TURN_MS);
   await drag(first, 5);
-  const taking = second.transport.takeOver!();
+  const taking = second.session.takeOver();
   await pass(1000);
   await taking;
-  second.session.retryNow();
   await pass(100);
   expect([outcome(first), outcome(second)]).toEqual(['movedAway', 'ready']);
   expect(stops(port)).toBe(3);
@@ -79,7 +78,7 @@ test.each([
   const second = openTab(port);
   await pass(TOLD_IN_TURN_MS);
   port.dawdle(late);
-  const taking = second.transport.takeOver!();
+  const taking = second.session.takeOver();
   await pass(2000);
   await taking;
   expect(packets(port).slice(-5).map(kind)).toEqual(['07', '03', '07', '07', '03']);
@@ -92,7 +91,7 @@ test('a tab out of sight, where timers are slow, is relieved as fast', async () 
   const second = openTab(port);
   await pass(TOLD_IN_TURN_MS);
   hideTabs();
-  const taking = second.transport.takeOver!();
+  const taking = second.session.takeOver();
   await pass(500);
   await taking;
   expect(packets(port).slice(-5).map(kind)).toEqual(['07', '03', '07', '07', '03']);
@@ -119,10 +118,9 @@ test('and may take the robot back', async () => {
     [second, first],
     [first, second],
   ] as const) {
-    const taking = asking.transport.takeOver!();
+    const taking = asking.session.takeOver();
     await pass(1000);
     await taking;
-    asking.session.retryNow();
     await pass(200);
     expect([outcome(asking), outcome(asked)]).toEqual(['ready', 'movedAway']);
   }
@@ -133,9 +131,9 @@ test('a robot that cannot be stopped changes hands all the same, in bounded time
   const first = await openReady(port);
   const second = openTab(port);
   await pass(TOLD_IN_TURN_MS);
-  first.session.halt = () => new Promise(() => undefined);
-  const taking = second.transport.takeOver!();
-  await pass(3000);
+  port.dawdle({ browserMs: 60_000, adapterMs: 0 });
+  const taking = second.session.takeOver();
+  await pass(3400);
   await expect(taking).resolves.toBeUndefined();
   expect(outcome(first)).toBe('movedAway');
 });
@@ -145,7 +143,7 @@ test('a tab that does not answer keeps the robot, and the other one is told', as
   void navigator.locks.request('servodeck port USB serial 1A86:7523', {}, () => new Promise(() => undefined));
   const tab = openTab(port);
   await pass(TOLD_IN_TURN_MS);
-  const taking = tab.transport.takeOver!();
+  const taking = tab.session.takeOver();
   const told = expect(taking).rejects.toMatchObject({ code: 'heldElsewhere' });
   await pass(3600);
   await told;
@@ -181,7 +179,7 @@ test('a page that is left hands the stop over at once, even behind a packet, and
   await drag(tab, 3);
   tab.session.move([{ servo: 1, position: 900 }], 20);
   tab.session.move([{ servo: 2, position: 900 }], 20);
-  tab.transport.leave!(STOP);
+  tab.session.leave();
   expect(outcome(tab)).toBe('lost');
   await pass(200);
   expect(packets(port).at(-1)).toBe(toHex(STOP));
@@ -191,7 +189,7 @@ test('a page that is left hands the stop over at once, even behind a packet, and
 test('a page that was left and comes back finds its robot, stopped, and waits for a person', async () => {
   const port = it.browser.plugIn();
   const tab = await openReady(port);
-  tab.transport.leave!(STOP);
+  tab.session.leave();
   await pass(600);
   expect(outcome(tab)).toBe('ready');
   expect(tab.session.state.latch?.reason).toBe('reconnected');
@@ -200,7 +198,7 @@ test('a page that was left and comes back finds its robot, stopped, and waits fo
 
 test('a page that is left without a link does nothing', async () => {
   const tab = openTab(it.browser.plugIn());
-  tab.transport.leave!(STOP);
+  tab.session.leave();
   await pass();
   expect(outcome(tab)).toBe('ready');
 });

@@ -3,7 +3,7 @@
 
 import { sleep } from '#shared/clock.ts';
 import { LinkError } from '#shared/session/linkError.ts';
-import type { Transport, TransportEvents } from '#shared/session/transport.ts';
+import type { ByteChannel, OpenOptions } from '#shared/session/byteChannel.ts';
 import { browserClock } from './browserClock.ts';
 import { openPort, type PortConnection } from './portConnection.ts';
 import { createPortFinder } from './portFinder.ts';
@@ -13,30 +13,44 @@ import { portLabel } from './serialPorts.ts';
 /** A robot that does not let itself be stopped in that time is past helping; the other tab shall get it. */
 const HALT_WITHIN_MS = 2000;
 
-export function createWebSerialTransport(
-  chosen: SerialPort,
-  /** Stops the robot before another tab gets the port. */
-  halt: () => Promise<void> = () => Promise.resolve(),
-): Transport {
+export function createWebSerialChannel(chosen: SerialPort): ByteChannel {
   const label = portLabel(chosen);
   const finder = createPortFinder(chosen);
   const lock = createPortLock(`servodeck port ${label}`);
   const inTurn = createQueue();
   let connection: PortConnection | null = null;
-  let events: TransportEvents | null = null;
+  /** A device that is plugged in says nothing of the other tab. */
   let isElsewhere = false;
 
-  async function open(next: TransportEvents): Promise<void> {
+  async function open({ takesOver = false }: OpenOptions = {}): Promise<void> {
     await letGo();
-    await claim();
     try {
-      connection = await openPort(await finder.find(), { received: next.received, lost: lose });
-      events = next;
+      if (takesOver) await lock.askForIt();
+      await claim();
+      await connect();
+    } catch (error) {
+      awaitDevice();
+      throw error;
+    }
+  }
+
+  async function connect(): Promise<void> {
+    const received = (bytes: Uint8Array): void => channel.events?.received(bytes);
+    try {
+      connection = await openPort(await finder.find(), { received, lost: lose });
     } catch (error) {
       lock.release();
       throw error;
     }
   }
+
+  const mayBeBack = (): void => channel.events?.available();
+
+  function awaitDevice(): void {
+    if (!isElsewhere) navigator.serial.addEventListener('connect', mayBeBack);
+  }
+
+  const stopAwaiting = (): void => navigator.serial.removeEventListener('connect', mayBeBack);
 
   async function claim(): Promise<void> {
     isElsewhere = true;
@@ -58,50 +72,47 @@ export function createWebSerialTransport(
   }
 
   function tellLost(error: LinkError): void {
-    const told = events;
-    events = null;
     finder.wentAway();
-    told?.lost(error);
+    awaitDevice();
+    channel.events?.lost(error);
   }
 
   async function moveAway(): Promise<void> {
-    if (events === null) return;
+    const moved = connection;
+    if (moved === null) return;
     // A link that fails meanwhile has nothing left to stop.
-    await Promise.race([halt(), sleep(browserClock, HALT_WITHIN_MS)]).catch(() => undefined);
+    await Promise.race([channel.events?.claimed(), sleep(browserClock, HALT_WITHIN_MS)]).catch(
+      () => undefined,
+    );
+    if (connection !== moved) return;
     await letGo();
     isElsewhere = true;
     tellLost(new LinkError('movedAway', 'another tab has it'));
   }
 
-  return {
-    kind: 'webSerial',
-    isSimulated: false,
+  const channel: ByteChannel = {
     label,
-    open: (next) => inTurn(() => open(next)),
-    async send(packet) {
+    longestPacket: Infinity,
+    events: null,
+    open(options) {
+      stopAwaiting();
+      return inTurn(() => open(options));
+    },
+    async write(packet) {
       if (connection === null) throw new LinkError('closed', 'the port is not open');
       await connection.send(packet);
     },
-    leave(lastPacket) {
+    close(lastPacket) {
+      stopAwaiting();
       const current = connection;
-      if (current === null) return;
-      void current.sendAtOnce(lastPacket).then(() => letGo(current));
-      tellLost(new LinkError('lost', 'the page was left'));
-    },
-    takeOver: lock.askForIt,
-    whenAvailable(notify) {
-      // A device that is plugged in says nothing of the other tab.
-      if (isElsewhere) return () => undefined;
-      navigator.serial.addEventListener('connect', notify);
-      return () => {
-        navigator.serial.removeEventListener('connect', notify);
-      };
-    },
-    close() {
-      events = null;
-      return inTurn(() => letGo());
+      const leaving = lastPacket && current?.sendAtOnce(lastPacket);
+      if (leaving === undefined) return inTurn(() => letGo());
+      finder.wentAway();
+      awaitDevice();
+      return leaving.then(() => letGo(current));
     },
   };
+  return channel;
 }
 
 /** One after the other, whatever became of the one before: a port that is being opened cannot be closed yet. */

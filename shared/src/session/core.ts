@@ -8,7 +8,7 @@ import type { Lanes } from './lanes.ts';
 import { isWatching, notDriving } from './lease.ts';
 import { LinkError } from './linkError.ts';
 import type { RobotEstimate } from './robot.ts';
-import type { Activity, LinkState } from './state.ts';
+import type { Activity, LinkState, Withheld } from './state.ts';
 import type { SessionStore } from './store.ts';
 import type { SharedCommands } from './transport.ts';
 
@@ -19,10 +19,18 @@ export interface Core {
   readonly robot: RobotEstimate;
   readonly lanes: Lanes;
   readonly exchange: Exchange;
+  /** As many as the board takes in one packet and the link carries. */
+  readonly servosPerMove: number;
   /** A shared link does these itself. */
   readonly commands: SharedCommands | undefined;
   /** A move or a stop of ours is still to leave. */
   unsettled(): boolean;
+}
+
+/** Whether the board knows it is another question. */
+export function requireCarried({ store }: Core, kind: Withheld): void {
+  if (store.state.withheld.includes(kind))
+    throw new LinkError('notSupported', `this link does not carry "${kind}"`);
 }
 
 export function setActivity({ store }: Core, activity: Activity): void {

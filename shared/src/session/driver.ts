@@ -9,7 +9,7 @@ import { createExchange, encodeOrRefuse } from './exchange.ts';
 import { createGroups, type Groups } from './groups.ts';
 import { createLive, type Live } from './live.ts';
 import type { LinkError } from './linkError.ts';
-import { createMoveBuffer } from './moveBuffer.ts';
+import { createMoveBuffer, servosIn } from './moveBuffer.ts';
 import { createRaw } from './raw.ts';
 import { createReadings, type Readings } from './readings.ts';
 import { release } from './release.ts';
@@ -24,7 +24,10 @@ export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
   readonly replies: Replies;
   readonly slotMemory: SlotMemory | undefined;
   /** What a shared link does itself. */
-  readonly shared: Pick<Transport, 'slots' | 'moves' | 'player' | 'commands' | 'readBattery'>;
+  readonly shared: Pick<
+    Transport,
+    'longestPacket' | 'slots' | 'moves' | 'player' | 'commands' | 'readBattery'
+  >;
 }
 
 export interface Driver {
@@ -47,12 +50,13 @@ export interface Driver {
 export function createDriver(family: Family, options: DriverOptions): Driver {
   const { clock, store, lanes, replies, slotMemory, shared } = options;
   const robot = createRobotEstimate(family, clock);
+  const servosPerMove = Math.min(family.servosPerMove, servosIn(shared.longestPacket));
   const core: Core = {
-    ...{ family, clock, store, robot, lanes, commands: shared.commands },
+    ...{ family, clock, store, robot, lanes, servosPerMove, commands: shared.commands },
     exchange: createExchange(family, clock, lanes, replies),
     unsettled: () => moves.servos().length > 0 || groups.isStopping() || isMotion(lanes.unfinished()),
   };
-  const buffer = createMoveBuffer(family);
+  const buffer = createMoveBuffer(family, servosPerMove);
   const moves = shared.moves ?? buffer;
   const turns = createTurns({ clock, isUnknown: robot.isUnknown, due: lanes.wake, waiting });
   const live = createLive(core, moves, turns, shared.player);

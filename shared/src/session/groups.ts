@@ -3,7 +3,14 @@
 
 import type { Command } from '../codec/commands.ts';
 import type { Report } from '../codec/reports.ts';
-import { requireReady, requireReleased, requireRest, setActivity, type Core } from './core.ts';
+import {
+  requireCarried,
+  requireReady,
+  requireReleased,
+  requireRest,
+  setActivity,
+  type Core,
+} from './core.ts';
 import { refuseUnfit } from './exchange.ts';
 import { repeatStop } from './halt.ts';
 import { LinkError, type LinkErrorCode } from './linkError.ts';
@@ -139,6 +146,7 @@ export function createGroups(
 
   async function erase(): Promise<void> {
     requireRest(core);
+    requireCarried(core, 'erase');
     const command = { kind: 'erase' } as const;
     refuseUnfit(command, family);
     setActivity(core, { kind: 'erasing' });

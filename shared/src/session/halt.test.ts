@@ -4,7 +4,7 @@ import { family } from '../codec/families.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { wireMs } from '../codec/packet.ts';
 import { createFlashChip } from '../simulator/flashChip.ts';
-import { createSimulatedTransport } from '../simulator/transport.ts';
+import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { createRig, type Rig } from './rig.ts';
 import { createSession } from './session.ts';

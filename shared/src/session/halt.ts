@@ -75,6 +75,8 @@ export interface HaltOptions {
   plan(): HaltPlan;
   /** The move that holds the robot and begins to leave now; null where there is nothing to hold. */
   hold(): HaltPlan['hold'];
+  /** As many as one packet holds. */
+  servosPerMove(): number;
   /** What goes on in spite of a STOP pressed then, whose last packet left just now. */
   unheldSince(pressedMs: number): Unheld | null;
   encoded(hold: NonNullable<HaltPlan['hold']>): Uint8Array;
@@ -111,13 +113,30 @@ export function createHalt(options: HaltOptions): Halt {
     });
   }
 
-  /** Others may have pressed STOP, too: it is built when it leaves, behind their stops. */
+  /**
+   * Others may have pressed STOP, too: it is built when it leaves, behind their stops. Where the link carries no packet that holds
+   * all servos, the others follow in the next.
+   */
   async function sendHold(): Promise<void> {
-    const packet = (): Uint8Array | null => {
+    const held = new Set<number>();
+    let wanted = 0;
+    const part = (): HaltPlan['hold'] => {
       const hold = options.hold();
+      const targets = hold?.targets.filter(({ servo }) => !held.has(servo)) ?? [];
+      return hold && targets.length > 0
+        ? { ...hold, targets: targets.slice(0, options.servosPerMove()) }
+        : null;
+    };
+    const packet = (): Uint8Array | null => {
+      if (wanted === 0) wanted = options.hold()?.targets.length ?? 0;
+      const hold = part();
+      for (const { servo } of hold?.targets ?? []) held.add(servo);
       return hold && options.encoded(hold);
     };
-    if (packet() !== null) await lanes.stop(packet);
+    do {
+      if (part() === null) return;
+      await lanes.stop(packet);
+    } while (held.size < wanted);
   }
 
   /**

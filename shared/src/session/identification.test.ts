@@ -5,7 +5,7 @@ import { describe, expect, test } from 'vitest';
 import { COMMAND_NUMBER } from '../codec/commands.ts';
 import { family, FAMILIES, UNKNOWN_BOARD, type FamilyId } from '../codec/families.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
-import { createSimulatedTransport } from '../simulator/transport.ts';
+import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
 import { createRig, type Rig } from './rig.ts';

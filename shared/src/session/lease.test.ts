@@ -5,7 +5,7 @@ import type { Command } from '../codec/commands.ts';
 import type { Unheld } from '../motion/haltPlan.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { family as familyOf } from '../codec/families.ts';
-import { createSimulatedTransport } from '../simulator/transport.ts';
+import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { mayResume, type Lease } from './lease.ts';
 import { createSession } from './session.ts';

@@ -3,6 +3,7 @@
 
 import type { Clock } from '../clock.ts';
 import { LinkError, type LinkErrorCode } from './linkError.ts';
+import type { OpenOptions } from './byteChannel.ts';
 import { createReconnect } from './reconnect.ts';
 import type { LinkState } from './state.ts';
 import type { Transport, TransportEvents } from './transport.ts';
@@ -23,6 +24,10 @@ export interface Link {
   open(): Promise<void>;
   close(): Promise<void>;
   retryNow(): void;
+  /** An attempt now, before which another tab lets go of the device. Rejects with `heldElsewhere` where it does not. */
+  takeOver(): Promise<void>;
+  /** The page is about to go: hands the packet over before it returns, and the link is lost. */
+  leave(lastPacket: Uint8Array): void;
   setAutoReconnect(enabled: boolean): void;
   send(packet: Uint8Array): Promise<void>;
 }
@@ -65,15 +70,16 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
     connect().catch(() => undefined);
   }
 
-  async function connect(): Promise<void> {
+  async function connect(options?: OpenOptions): Promise<void> {
     const mine = (generation += 1);
     if (!isDown()) enter({ status: 'opening' });
     const told = Object.entries({ ...events, lost: fail }).map(([name, tell]) => [
       name,
-      (...values: unknown[]) => void (mine === generation && Reflect.apply(tell, undefined, values)),
+      (...values: unknown[]): unknown =>
+        mine === generation ? Reflect.apply(tell, undefined, values) : undefined,
     ]);
     try {
-      await transport.open(Object.fromEntries(told) as TransportEvents);
+      await transport.open(Object.fromEntries(told) as TransportEvents, options);
     } catch (error) {
       const reason =
         error instanceof LinkError ? error : new LinkError('internal', String(error), { cause: error });
@@ -93,6 +99,11 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
       throw isDown()
         ? new LinkError('lost', 'the link is gone')
         : new LinkError('closed', 'the link is not open');
+    if (packet.length > transport.longestPacket)
+      throw new LinkError(
+        'outOfRange',
+        `${packet.length} bytes, the link carries ${transport.longestPacket}`,
+      );
     await transport.send(packet);
     // A transport may count the wire's time without looking at the cable.
     if (!isOpen(mine)) throw new LinkError('lost', 'the link went while the packet left');
@@ -116,6 +127,15 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
     },
     retryNow() {
       if (isDown()) retry();
+    },
+    takeOver() {
+      reconnect.rest();
+      return connect({ takesOver: true });
+    },
+    leave(lastPacket) {
+      if (state.status !== 'open') return;
+      void transport.close(lastPacket);
+      fail(new LinkError('lost', 'the page was left'));
     },
     setAutoReconnect: reconnect.setEnabled,
     send,

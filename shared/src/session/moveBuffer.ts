@@ -27,7 +27,7 @@ export interface MoveBuffer extends MoveSink {
   take(servos: readonly number[]): Wishes;
 }
 
-export function createMoveBuffer(family: Family): MoveBuffer {
+export function createMoveBuffer(family: Family, servosPerMove: number): MoveBuffer {
   const wishes = new Map<number, { readonly position: number; readonly durationMs: number }>();
 
   return {
@@ -38,7 +38,7 @@ export function createMoveBuffer(family: Family): MoveBuffer {
     take(servos) {
       const taken = [...wishes]
         .filter(([servo]) => servos.includes(servo))
-        .slice(0, family.servosPerMove)
+        .slice(0, servosPerMove)
         .map(([servo, wish]) => ({ servo, ...wish }));
       for (const { servo } of taken) wishes.delete(servo);
       const targets = taken.map(({ servo, position }) => ({ servo, position }));
@@ -56,3 +56,6 @@ export function intervalMs(targets: readonly ServoTarget[], family: Family): num
 }
 
 export const moveBytes = (servoCount: number): number => 7 + 3 * servoCount;
+
+/** As many servos as a move of that length names. */
+export const servosIn = (bytes: number): number => Math.floor((bytes - moveBytes(0)) / 3);

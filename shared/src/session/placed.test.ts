@@ -5,7 +5,7 @@ import { expect, test } from 'vitest';
 import type { MotionBefore } from '../motion/before.ts';
 import { family as familyOf, type BoardId } from '../codec/families.ts';
 import { commandIn } from '../codec/parse.ts';
-import { createSimulatedTransport } from '../simulator/transport.ts';
+import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import type { SharedBoard } from './identity.ts';
 import { LinkError } from './linkError.ts';

@@ -28,7 +28,7 @@ export function createReadings(core: Core): Readings {
       await exchange.ask({ kind: 'readAllPositions' }, 'allPositions', DETAIL_TIMEOUT_MS);
       return;
     }
-    for (const some of portions(servos, family.servosPerMove)) {
+    for (const some of portions(servos, core.servosPerMove)) {
       const command = { kind: 'readPositions', servos: some } as const;
       await exchange.ask(command, 'positions', positionsTimeoutMs(some.length));
     }

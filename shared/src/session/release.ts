@@ -8,7 +8,7 @@ import { portions } from './portions.ts';
 /** At rest only: a move that goes on or still waits for the wire would power them again (X7). */
 export async function release(core: Core, servos: readonly number[]): Promise<void> {
   requireRest(core);
-  const commands = portions(servos, core.family.servosPerMove).map(
+  const commands = portions(servos, core.servosPerMove).map(
     (some) => ({ kind: 'release', servos: some }) as const,
   );
   for (const command of commands) encodeOrRefuse(command, core.family);

@@ -8,8 +8,8 @@ import { family as familyOf } from '../codec/families.ts';
 import { wireMs } from '../codec/packet.ts';
 import { parseCommand } from '../codec/parse.ts';
 import { COMMAND_SHAPES } from '../codec/shapes.ts';
-import type { BoardOptions } from '../simulator/board.ts';
-import { createSimulatedTransport, type SimulatedTransport } from '../simulator/transport.ts';
+import type { SimulatedChannelOptions } from '../simulator/channel.ts';
+import { createSimulatedTransport, type SimulatedTransport } from '../testing/simulatedTransport.ts';
 import { createVirtualClock, type VirtualClock } from '../testing/virtualClock.ts';
 import type { SharedSlots, Transport, TransportEvents } from './transport.ts';
 import { createSession, type Session, type SessionOptions } from './session.ts';
@@ -39,13 +39,14 @@ export function firstMovesMs(servoCount: number): number {
 
 /** Opened and ready; the board has been on for a while and knows its battery. */
 export async function createRig(
-  options: Omit<BoardOptions, 'clock' | 'send' | 'onUnplug'> &
-    Partial<Pick<SessionOptions, 'family' | 'slotMemory' | 'identifies' | 'isWatched'>> & {
+  options: SimulatedChannelOptions &
+    Partial<Pick<SessionOptions, 'family' | 'slotMemory' | 'identifies' | 'isWatched' | 'withheld'>> & {
       /** Of a link that is shared; it says through `changed` when something of it is another. */
       readonly sharedSlots?: (changed: () => void) => SharedSlots;
     } = {},
 ): Promise<Rig> {
-  const { family = familyOf('doc'), slotMemory, identifies, isWatched, sharedSlots, ...board } = options;
+  const { family = familyOf('doc'), sharedSlots, ...rest } = options;
+  const { slotMemory, identifies, isWatched, withheld, ...board } = rest;
   const clock = createVirtualClock();
   const heard: HeardCommand[] = [];
   const ear = createEar(clock, heard);
@@ -56,7 +57,7 @@ export async function createRig(
   });
   const computer = createSleepingClock(clock);
   const session = createSession({
-    ...{ clock: computer, family, slotMemory, identifies, isWatched },
+    ...{ clock: computer, family, slotMemory, identifies, isWatched, withheld },
     transport: sharedSlots === undefined ? transport : sharing(transport, sharedSlots),
   });
   await session.open();

@@ -8,9 +8,9 @@ import { fromHex, toHex } from '../codec/hex.ts';
 import { wireMs } from '../codec/packet.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
-import { createSession, type Session } from './session.ts';
+import { createLocalRobot, type Session } from './session.ts';
 import type { SessionState } from './state.ts';
-import type { Transport, TransportEvents } from './transport.ts';
+import type { ByteChannel } from './byteChannel.ts';
 
 export type Intent =
   | { readonly type: 'move'; readonly targets: readonly ServoTarget[]; readonly durationMs: number }
@@ -74,22 +74,18 @@ export async function played({ events, ...head }: Scenario): Promise<Scenario> {
   const outputs: ScenarioEvent[] = [];
   const note = (output: Output): void =>
     void outputs.push({ atMs: exactly(clock.now() - openForMs), ...output });
-  let board: TransportEvents | null = null;
   let isBegun = false;
-  const transport: Transport = {
-    ...{ kind: 'webSerial', label: 'Board', isSimulated: false },
-    open(next) {
-      board = next;
-      return Promise.resolve();
-    },
-    async send(packet) {
+  const channel: ByteChannel = {
+    ...{ label: 'Board', longestPacket: Infinity, events: null },
+    open: () => Promise.resolve(),
+    async write(packet) {
       note({ leaves: toHex(packet) });
       await sleep(clock, wireMs(packet.length));
     },
     close: () => Promise.resolve(),
   };
-  const session = createSession({
-    ...{ transport, clock, family: familyOf(head.family), identifies: head.identifies },
+  const session = createLocalRobot({
+    ...{ channel, kind: 'webSerial', clock, family: familyOf(head.family), identifies: head.identifies },
   });
   let before = toldOf(session.state);
   session.subscribe({
@@ -107,7 +103,7 @@ export async function played({ events, ...head }: Scenario): Promise<Scenario> {
   isBegun = true;
   for (const { atMs, ...input } of inputs)
     clock.after(atMs, () => {
-      if ('says' in input) board?.received(fromHex(input.says));
+      if ('says' in input) channel.events?.received(fromHex(input.says));
       else if ('asks' in input) begin(session, input.asks, input.id ?? null, note);
     });
   await clock.advance(Math.max(0, ...inputs.map(({ atMs }) => atMs)) + QUIET_MS);

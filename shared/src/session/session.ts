@@ -7,9 +7,11 @@ import type { Frame, ServoTarget } from '../codec/commands.ts';
 import { UNKNOWN_BOARD, type Family } from '../codec/families.ts';
 import { commandIn } from '../codec/parse.ts';
 import type { Report } from '../codec/reports.ts';
+import type { ByteChannel } from './byteChannel.ts';
 import { createDriver, type Driver } from './driver.ts';
+import { overChannel } from './channelTransport.ts';
 import { encodeOrRefuse } from './exchange.ts';
-import { createHalt } from './halt.ts';
+import { createHalt, STOP_PACKET } from './halt.ts';
 import { createIdentification } from './identification.ts';
 import { createLanes } from './lanes.ts';
 import { notDriving, type Lease, type LeaseAction } from './lease.ts';
@@ -37,6 +39,13 @@ export interface SessionOptions {
   readonly isWatched?: (() => boolean) | undefined;
   /** Without it broken slots are forgotten with the session; a shared link has its own. */
   readonly slotMemory?: SlotMemory | undefined;
+  readonly withheld?: SessionState['withheld'] | undefined;
+}
+
+export interface LocalRobotOptions extends Omit<SessionOptions, 'transport'> {
+  readonly channel: ByteChannel;
+  /** How the channel was chosen. */
+  readonly kind: Transport['kind'];
 }
 
 /** Every operation throws or rejects with a LinkError; see linkError.ts for the codes. */
@@ -47,6 +56,10 @@ export interface Session {
   open(): Promise<void>;
   close(): Promise<void>;
   retryNow(): void;
+  /** After `heldElsewhere` or `movedAway`: the other tab stops the robot and lets go, then this one connects. */
+  takeOver(): Promise<void>;
+  /** The page is about to go: on a link of its own a stop leaves, and the link is lost. */
+  leave(): void;
   /** Off: a lost link stays lost until `retryNow`. */
   setAutoReconnect(enabled: boolean): void;
   /** Asks the board again who it is. */
@@ -104,11 +117,15 @@ export interface Session {
   motions(): Motions;
 }
 
+export function createLocalRobot({ channel, kind, ...options }: LocalRobotOptions): Session {
+  return createSession({ ...options, transport: overChannel(channel, kind) });
+}
+
 export function createSession(options: SessionOptions): Session {
   const { transport, slotMemory, family = UNKNOWN_BOARD } = options;
-  const { identifies = false, isWatched = () => false } = options;
+  const { identifies = false, isWatched = () => false, withheld = [] } = options;
   const clock = createWakefulClock(options.clock, overslept);
-  const store = createSessionStore(family);
+  const store = createSessionStore({ family, withheld });
   const replies = createReplies(clock);
   /** The link was opened and not only mended. */
   let isNew = false;
@@ -132,6 +149,7 @@ export function createSession(options: SessionOptions): Session {
     playing: (progress) => driver.live.told(progress),
     waiting: (waitingToStart) => store.update({ waitingToStart }),
     moveFailed,
+    claimed: () => halt.halt(),
     latched(reason, by = null) {
       if (reason === null) halt.released();
       else if (store.state.latch === null) halt.latchedElsewhere(reason, by);
@@ -161,6 +179,7 @@ export function createSession(options: SessionOptions): Session {
     },
     hold: () => driver.core.robot.hold(),
     unheldSince: (pressedMs) => driver.core.robot.unheldSince(pressedMs),
+    servosPerMove: () => driver.core.servosPerMove,
     encoded: (hold) => encodeOrRefuse(hold, driver.core.family),
   });
   const stopAgain = createStopAgain(
@@ -324,6 +343,8 @@ export function createSession(options: SessionOptions): Session {
       store.update({ latch: null });
     },
     retryNow: link.retryNow,
+    takeOver: link.takeOver,
+    leave: () => transport.halt === undefined && link.leave(STOP_PACKET),
     setAutoReconnect: link.setAutoReconnect,
     identify: identification.again,
     choose: (chosen) => identification.choose(chosen),

@@ -3,7 +3,7 @@
 import { expect, test } from 'vitest';
 import { encodeCommand } from '../codec/encode.ts';
 import { family as familyOf } from '../codec/families.ts';
-import { createSimulatedTransport } from '../simulator/transport.ts';
+import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
 import { createSession } from './session.ts';

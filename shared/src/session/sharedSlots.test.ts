@@ -4,7 +4,7 @@ import { expect, test } from 'vitest';
 import type { Command } from '../codec/commands.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { family as familyOf } from '../codec/families.ts';
-import { createSimulatedTransport } from '../simulator/transport.ts';
+import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
 import { createSession } from './session.ts';

@@ -66,10 +66,15 @@ export interface Reading {
   readonly atMs: number;
 }
 
+/** What hardware has not confirmed yet for some cable. */
+export type Withheld = 'download' | 'erase';
+
 export interface SessionState {
   readonly link: LinkState;
   /** What the board is taken for; `UNKNOWN_BOARD` before somebody has said so. */
   readonly family: Family;
+  /** Commands that this link is not to carry, although the board may know them. */
+  readonly withheld: readonly Withheld[];
   /** What the board answered when it was asked who it is; empty where nobody asked. */
   readonly identity: Identity;
   readonly latch: Latch | null;

@@ -1,6 +1,6 @@
 // The session's snapshot and its listeners. Each change makes a new object, so that a page can compare references.
 
-import { UNKNOWN_BOARD, type Family } from '../codec/families.ts';
+import { UNKNOWN_BOARD } from '../codec/families.ts';
 import { NOTHING_HEARD } from './identity.ts';
 import type { SessionEvents, SessionState } from './state.ts';
 
@@ -21,6 +21,7 @@ export const NOTHING_READ: Pick<SessionState, 'reported' | 'version' | 'offsets'
 export const INITIAL_STATE: SessionState = {
   link: { status: 'closed' },
   family: UNKNOWN_BOARD,
+  withheld: [],
   identity: NOTHING_HEARD,
   latch: null,
   lease: null,
@@ -35,9 +36,9 @@ export const INITIAL_STATE: SessionState = {
   robotOnBoard: null,
 };
 
-export function createSessionStore(family: Family): SessionStore {
+export function createSessionStore(given: Pick<SessionState, 'family' | 'withheld'>): SessionStore {
   const listeners = new Set<Partial<SessionEvents>>();
-  let state: SessionState = { ...INITIAL_STATE, family };
+  let state: SessionState = { ...INITIAL_STATE, ...given };
 
   return {
     get state() {

@@ -2,7 +2,7 @@
 // asked for it; then this shows what it is told. Knows slots and their order; one group's frames are download.ts.
 
 import type { Command } from '../codec/commands.ts';
-import { requireRest, setActivity, type Core } from './core.ts';
+import { requireCarried, requireRest, setActivity, type Core } from './core.ts';
 import { download, frameCommands } from './download.ts';
 import { encodeOrRefuse } from './exchange.ts';
 import { LinkError } from './linkError.ts';
@@ -134,6 +134,7 @@ export function createStoring(
   return {
     async store(groups) {
       requireRest(core);
+      requireCarried(core, 'download');
       requireOwnSlots(groups);
       const sizes = groups.map((group) => frameCommands(group).map(sizeOf));
       if (shared === undefined) await storeHere(groups, sizes);

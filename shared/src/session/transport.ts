@@ -5,6 +5,7 @@ import type { Unheld } from '../motion/haltPlan.ts';
 import type { MotionBefore } from '../motion/before.ts';
 import type { Frame, ServoTarget } from '../codec/commands.ts';
 import type { BoardId } from '../codec/families.ts';
+import type { ChannelEvents, OpenOptions } from './byteChannel.ts';
 import type { Battery } from './battery.ts';
 import type { SharedBoard } from './identity.ts';
 import type { Lease, LeaseAction } from './lease.ts';
@@ -17,7 +18,7 @@ export type SharedLatchReason = 'elsewhere' | 'battery' | 'unwatched' | 'reconne
 /** Who asks for a stop: a person's hand, or the battery's policy on this page. */
 export type HaltReason = 'pressed' | 'battery';
 
-export interface TransportEvents {
+export interface TransportEvents extends Partial<Pick<ChannelEvents, 'claimed'>> {
   /** Bytes from the board, in order, in whatever pieces they came; `whole` where they are whole packets for sure. */
   received(bytes: Uint8Array, whole?: boolean): void;
   /** The link ended by itself. Comes at most once per `open`, never after `close`. */
@@ -171,8 +172,10 @@ export interface Transport {
   letGoOn?(forMs: number | null): void;
   /** Only a shared link: this end looks for that servo's limits and may pass the present ones; null: no longer. */
   calibrate?(servo: number | null): void;
+  /** In bytes. */
+  readonly longestPacket: number;
   /** Rejects with a LinkError. May be called again after `lost` or `close`. */
-  open(events: TransportEvents): Promise<void>;
+  open(events: TransportEvents, options?: OpenOptions): Promise<void>;
   /** Resolves when the packet's last bit has left the wire. One packet at a time: the caller waits for it. */
   send(packet: Uint8Array): Promise<void>;
   /**
@@ -181,17 +184,8 @@ export interface Transport {
    */
   halt?(why: HaltReason): Promise<void>;
   resume?(): Promise<void>;
-  /**
-   * Only a link that nobody shares: the page is about to go. Hands the packet over before it returns, and the link is lost.
-   */
-  leave?(lastPacket: Uint8Array): void;
-  /**
-   * After `heldElsewhere` or `movedAway`: the other tab stops the robot and lets go, then `open` may be tried. Rejects with
-   * `heldElsewhere` when it does not.
-   */
-  takeOver?(): Promise<void>;
   /** Calls `notify` when a lost device may be back, sooner than the next attempt. Returns a function that ends it. */
   whenAvailable?(notify: () => void): () => void;
-  /** Never rejects; closing twice is harmless. */
-  close(): Promise<void>;
+  /** Never rejects; closing twice is harmless. `lastPacket`: as a ByteChannel has it. */
+  close(lastPacket?: Uint8Array): Promise<void>;
 }

@@ -22,6 +22,7 @@ export function createReplayTransport(clock: Clock): ReplayTransport {
   return {
     kind: 'simulated',
     isSimulated: true,
+    longestPacket: Infinity,
     label: 'Recording',
     open(next) {
       if (!isThere) return Promise.reject(new LinkError('portMissing', 'the recording has no link here'));

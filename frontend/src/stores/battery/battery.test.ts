@@ -8,7 +8,7 @@ import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig } from '#shared/session/rig.ts';
 import { createSession } from '#shared/session/session.ts';
 import type { Transport, TransportEvents } from '#shared/session/transport.ts';
-import { createSimulatedTransport } from '#shared/simulator/transport.ts';
+import { createSimulatedTransport } from '#shared/testing/simulatedTransport.ts';
 import { words } from '../../i18n/words.ts';
 import { createBattery } from './battery.ts';
 import { applyBatteryPolicy, REST_MOVE_MS, REST_WARNING_MS } from './batteryPolicy.ts';

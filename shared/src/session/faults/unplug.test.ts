@@ -6,7 +6,7 @@ import type { Frame } from '../../codec/commands.ts';
 import { family } from '../../codec/families.ts';
 import { wireMs } from '../../codec/packet.ts';
 import { createRandom } from '../../simulator/random.ts';
-import { createSimulatedTransport } from '../../simulator/transport.ts';
+import { createSimulatedTransport } from '../../testing/simulatedTransport.ts';
 import { createVirtualClock } from '../../testing/virtualClock.ts';
 import { LinkError } from '../linkError.ts';
 import { createSession } from '../session.ts';
